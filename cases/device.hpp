@@ -1,0 +1,34 @@
+#pragma once
+
+#include "cases/case.hpp"
+#include "fem/ramp.hpp"
+#include "meshing/mesh.hpp"
+
+#include <optional>
+
+namespace dielast::cases {
+
+/// A case made computable: its mesh and its model.
+struct Device {
+  meshing::Mesh mesh;
+  fem::Model model;
+  fem::RampTarget rest;             ///< no voltage, no dead force
+  Eigen::VectorXd loads;            ///< the case's [[load]] forces, per equation, N
+  std::optional<double> wall_width; ///< m, of a lattice
+  bool free_body = false;           ///< no support: pinned against rigid motion only, without reactions
+};
+
+/// The mesh that the case asks for. Throws meshing::MeshError.
+meshing::Mesh build_mesh(const Case& one);
+
+/// Names of all places of a mesh, sorted.
+std::vector<std::string> places_of(const meshing::Mesh& mesh);
+
+/// Mesh and model. Throws meshing::MeshError, and CaseError when the case names a place that the mesh lacks.
+Device build_device(const Case& one);
+
+/// The same case on a mesh with elements twice as large, for the estimate of the discretisation error;
+/// nothing for a user's own mesh.
+std::optional<Case> coarser(const Case& one);
+
+} // namespace dielast::cases

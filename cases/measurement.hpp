@@ -1,0 +1,42 @@
+#pragma once
+
+#include "cases/device.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dielast::cases {
+
+/// A state, with what is needed to measure it.
+struct Measured {
+  const fem::State& state;
+  const fem::Samples& samples;
+  const Eigen::VectorXd& internal_force; ///< per equation, N; at held equations the reaction on the support
+};
+
+/// Evaluates the quantities of a case on the states of a device.
+class Measurement {
+ public:
+  Measurement(const Case& one, const Device& device) : case_(one), device_(device) {}
+
+  /// All quantities, in the case's order and in SI; NaN where one has no meaning yet (an elongation since a
+  /// step that has not ended).
+  std::vector<double> all(const Measured& measured) const;
+
+  /// Says that a step ended in this state: elongations since it start here.
+  void step_ended(const std::string& step, const Measured& measured);
+
+  /// Lengths that elongations are relative to, by quantity; stored with a checkpoint.
+  std::map<std::string, double> rest_lengths;
+
+ private:
+  double evaluate(const Quantity& quantity, const Measured& measured) const;
+  double length(const Quantity& quantity, const fem::State& state) const;
+  Eigen::Vector3d position(const std::string& place, const fem::State& state) const;
+
+  const Case& case_;
+  const Device& device_;
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,42 @@
+#include "cases/reader.hpp"
+
+#include "cases/case_tree.hpp"
+#include "cases/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+
+Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  Node tree = read_case_file(path);
+  std::vector<Diagnostic> wrong;
+  for (const std::string& assignment : overrides) {
+    try {
+      apply_override(tree, assignment);
+    } catch (const CaseError& error) {
+      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  try {
+    Case one = interpret(std::move(tree), path);
+    if (wrong.empty()) return one;
+  } catch (const CaseError& error) {
+    wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+  }
+  throw CaseError(wrong);
+}
+
+void check_places(const Case& one, const std::vector<std::string>& places) {
+  std::vector<Diagnostic> unknown;
+  for (const Mention& mention : one.places)
+    if (std::find(places.begin(), places.end(), mention.name) == places.end())
+      unknown.push_back(
+          {mention.source, mention.key,
+           fmt::format("found {}: the mesh has no such place, allowed {}{}", toml_string(mention.name),
+                       listed(places), did_you_mean(mention.name, places))});
+  if (!unknown.empty()) throw CaseError(unknown);
+}
+
+} // namespace dielast::cases

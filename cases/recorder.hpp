@@ -1,0 +1,62 @@
+#pragma once
+
+#include "cases/simulation.hpp"
+#include "post/history.hpp"
+#include "post/vtk_series.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+namespace dielast::cases {
+
+/// A state kept for the report's pictures.
+struct Snapshot {
+  std::string title;
+  double voltage = 0;                        ///< largest, V
+  std::vector<Eigen::Vector3d> displacement; ///< per node, m
+  std::vector<double> field;                 ///< true electric field, V/m, per triangle
+};
+
+/// What a run has gathered so far.
+struct Journal {
+  std::vector<fem::StepRecord> records;
+  std::vector<std::vector<double>> values; ///< of the quantities, per record
+  std::vector<Snapshot> snapshots;         ///< drawn, the end of each step, and the last accepted state
+};
+
+/// Writes history.csv, the ParaView series and the checkpoint of a run as it goes, and keeps its journal.
+/// Everything throws post::WriteError when a file cannot be written.
+class Recorder {
+ public:
+  /// With `resume`, restores the simulation and the journal from the directory's checkpoint, and cuts the
+  /// files back to it; throws FileError when there is none or it is of another case.
+  Recorder(const Case& one, Simulation& simulation, std::filesystem::path directory, bool resume);
+
+  void record(const Frame& frame);
+  /// Writes the checkpoint now; the run can be resumed from it.
+  void save_checkpoint();
+  /// The run is complete: there is nothing to resume.
+  void remove_checkpoint();
+
+  const Journal& journal() const { return journal_; }
+
+ private:
+  void restore_checkpoint();
+  std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.cbor"; }
+
+  const Case& case_;
+  Simulation& simulation_;
+  std::filesystem::path directory_;
+  std::string fingerprint_; ///< the resolved case
+  Journal journal_;
+  int steps_ended_ = 0;
+  std::optional<post::History> history_;
+  std::optional<post::VtkSeries> series_;
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
+};
+
+/// The history's columns in front of and behind those of the quantities.
+std::vector<post::Column> history_columns(const Case& one);
+
+} // namespace dielast::cases

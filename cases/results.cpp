@@ -1,0 +1,225 @@
+#include "cases/results.hpp"
+
+#include "cases/quantities.hpp"
+#include "meshing/quality.hpp"
+#include "post/picture.hpp"
+#include "post/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::cases {
+
+using nlohmann::json;
+
+namespace {
+
+const char* word(Ending ending) {
+  switch (ending) {
+  case Ending::complete:
+    return "complete";
+  case Ending::gave_up:
+    return "not converged";
+  case Ending::interrupted:
+    return "interrupted";
+  }
+  return "";
+}
+
+post::Ratio ratio_of(const Quantity& quantity) {
+  return quantity.kind == QuantityKind::elongation ? post::Ratio::percent : post::Ratio::plain;
+}
+
+/// A quantity in words, for a person who did not write the case.
+std::string meaning(const Quantity& q) {
+  static constexpr const char* axes[] = {"x", "y", "z"};
+  const std::string along = q.along ? fmt::format(" along {}", axes[*q.along]) : "";
+  const std::string at = q.at.empty() ? "" : fmt::format(", at the end of \"{}\"", q.at);
+  switch (q.kind) {
+  case QuantityKind::distance:
+    return fmt::format("distance of {} and {}{}{}", q.between[0], q.between[1], along, at);
+  case QuantityKind::elongation:
+    return fmt::format("elongation from {} to {}{}, since {}{}", q.between[0], q.between[1], along,
+                       q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
+  case QuantityKind::displacement:
+    return fmt::format("displacement of {}{}{}", q.of, along, at);
+  case QuantityKind::radius:
+    return fmt::format("mean radius of {}{}", q.of, at);
+  case QuantityKind::force:
+    return fmt::format("force of the support {} on the device{}{}", q.of, along, at);
+  case QuantityKind::capacitance:
+    return fmt::format("capacitance of electrode {}{}", q.of, at);
+  case QuantityKind::charge:
+    return fmt::format("charge on electrode {}{}", q.of, at);
+  case QuantityKind::extreme:
+    return fmt::format("{} {} anywhere{}", q.extreme == Extreme::minimum ? "smallest" : "largest", q.of, at);
+  }
+  return "";
+}
+
+std::string meshing_summary(const Device& device) {
+  return meshing::format(meshing::quality(device.mesh)) +
+         fmt::format("unknowns: {} free, {} held\n", device.model.dofs.free_count(),
+                     device.model.dofs.count() - device.model.dofs.free_count());
+}
+
+post::Picture shapes(const Device& device, const Journal& journal) {
+  post::Picture picture{
+      .quantity = "True electric field", .unit = "V/m", .wall_width = device.wall_width.value_or(0)};
+  // The state that the voltage starts from, and the last one.
+  const auto& all = journal.snapshots;
+  std::vector<const Snapshot*> shown{&all[all.size() > 1 ? all.size() - 2 : 0]};
+  if (all.size() > 1) shown.push_back(&all.back());
+  for (const Snapshot* snapshot : shown) {
+    post::Panel panel{.title =
+                          fmt::format("{}, {}", snapshot->title, post::engineering(snapshot->voltage, "V")),
+                      .positions = device.mesh.nodes,
+                      .values = snapshot->field};
+    for (std::size_t n = 0; n < panel.positions.size(); ++n) panel.positions[n] += snapshot->displacement[n];
+    picture.panels.push_back(std::move(panel));
+  }
+  return picture;
+}
+
+/// Every quantity against the largest voltage, those of one unit and size in one plot.
+std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
+  std::vector<post::Plot> plots;
+  std::map<std::string, std::size_t> by_label;
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = one.quantities[q];
+    if (!quantity.at.empty()) continue;
+    double size = 0;
+    for (const auto& row : journal.values)
+      if (std::isfinite(row[q])) size = std::max(size, std::abs(row[q]));
+    const auto scaled = post::scaled_unit(size, unit_of(quantity), ratio_of(quantity));
+    const bool strain = quantity.kind == QuantityKind::elongation;
+    post::Series series{.label = quantity.name, .style = post::Series::Style::line_and_points};
+    for (std::size_t r = 1; r < journal.records.size(); ++r) { // the drawn state is held by the frame
+      const auto& voltages = journal.records[r].voltages;
+      series.x.push_back(voltages.empty() ? 0 : *std::max_element(voltages.begin(), voltages.end()) / 1000);
+      series.y.push_back(journal.values[r][q] * scaled.factor);
+    }
+    const std::string label = strain ? "strain [%]" : fmt::format("{} [{}]", quantity.name, scaled.unit);
+    const auto [place, fresh] = by_label.try_emplace(label, plots.size());
+    if (fresh) plots.push_back({strain ? "strains" : quantity.name, "voltage [kV]", label, {}});
+    plots[place->second].series.push_back(std::move(series));
+  }
+  return plots;
+}
+
+} // namespace
+
+bool Results::checks_passed() const {
+  return std::all_of(checks.begin(), checks.end(), [](const post::CheckRow& check) { return check.passed; });
+}
+
+Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
+                        const std::vector<double>& errors) {
+  Results results{.outcome = outcome};
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = one.quantities[q];
+    post::QuantityRow row{.name = quantity.name,
+                          .value = simulation.results()[q],
+                          .unit = std::string(unit_of(quantity)),
+                          .ratio = ratio_of(quantity),
+                          .meaning = meaning(quantity)};
+    if (q < errors.size() && std::isfinite(errors[q])) row.error = errors[q];
+    results.quantities.push_back(std::move(row));
+  }
+  for (const Check& check : one.checks) {
+    const auto row = std::find_if(results.quantities.begin(), results.quantities.end(),
+                                  [&](const post::QuantityRow& r) { return r.name == check.quantity; });
+    results.checks.push_back({check.quantity, row->value, check.value, check.tolerance, row->unit, row->ratio,
+                              check.source, std::abs(row->value - check.value) <= check.tolerance});
+  }
+  return results;
+}
+
+json summary_json(const Case& one, const Device& device, const Results& results, const Journal& journal) {
+  const auto number = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
+  nlohmann::ordered_json summary{{"program", "dielast " DIELAST_VERSION},
+                                 {"title", one.title},
+                                 {"status", word(results.outcome.ending)},
+                                 {"message", results.outcome.message}};
+  nlohmann::ordered_json quantities = nlohmann::ordered_json::object();
+  for (const auto& row : results.quantities)
+    quantities[row.name] = {{"value", number(row.value)},
+                            {"unit", row.unit},
+                            {"error_estimate", row.error ? number(*row.error) : json(nullptr)},
+                            {"meaning", row.meaning}};
+  summary["quantities"] = quantities;
+  json checks = json::array();
+  for (const auto& check : results.checks)
+    checks.push_back({{"quantity", check.quantity},
+                      {"value", number(check.value)},
+                      {"expected", check.expected},
+                      {"tolerance", check.tolerance},
+                      {"passed", check.passed},
+                      {"source", check.source}});
+  summary["checks"] = checks;
+  json events = json::array();
+  for (const auto& record : journal.records)
+    for (const auto& event : record.events)
+      events.push_back({{"kind", event.kind},
+                        {"step", record.step},
+                        {"record", record.index},
+                        {"load_factor", record.load_factor},
+                        {"voltages", record.voltages},
+                        {"place", event.place},
+                        {"message", event.message}});
+  summary["events"] = events;
+  int iterations = 0;
+  for (const auto& record : journal.records) iterations += record.iterations;
+  summary["steps"] = {{"accepted", journal.records.size()}, {"newton_iterations", iterations}};
+  const auto quality = meshing::quality(device.mesh);
+  summary["mesh"] = {{"nodes", quality.nodes},
+                     {"triangles", quality.triangles},
+                     {"beams", quality.lines},
+                     {"unknowns", device.model.dofs.free_count()},
+                     {"smallest_angle_deg", quality.smallest_angle}};
+  return summary;
+}
+
+post::Report run_report(const Case& one, const Device& device, const Results& results, const Journal& journal,
+                        const std::string& log) {
+  post::Report report{
+      .title = one.title, .subtitle = one.source.filename().string(), .footer = "dielast " DIELAST_VERSION};
+  const bool converged = results.outcome.ending == Ending::complete;
+  report.status = {word(results.outcome.ending), converged ? post::Tone::good : post::Tone::warning};
+  for (const auto& row : results.quantities)
+    if (report.highlights.size() < 6)
+      report.highlights.push_back(
+          {row.name, post::engineering(row.value, row.unit, row.ratio),
+           row.error ? "± " + post::engineering(*row.error, row.unit, row.ratio, 2) : ""});
+  if (!results.outcome.message.empty())
+    report.sections.push_back({"How it ended", {post::Paragraph{results.outcome.message}}});
+
+  post::Section shape{"Shape", {}};
+  shape.blocks.push_back(post::Image{post::render_png(device.mesh, shapes(device, journal)),
+                                     "Before and after the last step, to the same scale."});
+  report.sections.push_back(std::move(shape));
+
+  post::Section plots{"Against voltage", {}};
+  for (std::string& svg : post::render_svg(curves(one, journal)))
+    if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
+  if (plots.blocks.empty()) plots.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
+  report.sections.push_back(std::move(plots));
+
+  report.sections.push_back(
+      {"Quantities",
+       {post::quantity_table(results.quantities),
+        post::Paragraph{"Errors are estimates of what is left of the discretisation, from a second solution "
+                        "with elements "
+                        "twice as large (a third of the difference, as for second-order convergence)."}}});
+  if (!results.checks.empty()) report.sections.push_back({"Checks", {post::check_table(results.checks)}});
+  if (post::Table events = post::event_table(journal.records); !events.rows.empty())
+    report.sections.push_back({"Events", {std::move(events)}});
+  report.sections.push_back({"Increments", {post::increment_table(journal.records)}});
+  report.sections.push_back({"Mesh", {post::Listing{meshing_summary(device)}}});
+  if (!log.empty()) report.sections.push_back({"Log", {post::Listing{log}}});
+  return report;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,167 @@
+#include "cases/run.hpp"
+
+#include "cases/results.hpp"
+#include "meshing/quality.hpp"
+#include "post/file_output.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <ctime>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace dielast::cases {
+
+namespace {
+
+std::atomic<bool> interrupt_requested = false;
+
+/// run.log gets everything, the terminal what a person wants to follow.
+spdlog::logger make_logger(const RunSettings& settings) {
+  auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>((settings.directory / "run.log").string(),
+                                                                  !settings.resume);
+  auto terminal = std::make_shared<spdlog::sinks::stdout_sink_st>();
+  terminal->set_level(settings.quiet ? spdlog::level::off : spdlog::level::info);
+  spdlog::logger logger("run", {file, terminal});
+  logger.set_pattern("%v");
+  logger.set_level(spdlog::level::debug);
+  logger.flush_on(spdlog::level::info);
+  return logger;
+}
+
+double largest(const std::vector<double>& voltages) {
+  return voltages.empty() ? 0 : *std::max_element(voltages.begin(), voltages.end());
+}
+
+/// Logs a simulation, records it, and stops it on an interrupt.
+SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& log) {
+  SimulationObserver observer;
+  observer.on_step = [&log](const Step& step) { log.info("step \"{}\"", step.name); };
+  observer.on_try = [&log](double s) { log.debug("    load factor {:.6f}", s); };
+  observer.on_iteration = [&log](const fem::Iteration& i) {
+    log.debug("      iteration {:2d}   residual {:9.3e}   step length {:6.4f}   negative pivots {}", i.number,
+              i.residual, i.step_length, i.negative_pivots);
+  };
+  observer.on_cutback = [&log](double s, const fem::NewtonResult& newton) {
+    log.info("    {:8.6f}  not reached ({} iterations, residual {:.1e}): smaller increment", s,
+             newton.iterations, newton.residual);
+  };
+  observer.on_accept = [&one, &recorder, &log](const Frame& frame) {
+    std::string line =
+        fmt::format("    {:8.6f}  {:>9}  {:2d} iterations", frame.record.load_factor,
+                    post::engineering(largest(frame.record.voltages), "V"), frame.record.iterations);
+    for (std::size_t q = 0; q < std::min<std::size_t>(frame.values.size(), 2); ++q)
+      if (std::isfinite(frame.values[q]))
+        line += fmt::format("   {} {:.5g}", one.quantities[q].name, frame.values[q]);
+    log.info(line);
+    for (const fem::Event& event : frame.record.events)
+      log.warn("    {}{}{}: {}", event.kind, event.place.empty() ? "" : " in ", event.place, event.message);
+    recorder.record(frame);
+    return !interrupted();
+  };
+  return observer;
+}
+
+/// A third of the difference to a solution with elements twice as large: Richardson's estimate for second
+/// order, which is what the slowest converging part of the model, the stress peaks at the lattice's corners,
+/// shows.
+std::vector<double> estimate_errors(const Case& one, const Simulation& fine, int threads) {
+  std::optional<Case> coarse = coarser(one);
+  if (!coarse) return {};
+  for (Step& step : coarse->steps) step.increments = (step.increments + 2) / 3;
+  Simulation simulation(*coarse, threads);
+  if (simulation.run({}).ending != Ending::complete) return {};
+  std::vector<double> errors;
+  for (std::size_t q = 0; q < fine.results().size(); ++q)
+    errors.push_back(std::abs(fine.results()[q] - simulation.results()[q]) / 3);
+  return errors;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+} // namespace
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupt_requested = true; };
+  action.sa_flags = SA_RESETHAND; // a second Ctrl-C ends the program at once
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() { return interrupt_requested; }
+
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error)
+    throw FileError(
+        fmt::format("{}: cannot make the output directory: {}", directory.string(), error.message()));
+  if (!std::filesystem::is_directory(directory))
+    throw FileError(fmt::format("{}: is not a directory; choose another with -o", directory.string()));
+  if (access(directory.c_str(), W_OK) != 0)
+    throw FileError(
+        fmt::format("{}: cannot write to the output directory; choose another with -o", directory.string()));
+}
+
+ExitCode run_case(const Case& one, const RunSettings& settings) {
+  make_directory(settings.directory);
+  Simulation simulation(one, settings.threads);
+  Recorder recorder(one, simulation, settings.directory, settings.resume);
+  spdlog::logger log = make_logger(settings);
+  const Device& device = simulation.device();
+  log.info("dielast " DIELAST_VERSION "  {}", one.title);
+  log.info("{} triangles, {} beams, {} unknowns; smallest angle {:.1f} deg", device.mesh.blocks[0].size(),
+           device.mesh.blocks.size() > 1 ? device.mesh.blocks[1].size() : 0, device.model.dofs.free_count(),
+           meshing::quality(device.mesh).smallest_angle);
+  if (!recorder.journal().records.empty())
+    log.info("resumed behind {} accepted states", recorder.journal().records.size());
+
+  const Outcome outcome = simulation.run(observe(one, recorder, log));
+  if (outcome.ending == Ending::interrupted) {
+    recorder.save_checkpoint();
+    log.warn("interrupted: {} accepted states kept in {}; go on with --resume",
+             recorder.journal().records.size(), settings.directory.string());
+    return ExitCode::interrupted;
+  }
+  std::vector<double> errors;
+  if (one.error_estimate && outcome.ending == Ending::complete)
+    errors = estimate_errors(one, simulation, settings.threads);
+  const Results results = collect_results(one, simulation, outcome, errors);
+
+  log.info("results");
+  for (const post::QuantityRow& row : results.quantities)
+    log.info("  {:<24} {}", row.name, post::with_error(row));
+  for (const post::CheckRow& check : results.checks)
+    log.info("  check {:<18} {}: {} expected {} ± {}", check.quantity, check.passed ? "passed" : "FAILED",
+             post::engineering(check.value, check.unit, check.ratio, 6),
+             post::engineering(check.expected, check.unit, check.ratio, 6),
+             post::engineering(check.tolerance, check.unit, check.ratio, 2));
+  const fem::Timings& t = simulation.timings();
+  log.info("{} Newton iterations; CPU {:.2f} s: residual {:.2f}, tangent {:.2f}, factor {:.2f}, solve {:.2f}",
+           t.iterations, static_cast<double>(std::clock()) / CLOCKS_PER_SEC, t.residual, t.tangent, t.factor,
+           t.solve);
+  if (!outcome.message.empty()) log.error(outcome.message);
+  log.flush();
+
+  post::replace_file(settings.directory / "summary.json",
+                     summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
+  run_report(one, device, results, recorder.journal(), read_text(settings.directory / "run.log"))
+      .write(settings.directory / "report.html");
+  recorder.remove_checkpoint();
+  if (outcome.ending == Ending::gave_up) return ExitCode::not_converged;
+  return results.checks_passed() ? ExitCode::ok : ExitCode::check_failed;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cases/case.hpp"
+#include "cases/exit_code.hpp"
+
+#include <filesystem>
+
+namespace dielast::cases {
+
+struct RunSettings {
+  std::filesystem::path directory; ///< of all outputs; made when it does not exist
+  int threads = 0;                 ///< 0: every core
+  bool resume = false;             ///< go on from the directory's checkpoint
+  bool quiet = false;              ///< nothing on the terminal; run.log is written all the same
+};
+
+/// Runs a case and writes everything into one directory: history.csv, the ParaView series, resolved.toml,
+/// run.log, summary.json and report.html. Stops after the next accepted state when interrupted() says so.
+/// Throws FileError and post::WriteError, CaseError, and meshing::MeshError.
+ExitCode run_case(const Case& one, const RunSettings& settings);
+
+/// Makes SIGINT and SIGTERM stop runs and studies in good order.
+void catch_interrupts();
+bool interrupted();
+
+/// Makes a directory with its parents. Throws FileError with the system's reason, also when it cannot be
+/// written to.
+void make_directory(const std::filesystem::path& directory);
+
+} // namespace dielast::cases

@@ -1,0 +1,171 @@
+#include "cases/quantities.hpp"
+#include "cases/schema.hpp"
+
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+Section quantity_section() {
+  Section section;
+  section.name = "quantity";
+  section.meaning = "a number of the state, in every row of history.csv and in summary.json";
+  section.shape = Section::Shape::list;
+  section.presence = Section::Presence::list;
+  section.access = each(&Case::quantities);
+  // the standard ones come back with the template: they are not written again
+  section.access.entries = [](const void* parent) {
+    std::vector<Access::Entry> entries;
+    for (const Quantity& quantity : static_cast<const Case*>(parent)->quantities)
+      if (!quantity.standard) entries.push_back({"", &quantity});
+    return entries;
+  };
+  section.selector = "kind";
+  std::vector<Choice> fields;
+  for (const FieldName& field : field_names())
+    fields.push_back({std::string(field.name), std::string(field.meaning)});
+  const auto of = [](std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); };
+  section.keys = {
+      text("name", to(&Quantity::name), "its name in results").distinct(),
+      word("kind",
+           {{"distance", "between the centroids of two places (m)"},
+            {"elongation", "relative change of the distance between two places (-)"},
+            {"displacement", "of the centroid of a place (m)"},
+            {"radius", "mean distance of a place's nodes from their centroid (m)"},
+            {"force", "reaction at a support (N)"},
+            {"capacitance", "of an electrode (F)"},
+            {"charge", "of an electrode (C)"},
+            {"extreme", "smallest or largest value of a field"}},
+           to(&Quantity::kind), "what is measured"),
+      text("between", to(&Quantity::between), "the two places")
+          .values(2, 2)
+          .only({"distance", "elongation"})
+          .refers_to(Reference::place),
+      of("the place").only({"displacement", "radius"}).refers_to(Reference::place),
+      of("the place of a support").only({"force"}).refers_to(Reference::supported_place),
+      of("the electrode").only({"capacitance", "charge"}).refers_to(Reference::electrode),
+      word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
+      word("extreme", {{"minimum", "smallest value"}, {"maximum", "largest value"}}, to(&Quantity::extreme),
+           "which extreme")
+          .only({"extreme"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along),
+           "component; without it the magnitude")
+          .optional()
+          .only({"distance", "elongation", "displacement", "force"}),
+      text("since", to(&Quantity::since), "step at whose end it is zero; without it the mesh as drawn")
+          .optional()
+          .only({"elongation"})
+          .refers_to(Reference::step),
+      text("at", to(&Quantity::at), "step at whose end summary.json reads it; without it the last")
+          .optional()
+          .refers_to(Reference::step),
+  };
+  return section;
+}
+
+Section check_section() {
+  Section section;
+  section.name = "check";
+  section.meaning = "an expected result; a run that misses it ends with exit code 5";
+  section.shape = Section::Shape::list;
+  section.presence = Section::Presence::list;
+  section.access = each(&Case::checks);
+  Binding tolerance = to(&Check::tolerance);
+  tolerance.set = [](void* object, const Value& value) {
+    Check& check = *static_cast<Check*>(object);
+    const Scalar& scalar = value.at(0);
+    check.tolerance = scalar.number * (scalar.text == "%" ? std::abs(check.value) : 1.0);
+  };
+  Key allowance =
+      text("tolerance", tolerance, "allowed difference: \"1 %\" of the value, or in the quantity's unit");
+  allowance.type = Type::tolerance;
+  allowance = std::move(allowance).above(0);
+  section.keys = {
+      text("quantity", to(&Check::quantity), "name of the quantity").refers_to(Reference::quantity),
+      measure("value", "", to(&Check::value), "expected value, in the quantity's unit"),
+      allowance,
+      text("source", to(&Check::source), "where the expected value comes from"),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    if (static_cast<const Check*>(object)->tolerance > 0) return std::nullopt;
+    return Conflict{"tolerance", "a part of zero is zero; give it in the quantity's unit"};
+  };
+  return section;
+}
+
+Section solver_section() {
+  Section section;
+  section.name = "solver";
+  section.meaning = "when an equilibrium counts as found";
+  section.access = member(&Case::solver);
+  section.keys = {
+      number("tolerance", to(&SolverOptions::tolerance), "out-of-balance force over the reaction scale")
+          .above(1e-16)
+          .at_most(1e-2)
+          .otherwise("1e-9"),
+      integer("max_iterations", to(&SolverOptions::max_iterations),
+              "Newton iterations before an increment is cut")
+          .at_least(1)
+          .at_most(1000)
+          .otherwise("25"),
+      number("smallest_increment", to(&SolverOptions::smallest_increment),
+             "part of a step below which it gives up")
+          .above(0)
+          .at_most(1)
+          .otherwise("1e-3"),
+  };
+  return section;
+}
+
+Section output_section() {
+  Section section;
+  section.name = "output";
+  section.meaning = "what a run computes and writes besides the table of quantities";
+  section.access = same_object();
+  section.keys = {
+      flag("error_estimate", to(&Case::error_estimate),
+           "solve once more on a coarser mesh to estimate the error")
+          .otherwise("true"),
+      flag("fields", to(&Case::fields), "write the series of fields for ParaView").otherwise("true"),
+  };
+  return section;
+}
+
+Section study_section() {
+  Section vary;
+  vary.name = "vary";
+  vary.meaning =
+      "keys to vary, as \"section.key\" = [values] or { from, to, step }; the study is their full grid";
+  vary.presence = Section::Presence::separate;
+  Section plot;
+  plot.name = "plot";
+  plot.meaning = "a plot in the study's report";
+  plot.shape = Section::Shape::list;
+  plot.presence = Section::Presence::list;
+  plot.access = each(&Study::plots);
+  plot.keys = {
+      text("x", to(&StudyPlot::x), "a varied key, or a quantity"),
+      text("y", to(&StudyPlot::y), "quantities").values(1, 20),
+      text("group", to(&StudyPlot::group), "a varied key: one curve for each of its values").optional(),
+  };
+  Section section;
+  section.name = "study";
+  section.meaning = "a sweep over keys of the case, run by `dielast study`";
+  section.presence = Section::Presence::separate;
+  section.access = same_object();
+  section.keys = {
+      text("collect", to(&Study::collect), "quantities in study.csv; without it all")
+          .optional()
+          .values(1, 1000),
+  };
+  section.sections = {vary, plot};
+  return section;
+}
+
+} // namespace
+
+std::vector<Section> result_sections() {
+  return {quantity_section(), check_section(), solver_section(), output_section(), study_section()};
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,152 @@
+#include "cases/study.hpp"
+
+#include "cases/reader.hpp"
+#include "cases/run.hpp"
+#include "cases/study_report.hpp"
+#include "meshing/mesh_error.hpp"
+#include "post/file_output.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace dielast::cases {
+
+namespace {
+
+/// In the child: runs one point and ends the process. Why it failed is left in the point's mark.
+[[noreturn]] void run_point(const Study& study, const StudyPoint& point, bool resume) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  int code = static_cast<int>(ExitCode::usage_or_file);
+  std::string message;
+  try {
+    code = static_cast<int>(
+        run_case(read_case(study.base, point.overrides),
+                 {.directory = point.directory, .threads = 1, .resume = resume, .quiet = true}));
+  } catch (const CaseError& error) {
+    code = static_cast<int>(ExitCode::invalid_case);
+    message = error.what();
+  } catch (const meshing::MeshError& error) {
+    code = static_cast<int>(ExitCode::mesh);
+    message = error.what();
+  } catch (const std::exception& error) {
+    message = error.what();
+  }
+  try {
+    if (code != static_cast<int>(ExitCode::interrupted)) mark_done(point, code, message);
+  } catch (const std::exception&) {
+    code = static_cast<int>(ExitCode::usage_or_file);
+  }
+  std::fflush(nullptr);
+  _exit(code);
+}
+
+/// One line that says how far the study is: rewritten in place on a terminal, one per point in a pipe.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::size_t total) : total_(total) {}
+
+  void done(const StudyPoint& point, int exit_code) {
+    ++done_;
+    ++ran_;
+    failed_ += exit_code != 0;
+    if (!terminal_) {
+      fmt::print("{}/{}  {}  exit {}\n", done_, total_, fmt::join(point.overrides, "  "), exit_code);
+      std::fflush(stdout);
+    }
+    show();
+  }
+  void skipped() { ++done_; }
+  void show() const {
+    if (!terminal_) return;
+    constexpr std::size_t width = 30;
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const std::size_t filled = total_ ? width * done_ / total_ : width;
+    const std::string left = ran_
+                                 ? fmt::format("about {:.0f} s left", elapsed / static_cast<double>(ran_) *
+                                                                          static_cast<double>(total_ - done_))
+                                 : "";
+    fmt::print("\r[{:#>{}}{:->{}}] {}/{}  {} failed  {:.0f} s  {}\033[K", "", filled, "", width - filled,
+               done_, total_, failed_, elapsed, left);
+    std::fflush(stdout);
+  }
+  void end() const {
+    if (terminal_) fmt::print("\n");
+  }
+
+ private:
+  bool terminal_ = isatty(STDOUT_FILENO);
+  std::size_t total_, done_ = 0, ran_ = 0, failed_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+ExitCode run_study(const Study& study, const StudySettings& settings) {
+  make_directory(settings.directory);
+  const std::vector<StudyPoint> points = study_points(study, settings.directory);
+  const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
+                                                       : std::max(1U, std::thread::hardware_concurrency());
+  fmt::print("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
+             settings.directory.string());
+  ProgressLine progress(points.size());
+  std::vector<const StudyPoint*> waiting;
+  for (const StudyPoint& point : points) {
+    if (settings.resume && result_of(study, point)) {
+      progress.skipped();
+      continue;
+    }
+    if (!settings.resume) std::filesystem::remove_all(point.directory);
+    waiting.push_back(&point);
+  }
+  progress.show();
+  std::fflush(nullptr); // or every child would print it again
+
+  std::map<pid_t, const StudyPoint*> running;
+  for (std::size_t next = 0; next < waiting.size() || !running.empty();) {
+    while (next < waiting.size() && running.size() < processes && !interrupted()) {
+      const StudyPoint& point = *waiting[next++];
+      const pid_t child = fork();
+      if (child == 0) run_point(study, point, settings.resume);
+      if (child < 0) throw FileError("cannot start another process for the study's points");
+      running[child] = &point;
+    }
+    if (running.empty()) break; // interrupted
+    int status = 0;
+    const pid_t ended = waitpid(-1, &status, 0);
+    const auto found = running.find(ended);
+    if (found == running.end()) continue;
+    const StudyPoint& point = *found->second;
+    running.erase(found);
+    int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    if (code < 0 && !interrupted()) mark_done(point, code, fmt::format("crashed (signal {})", -code));
+    if (code != static_cast<int>(ExitCode::interrupted)) progress.done(point, code);
+    post::replace_file(settings.directory / "study.csv", study_table(study, points));
+  }
+  progress.end();
+  if (interrupted()) {
+    fmt::print("interrupted; go on with --resume\n");
+    return ExitCode::interrupted;
+  }
+  post::replace_file(settings.directory / "study.csv", study_table(study, points));
+  study_report(study, points).write(settings.directory / "report.html");
+
+  int failed = 0;
+  for (const StudyPoint& point : points)
+    if (const auto result = result_of(study, point); !result || result->exit_code != 0) {
+      ++failed;
+      fmt::print("failed: {}: {}\n", fmt::join(point.overrides, "  "),
+                 result ? result->message : "not finished");
+    }
+  fmt::print("{} of {} points in {}\n", points.size() - static_cast<std::size_t>(failed), points.size(),
+             (settings.directory / "study.csv").string());
+  return failed ? ExitCode::not_converged : ExitCode::ok;
+}
+
+} // namespace dielast::cases

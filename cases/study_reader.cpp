@@ -1,0 +1,184 @@
+#include "cases/study_reader.hpp"
+
+#include "cases/case_tree.hpp"
+#include "cases/overrides.hpp"
+#include "cases/section_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace dielast::cases {
+namespace {
+
+struct Measured {
+  double number = 0;
+  std::string unit; ///< as written
+};
+
+/// "70 deg" or 70: the number and the unit, whatever it is.
+std::optional<Measured> measured(const Node* node) {
+  if (!node) return std::nullopt;
+  if (node->is(Node::Kind::integer) || node->is(Node::Kind::number)) return Measured{node->number, ""};
+  if (!node->is(Node::Kind::text)) return std::nullopt;
+  Measured result;
+  const char* end = node->text.data() + node->text.size();
+  const auto [rest, problem] = std::from_chars(node->text.data(), end, result.number);
+  if (problem != std::errc{}) return std::nullopt;
+  result.unit.assign(rest, end);
+  result.unit.erase(0, result.unit.find_first_not_of(' '));
+  return result;
+}
+
+/// Values of { from, to, step }, both ends included; every unit must be written alike. Empty after a report.
+std::vector<std::string> range_values(SectionReader& reader, const Node& node, const std::string& path) {
+  constexpr double most = 10000;
+  const auto from = measured(node.find("from")), to = measured(node.find("to")),
+             step = measured(node.find("step"));
+  if (!from || !to || !step || node.items.size() != 3) {
+    reader.report(node.source, path,
+                  "a range is { from = ..., to = ..., step = ... }; a key with a dot stands in quotes, as in "
+                  "\"honeycomb.angle\" = [...]");
+    return {};
+  }
+  const double count = std::floor((to->number - from->number) / step->number + 1e-9) + 1;
+  if (from->unit != to->unit || from->unit != step->unit)
+    reader.report(node.source, path, "from, to and step must have the same unit");
+  else if (!(count >= 1 && count <= most))
+    reader.report(node.source, path,
+                  fmt::format("step must lead from {} to {} in at most {} values",
+                              text_of(*node.find("from")), text_of(*node.find("to")), most));
+  else {
+    std::vector<std::string> values;
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+      const std::string number = fmt::format("{:.12g}", from->number + i * step->number);
+      values.push_back(from->unit.empty() ? number : toml_string(fmt::format("{} {}", number, from->unit)));
+    }
+    return values;
+  }
+  return {};
+}
+
+/// Tries a value on the base case and reports what is wrong with it; `told` holds the messages of this axis
+/// so far.
+void try_value(SectionReader& reader, const Node& base, const Study& study, const std::string& key,
+               const std::string& value, const Source& source, std::set<std::string>& told) {
+  try {
+    Node tree = base;
+    apply_override(tree, key, value, source);
+    interpret(std::move(tree), study.base);
+  } catch (const CaseError& error) {
+    for (const Diagnostic& wrong : error.diagnostics()) {
+      const std::string message =
+          wrong.key == key || wrong.key.empty() ? wrong.message : wrong.key + ": " + wrong.message;
+      if (told.insert(message).second) reader.report(source, fmt::format("study.vary.\"{}\"", key), message);
+    }
+  }
+}
+
+void read_axes(SectionReader& reader, const Node& section, const Node& base, Study& study) {
+  const Node* vary = section.find("vary");
+  if (!vary || !vary->is(Node::Kind::table) || vary->items.empty()) {
+    reader.report(
+        vary ? vary->source : section.source, "study.vary",
+        "what varies is missing, such as vary = { \"honeycomb.angle\" = [\"140 deg\", \"150 deg\"] }");
+    return;
+  }
+  for (std::size_t i = 0; i < vary->items.size(); ++i) {
+    const Node& node = vary->items[i];
+    StudyAxis axis{vary->keys[i], {}};
+    const std::string path = fmt::format("study.vary.\"{}\"", axis.key);
+    std::set<std::string> told;
+    if (node.is(Node::Kind::list)) {
+      if (node.items.empty()) reader.report(node.source, path, "is empty; give at least one value");
+      for (const Node& item : node.items) {
+        axis.values.push_back(text_of(item));
+        try_value(reader, base, study, axis.key, axis.values.back(), item.source, told);
+      }
+    } else if (node.is(Node::Kind::table)) {
+      axis.values = range_values(reader, node, path);
+      for (const std::string& value : axis.values)
+        try_value(reader, base, study, axis.key, value, node.source, told);
+    } else {
+      reader.report(
+          node.source, path,
+          fmt::format("found {}, allowed a list of values or {{ from, to, step }}; is \"{}\" in quotes?",
+                      text_of(node), axis.key));
+    }
+    study.axes.push_back(std::move(axis));
+  }
+}
+
+void require_one_of(SectionReader& reader, const Source& source, const std::string& key,
+                    const std::string& name, const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    reader.report(
+        source, key,
+        fmt::format("found {}, allowed {}{}", toml_string(name), listed(known), did_you_mean(name, known)));
+}
+
+/// Quantities and axes that the study names must exist.
+void check_names(SectionReader& reader, const Node& section, const Study& study, const Case& base) {
+  std::vector<std::string> quantities, axes;
+  for (const Quantity& quantity : base.quantities) quantities.push_back(quantity.name);
+  for (const StudyAxis& axis : study.axes) axes.push_back(axis.key);
+  std::vector<std::string> both = axes;
+  both.insert(both.end(), quantities.begin(), quantities.end());
+
+  if (const Node* collect = section.find("collect"))
+    for (const std::string& name : study.collect)
+      require_one_of(reader, collect->source, "study.collect", name, quantities);
+  for (std::size_t i = 0; i < study.plots.size(); ++i) {
+    const StudyPlot& plot = study.plots[i];
+    const Source& source = section.find("plot")->items[i].source;
+    const std::string path = fmt::format("study.plot[{}]", i + 1);
+    if (!plot.x.empty()) require_one_of(reader, source, path + ".x", plot.x, both);
+    for (const std::string& name : plot.y) require_one_of(reader, source, path + ".y", name, quantities);
+    if (!plot.group.empty()) require_one_of(reader, source, path + ".group", plot.group, axes);
+  }
+}
+
+/// A file with `case` holds nothing but the study.
+void require_only_study(SectionReader& reader, const Node& tree) {
+  for (std::size_t i = 0; i < tree.items.size(); ++i)
+    if (const std::string& key = tree.keys[i]; key != "title" && key != "case" && key != "study")
+      reader.report(
+          tree.items[i].key_source, key,
+          "a study of another case has only \"title\", \"case\" and [study]; this belongs in that case");
+}
+
+} // namespace
+
+Study read_study(const std::filesystem::path& path) {
+  const Node tree = read_tree(path);
+  Study study;
+  study.source = study.base = path;
+  study.title = path.stem().string();
+  if (const Node* title = tree.find("title"); title && title->is(Node::Kind::text)) study.title = title->text;
+  const Node* section = tree.find("study");
+  SectionReader reader({});
+  if (!section || !section->is(Node::Kind::table))
+    throw CaseError({{tree.source, "study", "missing; add the section [study]"}});
+  const Node* base_name = tree.find("case");
+  if (base_name) {
+    require_only_study(reader, tree);
+    study.base = path.parent_path() / base_name->text;
+    if (std::error_code failure; !std::filesystem::is_regular_file(study.base, failure))
+      throw CaseError({{base_name->source, "case",
+                        fmt::format("found {}: no such file; the path starts at this file's folder",
+                                    text_of(*base_name))}});
+  }
+  const Node base = read_case_file(study.base);
+  const Case base_case =
+      interpret(base, study.base); // its own errors come first: nothing can be varied without it
+  reader.read_table(*case_schema().find_section("study"), *section, &study, "study");
+  read_axes(reader, *section, base, study);
+  check_names(reader, *section, study, base_case);
+  if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
+  return study;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cases/study_points.hpp"
+#include "post/report.hpp"
+
+namespace dielast::cases {
+
+/// study.csv: one row per point in the grid's order: the axes as the user wrote them, the collected
+/// quantities in SI, exit code, kinds of events, message.
+std::string study_table(const Study& study, const std::vector<StudyPoint>& points);
+
+/// The study's report: its plots and one row per point.
+post::Report study_report(const Study& study, const std::vector<StudyPoint>& points);
+
+} // namespace dielast::cases

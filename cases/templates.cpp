@@ -1,0 +1,234 @@
+#include "cases/templates.hpp"
+
+#include "cases/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace dielast::cases {
+namespace {
+
+constexpr std::string_view quantities_of_all = R"(
+[[quantity]]
+name = "max_field"
+kind = "extreme"
+of = "electric_field"
+extreme = "maximum"
+[[quantity]]
+name = "breakdown_ratio"
+kind = "extreme"
+of = "breakdown_ratio"
+extreme = "maximum"
+[[quantity]]
+name = "min_principal_stress"
+kind = "extreme"
+of = "min_principal_stress"
+extreme = "minimum"
+)";
+
+constexpr std::string_view honeycomb_quantities = R"(
+[[quantity]]
+name = "eps_x"
+kind = "elongation"
+between = ["left_apex", "right_apex"]
+along = "x"
+since = "release"
+[[quantity]]
+name = "eps_y"
+kind = "elongation"
+between = ["corner_bottom", "corner_top"]
+along = "y"
+since = "release"
+[[quantity]]
+name = "released_length_x"
+kind = "distance"
+between = ["left_apex", "right_apex"]
+along = "x"
+at = "release"
+[[quantity]]
+name = "released_length_y"
+kind = "distance"
+between = ["corner_bottom", "corner_top"]
+along = "y"
+at = "release"
+)";
+
+constexpr std::string_view disc_quantities = R"(
+[[quantity]]
+name = "electrode_radius"
+kind = "radius"
+of = "electrode_edge"
+)";
+
+constexpr std::string_view honeycomb_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+step = [{ kind = "release" }, { kind = "voltage" }]
+)";
+
+constexpr std::string_view disc_defaults = R"(
+electrode = [{ name = "film", place = "electrode" }]
+support = [{ place = "rim", fix = ["x", "y", "z"] }]
+step = [{ kind = "voltage" }]
+)";
+
+constexpr std::string_view annulus_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+support = [{ place = "inner", fix = ["x", "y", "z"] }, { place = "outer", fix = ["x", "y", "z"] }]
+step = [{ kind = "voltage" }]
+)";
+
+constexpr std::string_view file_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+step = [{ kind = "voltage" }]
+)";
+
+/// Nodes of a default carry the file's name but no line: the user did not write them.
+void relocate(Node& node, const Source& source) {
+  node.source = node.key_source = source;
+  for (Node& item : node.items) relocate(item, source);
+}
+
+Node parse_default(std::string_view toml, const Node& tree) {
+  Node parsed = parse_tree(toml, "");
+  relocate(parsed, {tree.source.file, 0, 0});
+  return parsed;
+}
+
+std::string text_at(const Node& table, std::string_view key) {
+  const Node* node = table.find(key);
+  return node && node->is(Node::Kind::text) ? node->text : "";
+}
+
+void remove(Node& table, std::string_view key) {
+  const auto found = std::find(table.keys.begin(), table.keys.end(), key);
+  if (found == table.keys.end()) return;
+  table.items.erase(table.items.begin() + (found - table.keys.begin()));
+  table.keys.erase(found);
+}
+
+Node text_node(std::string text, const Source& source) {
+  Node node;
+  node.kind = Node::Kind::text;
+  node.text = std::move(text);
+  node.source = node.key_source = source;
+  return node;
+}
+
+/// Items of a list at the top of the tree.
+std::vector<Node> items_of(const Node& tree, std::string_view key) {
+  const Node* node = tree.find(key);
+  return node && node->is(Node::Kind::list) ? node->items : std::vector<Node>{};
+}
+
+std::string name_of_release(const Node& tree) {
+  for (const Node& step : items_of(tree, "step"))
+    if (text_at(step, "kind") == "release") return step.find("name") ? text_at(step, "name") : "release";
+  return "";
+}
+
+/// The capacitance of the electrode, or one for each of several.
+std::vector<Node> capacitances(const Node& tree, const Source& source) {
+  std::vector<Node> quantities;
+  std::set<std::string> seen; // a second electrode of the same name is reported elsewhere
+  const auto electrodes = items_of(tree, "electrode");
+  for (const Node& electrode : electrodes) {
+    const std::string name = text_at(electrode, "name");
+    Node quantity;
+    quantity.source = source;
+    quantity.add("name", text_node(electrodes.size() > 1 ? "capacitance_" + name : "capacitance", source));
+    quantity.add("kind", text_node("capacitance", source));
+    quantity.add("of", text_node(name, source));
+    if (!name.empty() && seen.insert(name).second) quantities.push_back(std::move(quantity));
+  }
+  return quantities;
+}
+
+} // namespace
+
+std::span<const Template> templates() {
+  static const std::array table{
+      Template{"honeycomb",
+               "unidirectional actuator: a film with a printed honeycomb, cut free",
+               {{"film", "the film"},
+                {"walls", "all walls"},
+                {"cell[i,j]", "the film in cell j of column i, from 0"},
+                {"left_apex", "leftmost vertex at mid height"},
+                {"right_apex", "rightmost vertex at mid height"},
+                {"corner_top", "top wall of the first column's top cell"},
+                {"corner_bottom", "bottom wall of the first column's bottom cell"}},
+               honeycomb_defaults,
+               honeycomb_quantities},
+      Template{"disc",
+               "a film clamped at its rim, with a round electrode in the middle",
+               {{"film", "the film"},
+                {"electrode", "the film under the electrode"},
+                {"electrode_edge", "the electrode's edge"},
+                {"rim", "the clamped edge"}},
+               disc_defaults,
+               disc_quantities},
+      Template{"annulus",
+               "a ring of film clamped at both edges",
+               {{"film", "the film"},
+                {"inner", "the inner edge"},
+                {"outer", "the outer edge"},
+                {"sector[k]", "the k-th sector of the film, from 0"}},
+               annulus_defaults,
+               ""},
+      Template{"file", "your own gmsh mesh: [mesh] file = \"...\"", {}, file_defaults, ""},
+  };
+  return table;
+}
+
+std::vector<const Node*> geometries_of(const Node& tree) {
+  std::vector<const Node*> found;
+  for (const Section& section : case_schema().sections)
+    if (const Node* node = tree.find(section.name); node && section.presence == Section::Presence::geometry)
+      found.push_back(node);
+  const Node* mesh = tree.find("mesh");
+  if (const Node* file = mesh ? mesh->find("file") : nullptr) found.push_back(file);
+  return found;
+}
+
+const Template* template_of(const Node& tree) {
+  for (const Template& candidate : templates())
+    if (tree.find(candidate.name)) return &candidate;
+  const Node* mesh = tree.find("mesh");
+  return mesh && mesh->find("file") ? &templates().back() : nullptr;
+}
+
+void add_defaults(Node& tree, const Template& device) {
+  const Node defaults = parse_default(device.defaults, tree);
+  for (std::size_t i = 0; i < defaults.items.size(); ++i)
+    if (!tree.find(defaults.keys[i])) tree.add(defaults.keys[i], defaults.items[i]);
+}
+
+int add_standard_quantities(Node& tree, const Template& device) {
+  if (const Node* written = tree.find("quantity"); written && !written->is(Node::Kind::list)) return 0;
+  const Source source{tree.source.file, 0, 0};
+  const std::string release = name_of_release(tree);
+  std::vector<Node> standard;
+  for (Node quantity :
+       items_of(parse_default(fmt::format("{}{}", device.quantities, quantities_of_all), tree), "quantity")) {
+    if (quantity.find("at") && release.empty()) continue;
+    for (const char* key : {"at", "since"})
+      if (Node* step = quantity.find(key)) step->text = release;
+    if (release.empty()) remove(quantity, "since");
+    standard.push_back(std::move(quantity));
+  }
+  for (Node& quantity : capacitances(tree, source)) standard.push_back(std::move(quantity));
+
+  Node* quantities = tree.find("quantity");
+  if (!quantities) {
+    Node list;
+    list.kind = Node::Kind::list;
+    list.source = source;
+    quantities = &tree.add("quantity", list);
+  }
+  quantities->items.insert(quantities->items.begin(), standard.begin(), standard.end());
+  return static_cast<int>(standard.size());
+}
+
+} // namespace dielast::cases

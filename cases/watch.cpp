@@ -1,0 +1,88 @@
+#include "cases/watch.hpp"
+
+#include "post/engineering.hpp"
+#include "post/reductions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+
+namespace {
+
+bool is_cell(const std::string& place) { return place.starts_with("cell["); }
+
+} // namespace
+
+Watch::Watch(const Device& device) : device_(device) {
+  for (const auto& block : device.mesh.blocks)
+    if (block.type == meshing::CellType::line2 || block.type == meshing::CellType::line3) lines_ = &block;
+  if (device.wall_width && lines_) contacts_.emplace(device.mesh, *lines_, *device.wall_width);
+}
+
+std::string Watch::place_of_triangle(int triangle) const {
+  for (const auto& [name, set] : device_.mesh.cell_sets)
+    if (is_cell(name) && std::binary_search(set.cells.begin(), set.cells.end(), triangle)) return name;
+  return "";
+}
+
+std::string Watch::place_of_line(int line) const { return cell_of(line, line); }
+
+/// The lattice cell whose outline has both beams; "" when no single one has.
+std::string Watch::cell_of(int line, int other) const {
+  for (const auto& [name, nodes] : device_.mesh.node_sets) {
+    if (!is_cell(name)) continue;
+    const auto has = [&nodes = nodes](int node) {
+      return std::binary_search(nodes.begin(), nodes.end(), node);
+    };
+    const auto a = lines_->cell(line), b = lines_->cell(other);
+    if (has(a[0]) && has(a[1]) && has(b[0]) && has(b[1])) return name;
+  }
+  return "";
+}
+
+std::vector<fem::Event> Watch::check(const fem::State& state, const fem::Samples& samples,
+                                     int negative_pivots) {
+  std::vector<fem::Event> events;
+  const auto begins = [&](bool holds, const std::string& kind) {
+    if (!holds) active.erase(kind);
+    return holds && active.insert(kind).second;
+  };
+  if (const auto stress = post::extreme(samples, "min_principal_stress", post::Extreme::minimum);
+      stress && begins(stress->value < 0, "loss of tension"))
+    events.push_back(
+        {"loss of tension", place_of_triangle(stress->cell),
+         fmt::format(
+             "the film is compressed here ({}): it would wrinkle, which this membrane does not resolve",
+             post::engineering(stress->value, "Pa"))});
+  if (const auto ratio = post::extreme(samples, "breakdown_ratio", post::Extreme::maximum);
+      ratio && begins(ratio->value >= 1, "breakdown"))
+    events.push_back({"breakdown", place_of_triangle(ratio->cell),
+                      fmt::format("the electric field is {:.3g} times the breakdown field", ratio->value)});
+  if (const auto ratio = post::extreme(samples, "yield_ratio", post::Extreme::maximum);
+      ratio && begins(ratio->value >= 1, "wall yield"))
+    events.push_back({"wall yield", place_of_line(ratio->cell),
+                      fmt::format("a wall's fibre is strained {:.3g} times its yield strain", ratio->value)});
+  if (contacts_) {
+    const auto found = contacts_->find(state);
+    if (begins(!found.empty(), "wall contact")) {
+      const auto& worst = found.front();
+      events.push_back(
+          {"wall contact", cell_of(worst.lines[0], worst.lines[1]),
+           fmt::format("walls touch at {} place{}; the nearest centrelines are {} apart, the walls are {} "
+                       "wide. Contact is not resisted: the shape beyond it is not what a device does",
+                       found.size(), found.size() == 1 ? "" : "s", post::engineering(worst.distance, "m"),
+                       post::engineering(*device_.wall_width, "m"))});
+    }
+  }
+  if (begins(negative_pivots > 0, "instability"))
+    events.push_back(
+        {"instability", "",
+         fmt::format("the equilibrium is unstable ({} negative pivot{}): the flat or symmetric shape "
+                     "would buckle",
+                     negative_pivots, negative_pivots == 1 ? "" : "s")});
+  return events;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "cases/device.hpp"
+#include "fem/wall_contact.hpp"
+
+#include <optional>
+#include <set>
+#include <string>
+
+namespace dielast::cases {
+
+/// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
+/// that touch, unstable equilibrium. An event is told when its condition begins, not again while it lasts.
+class Watch {
+ public:
+  /// The device must outlive this.
+  explicit Watch(const Device& device);
+
+  std::vector<fem::Event> check(const fem::State& state, const fem::Samples& samples, int negative_pivots);
+
+  /// Kinds of the conditions that hold now; stored with a checkpoint.
+  std::set<std::string> active;
+
+ private:
+  std::string cell_of(int line, int other) const;
+  std::string place_of_triangle(int triangle) const;
+  std::string place_of_line(int line) const;
+
+  const Device& device_;
+  std::optional<fem::WallContactSearch> contacts_;
+  const meshing::CellBlock* lines_ = nullptr;
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,171 @@
+#include "fem/assembler.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <omp.h>
+#include <stdexcept>
+
+namespace dielast::fem {
+
+namespace {
+
+/// Large enough to hide the call, small enough to balance two threads on a thousand elements.
+constexpr int chunk_size = 64;
+
+/// Below this many elements waking and waiting for threads costs more than they save.
+constexpr int worth_threads = 16000;
+
+} // namespace
+
+Assembler::Assembler(const Model& model, int threads)
+    : model_(model), threads_(threads > 0 ? threads : omp_get_num_procs()) {
+  for (const auto& block : model_.blocks) {
+    const int dofs = block->dofs_per_element();
+    auto& equations = equations_.emplace_back(static_cast<std::size_t>(block->element_count() * dofs));
+    for (int e = 0; e < block->element_count(); ++e)
+      block->element_equations(
+          e, model_.dofs,
+          std::span(equations).subspan(static_cast<std::size_t>(e * dofs), static_cast<std::size_t>(dofs)));
+  }
+  int elements = 0;
+  for (const auto& block : model_.blocks) elements += block->element_count();
+  if (elements < worth_threads) threads_ = 1;
+  build_pattern();
+  colour_chunks();
+  block_residual_.assign(model_.blocks.size(), Eigen::VectorXd::Zero(model_.dofs.count()));
+}
+
+void Assembler::build_pattern() {
+  const int n = model_.dofs.free_count();
+  matrix_.size = n;
+  const auto is_free = [n](int equation) { return equation != DofMap::absent && equation < n; };
+
+  // Elements at each equation.
+  struct ElementRef {
+    int block, element;
+  };
+  std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
+  for (const auto& equations : equations_)
+    for (const int equation : equations)
+      if (is_free(equation)) ++start[static_cast<std::size_t>(equation) + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  std::vector<ElementRef> elements(static_cast<std::size_t>(start.back()));
+  std::vector<int> fill(start.begin(), start.end() - 1);
+  for (std::size_t b = 0; b < equations_.size(); ++b) {
+    const int dofs = model_.blocks[b]->dofs_per_element();
+    for (std::size_t i = 0; i < equations_[b].size(); ++i)
+      if (is_free(equations_[b][i]))
+        elements[static_cast<std::size_t>(fill[static_cast<std::size_t>(equations_[b][i])]++)] = {
+            static_cast<int>(b), static_cast<int>(i) / dofs};
+  }
+
+  // Rows of each column; an unknown without elements keeps its diagonal so that the factorisation reports it.
+  matrix_.column_start.assign(1, 0);
+  std::vector<int> seen(static_cast<std::size_t>(n), -1);
+  for (int column = 0; column < n; ++column) {
+    const std::size_t first = matrix_.rows.size();
+    matrix_.rows.push_back(column);
+    seen[static_cast<std::size_t>(column)] = column;
+    for (int k = start[static_cast<std::size_t>(column)]; k < start[static_cast<std::size_t>(column) + 1];
+         ++k) {
+      const auto [block, element] = elements[static_cast<std::size_t>(k)];
+      const int dofs = model_.blocks[static_cast<std::size_t>(block)]->dofs_per_element();
+      const int* equation = equations_[static_cast<std::size_t>(block)].data() + element * dofs;
+      for (int i = 0; i < dofs; ++i)
+        if (is_free(equation[i]) && equation[i] > column &&
+            seen[static_cast<std::size_t>(equation[i])] != column) {
+          seen[static_cast<std::size_t>(equation[i])] = column;
+          matrix_.rows.push_back(equation[i]);
+        }
+    }
+    std::sort(matrix_.rows.begin() + static_cast<std::ptrdiff_t>(first), matrix_.rows.end());
+    if (matrix_.rows.size() > INT32_MAX) throw std::length_error("the tangent has more than 2^31 entries");
+    matrix_.column_start.push_back(static_cast<int>(matrix_.rows.size()));
+  }
+  matrix_.values.assign(matrix_.rows.size(), 0.0);
+
+  for (std::size_t b = 0; b < equations_.size(); ++b) {
+    const int dofs = model_.blocks[b]->dofs_per_element();
+    auto& slots = slots_.emplace_back();
+    slots.reserve(equations_[b].size() * static_cast<std::size_t>(dofs + 1) / 2);
+    for (std::size_t at = 0; at < equations_[b].size(); at += static_cast<std::size_t>(dofs))
+      for (int i = 0; i < dofs; ++i)
+        for (int j = 0; j <= i; ++j) {
+          const int p = equations_[b][at + static_cast<std::size_t>(i)];
+          const int q = equations_[b][at + static_cast<std::size_t>(j)];
+          if (!is_free(p) || !is_free(q)) {
+            slots.push_back(-1);
+            continue;
+          }
+          const auto [column, row] = std::minmax(p, q);
+          const auto first = matrix_.rows.begin() + matrix_.column_start[static_cast<std::size_t>(column)];
+          const auto last = matrix_.rows.begin() + matrix_.column_start[static_cast<std::size_t>(column) + 1];
+          slots.push_back(static_cast<int>(std::lower_bound(first, last, row) - matrix_.rows.begin()));
+        }
+  }
+}
+
+void Assembler::colour_chunks() {
+  constexpr int most_colours = 64;
+  std::vector<std::uint64_t> taken(static_cast<std::size_t>(model_.dofs.count()), 0);
+  for (std::size_t b = 0; b < equations_.size(); ++b) {
+    const ElementBlock& block = *model_.blocks[b];
+    const int step = (chunk_size + block.granularity() - 1) / block.granularity() * block.granularity();
+    for (int first = 0; first < block.element_count(); first += step) {
+      const Chunk chunk{static_cast<int>(b), first, std::min(first + step, block.element_count())};
+      const auto begin =
+          equations_[b].begin() + static_cast<std::ptrdiff_t>(chunk.first) * block.dofs_per_element();
+      const auto end =
+          equations_[b].begin() + static_cast<std::ptrdiff_t>(chunk.last) * block.dofs_per_element();
+      std::uint64_t used = 0;
+      for (auto e = begin; e != end; ++e)
+        if (*e != DofMap::absent) used |= taken[static_cast<std::size_t>(*e)];
+      int colour = 0;
+      while (colour < most_colours && (used >> colour & 1)) ++colour;
+      if (colour == most_colours) throw std::length_error("more than 64 element chunks meet at one node");
+      for (auto e = begin; e != end; ++e)
+        if (*e != DofMap::absent) taken[static_cast<std::size_t>(*e)] |= std::uint64_t{1} << colour;
+      if (colours_.size() <= static_cast<std::size_t>(colour))
+        colours_.resize(static_cast<std::size_t>(colour) + 1);
+      colours_[static_cast<std::size_t>(colour)].push_back(chunk);
+    }
+  }
+}
+
+Evaluation Assembler::run(const State& state, bool want_residual, bool want_tangent) {
+  Evaluation total;
+  std::vector<Evaluation> parts;
+  for (const auto& colour : colours_) {
+    parts.assign(colour.size(), {});
+    const int chunks = static_cast<int>(colour.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_) if (threads_ > 1 && chunks > 1)
+    for (int c = 0; c < chunks; ++c) {
+      const auto [block, first, last] = colour[static_cast<std::size_t>(c)];
+      const auto b = static_cast<std::size_t>(block);
+      const Scatter scatter{equations_[b].data(), slots_[b].data(),
+                            want_residual ? block_residual_[b].data() : nullptr,
+                            want_tangent ? matrix_.values.data() : nullptr};
+      parts[static_cast<std::size_t>(c)] = model_.blocks[b]->evaluate(state, first, last, scatter);
+    }
+    for (const Evaluation& part : parts) {
+      total.energy += part.energy;
+      total.feasible = total.feasible && part.feasible;
+    }
+  }
+  return total;
+}
+
+Evaluation Assembler::residual(const State& state, Eigen::VectorXd& residual) {
+  for (auto& block : block_residual_) block.setZero();
+  const Evaluation evaluation = run(state, true, false);
+  residual = block_residual_.front();
+  for (std::size_t b = 1; b < block_residual_.size(); ++b) residual += block_residual_[b];
+  return evaluation;
+}
+
+void Assembler::tangent(const State& state) {
+  std::fill(matrix_.values.begin(), matrix_.values.end(), 0.0);
+  run(state, false, true);
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "fem/model.hpp"
+#include "fem/sparse_matrix.hpp"
+
+#include <vector>
+
+namespace dielast::fem {
+
+/// Assembles the energy, residual and tangent of a model. The sparsity pattern, the place of every element
+/// entry in it and a colouring of element chunks are found once. Chunks of one colour share no unknown, so
+/// that they are computed by any number of threads without locks and every sum is formed in the same order:
+/// results are identical bit for bit.
+class Assembler {
+ public:
+  /// `threads`: 0 uses every core.
+  Assembler(const Model& model, int threads);
+
+  /// Energy and residual (count() entries: free equations, then reactions at held ones) of the internal
+  /// forces.
+  Evaluation residual(const State& state, Eigen::VectorXd& residual);
+  /// What each block contributed to the last residual: film and walls may balance, these show how large they
+  /// are.
+  const std::vector<Eigen::VectorXd>& block_residuals() const { return block_residual_; }
+  /// Computes the tangent of the free equations, read through matrix().
+  void tangent(const State& state);
+
+  const SparseSymmetric& matrix() const { return matrix_; }
+
+ private:
+  struct Chunk {
+    int block, first, last;
+  };
+
+  void build_pattern();
+  void colour_chunks();
+  Evaluation run(const State& state, bool want_residual, bool want_tangent);
+
+  const Model& model_;
+  int threads_ = 1;
+  SparseSymmetric matrix_;
+  std::vector<std::vector<int>> equations_; ///< per block, see Scatter
+  std::vector<std::vector<int>> slots_;
+  std::vector<std::vector<Chunk>> colours_;
+  std::vector<Eigen::VectorXd> block_residual_;
+};
+
+} // namespace dielast::fem

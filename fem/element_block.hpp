@@ -1,0 +1,60 @@
+#pragma once
+
+#include "fem/dofs.hpp"
+#include "fem/records.hpp"
+#include "fem/state.hpp"
+
+#include <span>
+#include <vector>
+
+namespace dielast::fem {
+
+/// Where a block adds what it computes: element dof -> equation, element dof pair -> place in the sparse
+/// tangent; negative where there is none (an unknown that does not exist, a tangent entry of a held one).
+struct Scatter {
+  const int* equation = nullptr; ///< dofs_per_element entries per element
+  const int* slot = nullptr;     ///< lower triangle, row by row, dofs*(dofs+1)/2 entries per element
+  double* residual = nullptr;    ///< null: not wanted
+  double* tangent = nullptr;     ///< null: not wanted
+
+  void add_residual(int element, std::span<const double> values) const {
+    const int* e =
+        equation + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (e[i] >= 0) residual[e[i]] += values[i];
+  }
+  void add_tangent(int element, std::span<const double> packed) const {
+    const int* s = slot + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(packed.size());
+    for (std::size_t i = 0; i < packed.size(); ++i)
+      if (s[i] >= 0) tangent[s[i]] += packed[i];
+  }
+};
+
+/// What a range of elements says of a trial state besides what it scattered.
+struct Evaluation {
+  double energy = 0;    ///< J
+  bool feasible = true; ///< false: some element cannot be in this state (inverted, beyond a limit)
+};
+
+/// Elements of one type in contiguous arrays. Pure functions of the state: energy, residual = dE/du, tangent
+/// = d2E/du2 (u: displacements and spins about the current rotation). One virtual call for a range of
+/// elements, never per element.
+class ElementBlock {
+ public:
+  virtual ~ElementBlock() = default;
+
+  virtual int element_count() const = 0;
+  virtual int dofs_per_element() const = 0;
+  /// Elements are evaluated in multiples of this many.
+  virtual int granularity() const { return 1; }
+  /// Adds the unknowns of this block's nodes; planar models have no z displacement and no spin about x and y.
+  virtual void claim_dofs(DofMap& dofs, bool planar) const = 0;
+  /// Equations of one element, DofMap::absent where an unknown does not exist.
+  virtual void element_equations(int element, const DofMap& dofs, std::span<int> equations) const = 0;
+  /// Evaluates elements first..last-1 and scatters what is wanted.
+  virtual Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const = 0;
+  /// Appends this block's integration points.
+  virtual void sample(const State& state, Samples& samples) const = 0;
+};
+
+} // namespace dielast::fem

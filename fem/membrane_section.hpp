@@ -1,0 +1,18 @@
+#pragma once
+
+#include "materials/material.hpp"
+
+#include <array>
+
+namespace dielast::fem {
+
+/// Reduces a film's material to a membrane. The mesh is drawn in the film's prestretched plane: with the
+/// prestretch F0 = diag(lambda_p1, lambda_p2) from the unstretched film to the drawing, C = F0^T C_drawn F0
+/// and the undeformed volume is H dA_drawn / (lambda_p1 lambda_p2).
+struct MembraneSection {
+  materials::Material material;
+  double thickness = 0;                       ///< undeformed H, m
+  std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing
+};
+
+} // namespace dielast::fem

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace dielast::fem {
+
+/// The film at one integration point.
+struct MembraneSample {
+  int cell = 0;                  ///< triangle, numbered as in the mesh's block
+  double volume = 0;             ///< undeformed volume that the point stands for, m^3
+  Eigen::Matrix<double, 3, 2> F; ///< dx/dX, from the UNSTRETCHED film to the current surface
+  Eigen::Matrix2d
+      S; ///< second Piola-Kirchhoff stress, elastic + electrostatic, Pa, w.r.t. the unstretched film
+  double thickness = 0;       ///< undeformed thickness H, m
+  double voltage = 0;         ///< Phi across the film here, V; 0 outside every electrode
+  int electrode = -1;         ///< number of the electrode that covers it; -1: none
+  double permittivity = 0;    ///< eps, F/m
+  double breakdown_field = 0; ///< true field at which this film breaks down, V/m
+};
+
+/// A wall at one integration point. Components: 1 along the wall, 2 across it in the film's plane, 3 normal
+/// to the film; force = (axial, shear, shear), moment = (torsion, bending about 2, bending about 3).
+struct BeamSample {
+  int cell = 0;              ///< line, numbered as in the mesh's block
+  double length = 0;         ///< undeformed length that the point stands for, m
+  Eigen::Vector3d force;     ///< N
+  Eigen::Vector3d moment;    ///< N m
+  Eigen::Vector3d strain;    ///< axial and shear strains, -
+  Eigen::Vector3d curvature; ///< change of curvature, 1/m
+  double fibre_strain = 0;   ///< largest |strain| of the cross-section's fibres along the wall, -
+  double yield_strain = 0;   ///< strain at which the wall's material yields, -
+};
+
+/// What the integration points say at one state.
+struct Samples {
+  std::vector<MembraneSample> film;
+  std::vector<BeamSample> walls;
+};
+
+/// Something a user must know about an accepted state.
+struct Event {
+  std::string
+      kind; ///< "loss of tension", "breakdown", "wall contact", "wall yield", "limit point", "instability"
+  std::string place;   ///< named place, e.g. "cell[2,3]"; empty when it is everywhere
+  std::string message; ///< one sentence with numbers and units
+};
+
+/// One accepted increment of one step.
+struct StepRecord {
+  int index = 0;                ///< 0 is the state in which the mesh was drawn
+  std::string step;             ///< name of the step, e.g. "release"
+  double load_factor = 0;       ///< 0..1 within the step
+  std::vector<double> voltages; ///< V, one per electrode
+  int iterations = 0;           ///< Newton iterations that this increment took
+  double residual = 0;          ///< relative norm on acceptance
+  int negative_pivots = 0;      ///< of the tangent; 0 is a stable state
+  std::vector<Event> events;
+};
+
+} // namespace dielast::fem

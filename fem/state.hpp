@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <span>
+#include <vector>
+
+namespace dielast::fem {
+
+/// All that changes while a model is loaded. A value: a copy is a cutback, a serialised one is a restart.
+struct State {
+  std::vector<Eigen::Vector3d> displacement; ///< per node, m, from the mesh as drawn
+  std::vector<Eigen::Quaterniond> rotation; ///< per node, from the mesh as drawn; the sign is kept continuous
+  std::vector<double> voltage;              ///< per electrode, V
+  Eigen::VectorXd dead_force;               ///< per equation (see DofMap): N, or N m for rotations
+};
+
+/// Rotation by the vector `spin` (rad).
+Eigen::Quaterniond rotation_of(const Eigen::Vector3d& spin);
+
+/// Rotation vector (rad) of a unit quaternion near the identity's side (scalar part > 0).
+Eigen::Vector3d spin_of(const Eigen::Quaterniond& rotation);
+
+/// A state that an extrapolation passes through, and its place on the load path.
+struct PathPoint {
+  double parameter = 0;
+  State state;
+};
+
+/// Polynomial through all `points` (1 to 4, distinct parameters), taken at `parameter`: displacements
+/// directly, rotations through their vectors relative to the last point. Voltages and forces are those of the
+/// last point.
+State extrapolate(std::span<const PathPoint> points, double parameter);
+
+} // namespace dielast::fem

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "materials/parameter.hpp"
+
+#include <array>
+
+namespace dielast::materials {
+
+/// Isotropic linear elastic solid, for frames and printed walls.
+struct ElasticSolid {
+  static constexpr std::array parameters{
+      Parameter{.name = "youngs_modulus", .unit = "Pa", .meaning = "Young's modulus E"},
+      Parameter{.name = "poisson_ratio",
+                .unit = "1",
+                .meaning = "Poisson's ratio nu",
+                .above = -1,
+                .below = 0.5000001},
+      Parameter{.name = "yield_strain", .unit = "1", .meaning = "strain at yield", .fallback = 0.55},
+  };
+
+  double youngs_modulus = 0;  ///< E, Pa
+  double poisson_ratio = 0;   ///< nu
+  double yield_strain = 0.55; ///< TPU: 55 %
+};
+
+/// Stiffnesses of a beam's cross-section. Axis 1 is the beam's tangent, 2 lies across it in the film's plane,
+/// 3 is normal to the film.
+struct BeamSection {
+  double EA = 0;           ///< axial, N
+  double GA2 = 0, GA3 = 0; ///< shear along 2 and 3, N
+  double GJ = 0;           ///< torsion, N m^2
+  double EI2 = 0, EI3 = 0; ///< bending about axis 2 (out of the plane) and about axis 3 (in the plane), N m^2
+  double half_width = 0;   ///< distance of the outermost fibre along 2, m
+  double half_height = 0;  ///< distance of the outermost fibre along 3, m
+  double yield_strain = 0;
+};
+
+/// Rectangular section, `width` along axis 2 and `height` along axis 3 (m): shear factor 5/6, Saint-Venant
+/// torsion constant from its series (Timoshenko & Goodier, Theory of Elasticity, art. 109).
+BeamSection rectangular_section(const ElasticSolid& solid, double width, double height);
+
+} // namespace dielast::materials

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cmath>
+
+namespace dielast::materials {
+
+/// Second-order forward dual number in N variables: a value with its exact gradient and Hessian. The oracle
+/// that the hand-written derivatives are tested against, and a path for laws that only give an energy; not
+/// for element loops.
+template<int N>
+struct Dual {
+  double value = 0;
+  Eigen::Vector<double, N> gradient = Eigen::Vector<double, N>::Zero();
+  Eigen::Matrix<double, N, N> hessian = Eigen::Matrix<double, N, N>::Zero();
+
+  Dual() = default;
+  Dual(double constant) : value(constant) {} // NOLINT: a constant is a dual number
+
+  static Dual variable(double value, int index) {
+    Dual x(value);
+    x.gradient[index] = 1;
+    return x;
+  }
+
+  /// phi(x) from phi, phi' and phi'' at x.value.
+  Dual chain(double phi, double phi_1, double phi_2) const {
+    Dual y(phi);
+    y.gradient = phi_1 * gradient;
+    y.hessian = phi_1 * hessian + phi_2 * gradient * gradient.transpose();
+    return y;
+  }
+
+  Dual& operator+=(const Dual& b) {
+    value += b.value;
+    gradient += b.gradient;
+    hessian += b.hessian;
+    return *this;
+  }
+  friend Dual operator+(Dual a, const Dual& b) { return a += b; }
+  friend Dual operator-(const Dual& a) { return a.chain(-a.value, -1, 0); }
+  friend Dual operator-(const Dual& a, const Dual& b) { return a + (-b); }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    Dual y(a.value * b.value);
+    y.gradient = a.value * b.gradient + b.value * a.gradient;
+    y.hessian = a.value * b.hessian + b.value * a.hessian + a.gradient * b.gradient.transpose() +
+                b.gradient * a.gradient.transpose();
+    return y;
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const double inverse = 1 / b.value;
+    return a * b.chain(inverse, -inverse * inverse, 2 * inverse * inverse * inverse);
+  }
+  friend Dual sqrt(const Dual& a) {
+    const double root = std::sqrt(a.value);
+    return a.chain(root, 0.5 / root, -0.25 / (root * a.value));
+  }
+  friend Dual log(const Dual& a) { return a.chain(std::log(a.value), 1 / a.value, -1 / (a.value * a.value)); }
+  friend Dual sin(const Dual& a) { return a.chain(std::sin(a.value), std::cos(a.value), -std::sin(a.value)); }
+  friend Dual cos(const Dual& a) {
+    return a.chain(std::cos(a.value), -std::sin(a.value), -std::cos(a.value));
+  }
+};
+
+} // namespace dielast::materials

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dielast::meshing {
+
+/// Cell types; the node order is VTK's: corners first, then the middles of the sides
+/// (triangle6: v0 v1 v2 m01 m12 m20; line3: v0 v1 middle). Triangles turn counter-clockwise about +z.
+enum class CellType { line2, line3, triangle3, triangle6 };
+
+constexpr int nodes_per_cell(CellType type) {
+  switch (type) {
+  case CellType::line2:
+    return 2;
+  case CellType::line3:
+    return 3;
+  case CellType::triangle3:
+    return 3;
+  case CellType::triangle6:
+    return 6;
+  }
+  return 0;
+}
+
+/// All cells of one type, node numbers one after another.
+struct CellBlock {
+  CellType type{};
+  std::vector<int> nodes;
+
+  int size() const { return static_cast<int>(nodes.size()) / nodes_per_cell(type); }
+  std::span<const int> cell(int index) const {
+    const int n = nodes_per_cell(type);
+    return {nodes.data() + static_cast<std::ptrdiff_t>(index) * n, static_cast<std::size_t>(n)};
+  }
+};
+
+/// A named part of one block.
+struct CellSet {
+  int block = 0;          ///< index into Mesh::blocks
+  std::vector<int> cells; ///< cell numbers in that block, ascending
+};
+
+/// Nodes (coordinates in m, in the configuration the mesh was drawn in), cell blocks, at most one per type,
+/// and named places. Every place has an entry in `node_sets` (ascending, middle nodes included); places that
+/// are lines or surfaces also have one in `cell_sets`.
+struct Mesh {
+  std::vector<Eigen::Vector3d> nodes;
+  std::vector<CellBlock> blocks;
+  std::map<std::string, std::vector<int>> node_sets;
+  std::map<std::string, CellSet> cell_sets;
+
+  int node_count() const { return static_cast<int>(nodes.size()); }
+};
+
+} // namespace dielast::meshing

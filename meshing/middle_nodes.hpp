@@ -1,0 +1,18 @@
+#pragma once
+
+#include "meshing/mesh.hpp"
+
+namespace dielast::meshing {
+
+/// Turns 3-node triangles and 2-node lines into 6-node and 3-node ones with straight sides; cells that share
+/// a side share its middle node. Middle nodes are numbered after all others, by the sides' (smaller, larger)
+/// corner numbers.
+void add_middle_nodes(Mesh& mesh);
+
+/// The nodes of a cell set, ascending.
+std::vector<int> nodes_of(const Mesh& mesh, const CellSet& set);
+
+/// Gives every cell set its node set.
+void add_node_sets(Mesh& mesh);
+
+} // namespace dielast::meshing

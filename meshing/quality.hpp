@@ -1,0 +1,30 @@
+#pragma once
+
+#include "meshing/mesh.hpp"
+
+#include <array>
+
+namespace dielast::meshing {
+
+/// How good the triangles of a mesh are. Angles and aspect ratios are those of the straight triangle of the
+/// corners.
+struct QualityReport {
+  int nodes = 0, triangles = 0, lines = 0;
+  double smallest_angle = 0; ///< degrees
+  int worst_cell = -1;       ///< triangle with the smallest angle, -1 without triangles
+  Eigen::Vector3d worst_place = Eigen::Vector3d::Zero(); ///< its centroid, m
+  double largest_aspect = 0; ///< longest side / (2 sqrt(3) inradius): 1 is equilateral
+  double smallest_area = 0, largest_area = 0,
+         area = 0; ///< m^2, of the curved triangles, negative when inverted
+  int inverted =
+      0; ///< triangles with det dx/dxi <= 0 at a corner (3 nodes) or an integration point (6 nodes)
+  std::array<int, 6> angles{}; ///< triangles whose smallest angle is in [10 k, 10 k + 10) degrees
+};
+
+/// For meshes in the x-y plane.
+QualityReport quality(const Mesh& mesh);
+
+/// Readable text of several lines, angles in degrees, lengths in mm.
+std::string format(const QualityReport& report);
+
+} // namespace dielast::meshing

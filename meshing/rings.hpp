@@ -1,0 +1,23 @@
+#pragma once
+
+#include "meshing/mesh.hpp"
+
+namespace dielast::meshing {
+
+/// Disc of hexagonal rings about the origin: ring i has 6 i nodes, ring 0 is the centre. The radii are
+/// piecewise uniform, such that one ring lies on `electrode_radius` (m, inside `radius`); `rings` >= 2,
+/// `order` 1 or 2. `curved` puts the middle nodes of all sides along a ring onto its circle (order 2).
+///
+/// Places: triangles `film`, `electrode` (inside electrode_radius), `passive`; nodes `electrode_edge`, `rim`,
+/// `centre`. Throws std::invalid_argument when a parameter is out of range, MeshError when a ring is too thin
+/// for its sides.
+Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, bool curved);
+
+/// Annulus of `rings` >= 1 rings of triangles between the two radii (m), of equal thickness. The first circle
+/// has 6 i0 nodes, i0 = rings inner / (outer - inner) to the nearest integer >= 1, so that triangles are
+/// nearly equilateral.
+///
+/// Places: triangles `film`; nodes `inner`, `outer`. Errors as disc_mesh().
+Mesh annulus_mesh(double inner_radius, double outer_radius, int rings, int order, bool curved);
+
+} // namespace dielast::meshing

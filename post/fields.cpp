@@ -1,0 +1,163 @@
+#include "post/fields.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace dielast::post {
+
+FilmPoint::FilmPoint(const fem::MembraneSample& sample) : sample(sample) {
+  const auto& F = sample.F;
+  C.noalias() = F.transpose() * F;
+  const Eigen::Vector3d area = F.col(0).cross(F.col(1));
+  const double area_stretch = area.norm();
+
+  const double half_difference = (C(0, 0) - C(1, 1)) / 2;
+  const double radius = std::hypot(half_difference, C(0, 1));
+  stretch(0) = std::sqrt((C(0, 0) + C(1, 1)) / 2 + radius);
+  stretch(1) = area_stretch / stretch(0); // not the other root: it cancels when the stretches differ much
+  stretch(2) = 1 / area_stretch;
+
+  const double angle = std::atan2(C(0, 1), half_difference) / 2;
+  Eigen::Matrix2d material; // columns: principal directions in the unstretched film
+  material << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  direction.col(0) = (F * material.col(0)).normalized();
+  direction.col(2) = area / area_stretch;
+  direction.col(1) = direction.col(2).cross(direction.col(0));
+
+  cauchy = F * sample.S * F.transpose();
+  Eigen::Matrix2d in_plane = material.transpose() * sample.S * material;
+  in_plane.array() *= (stretch.head<2>() * stretch.head<2>().transpose()).array();
+  const double mean = in_plane.trace() / 2;
+  const double deviation = std::hypot((in_plane(0, 0) - in_plane(1, 1)) / 2, in_plane(0, 1));
+  principal_stress = {mean + deviation, mean - deviation};
+
+  thickness = sample.thickness * stretch(2);
+  electric_field = std::abs(sample.voltage) / thickness;
+}
+
+namespace {
+
+/// 0 where no limit is known, so that it can be drawn.
+double utilisation(double value, double limit) { return limit > 0 ? value / limit : 0; }
+
+/// xx, yy, zz, xy, yz, xz: VTK's order of symmetric tensors.
+void symmetric_components(const Eigen::Matrix3d& tensor, double* values) {
+  values[0] = tensor(0, 0), values[1] = tensor(1, 1), values[2] = tensor(2, 2);
+  values[3] = tensor(0, 1), values[4] = tensor(1, 2), values[5] = tensor(0, 2);
+}
+
+const std::vector<FilmField> film_table{
+    {"principal_stretches",
+     "1",
+     {"lambda1", "lambda2", "lambda3"},
+     "stretches from the unstretched film: the two in its plane, larger first, and through the thickness",
+     [](const FilmPoint& p, double* v) { Eigen::Map<Eigen::Vector3d>{v} = p.stretch; }},
+    {"log_strain",
+     "1",
+     {"xx", "yy", "zz", "xy", "yz", "xz"},
+     "logarithmic (Hencky) strain in space, from the unstretched film",
+     [](const FilmPoint& p, double* v) {
+       const Eigen::Vector3d principal = p.stretch.array().log();
+       symmetric_components(p.direction * principal.asDiagonal() * p.direction.transpose(), v);
+     }},
+    {"green_lagrange_strain",
+     "1",
+     {"XX", "YY", "XY"},
+     "Green-Lagrange strain in the plane of the unstretched film",
+     [](const FilmPoint& p, double* v) {
+       v[0] = (p.C(0, 0) - 1) / 2, v[1] = (p.C(1, 1) - 1) / 2, v[2] = p.C(0, 1) / 2;
+     }},
+    {"cauchy_stress",
+     "Pa",
+     {"xx", "yy", "zz", "xy", "yz", "xz"},
+     "true stress in space, elastic and electrostatic",
+     [](const FilmPoint& p, double* v) { symmetric_components(p.cauchy, v); }},
+    {"min_principal_stress",
+     "Pa",
+     {},
+     "smaller principal true stress in the film's plane; negative: the film has lost its tension",
+     [](const FilmPoint& p, double* v) { *v = p.principal_stress(1); }},
+    {"max_principal_stress",
+     "Pa",
+     {},
+     "larger principal true stress in the film's plane",
+     [](const FilmPoint& p, double* v) { *v = p.principal_stress(0); }},
+    {"thickness",
+     "m",
+     {},
+     "thickness of the deformed film",
+     [](const FilmPoint& p, double* v) { *v = p.thickness; }},
+    {"electric_field",
+     "V/m",
+     {},
+     "true electric field: voltage over the deformed thickness",
+     [](const FilmPoint& p, double* v) { *v = p.electric_field; }},
+    {"breakdown_ratio",
+     "1",
+     {},
+     "true electric field over the field at which the film breaks down",
+     [](const FilmPoint& p, double* v) { *v = utilisation(p.electric_field, p.sample.breakdown_field); }},
+    {"tension_state",
+     "1",
+     {},
+     "number of compressive principal stresses: 0 taut, 1 wrinkled, 2 slack",
+     [](const FilmPoint& p, double* v) {
+       *v = static_cast<double>((p.principal_stress.array() < 0).count());
+     }},
+    {"voltage",
+     "V",
+     {},
+     "voltage across the film",
+     [](const FilmPoint& p, double* v) { *v = p.sample.voltage; }},
+};
+
+const std::vector<WallField> wall_table{
+    {"axial_force",
+     "N",
+     {},
+     "force along the wall, tension positive",
+     [](const fem::BeamSample& s, double* v) { *v = s.force(0); }},
+    {"shear_force",
+     "N",
+     {"2", "3"},
+     "force across the wall: 2 in the film's plane, 3 normal to it",
+     [](const fem::BeamSample& s, double* v) { v[0] = s.force(1), v[1] = s.force(2); }},
+    {"torsion_moment",
+     "N m",
+     {},
+     "moment about the wall's axis",
+     [](const fem::BeamSample& s, double* v) { *v = s.moment(0); }},
+    {"bending_moment",
+     "N m",
+     {"2", "3"},
+     "moment about the axis across the wall (2) and about the film's normal (3, bending in the plane)",
+     [](const fem::BeamSample& s, double* v) { v[0] = s.moment(1), v[1] = s.moment(2); }},
+    {"curvature",
+     "1/m",
+     {"1", "2", "3"},
+     "change of twist (1) and of curvature about 2 and 3",
+     [](const fem::BeamSample& s, double* v) { Eigen::Map<Eigen::Vector3d>{v} = s.curvature; }},
+    {"axial_strain",
+     "1",
+     {},
+     "strain of the wall's axis",
+     [](const fem::BeamSample& s, double* v) { *v = s.strain(0); }},
+    {"fibre_strain",
+     "1",
+     {},
+     "largest strain magnitude of the cross-section's fibres",
+     [](const fem::BeamSample& s, double* v) { *v = s.fibre_strain; }},
+    {"yield_ratio",
+     "1",
+     {},
+     "largest fibre strain over the yield strain of the wall's material",
+     [](const fem::BeamSample& s, double* v) { *v = utilisation(s.fibre_strain, s.yield_strain); }},
+};
+
+} // namespace
+
+std::span<const FilmField> film_fields() { return film_table; }
+std::span<const WallField> wall_fields() { return wall_table; }
+
+} // namespace dielast::post

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "fem/records.hpp"
+
+#include <Eigen/Core>
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace dielast::post {
+
+/// The film at one integration point, with what several fields share worked out once.
+///
+/// Incompressible membrane: \f$ C = F^T F, \lambda_3 = 1/\sqrt{\det C}, h = \lambda_3 H, E = |\Phi|/h \f$,
+/// \f$ \sigma = F S F^T \f$ (J = 1, plane stress).
+struct FilmPoint {
+  explicit FilmPoint(const fem::MembraneSample& sample);
+
+  const fem::MembraneSample& sample;
+  Eigen::Matrix2d C;         ///< right Cauchy-Green tensor, w.r.t. the unstretched film
+  Eigen::Vector3d stretch;   ///< lambda1 >= lambda2 in the plane, lambda3 through the thickness
+  Eigen::Matrix3d direction; ///< columns: unit vectors of these stretches in space; the third is the normal
+  Eigen::Matrix3d cauchy;    ///< sigma in space, Pa
+  Eigen::Vector2d principal_stress; ///< in the plane, larger first, Pa
+  double thickness = 0;             ///< h, m
+  double electric_field = 0;        ///< true field E, V/m
+};
+
+/// One output field: the row from which files, extremes and documentation are made.
+template<class Point>
+struct Field {
+  std::string_view name;
+  std::string_view unit;                    ///< SI; "1" when it has none
+  std::vector<std::string_view> components; ///< names; empty for a scalar
+  std::string_view meaning;
+  void (*evaluate)(const Point&, double* values);
+
+  int width() const { return components.empty() ? 1 : static_cast<int>(components.size()); }
+};
+using FilmField = Field<FilmPoint>;
+using WallField = Field<fem::BeamSample>;
+
+/// The tables of all output fields. A new field is one row there.
+std::span<const FilmField> film_fields();
+std::span<const WallField> wall_fields();
+
+} // namespace dielast::post

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dielast::post {
+
+/// A curve or a cloud of points; a point that is not finite leaves a gap.
+struct Series {
+  enum class Style { line, points, line_and_points };
+
+  std::string label; ///< empty: not in the key
+  std::vector<double> x, y;
+  Style style = Style::line;
+};
+
+/// A plot against two linear axes.
+struct Plot {
+  std::string title, x_label, y_label;
+  std::vector<Series> series;
+};
+
+/// The plots as SVG documents, by one call of gnuplot. Empty strings where gnuplot is missing or failed: a
+/// run's results do not depend on it.
+std::vector<std::string> render_svg(const std::vector<Plot>& plots);
+
+} // namespace dielast::post

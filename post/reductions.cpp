@@ -1,0 +1,118 @@
+#include "post/reductions.hpp"
+
+#include <array>
+#include <limits>
+#include <stdexcept>
+
+namespace dielast::post {
+
+namespace {
+
+constexpr int widest_field = 6;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+double weight(const fem::MembraneSample& sample) { return sample.volume; }
+double weight(const fem::BeamSample& sample) { return sample.length; }
+
+template<class Sample, class Point>
+std::vector<std::vector<double>> weighted_average(std::span<const Sample> samples,
+                                                  std::span<const Field<Point>> fields, int cell_count) {
+  const auto cells = static_cast<std::size_t>(cell_count);
+  std::vector<std::vector<double>> sums;
+  for (const auto& field : fields) sums.emplace_back(cells * static_cast<std::size_t>(field.width()));
+  std::vector<double> weights(cells);
+  std::array<double, widest_field> values;
+  for (const Sample& sample : samples) {
+    const Point point(sample);
+    const auto cell = static_cast<std::size_t>(sample.cell);
+    weights[cell] += weight(sample);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const auto width = static_cast<std::size_t>(fields[i].width());
+      fields[i].evaluate(point, values.data());
+      for (std::size_t c = 0; c < width; ++c) sums[i][cell * width + c] += weight(sample) * values[c];
+    }
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto width = static_cast<std::size_t>(fields[i].width());
+    for (std::size_t k = 0; k < sums[i].size(); ++k)
+      sums[i][k] = weights[k / width] > 0 ? sums[i][k] / weights[k / width] : not_a_number;
+  }
+  return sums;
+}
+
+template<class Point>
+std::string scalar_name(const Field<Point>& field, std::size_t component) {
+  if (field.components.empty()) return std::string(field.name);
+  return std::string(field.name) + "." + std::string(field.components[component]);
+}
+
+/// Calls `use(samples, fields, field, component)` with the part, row and component that `name` addresses.
+template<class Use>
+auto with_scalar(const fem::Samples& samples, std::string_view name, Use&& use) {
+  for (const auto& field : film_fields())
+    for (int c = 0; c < field.width(); ++c)
+      if (scalar_name(field, static_cast<std::size_t>(c)) == name)
+        return use(std::span(samples.film), field, c, Part::film);
+  for (const auto& field : wall_fields())
+    for (int c = 0; c < field.width(); ++c)
+      if (scalar_name(field, static_cast<std::size_t>(c)) == name)
+        return use(std::span(samples.walls), field, c, Part::walls);
+  throw std::invalid_argument("unknown field '" + std::string(name) + "'");
+}
+
+} // namespace
+
+std::vector<std::vector<double>> average(std::span<const fem::MembraneSample> samples,
+                                         std::span<const FilmField> fields, int cell_count) {
+  return weighted_average(samples, fields, cell_count);
+}
+
+std::vector<std::vector<double>> average(std::span<const fem::BeamSample> samples,
+                                         std::span<const WallField> fields, int cell_count) {
+  return weighted_average(samples, fields, cell_count);
+}
+
+std::vector<Scalar> scalars() {
+  std::vector<Scalar> all;
+  const auto add = [&](const auto& table, Part part) {
+    for (const auto& field : table)
+      for (std::size_t c = 0; c < static_cast<std::size_t>(field.width()); ++c)
+        all.push_back({scalar_name(field, c), part, field.unit, field.meaning});
+  };
+  add(film_fields(), Part::film);
+  add(wall_fields(), Part::walls);
+  return all;
+}
+
+std::optional<Extremum> extreme(const fem::Samples& samples, std::string_view scalar, Extreme which) {
+  return with_scalar(samples, scalar,
+                     [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field,
+                                                    int component, Part part) -> std::optional<Extremum> {
+                       std::optional<Extremum> found;
+                       std::array<double, widest_field> values;
+                       for (const Sample& sample : points) {
+                         field.evaluate(Point{sample}, values.data());
+                         const double value = values[static_cast<std::size_t>(component)];
+                         if (!found ||
+                             (which == Extreme::minimum ? value < found->value : value > found->value))
+                           found = Extremum{value, sample.cell, part};
+                       }
+                       return found;
+                     });
+}
+
+std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count) {
+  return with_scalar(
+      samples, scalar,
+      [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field, int component,
+                                     Part) {
+        const auto all = weighted_average(points, std::span<const Field<Point>>(&field, 1), cell_count);
+        std::vector<double> one(static_cast<std::size_t>(cell_count));
+        for (std::size_t cell = 0; cell < one.size(); ++cell)
+          one[cell] =
+              all[0][cell * static_cast<std::size_t>(field.width()) + static_cast<std::size_t>(component)];
+        return one;
+      });
+}
+
+} // namespace dielast::post

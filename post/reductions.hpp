@@ -1,0 +1,49 @@
+#pragma once
+
+#include "fem/records.hpp"
+#include "post/fields.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dielast::post {
+
+/// Averages over cells, weighted by undeformed volume (film) or length (walls). One array per field in their
+/// order; in it the components of cell 0, then of cell 1, ... NaN for a cell without integration points.
+/// Precondition: every sample's cell < cell_count.
+std::vector<std::vector<double>> average(std::span<const fem::MembraneSample> samples,
+                                         std::span<const FilmField> fields, int cell_count);
+std::vector<std::vector<double>> average(std::span<const fem::BeamSample> samples,
+                                         std::span<const WallField> fields, int cell_count);
+
+enum class Part { film, walls };
+enum class Extreme { minimum, maximum };
+
+/// A scalar that can be asked for by name: a scalar field, or one component as "cauchy_stress.xx".
+struct Scalar {
+  std::string name;
+  Part part{};
+  std::string_view unit;
+  std::string_view meaning;
+};
+
+/// All of them, film first, in the tables' order.
+std::vector<Scalar> scalars();
+
+/// A scalar's value at the integration point where it is extreme, and the cell around it.
+struct Extremum {
+  double value = 0;
+  int cell = 0;
+  Part part{};
+};
+
+/// Nothing when the model has no points of that part. Throws std::invalid_argument for an unknown name.
+std::optional<Extremum> extreme(const fem::Samples& samples, std::string_view scalar, Extreme which);
+
+/// Cell averages of one scalar. Throws std::invalid_argument for an unknown name.
+std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count);
+
+} // namespace dielast::post

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace dielast::post {
+
+/// How a word or row is meant; shown by colour and never by colour alone.
+enum class Tone { plain, good, warning, bad };
+
+/// A cell of a table; cells that start with a number are aligned to the right.
+struct Cell {
+  Cell(std::string text, Tone tone = Tone::plain) : text(std::move(text)), tone(tone) {}
+  Cell(const char* text, Tone tone = Tone::plain) : text(text), tone(tone) {}
+
+  std::string text;
+  Tone tone;
+};
+
+struct Paragraph {
+  std::string text;
+};
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<Cell>> rows;
+};
+/// Text whose line breaks and blanks count, such as an iteration log.
+struct Listing {
+  std::string text;
+};
+/// A picture (PNG bytes) or plot (SVG text).
+struct Image {
+  std::string data;
+  std::string caption;
+};
+using Block = std::variant<Paragraph, Table, Listing, Image>;
+
+/// A number worth seeing first.
+struct Highlight {
+  std::string label; ///< "eps_y"
+  std::string value; ///< "33.19 %"
+  std::string note;  ///< "± 0.05 %"; may be empty
+};
+
+/// Images of consecutive blocks stand side by side where the page is wide enough.
+struct Section {
+  std::string title;
+  std::vector<Block> blocks;
+};
+
+/// A page about a run or a study: one HTML file that needs no other and no network. All texts are plain UTF-8
+/// text.
+struct Report {
+  std::string title{}, subtitle{};
+  Cell status{""}; ///< how it ended, e.g. {"converged", Tone::good}
+  std::vector<Highlight> highlights{};
+  std::vector<Section> sections{};
+  std::string footer{}; ///< program, version
+
+  std::string html() const;
+
+  /// Throws WriteError.
+  void write(const std::filesystem::path& path) const;
+};
+
+} // namespace dielast::post

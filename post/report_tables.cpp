@@ -1,0 +1,75 @@
+#include "post/report_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::post {
+
+namespace {
+
+/// The error in the unit in which the value is shown, to the two digits that it deserves.
+std::string error_text(const QuantityRow& row, const ScaledUnit& scaled) {
+  return row.error ? significant(std::abs(*row.error) * scaled.factor, 2) : "-";
+}
+
+std::string load_text(const fem::StepRecord& record) { return significant(record.load_factor, 3); }
+
+} // namespace
+
+std::string with_error(const QuantityRow& row) {
+  if (!row.error || std::isnan(row.value)) return engineering(row.value, row.unit, row.ratio);
+  const ScaledUnit scaled = scaled_unit(row.value, row.unit, row.ratio);
+  return fmt::format("{} ± {}{}{}", significant(row.value * scaled.factor), error_text(row, scaled),
+                     scaled.unit.empty() ? "" : " ", scaled.unit);
+}
+
+Table quantity_table(std::span<const QuantityRow> rows) {
+  Table table{{"Quantity", "Value", "Error", "Unit", "Meaning"}, {}};
+  for (const QuantityRow& row : rows) {
+    const ScaledUnit scaled = scaled_unit(row.value, row.unit, row.ratio);
+    table.rows.push_back({row.name, significant(row.value * scaled.factor), error_text(row, scaled),
+                          scaled.unit, row.meaning});
+  }
+  return table;
+}
+
+Table check_table(std::span<const CheckRow> rows) {
+  Table table{{"", "Quantity", "Value", "Expected", "Tolerance", "Source"}, {}};
+  for (const CheckRow& row : rows) {
+    const auto shown = [&](double value, int digits) {
+      return engineering(value, row.unit, row.ratio, digits);
+    };
+    table.rows.push_back({row.passed ? Cell{"✓ pass", Tone::good} : Cell{"✗ FAIL", Tone::bad}, row.quantity,
+                          shown(row.value, 4), shown(row.expected, 4), shown(row.tolerance, 2), row.source});
+  }
+  return table;
+}
+
+Table event_table(std::span<const fem::StepRecord> records) {
+  Table table{{"Step", "Load", "Event", "Place", "What happened"}, {}};
+  for (const fem::StepRecord& record : records)
+    for (const fem::Event& event : record.events)
+      table.rows.push_back(
+          {record.step, load_text(record), {event.kind, Tone::warning}, event.place, event.message});
+  return table;
+}
+
+Table increment_table(std::span<const fem::StepRecord> records) {
+  Table table{{"#", "Step", "Load", "Voltage", "Iterations", "Residual", "Tangent"}, {}};
+  for (const fem::StepRecord& record : records) {
+    double voltage = 0;
+    for (const double v : record.voltages)
+      if (std::abs(v) > std::abs(voltage)) voltage = v;
+    table.rows.push_back({fmt::to_string(record.index), record.step, load_text(record),
+                          engineering(voltage, "V"), fmt::to_string(record.iterations),
+                          fmt::format("{:.1e}", record.residual),
+                          record.negative_pivots == 0
+                              ? Cell{"stable"}
+                              : Cell{fmt::format("unstable ({})", record.negative_pivots), Tone::warning}});
+  }
+  return table;
+}
+
+} // namespace dielast::post

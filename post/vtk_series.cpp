@@ -1,0 +1,197 @@
+#include "post/vtk_series.hpp"
+
+#include "post/fields.hpp"
+#include "post/file_output.hpp"
+#include "post/markup.hpp"
+#include "post/reductions.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+namespace dielast::post {
+
+namespace {
+
+int vtk_type(meshing::CellType type) {
+  switch (type) {
+  case meshing::CellType::line2:
+    return VTK_LINE;
+  case meshing::CellType::line3:
+    return VTK_QUADRATIC_EDGE;
+  case meshing::CellType::triangle3:
+    return VTK_TRIANGLE;
+  case meshing::CellType::triangle6:
+    return VTK_QUADRATIC_TRIANGLE;
+  }
+  return VTK_EMPTY_CELL;
+}
+
+Part part_of(meshing::CellType type) {
+  return type == meshing::CellType::line2 || type == meshing::CellType::line3 ? Part::walls : Part::film;
+}
+
+template<class Point>
+vtkNew<vtkFloatArray> cell_array(const Field<Point>& field, const std::vector<double>& values) {
+  vtkNew<vtkFloatArray> array;
+  array->SetName(fmt::format("{} [{}]", field.name, field.unit).c_str());
+  array->SetNumberOfComponents(field.width());
+  for (std::size_t c = 0; c < field.components.size(); ++c)
+    array->SetComponentName(static_cast<vtkIdType>(c), std::string(field.components[c]).c_str());
+  std::copy(values.begin(), values.end(), array->WritePointer(0, static_cast<vtkIdType>(values.size())));
+  return array;
+}
+
+} // namespace
+
+/// One part's grid, built once; a step exchanges its data only.
+class VtkSeries::PartFile {
+ public:
+  PartFile(const meshing::Mesh& mesh, const meshing::CellBlock& block)
+      : part_(part_of(block.type)), cell_count_(block.size()), nodes_(block.nodes) {
+    std::sort(nodes_.begin(), nodes_.end());
+    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+    std::vector<vtkIdType> point_of_node(mesh.nodes.size());
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const int node : nodes_)
+      point_of_node[static_cast<std::size_t>(node)] =
+          points->InsertNextPoint(mesh.nodes[static_cast<std::size_t>(node)].data());
+    grid_->SetPoints(points);
+
+    vtkNew<vtkCellArray> cells;
+    for (int i = 0; i < cell_count_; ++i) {
+      cells->InsertNextCell(meshing::nodes_per_cell(block.type));
+      for (const int node : block.cell(i))
+        cells->InsertCellPoint(point_of_node[static_cast<std::size_t>(node)]);
+    }
+    grid_->SetCells(vtk_type(block.type), cells);
+
+    displacement_->SetName("displacement [m]");
+    displacement_->SetNumberOfComponents(3);
+    displacement_->SetNumberOfTuples(static_cast<vtkIdType>(nodes_.size()));
+    for (const int i : {0, 1, 2}) displacement_->SetComponentName(i, std::string(1, "xyz"[i]).c_str());
+    grid_->GetPointData()->SetVectors(displacement_);
+
+    time_->SetName("TimeValue");
+    time_->SetNumberOfTuples(1);
+    grid_->GetFieldData()->AddArray(time_);
+    step_->SetName("step");
+    step_->SetNumberOfValues(1);
+    grid_->GetFieldData()->AddArray(step_);
+
+    writer_->SetInputData(grid_);
+    writer_->SetDataModeToAppended();
+    writer_->EncodeAppendedDataOff();
+    writer_->SetCompressorTypeToLZ4();
+    writer_->SetCompressionLevel(1);
+    // Through memory, as VTK does not say why a file could not be written.
+    writer_->WriteToOutputStringOn();
+  }
+
+  std::string_view name() const { return part_ == Part::film ? "film" : "walls"; }
+
+  std::string content(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
+                      const fem::Samples& samples) {
+    double* values = displacement_->GetPointer(0);
+    for (const int node : nodes_)
+      values = std::copy_n(displacement[static_cast<std::size_t>(node)].data(), 3, values);
+    displacement_->Modified();
+    time_->SetValue(0, time);
+    step_->SetValue(0, std::string(step));
+    if (part_ == Part::film)
+      set_cell_data(samples.film, film_fields());
+    else
+      set_cell_data(samples.walls, wall_fields());
+    grid_->Modified();
+    if (writer_->Write() == 0) throw std::runtime_error("VTK could not encode a step");
+    return writer_->GetOutputString();
+  }
+
+ private:
+  template<class Sample, class Point>
+  void set_cell_data(const std::vector<Sample>& samples, std::span<const Field<Point>> fields) {
+    const auto averages = average(samples, fields, cell_count_);
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      grid_->GetCellData()->AddArray(
+          cell_array(fields[i], averages[i])); // replaces the last step's by its name
+  }
+
+  Part part_;
+  int cell_count_;
+  std::vector<int> nodes_; ///< the mesh's nodes that the part uses; a mesh node per point of the grid
+  vtkNew<vtkUnstructuredGrid> grid_;
+  vtkNew<vtkDoubleArray> displacement_;
+  vtkNew<vtkDoubleArray> time_;
+  vtkNew<vtkStringArray> step_;
+  vtkNew<vtkXMLUnstructuredGridWriter> writer_;
+};
+
+VtkSeries::~VtkSeries() = default;
+VtkSeries::VtkSeries(VtkSeries&&) noexcept = default;
+
+VtkSeries::VtkSeries(std::filesystem::path directory, std::string name, const meshing::Mesh& mesh,
+                     int steps_to_keep)
+    : directory_(std::move(directory)), name_(std::move(name)) {
+  for (const Part part : {Part::film, Part::walls})
+    for (const meshing::CellBlock& block : mesh.blocks)
+      if (part_of(block.type) == part && block.size() > 0)
+        parts_.push_back(std::make_unique<PartFile>(mesh, block));
+
+  const std::size_t lines_to_keep = static_cast<std::size_t>(steps_to_keep) * parts_.size();
+  std::ifstream list(list_path());
+  for (std::string line; entries_.size() < lines_to_keep && std::getline(list, line);)
+    if (line.find("<DataSet ") != std::string::npos) entries_.push_back(line);
+  if (entries_.size() < lines_to_keep)
+    throw std::runtime_error(
+        fmt::format("{} has fewer than the {} steps to resume from", list_path().string(), steps_to_keep));
+  write_list();
+  for (const auto& part : parts_)
+    for (int step = steps_to_keep; std::filesystem::remove(directory_ / file_name(part->name(), step));)
+      ++step;
+}
+
+std::filesystem::path VtkSeries::list_path() const { return directory_ / (name_ + ".pvd"); }
+
+std::string VtkSeries::file_name(std::string_view part, int step) const {
+  return fmt::format("{}_{}_{:04}.vtu", name_, part, step);
+}
+
+void VtkSeries::write(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
+                      const fem::Samples& samples) {
+  const int index = static_cast<int>(entries_.size() / std::max<std::size_t>(parts_.size(), 1));
+  std::vector<std::string> entries;
+  for (const auto& part : parts_) {
+    const std::string file = file_name(part->name(), index);
+    replace_file(directory_ / file, part->content(time, step, displacement, samples));
+    entries.push_back(fmt::format(R"(    <DataSet timestep="{}" part="{}" name="{}" file="{}"/>)", time,
+                                  entries.size(), part->name(), escape_markup(file)));
+  }
+  entries_.insert(entries_.end(), entries.begin(), entries.end());
+  write_list();
+}
+
+void VtkSeries::write_list() const {
+  replace_file(list_path(),
+               fmt::format("<?xml version=\"1.0\"?>\n"
+                           "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+                           "  <Collection>\n{}{}  </Collection>\n</VTKFile>\n",
+                           fmt::join(entries_, "\n"), entries_.empty() ? "" : "\n"));
+}
+
+} // namespace dielast::post

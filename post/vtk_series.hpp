@@ -1,0 +1,52 @@
+#pragma once
+
+#include "fem/records.hpp"
+#include "meshing/mesh.hpp"
+
+#include <Eigen/Core>
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dielast::post {
+
+/// The ParaView series of a run: per accepted step `<name>_film_0000.vtu` and, where the mesh has lines,
+/// `<name>_walls_0000.vtu` (binary, compressed), and `<name>.pvd` that lists them by time with the parts film
+/// and walls.
+///
+/// Points are the mesh's nodes, point data "displacement [m]", cell data every output field averaged over its
+/// cell, in single precision, named "electric_field [V/m]". Every file appears whole or not at all, and the
+/// list after the files it names, so a killed run leaves a readable series.
+class VtkSeries {
+ public:
+  /// Precondition: at most one triangle and one line block, as samples number their cells within a block.
+  /// To resume, `steps_to_keep` leading steps of an existing list are kept; files of later ones are removed.
+  /// Throws WriteError; std::runtime_error when the list has too few steps.
+  VtkSeries(std::filesystem::path directory, std::string name, const meshing::Mesh& mesh,
+            int steps_to_keep = 0);
+  ~VtkSeries();
+  VtkSeries(VtkSeries&&) noexcept;
+
+  /// Adds a step. `time` in s, or a pseudo-time that grows with the steps; `displacement` per mesh node, m.
+  /// Throws WriteError.
+  void write(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
+             const fem::Samples& samples);
+
+ private:
+  class PartFile;
+
+  std::filesystem::path list_path() const;
+  std::string file_name(std::string_view part, int step) const;
+  void write_list() const;
+
+  std::filesystem::path directory_;
+  std::string name_;
+  std::vector<std::unique_ptr<PartFile>> parts_;
+  std::vector<std::string> entries_; ///< lines of the list, one per step and part
+};
+
+} // namespace dielast::post

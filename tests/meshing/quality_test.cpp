@@ -1,0 +1,79 @@
+#include "meshing/middle_nodes.hpp"
+#include "meshing/quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace dielast::meshing {
+namespace {
+
+/// A right-angled triangle with legs 3 mm and 4 mm, and one with 1 mm and 1 mm beside it.
+Mesh two_triangles() {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {3e-3, 0, 0}, {0, 4e-3, 0}, {5e-3, 0, 0}, {6e-3, 0, 0}, {5e-3, 1e-3, 0}};
+  mesh.blocks = {{CellType::triangle3, {0, 1, 2, 3, 4, 5}}, {CellType::line2, {0, 1}}};
+  return mesh;
+}
+
+void expect_known(const QualityReport& report) {
+  EXPECT_EQ(report.triangles, 2);
+  EXPECT_EQ(report.lines, 1);
+  EXPECT_NEAR(report.smallest_angle, std::atan2(3, 4) * 180 / std::numbers::pi, 1e-12);
+  EXPECT_EQ(report.worst_cell, 0);
+  EXPECT_LT((report.worst_place - Eigen::Vector3d(1e-3, 4e-3 / 3, 0)).norm(), 1e-15);
+  EXPECT_NEAR(report.largest_aspect, 5 / (2 * std::numbers::sqrt3 * 1), 1e-12);
+  EXPECT_NEAR(report.smallest_area, 0.5e-6, 1e-18);
+  EXPECT_NEAR(report.largest_area, 6e-6, 1e-18);
+  EXPECT_NEAR(report.area, 6.5e-6, 1e-18);
+  EXPECT_EQ(report.inverted, 0);
+  EXPECT_EQ(report.angles, (std::array<int, 6>{0, 0, 0, 1, 1, 0}));
+}
+
+TEST(Quality, OfAKnownMesh) {
+  Mesh mesh = two_triangles();
+  expect_known(quality(mesh));
+  add_middle_nodes(mesh);
+  expect_known(quality(mesh));
+  EXPECT_EQ(quality(mesh).nodes, 12);
+}
+
+TEST(Quality, FindsInvertedTriangles) {
+  Mesh clockwise = two_triangles();
+  std::swap(clockwise.blocks[0].nodes[0], clockwise.blocks[0].nodes[1]);
+  EXPECT_EQ(quality(clockwise).inverted, 1);
+  EXPECT_NEAR(quality(clockwise).smallest_area, -6e-6, 1e-18);
+
+  Mesh folded = two_triangles();
+  add_middle_nodes(folded);
+  folded.nodes[folded.blocks[0].cell(1)[4]] -= Eigen::Vector3d(0.6e-3, 0.6e-3, 0); // past the opposite corner
+  EXPECT_EQ(quality(folded).inverted, 1);
+}
+
+TEST(Quality, IntegratesCurvedSides) {
+  Mesh mesh = two_triangles();
+  add_middle_nodes(mesh);
+  mesh.nodes[mesh.blocks[0].cell(1)[3]].y() -= 0.1e-3; // parabolic segment: 2/3 x chord x height
+  EXPECT_NEAR(quality(mesh).smallest_area, 0.5e-6 + 2.0 / 3 * 1e-3 * 0.1e-3, 1e-18);
+}
+
+TEST(Quality, IsReadable) {
+  EXPECT_EQ(format(quality(two_triangles())), "nodes      6\n"
+                                              "triangles  2\n"
+                                              "lines      1\n"
+                                              "area       6.5 mm2 (triangles 0.5 .. 6 mm2)\n"
+                                              "angle      36.87 deg at least, triangle 0 at (1, 1.333) mm\n"
+                                              "aspect     1.44 at most (1 is equilateral)\n"
+                                              "inverted   0\n"
+                                              "smallest angles of the triangles:\n"
+                                              "   0-10 deg       0\n"
+                                              "  10-20 deg       0\n"
+                                              "  20-30 deg       0\n"
+                                              "  30-40 deg       1 #########################\n"
+                                              "  40-50 deg       1 #########################\n"
+                                              "  50-60 deg       0\n");
+  EXPECT_EQ(format(quality(Mesh{})), "nodes      0\ntriangles  0\nlines      0\n");
+}
+
+} // namespace
+} // namespace dielast::meshing

@@ -1,0 +1,142 @@
+#include "post/picture.hpp"
+
+#include "tests/post/samples.hpp"
+
+#include <cairo.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace dielast::post {
+namespace {
+
+/// Whether no channel differs by more than rounding.
+bool alike(std::uint32_t a, std::uint32_t b) {
+  for (const int shift : {0, 8, 16})
+    if (std::abs(static_cast<int>(a >> shift & 0xff) - static_cast<int>(b >> shift & 0xff)) > 1) return false;
+  return true;
+}
+
+/// The pixels of a PNG file as 0xAARRGGBB.
+struct Pixels {
+  explicit Pixels(std::string bytes) {
+    const auto read = [](void* rest, unsigned char* data, unsigned length) {
+      auto& source = *static_cast<std::string*>(rest);
+      if (source.size() < length) return CAIRO_STATUS_READ_ERROR;
+      std::memcpy(data, source.data(), length);
+      source.erase(0, length);
+      return CAIRO_STATUS_SUCCESS;
+    };
+    cairo_surface_t* surface = cairo_image_surface_create_from_png_stream(read, &bytes);
+    EXPECT_EQ(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+    width = cairo_image_surface_get_width(surface);
+    height = cairo_image_surface_get_height(surface);
+    const int stride = cairo_image_surface_get_stride(surface) / 4;
+    const auto* data = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface));
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) colours.push_back(data[y * stride + x] | 0xff000000u);
+    cairo_surface_destroy(surface);
+  }
+  long count(std::uint32_t colour) const {
+    return std::count_if(colours.begin(), colours.end(),
+                         [&](std::uint32_t other) { return alike(colour, other); });
+  }
+
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> colours;
+};
+
+constexpr std::uint32_t lowest = 0xff440154, highest = 0xfffde725; // the ends of viridis
+
+/// A square of n x n pairs of triangles, 0.1 m wide, without walls.
+meshing::Mesh grid_mesh(int n) {
+  meshing::Mesh mesh;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) mesh.nodes.emplace_back(0.1 * i / n, 0.1 * j / n, 0);
+  meshing::CellBlock block{meshing::CellType::triangle3, {}};
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      block.nodes.insert(block.nodes.end(), {a, a + 1, a + n + 2, a, a + n + 2, a + n + 1});
+    }
+  mesh.blocks = {block};
+  return mesh;
+}
+
+TEST(Picture, IsAPngOfTheWidthAskedFor) {
+  const meshing::Mesh mesh = square_mesh();
+  const std::string bytes =
+      render_png(mesh, {.title = "Square",
+                        .quantity = "Thickness",
+                        .unit = "m",
+                        .wall_width = 0.05,
+                        .panels = {{"a", mesh.nodes, {1e-3, 2e-3}}, {"b", mesh.nodes, {1e-3, 2e-3}}},
+                        .width = 900});
+  EXPECT_TRUE(bytes.starts_with("\x89PNG\r\n\x1a\n"));
+  EXPECT_EQ(Pixels(bytes).width, 900);
+}
+
+TEST(Picture, HasNoSeamsBetweenTriangles) {
+  const meshing::Mesh mesh = grid_mesh(40);
+  std::vector<Eigen::Vector3d> turned = mesh.nodes;
+  for (auto& x : turned) x = {0.8 * x.x() - 0.6 * x.y(), 0.6 * x.x() + 0.8 * x.y(), 0};
+  const Pixels pixels(render_png(mesh, {.panels = {{"", turned, {}}}, .width = 500}));
+  const auto film = [](std::uint32_t colour) { return alike(colour, 0xffdbe3eb); };
+  const auto row = pixels.colours.begin() + static_cast<std::ptrdiff_t>(250) * pixels.width;
+  const auto first = std::find_if(row, row + pixels.width, film);
+  auto last = row + pixels.width;
+  while (last != first && !film(*(last - 1))) --last;
+  EXPECT_GT(last - first, 200);
+  EXPECT_TRUE(std::all_of(first, last, film));
+}
+
+TEST(Picture, ColoursSpanTheRangeOfAllPanels) {
+  const meshing::Mesh mesh = grid_mesh(1);
+  const Pixels pixels(render_png(mesh, {.quantity = "Field",
+                                        .unit = "V/m",
+                                        .panels = {{"", mesh.nodes, {0, 0}}, {"", mesh.nodes, {8e7, 8e7}}}}));
+  // Each panel is half of the width and square; the colour bar adds a few pixels.
+  EXPECT_NEAR(static_cast<double>(pixels.count(lowest)), 736 * 736, 0.03 * 736 * 736);
+  EXPECT_NEAR(static_cast<double>(pixels.count(highest)), 736 * 736, 0.03 * 736 * 736);
+}
+
+TEST(Picture, PanelsShareOneScale) {
+  const meshing::Mesh mesh = grid_mesh(1);
+  std::vector<Eigen::Vector3d> half = mesh.nodes;
+  for (auto& x : half) x *= 0.5;
+  const Pixels pixels(render_png(
+      mesh, {.quantity = "Field", .unit = "V/m", .panels = {{"", mesh.nodes, {0, 0}}, {"", half, {1, 1}}}}));
+  EXPECT_NEAR(static_cast<double>(pixels.count(lowest)) / static_cast<double>(pixels.count(highest)), 4, 0.1);
+}
+
+TEST(Picture, WallsHaveTheirTrueWidth) {
+  meshing::Mesh mesh = grid_mesh(1);
+  mesh.blocks.push_back({meshing::CellType::line2, {0, 1}});
+  const double width = 0.01;
+  const Pixels pixels(
+      render_png(mesh, {.wall_width = width, .panels = {{"", mesh.nodes, {}}}, .width = 600}));
+  const double scale = (600 - 2 * 44) / (0.1 + width);
+  const double area = scale * scale * (0.1 * width + M_PI / 4 * width * width); // round ends
+  EXPECT_NEAR(static_cast<double>(pixels.count(0xff292e38)), area, 0.03 * area);
+}
+
+TEST(Picture, SurvivesUniformAndMissingValues) {
+  const meshing::Mesh mesh = grid_mesh(1);
+  for (const double value : {0.0, 5.0, std::nan("")})
+    EXPECT_FALSE(
+        render_png(mesh, {.quantity = "x", .unit = "1", .panels = {{"", mesh.nodes, {value, value}}}})
+            .empty());
+}
+
+TEST(Picture, RefusesPanelsThatDoNotFit) {
+  const meshing::Mesh mesh = grid_mesh(1);
+  EXPECT_THROW(render_png(mesh, {}), std::invalid_argument);
+  EXPECT_THROW(render_png(mesh, {.panels = {{"", {}, {}}}}), std::invalid_argument);
+  EXPECT_THROW(render_png(mesh, {.panels = {{"", mesh.nodes, {1}}}}), std::invalid_argument);
+}
+
+} // namespace
+} // namespace dielast::post

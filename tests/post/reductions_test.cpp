@@ -1,0 +1,80 @@
+#include "post/reductions.hpp"
+
+#include "tests/post/samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace dielast::post {
+namespace {
+
+fem::Samples two_points_in_cell_one() {
+  fem::Samples samples;
+  for (const double voltage : {1000.0, 4000.0}) {
+    auto sample = film_sample(stretched(1, 1), Eigen::Matrix2d::Zero());
+    sample.cell = 1;
+    sample.volume = voltage == 1000 ? 3 : 1;
+    sample.voltage = voltage;
+    samples.film.push_back(sample);
+  }
+  samples.walls = {wall_sample(0, 1, 10), wall_sample(0, 3, -2), wall_sample(2, 1, 5)};
+  return samples;
+}
+
+TEST(Reductions, AverageIsWeightedByVolumeAndLength) {
+  const fem::Samples samples = two_points_in_cell_one();
+  const auto voltage = average(samples, "voltage", 2);
+  EXPECT_TRUE(std::isnan(voltage[0]));
+  EXPECT_DOUBLE_EQ(voltage[1], 1750);
+  const auto force = average(samples, "axial_force", 3);
+  EXPECT_DOUBLE_EQ(force[0], 1);
+  EXPECT_TRUE(std::isnan(force[1]));
+  EXPECT_DOUBLE_EQ(force[2], 5);
+  EXPECT_DOUBLE_EQ(average(samples, "bending_moment.3", 3)[2], 6);
+}
+
+TEST(Reductions, AveragesOfAllFieldsLieCellByCell) {
+  const auto arrays = average(two_points_in_cell_one().walls, wall_fields(), 3);
+  ASSERT_EQ(arrays.size(), wall_fields().size());
+  ASSERT_EQ(arrays[1].size(), 6u); // shear_force
+  EXPECT_DOUBLE_EQ(arrays[1][4], 2);
+  EXPECT_DOUBLE_EQ(arrays[1][5], 3);
+}
+
+TEST(Reductions, ExtremeFindsThePoint) {
+  const fem::Samples samples = two_points_in_cell_one();
+  const auto field = extreme(samples, "electric_field", Extreme::maximum);
+  ASSERT_TRUE(field);
+  EXPECT_DOUBLE_EQ(field->value, 4e6);
+  EXPECT_EQ(field->cell, 1);
+  EXPECT_EQ(field->part, Part::film);
+  const auto force = extreme(samples, "axial_force", Extreme::minimum);
+  ASSERT_TRUE(force);
+  EXPECT_DOUBLE_EQ(force->value, -2);
+  EXPECT_EQ(force->part, Part::walls);
+}
+
+TEST(Reductions, NothingWithoutPoints) { EXPECT_FALSE(extreme({}, "thickness", Extreme::minimum)); }
+
+TEST(Reductions, UnknownNamesAreRefused) {
+  EXPECT_THROW(extreme({}, "cauchy_stress", Extreme::minimum), std::invalid_argument);
+  EXPECT_THROW(average(fem::Samples{}, "thicknes", 1), std::invalid_argument);
+}
+
+TEST(Reductions, EveryScalarHasOneNameThatWorks) {
+  std::set<std::string> names;
+  for (const Scalar& scalar : scalars()) {
+    EXPECT_TRUE(names.insert(scalar.name).second) << scalar.name;
+    EXPECT_FALSE(scalar.unit.empty() || scalar.meaning.empty()) << scalar.name;
+    const auto found = extreme(two_points_in_cell_one(), scalar.name, Extreme::maximum);
+    ASSERT_TRUE(found) << scalar.name;
+    EXPECT_EQ(found->part, scalar.part);
+  }
+  EXPECT_TRUE(names.contains("principal_stretches.lambda3"));
+}
+
+} // namespace
+} // namespace dielast::post

@@ -1,0 +1,123 @@
+#include "post/report.hpp"
+
+#include "post/file_output.hpp"
+#include "post/report_tables.hpp"
+#include "tests/post/scratch.hpp"
+
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <cmath>
+
+namespace dielast::post {
+namespace {
+
+Report sample_report() {
+  Report report{
+      .title = "A <b>bold</b> & \"quoted\" title", .subtitle = "it's", .status = {"converged", Tone::good}};
+  report.highlights = {{"eps_y", "33.19 %", "± 0.05 %"}};
+  report.sections = {{"Results",
+                      {quantity_table(std::vector<QuantityRow>{
+                           {"eps_x", -0.0352, "1", Ratio::percent, 1e-4, "strain <along> x"},
+                           {"max_field", 84.97e6, "V/m", Ratio::plain, {}, "field"}}),
+                       Image{"\x89PNG\r\n", "picture"}, Image{"<svg id=\"a\"/>", "plot & more"},
+                       Image{"", "not drawn"}, Paragraph{"a < b"}, Listing{"1  2\n<3>"}}}};
+  report.footer = "dielast 0.1";
+  return report;
+}
+
+TEST(Report, IsWellFormed) {
+  const std::string html = sample_report().html();
+  const std::string doctype = "<!DOCTYPE html>\n";
+  ASSERT_TRUE(html.starts_with(doctype));
+  auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
+      vtkXMLUtilities::ReadElementFromString(html.substr(doctype.size()).c_str()));
+  ASSERT_NE(root, nullptr);
+  EXPECT_STREQ(root->GetName(), "html");
+  EXPECT_NE(root->FindNestedElementWithName("body"), nullptr);
+}
+
+TEST(Report, NeedsNothingFromOutside) {
+  const std::string html = sample_report().html();
+  for (const char* outside : {"http:", "https:", "<script", "<link", "url(", "@import", "<svg"})
+    EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+  EXPECT_NE(html.find("src=\"data:image/png;base64,iVBORw0K\""), std::string::npos);
+  EXPECT_NE(html.find("src=\"data:image/svg+xml;base64,PHN2ZyBpZD0iYSIvPg==\""), std::string::npos);
+}
+
+TEST(Report, EscapesEveryText) {
+  const std::string html = sample_report().html();
+  for (const char* escaped : {"A &lt;b&gt;bold&lt;/b&gt; &amp; &quot;quoted&quot; title", "it&#39;s",
+                              "a &lt; b", "strain &lt;along&gt; x", "plot &amp; more", "1  2\n&lt;3&gt;"})
+    EXPECT_NE(html.find(escaped), std::string::npos) << escaped;
+}
+
+TEST(Report, LeavesOutWhatCouldNotBeDrawn) {
+  EXPECT_EQ(sample_report().html().find("not drawn"), std::string::npos);
+}
+
+TEST(Report, AlignsColumnsOfNumbers) {
+  const std::string html = sample_report().html();
+  EXPECT_NE(html.find("<th class=\"number\">Value</th>"), std::string::npos);
+  EXPECT_NE(html.find("<th class=\"number\">Error</th>"), std::string::npos); // "-" is a missing number
+  EXPECT_NE(html.find("<th>Quantity</th>"), std::string::npos);
+}
+
+class ReportFileTest : public ScratchTest {};
+
+TEST_F(ReportFileTest, IsWritten) {
+  sample_report().write(directory / "report.html");
+  EXPECT_EQ(content("report.html"), sample_report().html());
+  EXPECT_EQ(file_count(), 1u);
+  EXPECT_THROW(sample_report().write(directory / "none" / "report.html"), WriteError);
+}
+
+TEST_F(ReportFileTest, AFullDiskKeepsTheOldOne) {
+  replace_file(directory / "report.html", "old");
+  const FileSizeLimit limit(500);
+  EXPECT_THROW(sample_report().write(directory / "report.html"), WriteError);
+  EXPECT_EQ(content("report.html"), "old");
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST(ReportTables, ShowErrorsInTheUnitOfTheValue) {
+  const QuantityRow length{"released_length_x", 0.08397, "m", Ratio::plain, 2.1e-5, "length"};
+  EXPECT_EQ(with_error(length), "83.97 ± 0.021 mm");
+  EXPECT_EQ(with_error({"eps_y", 0.3319, "1", Ratio::percent, {}, ""}), "33.19 %");
+  EXPECT_EQ(with_error({"eps_y", NAN, "1", Ratio::percent, 0.1, ""}), "-");
+  const auto row = quantity_table(std::vector{length}).rows.at(0);
+  EXPECT_EQ(row[1].text, "83.97");
+  EXPECT_EQ(row[2].text, "0.021");
+  EXPECT_EQ(row[3].text, "mm");
+}
+
+TEST(ReportTables, ChecksSayPassOrFailInWords) {
+  const CheckRow passed{"eps_y", 0.33, 0.3319, 0.0033, "1", Ratio::percent, "a paper", true};
+  CheckRow failed = passed;
+  failed.passed = false;
+  const auto rows = check_table(std::vector{passed, failed}).rows;
+  EXPECT_EQ(rows[0][0].text, "✓ pass");
+  EXPECT_EQ(rows[1][0].text, "✗ FAIL");
+  EXPECT_EQ(rows[1][0].tone, Tone::bad);
+  EXPECT_EQ(rows[0][4].text, "0.33 %");
+}
+
+TEST(ReportTables, EventsAndIncrements) {
+  fem::StepRecord calm;
+  calm.step = "release";
+  fem::StepRecord tense = calm;
+  tense.voltages = {-5000, 1000};
+  tense.negative_pivots = 1;
+  tense.events = {{"wall contact", "cell[2,3]", "the apexes touch"}};
+  const std::vector records{calm, tense};
+  ASSERT_EQ(event_table(records).rows.size(), 1u);
+  EXPECT_EQ(event_table(records).rows[0][3].text, "cell[2,3]");
+  const auto rows = increment_table(records).rows;
+  EXPECT_EQ(rows[0][6].text, "stable");
+  EXPECT_EQ(rows[1][3].text, "-5.000 kV");
+  EXPECT_EQ(rows[1][6].tone, Tone::warning);
+}
+
+} // namespace
+} // namespace dielast::post

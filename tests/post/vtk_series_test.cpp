@@ -1,0 +1,170 @@
+#include "post/vtk_series.hpp"
+
+#include "post/fields.hpp"
+#include "post/file_output.hpp"
+#include "tests/post/samples.hpp"
+#include "tests/post/scratch.hpp"
+
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <vector>
+
+namespace dielast::post {
+namespace {
+
+class VtkSeriesTest : public ScratchTest {
+ protected:
+  VtkSeriesTest() : mesh(square_mesh()), displacement(mesh.nodes.size()) {
+    for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] = {static_cast<double>(i), 0.1, -1};
+    for (const int cell : {0, 1}) {
+      auto sample = film_sample(stretched(2, 1), (1 + cell) * Eigen::Matrix2d::Identity());
+      sample.cell = cell;
+      sample.voltage = 500 * cell;
+      samples.film.push_back(sample);
+    }
+    samples.walls = {wall_sample(0, 1, 10)};
+  }
+
+  VtkSeries series(int keep = 0) const { return {directory, "run", mesh, keep}; }
+
+  vtkSmartPointer<vtkUnstructuredGrid> read(const std::string& file) const {
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->SetFileName((directory / file).c_str());
+    reader->Update();
+    return reader->GetOutput();
+  }
+
+  meshing::Mesh mesh;
+  std::vector<Eigen::Vector3d> displacement;
+  fem::Samples samples;
+};
+
+TEST_F(VtkSeriesTest, FilmReadsBack) {
+  series().write(2.5, "release", displacement, samples);
+  const auto grid = read("run_film_0000.vtu");
+  ASSERT_EQ(grid->GetNumberOfPoints(), 9); // without the node that no cell uses
+  ASSERT_EQ(grid->GetNumberOfCells(), 2);
+  EXPECT_EQ(grid->GetCellType(1), VTK_QUADRATIC_TRIANGLE);
+  vtkNew<vtkIdList> points;
+  grid->GetCellPoints(1, points);
+  for (int i = 0; i < 6; ++i) {
+    const auto& expected =
+        mesh.nodes[static_cast<std::size_t>(mesh.blocks[1].cell(1)[static_cast<std::size_t>(i)])];
+    EXPECT_EQ(Eigen::Vector3d(grid->GetPoint(points->GetId(i))), expected);
+  }
+
+  vtkDataArray* moved = grid->GetPointData()->GetArray("displacement [m]");
+  ASSERT_NE(moved, nullptr);
+  EXPECT_EQ(moved->GetNumberOfComponents(), 3);
+  EXPECT_STREQ(moved->GetComponentName(2), "z");
+  EXPECT_EQ(Eigen::Vector3d(moved->GetTuple3(0)), displacement[1]);
+
+  ASSERT_EQ(grid->GetCellData()->GetNumberOfArrays(), static_cast<int>(film_fields().size()));
+  EXPECT_NEAR(grid->GetCellData()->GetArray("electric_field [V/m]")->GetTuple1(1), 1e6, 0.1);
+  vtkDataArray* stress = grid->GetCellData()->GetArray("cauchy_stress [Pa]");
+  ASSERT_NE(stress, nullptr);
+  ASSERT_EQ(stress->GetNumberOfComponents(), 6);
+  EXPECT_STREQ(stress->GetComponentName(3), "xy");
+  EXPECT_FLOAT_EQ(static_cast<float>(stress->GetComponent(1, 0)), 8);
+  EXPECT_FLOAT_EQ(static_cast<float>(stress->GetComponent(1, 1)), 2);
+
+  EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), 2.5);
+  EXPECT_EQ(vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("step"))->GetValue(0),
+            "release");
+}
+
+TEST_F(VtkSeriesTest, WallsReadBack) {
+  series().write(0, "release", displacement, samples);
+  const auto grid = read("run_walls_0000.vtu");
+  ASSERT_EQ(grid->GetNumberOfPoints(), 3);
+  ASSERT_EQ(grid->GetNumberOfCells(), 1);
+  EXPECT_EQ(grid->GetCellType(0), VTK_QUADRATIC_EDGE);
+  ASSERT_EQ(grid->GetCellData()->GetNumberOfArrays(), static_cast<int>(wall_fields().size()));
+  EXPECT_EQ(grid->GetCellData()->GetArray("axial_force [N]")->GetTuple1(0), 10);
+  EXPECT_STREQ(grid->GetCellData()->GetArray("bending_moment [N m]")->GetComponentName(1), "3");
+}
+
+TEST_F(VtkSeriesTest, LinearCellsAndNoWalls) {
+  mesh.blocks = {{meshing::CellType::triangle3, {1, 2, 3, 1, 3, 4}}};
+  series().write(0, "release", displacement, samples);
+  EXPECT_EQ(read("run_film_0000.vtu")->GetCellType(0), VTK_TRIANGLE);
+  EXPECT_EQ(file_count(), 2u);
+}
+
+TEST_F(VtkSeriesTest, EveryStepHasItsOwnValues) {
+  VtkSeries steps = series();
+  steps.write(0, "release", displacement, samples);
+  samples.film[1].voltage = 1000;
+  displacement[1].x() = 7;
+  steps.write(1, "voltage", displacement, samples);
+  const auto first = read("run_film_0000.vtu"), second = read("run_film_0001.vtu");
+  EXPECT_EQ(first->GetCellData()->GetArray("voltage [V]")->GetTuple1(1), 500);
+  EXPECT_EQ(second->GetCellData()->GetArray("voltage [V]")->GetTuple1(1), 1000);
+  EXPECT_EQ(second->GetPointData()->GetArray("displacement [m]")->GetTuple3(0)[0], 7);
+  EXPECT_EQ(second->GetCellData()->GetNumberOfArrays(), static_cast<int>(film_fields().size()));
+}
+
+TEST_F(VtkSeriesTest, ListNamesPartsAndTimes) {
+  VtkSeries steps = series();
+  steps.write(0, "release", displacement, samples);
+  steps.write(0.1, "voltage", displacement, samples);
+  EXPECT_EQ(content("run.pvd"),
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+            "  <Collection>\n"
+            "    <DataSet timestep=\"0\" part=\"0\" name=\"film\" file=\"run_film_0000.vtu\"/>\n"
+            "    <DataSet timestep=\"0\" part=\"1\" name=\"walls\" file=\"run_walls_0000.vtu\"/>\n"
+            "    <DataSet timestep=\"0.1\" part=\"0\" name=\"film\" file=\"run_film_0001.vtu\"/>\n"
+            "    <DataSet timestep=\"0.1\" part=\"1\" name=\"walls\" file=\"run_walls_0001.vtu\"/>\n"
+            "  </Collection>\n"
+            "</VTKFile>\n");
+}
+
+TEST_F(VtkSeriesTest, ResumesAfterTheStepsToKeep) {
+  VtkSeries steps = series();
+  for (int i = 0; i < 3; ++i) steps.write(i, "voltage", displacement, samples);
+  const std::string first = content("run_film_0000.vtu");
+  VtkSeries resumed = series(1);
+  EXPECT_EQ(file_count(), 3u);
+  resumed.write(7, "voltage", displacement, samples);
+  EXPECT_EQ(content("run_film_0000.vtu"), first);
+  EXPECT_EQ(file_count(), 5u);
+  const std::string list = content("run.pvd");
+  EXPECT_NE(list.find("timestep=\"0\""), std::string::npos);
+  EXPECT_EQ(list.find("timestep=\"1\""), std::string::npos);
+  EXPECT_NE(list.find("timestep=\"7\" part=\"1\" name=\"walls\" file=\"run_walls_0001.vtu\""),
+            std::string::npos);
+  EXPECT_THROW(series(3), std::runtime_error);
+}
+
+TEST_F(VtkSeriesTest, AFullDiskIsReportedAndKeepsTheSeriesReadable) {
+  VtkSeries steps = series();
+  steps.write(0, "release", displacement, samples);
+  const std::string list = content("run.pvd");
+  {
+    const FileSizeLimit limit(2000);
+    try {
+      steps.write(1, "voltage", displacement, samples);
+      FAIL() << "no error";
+    } catch (const WriteError& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "cannot write " + (directory / "run_film_0001.vtu").string() + ": File too large");
+    }
+  }
+  EXPECT_EQ(content("run.pvd"), list);
+  EXPECT_EQ(file_count(), 3u);
+  steps.write(1, "voltage", displacement, samples); // room again
+  EXPECT_EQ(read("run_film_0001.vtu")->GetNumberOfCells(), 2);
+}
+
+} // namespace
+} // namespace dielast::post
