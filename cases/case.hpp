@@ -3,6 +3,7 @@
 #include "cases/diagnostics.hpp"
 #include "materials/beam_section.hpp"
 #include "materials/material.hpp"
+#include "post/reductions.hpp"
 
 #include <array>
 #include <filesystem>
@@ -86,18 +87,18 @@ struct Step {
 };
 
 enum class QuantityKind { distance, elongation, displacement, radius, force, capacitance, charge, extreme };
-enum class Extreme { minimum, maximum };
 
 /// [[quantity]]: a number of the state, in every row of history.csv and in summary.json
 struct Quantity {
   std::string name;
   QuantityKind kind{};
   std::array<std::string, 2> between; ///< distance, elongation: two places (their centroids)
-  std::string of;                     ///< displacement, radius, force: a place; capacitance, charge: an electrode; extreme: a field
-  std::optional<int> along;           ///< 0, 1, 2 = x, y, z; absent: magnitude
-  Extreme extreme{};
-  std::string at;    ///< the step at whose end summary.json reads it; empty: the last
-  std::string since; ///< elongation: the step at whose end it is zero; empty: the mesh as drawn
+  std::string
+      of; ///< displacement, radius, force: a place; capacitance, charge: an electrode; extreme: a field
+  std::optional<int> along; ///< 0, 1, 2 = x, y, z; absent: magnitude
+  post::Extreme extreme{};
+  std::string at;        ///< the step at whose end summary.json reads it; empty: the last
+  std::string since;     ///< elongation: the step at whose end it is zero; empty: the mesh as drawn
   bool standard = false; ///< brought by the geometry's template, not written by the user
 };
 
@@ -105,18 +106,20 @@ struct Quantity {
 struct Check {
   std::string quantity;
   double value = 0;
-  double tolerance = 0;    ///< absolute, in the quantity's unit (a "1 %" in the file is made absolute by the reader)
+  double tolerance =
+      0; ///< absolute, in the quantity's unit (a "1 %" in the file is made absolute by the reader)
   std::string source;
 };
 
 /// [solver]
 struct SolverOptions {
-  double tolerance = 0;         ///< |R_free| over the reaction scale
-  int max_iterations = 0;       ///< Newton iterations before a cutback
-  double smallest_increment = 0;///< load factor below which a step gives up
+  double tolerance = 0;          ///< |R_free| over the reaction scale
+  int max_iterations = 0;        ///< Newton iterations before a cutback
+  double smallest_increment = 0; ///< load factor below which a step gives up
 };
 
-/// Everything the user asked for: validated, complete, in SI. No type of the file format gets past the reader.
+/// Everything the user asked for: validated, complete, in SI. No type of the file format gets past the
+/// reader.
 struct Case {
   std::string title;
   std::filesystem::path source; ///< the case file
@@ -132,8 +135,8 @@ struct Case {
   std::vector<Quantity> quantities; ///< the template's and the user's
   std::vector<Check> checks;
   SolverOptions solver;
-  bool error_estimate = true; ///< [output] error_estimate: solve once more on a coarser mesh
-  bool fields = true;         ///< [output] fields: write the VTK series
+  bool error_estimate = true;  ///< [output] error_estimate: solve once more on a coarser mesh
+  bool fields = true;          ///< [output] fields: write the VTK series
   std::vector<Mention> places; ///< every place that the case names, for check_places
 };
 

@@ -145,8 +145,8 @@ std::string devices_text() {
 std::string quantities_text() {
   std::string text =
       "Kinds of [[quantity]]\n" + choices_text(*case_schema().find_section("quantity")) + "\nfields\n";
-  for (const FieldName& field : field_names())
-    text += fmt::format("  {:<22}{} ({})\n", field.name, field.meaning, field.unit);
+  for (const post::Scalar& field : post::scalars())
+    text += fmt::format("  {:<32}{} ({})\n", field.name, field.meaning, field.unit);
   return text;
 }
 

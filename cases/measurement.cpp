@@ -86,8 +86,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
                                                  : value;
   }
   case QuantityKind::extreme: {
-    const auto which = quantity.extreme == Extreme::minimum ? post::Extreme::minimum : post::Extreme::maximum;
-    const auto extremum = post::extreme(measured.samples, quantity.of, which);
+    const auto extremum = post::extreme(measured.samples, quantity.of, quantity.extreme);
     return extremum ? extremum->value : unknown;
   }
   }

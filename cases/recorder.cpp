@@ -75,7 +75,7 @@ std::vector<post::Column> history_columns(const Case& one) {
   for (const Electrode& electrode : one.electrodes)
     columns.push_back({one.electrodes.size() == 1 ? "voltage" : "voltage_" + electrode.name, "V"});
   for (const Quantity& quantity : one.quantities)
-    columns.push_back({quantity.name, std::string(unit_of(quantity))});
+    columns.push_back({quantity.name, unit_of(quantity)});
   for (const char* solver : {"iterations", "residual", "negative_pivots"}) columns.push_back({solver, "1"});
   return columns;
 }

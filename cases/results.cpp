@@ -54,7 +54,7 @@ std::string meaning(const Quantity& q) {
   case QuantityKind::charge:
     return fmt::format("charge on electrode {}{}", q.of, at);
   case QuantityKind::extreme:
-    return fmt::format("{} {} anywhere{}", q.extreme == Extreme::minimum ? "smallest" : "largest", q.of, at);
+    return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of, at);
   }
   return "";
 }
@@ -122,7 +122,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,
                           .value = simulation.results()[q],
-                          .unit = std::string(unit_of(quantity)),
+                          .unit = unit_of(quantity),
                           .ratio = ratio_of(quantity),
                           .meaning = meaning(quantity)};
     if (q < errors.size() && std::isfinite(errors[q])) row.error = errors[q];

@@ -1,6 +1,7 @@
 #include "cases/quantities.hpp"
 #include "cases/schema.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dielast::cases {
@@ -22,8 +23,11 @@ Section quantity_section() {
   };
   section.selector = "kind";
   std::vector<Choice> fields;
-  for (const FieldName& field : field_names())
-    fields.push_back({std::string(field.name), std::string(field.meaning)});
+  for (const post::Scalar& field : post::scalars())
+    fields.push_back({field.name, std::string(field.meaning)});
+  // in messages the scalars come before the components of tensors
+  std::stable_partition(fields.begin(), fields.end(),
+                        [](const Choice& field) { return field.word.find('.') == std::string::npos; });
   const auto of = [](std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); };
   section.keys = {
       text("name", to(&Quantity::name), "its name in results").distinct(),

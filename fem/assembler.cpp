@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <omp.h>
 #include <stdexcept>
+#include <tbb/parallel_for.h>
+#include <thread>
 
 namespace dielast::fem {
 
@@ -18,7 +19,7 @@ constexpr int worth_threads = 16000;
 } // namespace
 
 Assembler::Assembler(const Model& model, int threads)
-    : model_(model), threads_(threads > 0 ? threads : omp_get_num_procs()) {
+    : model_(model), threads_(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency())) {
   for (const auto& block : model_.blocks) {
     const int dofs = block->dofs_per_element();
     auto& equations = equations_.emplace_back(static_cast<std::size_t>(block->element_count() * dofs));
@@ -30,6 +31,7 @@ Assembler::Assembler(const Model& model, int threads)
   int elements = 0;
   for (const auto& block : model_.blocks) elements += block->element_count();
   if (elements < worth_threads) threads_ = 1;
+  arena_.initialize(threads_);
   build_pattern();
   colour_chunks();
   block_residual_.assign(model_.blocks.size(), Eigen::VectorXd::Zero(model_.dofs.count()));
@@ -94,13 +96,14 @@ void Assembler::build_pattern() {
           const int p = equations_[b][at + static_cast<std::size_t>(i)];
           const int q = equations_[b][at + static_cast<std::size_t>(j)];
           if (!is_free(p) || !is_free(q)) {
-            slots.push_back(-1);
+            slots.push_back(Scatter::none);
             continue;
           }
           const auto [column, row] = std::minmax(p, q);
           const auto first = matrix_.rows.begin() + matrix_.column_start[static_cast<std::size_t>(column)];
           const auto last = matrix_.rows.begin() + matrix_.column_start[static_cast<std::size_t>(column) + 1];
-          slots.push_back(static_cast<int>(std::lower_bound(first, last, row) - matrix_.rows.begin()));
+          const int place = static_cast<int>(std::lower_bound(first, last, row) - matrix_.rows.begin());
+          slots.push_back(p == q && i != j ? Scatter::twice(place) : place);
         }
   }
 }
@@ -137,16 +140,18 @@ Evaluation Assembler::run(const State& state, bool want_residual, bool want_tang
   std::vector<Evaluation> parts;
   for (const auto& colour : colours_) {
     parts.assign(colour.size(), {});
-    const int chunks = static_cast<int>(colour.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_) if (threads_ > 1 && chunks > 1)
-    for (int c = 0; c < chunks; ++c) {
-      const auto [block, first, last] = colour[static_cast<std::size_t>(c)];
+    const auto evaluate = [&](std::size_t c) {
+      const auto [block, first, last] = colour[c];
       const auto b = static_cast<std::size_t>(block);
       const Scatter scatter{equations_[b].data(), slots_[b].data(),
                             want_residual ? block_residual_[b].data() : nullptr,
                             want_tangent ? matrix_.values.data() : nullptr};
-      parts[static_cast<std::size_t>(c)] = model_.blocks[b]->evaluate(state, first, last, scatter);
-    }
+      parts[c] = model_.blocks[b]->evaluate(state, first, last, scatter);
+    };
+    if (threads_ > 1)
+      arena_.execute([&] { tbb::parallel_for(std::size_t{0}, colour.size(), evaluate); });
+    else
+      for (std::size_t c = 0; c < colour.size(); ++c) evaluate(c);
     for (const Evaluation& part : parts) {
       total.energy += part.energy;
       total.feasible = total.feasible && part.feasible;

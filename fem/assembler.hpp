@@ -3,6 +3,7 @@
 #include "fem/model.hpp"
 #include "fem/sparse_matrix.hpp"
 
+#include <tbb/task_arena.h>
 #include <vector>
 
 namespace dielast::fem {
@@ -38,6 +39,7 @@ class Assembler {
 
   const Model& model_;
   int threads_ = 1;
+  tbb::task_arena arena_;
   SparseSymmetric matrix_;
   std::vector<std::vector<int>> equations_; ///< per block, see Scatter
   std::vector<std::vector<int>> slots_;

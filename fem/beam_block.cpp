@@ -215,7 +215,7 @@ Evaluation BeamBlock<Nodes>::evaluate(const State& state, int first, int last, c
     if (scatter.tangent) tangent.setZero();
     for (const Point& point : element.point) {
       const BeamKinematics k = kinematics(point, n);
-      if (!(k.N > 0.1)) { // neighbouring nodes turned by more than about 140 degrees: no interpolation
+      if (!(k.N > 0.1)) { // quaternions more than 140 degrees apart, nodes 280: no interpolation
         result.feasible = false;
         continue;
       }

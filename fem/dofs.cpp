@@ -1,5 +1,8 @@
 #include "fem/dofs.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace dielast::fem {
 
 void DofMap::add(int node, int component) {
@@ -12,15 +15,38 @@ void DofMap::hold(int node, int component) {
   if (mark != absent) mark = held_mark;
 }
 
+void DofMap::share(int node, int other, int component) { shared_.push_back({node, other, component}); }
+
 void DofMap::number() {
-  free_count_ = 0;
-  for (const auto& node : equation_)
-    for (const int mark : node) free_count_ += mark == free_mark;
+  // Union-find over (node, component): the smallest index of a group stands for it.
+  const auto index = [](int node, int component) {
+    return static_cast<std::size_t>(node * components + component);
+  };
+  std::vector<std::size_t> leader(equation_.size() * components);
+  std::iota(leader.begin(), leader.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (leader[i] != i) i = leader[i] = leader[leader[i]];
+    return i;
+  };
+  const auto mark = [&](std::size_t i) -> int& { return equation_[i / components][i % components]; };
+  for (const auto& [node, other, component] : shared_) {
+    const std::size_t a = find(index(node, component)), b = find(index(other, component));
+    const std::size_t low = std::min(a, b), high = std::max(a, b);
+    leader[high] = low;
+    if (mark(high) == held_mark) mark(low) = held_mark;
+  }
+  free_count_ = count_ = 0;
+  for (std::size_t i = 0; i < leader.size(); ++i)
+    if (find(i) == i && mark(i) != absent) {
+      free_count_ += mark(i) == free_mark;
+      ++count_;
+    }
   int free = 0, held = free_count_;
-  for (auto& node : equation_)
-    for (int& mark : node)
-      if (mark != absent) mark = mark == free_mark ? free++ : held++;
-  count_ = held;
+  for (std::size_t i = 0; i < leader.size(); ++i) {
+    if (mark(i) == absent) continue;
+    const std::size_t first = find(i); // numbered before i
+    mark(i) = first != i ? mark(first) : mark(i) == free_mark ? free++ : held++;
+  }
 }
 
 void DofMap::advance(State& state, const Eigen::VectorXd& increment, double scale) const {

@@ -21,7 +21,9 @@ class DofMap {
   void add(int node, int component);
   /// Holds the unknown at its value; ignored where the node does not have it.
   void hold(int node, int component);
-  /// Numbers everything; to be called once, after the last add() and hold().
+  /// Gives two nodes one common unknown, as for a rigid body that only translates; held if either is held.
+  void share(int node, int other, int component);
+  /// Numbers everything; to be called once, after the last of the calls above.
   void number();
 
   int equation(int node, int component) const { return equation_[static_cast<std::size_t>(node)][component]; }
@@ -39,6 +41,7 @@ class DofMap {
   }
 
   std::vector<std::array<int, components>> equation_;
+  std::vector<std::array<int, 3>> shared_; ///< node, other, component
   int free_count_ = 0;
   int count_ = 0;
 };

@@ -11,7 +11,12 @@ namespace dielast::fem {
 
 /// Where a block adds what it computes: element dof -> equation, element dof pair -> place in the sparse
 /// tangent; negative where there is none (an unknown that does not exist, a tangent entry of a held one).
+/// Where two unknowns of an element share an equation, their off-diagonal entry counts twice on its diagonal:
+/// the place is then twice(place).
 struct Scatter {
+  static constexpr int none = -1;
+  static constexpr int twice(int place) { return -2 - place; }
+
   const int* equation = nullptr; ///< dofs_per_element entries per element
   const int* slot = nullptr;     ///< lower triangle, row by row, dofs*(dofs+1)/2 entries per element
   double* residual = nullptr;    ///< null: not wanted
@@ -25,8 +30,12 @@ struct Scatter {
   }
   void add_tangent(int element, std::span<const double> packed) const {
     const int* s = slot + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(packed.size());
-    for (std::size_t i = 0; i < packed.size(); ++i)
-      if (s[i] >= 0) tangent[s[i]] += packed[i];
+    for (std::size_t i = 0; i < packed.size(); ++i) {
+      if (s[i] >= 0)
+        tangent[s[i]] += packed[i];
+      else if (s[i] != none)
+        tangent[twice(s[i])] += 2 * packed[i];
+    }
   }
 };
 

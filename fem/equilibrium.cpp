@@ -24,6 +24,8 @@ class Stopwatch {
 
 constexpr double sufficient_decrease = 1e-4;
 constexpr int most_halvings = 12;
+/// Relative residual below which one more step leaves the tangent's inertia as it is.
+constexpr double near = 1e-3;
 constexpr int patience = 10; ///< iterations after which the residual must be smaller than at the start
 constexpr int most_indefinite =
     6; ///< tangents in a row: by then the iteration wanders between unstable states
@@ -49,6 +51,21 @@ double Equilibrium::force_scale(const State& state) const {
   return scale;
 }
 
+bool Equilibrium::factor_tangent(const State& state) {
+  {
+    const Stopwatch watch(timings_.tangent);
+    assembler_.tangent(state);
+  }
+  const Stopwatch watch(timings_.factor);
+  return solver_.factor();
+}
+
+bool Equilibrium::refresh_inertia(const State& state, NewtonResult& result) {
+  const bool regular = factor_tangent(state);
+  if (regular) result.negative_pivots = solver_.negative_pivots();
+  return regular;
+}
+
 NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
                                 const std::function<void(const Iteration&)>& log) {
   const Eigen::Index free = model_.dofs.free_count();
@@ -66,6 +83,8 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
   const double first_norm = norm;
   double step_length = 0;
   int indefinite = 0;
+  double stale_tangent =
+      std::numeric_limits<double>::infinity(); // residual at which the last tangent was taken
   for (result.iterations = 0;; ++result.iterations) {
     if (!current.feasible || !std::isfinite(norm)) {
       result.outcome = Outcome::infeasible;
@@ -75,6 +94,7 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
     if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
     if (norm <= options.tolerance * scale || norm <= noise_) {
       result.outcome = Outcome::converged;
+      if (stale_tangent > near && !refresh_inertia(state, result)) result.outcome = Outcome::singular;
       return result;
     }
     if (result.iterations >= options.max_iterations || (result.iterations >= patience && norm > first_norm) ||
@@ -83,10 +103,8 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
       return result;
     }
     ++timings_.iterations;
-    {
-      const Stopwatch watch(timings_.tangent);
-      assembler_.tangent(state);
-    }
+    stale_tangent = result.residual;
+    const bool regular = factor_tangent(state);
     if (noise_ == 0) {
       const SparseSymmetric& K = assembler_.matrix();
       double stiffest = 0;
@@ -97,12 +115,9 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
       noise_ = std::numeric_limits<double>::epsilon() * stiffest * model_.extent *
                std::sqrt(static_cast<double>(free));
     }
-    {
-      const Stopwatch watch(timings_.factor);
-      if (!solver_.factor()) {
-        result.outcome = Outcome::singular;
-        return result;
-      }
+    if (!regular) {
+      result.outcome = Outcome::singular;
+      return result;
     }
     result.negative_pivots = solver_.negative_pivots();
     indefinite = result.negative_pivots > 0 ? indefinite + 1 : 0;

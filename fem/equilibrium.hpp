@@ -27,7 +27,7 @@ struct NewtonResult {
   Outcome outcome{};
   int iterations = 0;
   double residual = 0;     ///< relative norm at the end
-  int negative_pivots = 0; ///< of the last tangent factored, one Newton step before the end
+  int negative_pivots = 0; ///< of the tangent at the end, or at most one small step before it
 };
 
 /// CPU seconds of this process, by task.
@@ -60,6 +60,8 @@ class Equilibrium {
  private:
   double weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const;
   double force_scale(const State& state) const;
+  bool factor_tangent(const State& state);
+  bool refresh_inertia(const State& state, NewtonResult& result);
 
   const Model& model_;
   Assembler assembler_;

@@ -66,7 +66,7 @@ RampResult ramp(Equilibrium& equilibrium, const RampTarget& target, const RampOp
   RampResult result;
   NewtonResult newton;
   const auto less_stable = [&] {
-    return newton.outcome == Outcome::converged && newton.iterations > 0 && progress.negative_pivots >= 0 &&
+    return newton.outcome == Outcome::converged && progress.negative_pivots >= 0 &&
            newton.negative_pivots > progress.negative_pivots;
   };
   while (progress.load_factor < 1) {
@@ -81,7 +81,7 @@ RampResult ramp(Equilibrium& equilibrium, const RampTarget& target, const RampOp
     State trial = solve_from(extrapolate(progress.points, path.parameter(s)));
     if ((newton.outcome != Outcome::converged || less_stable()) && progress.points.size() > 1)
       trial = solve_from(progress.points.back().state); // the predictor may have led astray
-    if (newton.outcome != Outcome::converged || (less_stable() && tried > options.smallest_increment)) {
+    if (newton.outcome != Outcome::converged || (less_stable() && tried >= 2 * options.smallest_increment)) {
       if (observer.on_cutback) observer.on_cutback(s, newton);
       result.failed_at = s;
       result.failure = newton;
@@ -94,7 +94,7 @@ RampResult ramp(Equilibrium& equilibrium, const RampTarget& target, const RampOp
     }
     progress.load_factor = s;
     progress.increment = std::min(nominal, 2 * std::max(progress.increment, tried));
-    if (newton.iterations > 0) progress.negative_pivots = newton.negative_pivots;
+    progress.negative_pivots = newton.negative_pivots;
     progress.points.push_back({path.parameter(s), std::move(trial)});
     if (progress.points.size() > most_points) progress.points.erase(progress.points.begin());
     if (observer.on_accept && !observer.on_accept(progress, {s, newton})) {

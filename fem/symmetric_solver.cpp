@@ -4,6 +4,7 @@
 #include <dmumps_c.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 
@@ -15,6 +16,9 @@ namespace {
 
 /// Above this many unknowns nested dissection repays its slower analysis.
 constexpr int nested_dissection_from = 60000;
+
+/// A pivot below this fraction of its diagonal entry is round-off.
+constexpr double singular_pivot = 1e-13;
 
 /// CHOLMOD opens as many OpenMP threads as it was compiled for, whatever the machine has, around loops that
 /// are too short for them: switched off while it works. A BLAS that threads by itself would make results
@@ -51,7 +55,7 @@ struct SymmetricSolver::Cholesky {
     A.nzmax = matrix.rows.size();
     A.p = const_cast<int*>(matrix.column_start.data());
     A.i = const_cast<int*>(matrix.rows.data());
-    A.x = const_cast<double*>(matrix.values.data());
+    A.x = const_cast<double*>(matrix.values.data()); // set again by factor(): the vector may have moved
     A.stype = -1;
     A.itype = CHOLMOD_INT;
     A.xtype = CHOLMOD_REAL;
@@ -71,11 +75,31 @@ struct SymmetricSolver::Cholesky {
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  bool factor() {
+  bool factor(const SparseSymmetric& matrix) {
     const OneThread one_thread;
+    A.x = const_cast<double*>(matrix.values.data());
     cholmod_factorize(&A, L, &common);
     if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     return common.status == CHOLMOD_OK && L->minor == A.nrow;
+  }
+  /// Smallest pivot over the diagonal entry that it came from: round-off when the matrix is singular,
+  /// whatever the units.
+  double smallest_relative_pivot(const SparseSymmetric& matrix) const {
+    const auto* super = static_cast<const int*>(L->super);
+    const auto* row_start = static_cast<const int*>(L->pi);
+    const auto* value_start = static_cast<const int*>(L->px);
+    const auto* permutation = static_cast<const int*>(L->Perm);
+    const auto* values = static_cast<const double*>(L->x);
+    double smallest = 1;
+    for (std::size_t s = 0; s < L->nsuper; ++s)
+      for (int k = super[s]; k < super[s + 1]; ++k) {
+        const int column = k - super[s], height = row_start[s + 1] - row_start[s];
+        const double root = values[value_start[s] + column + column * height];
+        const auto diagonal =
+            static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(permutation[k])]);
+        smallest = std::min(smallest, root * root / matrix.values[diagonal]);
+      }
+    return smallest;
   }
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     const OneThread one_thread;
@@ -113,6 +137,7 @@ struct SymmetricSolver::Indefinite {
     mumps.comm_fortran = use_comm_world;
     call(-1);
     for (const int output : {0, 1, 2, 3}) mumps.icntl[output] = output == 3 ? 0 : -1; // silent
+    mumps.icntl[23] = 1;                                                              // detect null pivots
     mumps.icntl[13] = 50;                                                             // % spare workspace
     mumps.n = matrix.size;
     mumps.nnz = static_cast<MUMPS_INT8>(rows.size());
@@ -135,7 +160,7 @@ struct SymmetricSolver::Indefinite {
     mumps.a = const_cast<double*>(matrix.values.data());
     for (call(2); mumps.infog[0] == workspace_too_small && mumps.icntl[13] < 1000; call(2))
       mumps.icntl[13] *= 2;
-    return mumps.infog[0] >= 0;
+    return mumps.infog[0] >= 0 && mumps.infog[27] == 0;
   }
   int negative_pivots() const { return mumps.infog[11]; }
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
@@ -153,8 +178,8 @@ SymmetricSolver::SymmetricSolver(const SparseSymmetric& matrix)
 SymmetricSolver::~SymmetricSolver() = default;
 
 bool SymmetricSolver::factor() {
-  definite_ = cholesky_->factor();
-  if (definite_) return true;
+  definite_ = cholesky_->factor(matrix_);
+  if (definite_) return cholesky_->smallest_relative_pivot(matrix_) > singular_pivot;
   if (!indefinite_) indefinite_ = std::make_unique<Indefinite>(matrix_);
   return indefinite_->factor(matrix_);
 }

@@ -1,0 +1,76 @@
+#include "tests/bench/models.hpp"
+
+#include "fem/membrane_block.hpp"
+#include "meshing/rings.hpp"
+
+#include <cmath>
+
+namespace dielast::bench {
+
+namespace {
+
+constexpr int order = 2, integration_points = 6;
+constexpr bool curved = false;
+
+const materials::Material film{materials::NeoHookean{45e3}, materials::IdealDielectric{4e-11, 100e6}, 960};
+
+int node_on_x_axis(const meshing::Mesh& mesh, const std::string& place) {
+  for (const int n : mesh.node_sets.at(place)) {
+    const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(n)];
+    if (x.x() > 0 && std::abs(x.y()) < 1e-9) return n;
+  }
+  return -1;
+}
+
+Task begin(meshing::Mesh mesh, double prestretch, std::vector<int> electrodes, bool planar, double extent) {
+  Task task{.mesh = std::move(mesh), .model = {.dofs = fem::DofMap(0)}};
+  fem::Model& model = task.model;
+  model.dofs = fem::DofMap(task.mesh.node_count());
+  model.electrodes = {"film"};
+  model.extent = model.length_scale = extent;
+  model.blocks.push_back(fem::make_membrane_block(task.mesh, task.mesh.blocks.front(),
+                                                  {film, 1e-3, {prestretch, prestretch}},
+                                                  std::move(electrodes), planar, integration_points));
+  model.blocks.front()->claim_dofs(model.dofs, planar);
+  return task;
+}
+
+void hold(Task& task, const std::string& place, std::initializer_list<int> components) {
+  for (const int n : task.mesh.node_sets.at(place))
+    for (const int c : components) task.model.dofs.hold(n, c);
+}
+
+} // namespace
+
+Task partial_electrode_disc(int rings) {
+  auto mesh = meshing::disc_mesh(0.09, 0.03, rings, order, curved);
+  std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), fem::passive);
+  for (const int cell : mesh.cell_sets.at("electrode").cells) electrodes[static_cast<std::size_t>(cell)] = 0;
+  Task task = begin(std::move(mesh), 3, std::move(electrodes), true, 0.09);
+  hold(task, "rim", {0, 1});
+  task.model.dofs.number();
+  task.node = node_on_x_axis(task.mesh, "electrode_edge");
+  task.steps = {{{{5e3}, Eigen::VectorXd::Zero(task.model.dofs.count())}, 10}};
+  return task;
+}
+
+Task plate_diaphragm(int k) {
+  auto mesh = meshing::annulus_mesh(12.7e-3, 68.58e-3, 22 * k, order, curved);
+  const auto triangles = static_cast<std::size_t>(mesh.blocks.front().size());
+  Task task = begin(std::move(mesh), 2, std::vector<int>(triangles, 0), false, 0.06858);
+  hold(task, "outer", {0, 1, 2});
+  hold(task, "inner", {0, 1});
+  const auto& inner = task.mesh.node_sets.at("inner");
+  for (const int n : inner) task.model.dofs.share(inner.front(), n, 2);
+  task.model.dofs.number();
+  task.node = inner.front();
+  task.component = 2;
+  fem::RampTarget weight{{0}, Eigen::VectorXd::Zero(task.model.dofs.count())};
+  weight.dead_force[task.model.dofs.equation(inner.front(), 2)] = 0.981;
+  fem::RampTarget voltage = weight;
+  voltage.voltage = {5e3};
+  task.steps = {{weight, 5}, {voltage, 10}};
+  return task;
+}
+
+} // namespace dielast::bench

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "fem/ramp.hpp"
+#include "meshing/mesh.hpp"
+
+namespace dielast::bench {
+
+/// A benchmark model and the loads of its ramp: neo-Hookean film, mu = 45 kPa, eps = 4e-11 F/m, H = 1 mm,
+/// straight-sided 6-node triangles with 6 integration points on hexagonal rings.
+struct Task {
+  meshing::Mesh mesh; ///< drawn after the prestretch, m
+  fem::Model model;
+  std::vector<std::pair<fem::RampTarget, int>> steps; ///< target and increments
+  int node = 0;                                       ///< where the result is read
+  int component = 0;                                  ///< displacement component of the result
+};
+
+/// B1: disc of undeformed radius 30 mm, electrode inside 10 mm, rim held at 3 x 3; 0 -> 5 kV in 10 steps.
+/// `rings` = 21, 66, 129 give 10838, 105338, 400934 unknowns. Result: displacement of the electrode's edge on
+/// the x axis, from 30 mm.
+Task partial_electrode_disc(int rings);
+
+/// B2 without plate bending: annulus 6.35..34.29 mm, prestretch 2, a rigid plate inside that moves along z
+/// only; 0.981 N in 5 steps, then 5 kV in 10. 27 k rings, the plate's edge is ring 5 k. Result: the plate's
+/// displacement.
+Task plate_diaphragm(int k);
+
+} // namespace dielast::bench

@@ -1,0 +1,54 @@
+// Whole ramps of the benchmark tasks. Counters, in ms of CPU per Newton iteration: residual, tangent, factor,
+// solve, all; overhead = all / (factor + solve) of the same matrices in the same run.
+//   build/bin/dielast_bench --benchmark_filter=disc
+
+#include "tests/bench/models.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <ctime>
+
+namespace dielast::bench {
+
+namespace {
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void run(benchmark::State& bench, const Task& task) {
+  constexpr int threads = 1;
+  for (auto _ : bench) {
+    fem::Equilibrium equilibrium(task.model, threads);
+    const double start = cpu_seconds();
+    fem::State state = task.model.initial_state();
+    for (const auto& [target, increments] : task.steps) {
+      const fem::RampOptions options{.increments = increments};
+      fem::RampProgress progress = fem::RampProgress::begin(state, options);
+      const auto result = fem::ramp(equilibrium, target, options, progress, {});
+      if (result.end != fem::RampEnd::complete) return bench.SkipWithError("the ramp did not converge");
+      state = progress.points.back().state;
+    }
+    const double all = cpu_seconds() - start;
+    const fem::Timings& t = equilibrium.timings();
+    const double per_iteration = 1e3 / t.iterations;
+    bench.counters["residual_ms"] = t.residual * per_iteration;
+    bench.counters["tangent_ms"] = t.tangent * per_iteration;
+    bench.counters["factor_ms"] = t.factor * per_iteration;
+    bench.counters["solve_ms"] = t.solve * per_iteration;
+    bench.counters["all_ms"] = all * per_iteration;
+    bench.counters["iterations"] = t.iterations;
+    bench.counters["overhead"] = all / (t.factor + t.solve);
+    bench.counters["unknowns"] = task.model.dofs.count();
+    bench.counters["result_mm"] =
+        1e3 * state.displacement[static_cast<std::size_t>(task.node)][task.component];
+  }
+}
+
+void disc(benchmark::State& bench) { run(bench, partial_electrode_disc(static_cast<int>(bench.range(0)))); }
+void diaphragm(benchmark::State& bench) { run(bench, plate_diaphragm(static_cast<int>(bench.range(0)))); }
+
+BENCHMARK(disc)->Arg(21)->Arg(66)->Arg(129)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(diaphragm)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+} // namespace
+
+} // namespace dielast::bench

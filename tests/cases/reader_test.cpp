@@ -1,0 +1,211 @@
+#include "cases/overrides.hpp"
+#include "cases/quantities.hpp"
+#include "cases/reader.hpp"
+#include "cases/resolved.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+namespace dielast::cases {
+namespace {
+
+const std::filesystem::path valid = std::filesystem::path(DIELAST_SOURCE_DIR) / "tests/cases/valid";
+
+Case honeycomb(const std::vector<std::string>& overrides = {}) {
+  return read_case(valid / "honeycomb.toml", overrides);
+}
+
+std::vector<std::string> quantity_names(const Case& one) {
+  std::vector<std::string> names;
+  for (const Quantity& quantity : one.quantities) names.push_back(quantity.name);
+  return names;
+}
+
+std::string resolved(const Case& one) {
+  std::ostringstream out;
+  write_resolved(one, out);
+  return out.str();
+}
+
+TEST(Reader, HoneycombInSI) {
+  const Case one = honeycomb();
+  EXPECT_EQ(one.title, "Unidirectional honeycomb actuator");
+  EXPECT_FALSE(one.three_dimensional);
+  EXPECT_EQ(one.film.thickness, 0.001);
+  EXPECT_EQ(one.film.prestretch, (std::array{4.0, 2.5}));
+  EXPECT_EQ(std::get<0>(one.film.material.law).shear_modulus, 45e3);
+  EXPECT_EQ(one.film.material.dielectric.permittivity, 4e-11);
+  const auto& lattice = std::get<Honeycomb>(one.geometry);
+  EXPECT_DOUBLE_EQ(lattice.angle, 150 * std::numbers::pi / 180);
+  EXPECT_EQ(lattice.wall_width, 0.0008);
+  EXPECT_EQ(one.drives, (std::map<std::string, double>{{"film", 7500.0}}));
+}
+
+TEST(Reader, HoneycombDefaults) {
+  const Case one = honeycomb();
+  const auto& lattice = std::get<Honeycomb>(one.geometry);
+  EXPECT_EQ(lattice.columns, (std::vector{7, 6, 7, 6, 7}));
+  EXPECT_EQ(lattice.wall_material_name, "TPU 78 MPa");
+  EXPECT_EQ(lattice.wall_material.youngs_modulus, 78e6);
+  EXPECT_EQ(one.mesh.order, 2);
+  EXPECT_EQ(one.mesh.wall_elements, 8);
+  EXPECT_EQ(one.mesh.grading, 3);
+  EXPECT_EQ(one.mesh.quadrature, 3);
+  ASSERT_EQ(one.electrodes.size(), 1u);
+  EXPECT_EQ(one.electrodes[0].place, "film");
+  EXPECT_TRUE(one.supports.empty());
+  ASSERT_EQ(one.steps.size(), 2u);
+  EXPECT_EQ(one.steps[0].kind, StepKind::release);
+  EXPECT_EQ(one.steps[0].increments, 1);
+  EXPECT_EQ(one.steps[1].name, "voltage");
+  EXPECT_EQ(one.steps[1].increments, 10);
+  EXPECT_EQ(one.solver.tolerance, 1e-9);
+  EXPECT_EQ(one.solver.max_iterations, 25);
+  EXPECT_TRUE(one.error_estimate && one.fields);
+  EXPECT_EQ(quantity_names(one),
+            (std::vector<std::string>{"eps_x", "eps_y", "released_length_x", "released_length_y", "max_field",
+                                      "breakdown_ratio", "min_principal_stress", "capacitance"}));
+  EXPECT_EQ(one.quantities[0].since, "release");
+  EXPECT_EQ(one.quantities[0].along, 0);
+  EXPECT_TRUE(one.quantities[0].standard);
+  EXPECT_EQ(one.quantities[2].at, "release");
+  EXPECT_EQ(unit_of(one.quantities[4]), "V/m");
+}
+
+TEST(Reader, DiscDefaults) {
+  const Case one = read_case(valid / "disc.toml");
+  EXPECT_EQ(one.title, "disc");
+  EXPECT_EQ(one.film.prestretch, (std::array{3.0, 3.0}));
+  EXPECT_EQ(one.electrodes.at(0).place, "electrode");
+  EXPECT_EQ(one.supports.at(0).place, "rim");
+  EXPECT_EQ(one.supports.at(0).fixed, (std::array{true, true, true}));
+  EXPECT_EQ(one.mesh.rings, 24);
+  EXPECT_EQ(one.mesh.quadrature, 6);
+  EXPECT_EQ(one.drives.at("film"), 0.0);
+  EXPECT_EQ(one.quantities.at(0).name, "electrode_radius");
+}
+
+TEST(Reader, SeveralElectrodesOfAnAnnulus) {
+  const Case one = read_case(valid / "annulus.toml");
+  EXPECT_TRUE(one.three_dimensional);
+  EXPECT_DOUBLE_EQ(one.film.material.dielectric.permittivity, 4.7 * 8.8541878128e-12);
+  EXPECT_EQ(one.drives, (std::map<std::string, double>{{"left", 5000.0}, {"right", 0.0}}));
+  EXPECT_EQ(one.supports.size(), 2u);
+  EXPECT_EQ(one.loads.at(0).force, (std::array{1e-3, 0.0, -2.5e-3}));
+  EXPECT_EQ(one.steps.at(1).name, "pull");
+  EXPECT_EQ(one.checks.at(0).value, 0.05588);
+  EXPECT_EQ(one.checks.at(0).tolerance, 1e-4);
+  const auto names = quantity_names(one);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "capacitance_right"), 1);
+}
+
+TEST(Reader, OwnMeshIsFoundBesideTheCase) {
+  const Case one = read_case(valid / "own_mesh.toml");
+  EXPECT_EQ(std::get<MeshFile>(one.geometry).path, valid / "own.msh");
+  EXPECT_EQ(one.drives.at("film"), 3000.0);
+}
+
+TEST(Reader, WithoutAReleaseElongationsStartAtTheMesh) {
+  const Case one = honeycomb({"step=[{kind='voltage'}]"});
+  EXPECT_EQ(one.quantities.at(0).name, "eps_x");
+  EXPECT_EQ(one.quantities.at(0).since, "");
+  const auto names = quantity_names(one);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "released_length_x"), 0);
+}
+
+TEST(Reader, StandardQuantitiesFollowTheNameOfTheRelease) {
+  const Case one = honeycomb({"step=[{kind='release', name='cut'}, {kind='voltage'}]"});
+  EXPECT_EQ(one.quantities.at(0).since, "cut");
+  EXPECT_EQ(one.quantities.at(2).at, "cut");
+}
+
+TEST(Reader, PercentOfACheckIsOfItsValue) {
+  const Case one = honeycomb({"check=[{quantity='eps_x', value=-0.04, tolerance='2 %', source='here'}]"});
+  EXPECT_DOUBLE_EQ(one.checks.at(0).tolerance, 0.0008);
+}
+
+TEST(Reader, NamedMaterialCanBeChangedInPart) {
+  const Case one = honeycomb({"film.material.shear_modulus=47 kPa"});
+  EXPECT_EQ(one.film.material_name, "VHB 4910 (honeycomb)");
+  EXPECT_EQ(std::get<0>(one.film.material.law).shear_modulus, 47e3);
+  EXPECT_EQ(one.film.material.dielectric.permittivity, 4e-11);
+}
+
+TEST(Overrides, ReachEverything) {
+  const Case one = honeycomb({"honeycomb.angle=140 deg", "honeycomb.wall_height=\"4 mm\"",
+                              "film.prestretch=[3, 3]", "drive.voltage=5 kV", "mesh.wall_elements=5",
+                              "mesh.order=1", "step.voltage.increments=4", "step[1].increments=2",
+                              "title=plain words", "output.fields=false", "honeycomb.columns=[1]"});
+  EXPECT_DOUBLE_EQ(std::get<Honeycomb>(one.geometry).angle, 140 * std::numbers::pi / 180);
+  EXPECT_EQ(std::get<Honeycomb>(one.geometry).wall_height, 0.004);
+  EXPECT_EQ(one.film.prestretch, (std::array{3.0, 3.0}));
+  EXPECT_EQ(one.drives.at("film"), 5000.0);
+  EXPECT_EQ(one.mesh.wall_elements, 5);
+  EXPECT_EQ(one.mesh.order, 1);
+  EXPECT_EQ(one.steps[0].increments, 2);
+  EXPECT_EQ(one.steps[1].increments, 4);
+  EXPECT_EQ(one.title, "plain words");
+  EXPECT_FALSE(one.fields);
+}
+
+TEST(Overrides, AValueCannotBringAnotherKey) { EXPECT_EQ(honeycomb({"title=a\nb = 2"}).title, "a\nb = 2"); }
+
+TEST(Overrides, TheLastOneWins) { EXPECT_EQ(honeycomb({"mesh.order=1", "mesh.order=2"}).mesh.order, 2); }
+
+TEST(Overrides, OddTextsAreErrorsNotAccidents) {
+  for (const char* assignment : {"", "=", "=5", "a=\xff", "film.prestretch[=3", "film[1]=2",
+                                 "film.thickness='''", "mesh.order=", "film..thickness.=[", "[0]=1", "\"=1"})
+    EXPECT_THROW(honeycomb({assignment}), CaseError) << assignment;
+}
+
+TEST(Resolved, ReadingItGivesTheSameCase) {
+  for (const char* name : {"honeycomb.toml", "disc.toml", "annulus.toml", "own_mesh.toml"}) {
+    const Case one = read_case(valid / name);
+    const auto path = std::filesystem::path(testing::TempDir()) / (std::string("resolved_") + name);
+    std::ofstream(path) << resolved(one);
+    const Case again = read_case(path);
+    EXPECT_EQ(resolved(again), resolved(one)) << name;
+    EXPECT_EQ(quantity_names(again), quantity_names(one));
+    EXPECT_EQ(again.geometry.index(), one.geometry.index());
+    EXPECT_EQ(again.drives, one.drives);
+    EXPECT_EQ(again.film.prestretch, one.film.prestretch);
+    if (const auto* lattice = std::get_if<Honeycomb>(&one.geometry)) {
+      EXPECT_EQ(std::get<Honeycomb>(again.geometry).angle, lattice->angle);
+    }
+  }
+}
+
+TEST(Files, ThoseThatCannotBeReadAreFileErrors) {
+  EXPECT_THROW(read_case(valid / "nowhere.toml"), FileError);
+  EXPECT_THROW(read_case(valid), FileError);
+  EXPECT_THROW(read_case(""), FileError);
+  const auto huge = std::filesystem::path(testing::TempDir()) / "huge.toml";
+  std::ofstream(huge) << "a";
+  std::filesystem::resize_file(huge, 17u << 20); // sparse: takes no space
+  EXPECT_THROW(read_case(huge), FileError);
+  std::filesystem::remove(huge);
+}
+
+TEST(Places, UnknownOnesAreReportedWhereTheyWereWritten) {
+  const Case one = read_case(valid / "annulus.toml");
+  EXPECT_NO_THROW(check_places(one, {"film", "inner", "outer", "sector[0]", "sector[1]"}));
+  try {
+    check_places(one, {"film", "inner", "outer", "sector[0]"});
+    FAIL();
+  } catch (const CaseError& error) {
+    ASSERT_EQ(error.diagnostics().size(), 1u);
+    EXPECT_EQ(error.diagnostics()[0].source.line, 22);
+    EXPECT_EQ(error.diagnostics()[0].key, "electrode[2].place");
+    EXPECT_EQ(error.diagnostics()[0].message,
+              "found \"sector[1]\": the mesh has no such place, allowed \"film\", \"inner\", \"outer\", "
+              "\"sector[0]\"; did you mean \"sector[0]\"?");
+  }
+}
+
+} // namespace
+} // namespace dielast::cases

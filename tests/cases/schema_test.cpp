@@ -1,0 +1,108 @@
+#include "cases/convert.hpp"
+#include "cases/describe.hpp"
+#include "cases/json_schema.hpp"
+#include "cases/templates.hpp"
+#include "cases/units.hpp"
+#include "materials/catalog.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <functional>
+
+namespace dielast::cases {
+namespace {
+
+void for_each_section(const Section& section, const std::string& path,
+                      const std::function<void(const Section&, const std::string&)>& visit) {
+  visit(section, path);
+  for (const Section& inner : section.sections) for_each_section(inner, path + "." + inner.name, visit);
+}
+
+TEST(Schema, EverySectionAndKeyHasAMeaning) {
+  for_each_section(case_schema(), "", [](const Section& section, const std::string& path) {
+    EXPECT_FALSE(section.meaning.empty()) << path;
+    for (const Key& key : section.keys) EXPECT_FALSE(key.meaning.empty()) << path << "." << key.name;
+  });
+}
+
+TEST(Schema, EveryNumberHasAUnitAndAnUpperBound) {
+  for_each_section(case_schema(), "", [](const Section& section, const std::string& path) {
+    for (const Key& key : section.keys) {
+      const std::string name = path + "." + key.name;
+      if (key.type == Type::integer) {
+        EXPECT_TRUE(std::isfinite(key.range.high)) << name;
+      }
+      if (key.type != Type::measure || key.unit.empty()) continue;
+      EXPECT_NO_THROW(dimension(key.unit)) << name;
+      EXPECT_TRUE(std::isfinite(key.range.low) && std::isfinite(key.range.high)) << name;
+    }
+  });
+}
+
+TEST(Schema, EveryDefaultIsValid) {
+  for_each_section(case_schema(), "", [](const Section& section, const std::string& path) {
+    for (const Key& key : section.keys)
+      if (key.fallback) {
+        EXPECT_NO_THROW(convert(key, parse_value(*key.fallback, {}), key.unit)) << path << "." << key.name;
+      }
+  });
+}
+
+TEST(Schema, EveryWordOfASelectorIsOneOfItsChoices) {
+  for_each_section(case_schema(), "", [](const Section& section, const std::string& path) {
+    if (section.selector.empty() || section.selector == "geometry") return;
+    const Key* selector = section.find_key(section.selector, "");
+    ASSERT_NE(selector, nullptr) << path;
+    for (const Key& key : section.keys)
+      for (const std::string& word : key.only_for)
+        EXPECT_TRUE(std::any_of(selector->choices.begin(), selector->choices.end(),
+                                [&](const Choice& choice) { return choice.word == word; }))
+            << path << "." << key.name << " for " << word;
+  });
+}
+
+TEST(Schema, LawsAndTheirParametersComeFromTheRegistry) {
+  const Section& material = *case_schema().find_section("film")->find_section("material");
+  const Key* law = material.find_key("law", "");
+  ASSERT_EQ(law->choices.size(), std::variant_size_v<materials::ElasticLaw>);
+  EXPECT_EQ(law->choices[0].word, materials::NeoHookean::name);
+  for (const auto& parameter : materials::NeoHookean::parameters) {
+    const Key* key = material.find_key(parameter.name, law->choices[0].word);
+    ASSERT_NE(key, nullptr);
+    EXPECT_EQ(key->unit, parameter.unit);
+    EXPECT_EQ(key->meaning, parameter.meaning);
+  }
+}
+
+TEST(Schema, JsonSchemaIsJsonWithEveryKey) {
+  const auto schema = nlohmann::json::parse(json_schema());
+  EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+  EXPECT_EQ(schema["additionalProperties"], false);
+  for (const Section& section : case_schema().sections)
+    EXPECT_TRUE(schema["properties"].contains(section.name)) << section.name;
+  const auto& honeycomb = schema["properties"]["honeycomb"];
+  EXPECT_EQ(honeycomb["properties"]["columns"]["default"], nlohmann::json({7, 6, 7, 6, 7}));
+  EXPECT_EQ(honeycomb["required"], nlohmann::json({"angle", "wall_length", "wall_width", "wall_height"}));
+}
+
+TEST(Describe, EveryTopicHasAText) {
+  for (const std::string& topic : topics()) EXPECT_GT(describe(topic).size(), 100u) << topic;
+  EXPECT_THROW(describe("laaws"), std::invalid_argument);
+}
+
+TEST(Describe, TellsEveryMaterialPlaceAndKey) {
+  const std::string materials = describe("materials"), devices = describe("devices"), keys = describe("keys");
+  for (const auto& film : materials::named_films()) EXPECT_NE(materials.find(film.name), std::string::npos);
+  for (const auto& solid : materials::named_solids())
+    EXPECT_NE(materials.find(solid.name), std::string::npos);
+  for (const Template& device : templates())
+    for (const PlaceName& place : device.places) EXPECT_NE(devices.find(place.name), std::string::npos);
+  for_each_section(case_schema(), "", [&](const Section& section, const std::string&) {
+    for (const Key& key : section.keys) EXPECT_NE(keys.find("  " + key.name), std::string::npos) << key.name;
+  });
+}
+
+} // namespace
+} // namespace dielast::cases

@@ -1,0 +1,67 @@
+#include "fem/state.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dielast::fem {
+namespace {
+
+TEST(Rotation, spin_of_inverts_rotation_of) {
+  for (const double angle : {0.0, 1e-300, 1e-12, 1e-9, 5e-5, 2e-4, 1e-3, 0.1, 1.0, 2.0, 3.0, 3.14}) {
+    const Eigen::Vector3d spin = angle * Eigen::Vector3d(0.48, -0.6, 0.64);
+    EXPECT_LE((spin_of(rotation_of(spin)) - spin).norm(), 4e-16 * (angle + (angle > 3 ? 1 : 0))) << angle;
+    const Eigen::Matrix3d expected = Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix();
+    if (angle < 1e-200) continue; // AngleAxis needs an axis
+    EXPECT_LT((rotation_of(spin).toRotationMatrix() - expected).norm(), 1e-15) << angle;
+  }
+}
+
+TEST(Rotation, beyond_half_a_turn_the_sign_stays_continuous) {
+  EXPECT_LT(rotation_of({0, 0, 3.5}).w(), 0);
+  EXPECT_GT(rotation_of({0, 0, 3.5}).dot(rotation_of({0, 0, 3.0})), 0);
+}
+
+/// A path that is a polynomial of this degree in the parameter, rotations about one axis.
+State on_path(double t, int degree) {
+  const Eigen::Vector3d a(0.3, -0.1, 0.2), b(0.05, 0.1, -0.07), axis(0.6, 0, 0.8);
+  double value = 0, power = 1;
+  for (int p = 0; p <= degree; ++p, power *= t) value += power / (1 + p);
+  State state;
+  state.displacement = {value * a, value * b};
+  state.rotation = {rotation_of(value * axis), rotation_of(-0.3 * value * axis)};
+  state.voltage = {t};
+  state.dead_force = Eigen::VectorXd::Constant(3, t);
+  return state;
+}
+
+TEST(Extrapolation, is_exact_for_polynomials_through_as_many_points_as_they_need) {
+  for (int degree = 0; degree <= 3; ++degree) {
+    std::vector<PathPoint> points;
+    for (const double t : {0.0, 0.3, 0.5, 0.9})
+      if (static_cast<int>(points.size()) <= degree) points.push_back({t, on_path(t, degree)});
+    for (const double t : {1.2, 0.9, 0.1}) {
+      const State expected = on_path(t, degree), actual = extrapolate(points, t);
+      for (std::size_t n = 0; n < 2; ++n) {
+        EXPECT_LT((actual.displacement[n] - expected.displacement[n]).norm(), 1e-14) << degree;
+        EXPECT_LT((actual.rotation[n].coeffs() - expected.rotation[n].coeffs()).norm(), 1e-14) << degree;
+      }
+      EXPECT_EQ(actual.voltage, points.back().state.voltage);
+      EXPECT_EQ(actual.dead_force, points.back().state.dead_force);
+    }
+  }
+}
+
+TEST(Extrapolation, passes_through_its_points_whatever_they_are) {
+  std::vector<PathPoint> points;
+  for (const double t : {1.0, 2.5, 3.0, 4.0}) {
+    points.push_back({t, on_path(t / 3, 3)});
+    points.back().state.rotation[0] = rotation_of({std::sin(t), std::cos(3 * t), 0.3 * t}); // about any axis
+  }
+  for (const PathPoint& point : points) {
+    const State there = extrapolate(points, point.parameter);
+    EXPECT_LT((there.displacement[0] - point.state.displacement[0]).norm(), 1e-14);
+    EXPECT_LT((there.rotation[0].coeffs() - point.state.rotation[0].coeffs()).norm(), 1e-14);
+  }
+}
+
+} // namespace
+} // namespace dielast::fem

@@ -1,0 +1,100 @@
+#include "fem/symmetric_solver.hpp"
+
+#include "tests/fem/sample_models.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace dielast::fem {
+namespace {
+
+/// The lower triangle of a dense matrix without its zeros, the diagonal kept.
+SparseSymmetric sparse(const Eigen::MatrixXd& full) {
+  SparseSymmetric matrix{
+      .size = static_cast<int>(full.rows()), .column_start = {0}, .rows = {}, .values = {}};
+  for (int c = 0; c < matrix.size; ++c) {
+    for (int r = c; r < matrix.size; ++r)
+      if (r == c || full(r, c) != 0) {
+        matrix.rows.push_back(r);
+        matrix.values.push_back(full(r, c));
+      }
+    matrix.column_start.push_back(static_cast<int>(matrix.rows.size()));
+  }
+  return matrix;
+}
+
+/// Random symmetric matrix with about four entries per row off the diagonal, plus `shift` on it.
+Eigen::MatrixXd random_matrix(std::mt19937& random, int size, double shift) {
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(size, size);
+  std::uniform_int_distribution<int> index(0, size - 1);
+  for (int k = 0; k < 2 * size; ++k) {
+    const int i = index(random), j = index(random);
+    full(i, j) = full(j, i) = test::random_vector(random, 1)[0];
+  }
+  full.diagonal() = test::random_vector(random, size);
+  full.diagonal().array() += shift;
+  return full;
+}
+
+int negative_eigenvalues(const Eigen::MatrixXd& full) {
+  return static_cast<int>((full.selfadjointView<Eigen::Lower>().eigenvalues().array() < 0).count());
+}
+
+/// Chain of springs between `size` nodes, not held anywhere.
+Eigen::MatrixXd free_chain(int size, double stiffness) {
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(size, size);
+  for (int i = 0; i + 1 < size; ++i)
+    full.block<2, 2>(i, i) += stiffness * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+  return full;
+}
+
+TEST(SymmetricSolver, solves_and_tells_the_inertia_of_matrices_of_one_pattern) {
+  std::mt19937 random(61);
+  for (const int size : {1, 2, 7, 60, 200}) {
+    const Eigen::MatrixXd pattern = random_matrix(random, size, 0);
+    SparseSymmetric matrix = sparse(pattern);
+    SymmetricSolver solver(matrix);
+    for (const double shift : {10.0, 0.0, -0.4, 0.7, -10.0, 10.0}) { // definite, indefinite, and back
+      const Eigen::MatrixXd full = pattern + shift * Eigen::MatrixXd::Identity(size, size);
+      std::ranges::copy(sparse(full).values, matrix.values.begin());
+      ASSERT_TRUE(solver.factor());
+      EXPECT_EQ(solver.negative_pivots(), negative_eigenvalues(full)) << size << " " << shift;
+      const Eigen::VectorXd expected = test::random_vector(random, size);
+      Eigen::VectorXd x;
+      solver.solve(full * expected, x);
+      const double condition = full.norm() * full.inverse().norm();
+      EXPECT_LT((x - expected).norm(), 5e-15 * size * condition * expected.norm()) << size << " " << shift;
+    }
+  }
+}
+
+TEST(SymmetricSolver, saddle_points_have_as_many_negative_pivots_as_constraints) {
+  std::mt19937 random(62);
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(40, 40); // zero diagonal below the first 30
+  full.topLeftCorner(30, 30) = random_matrix(random, 30, 10);
+  for (int i = 0; i < 10; ++i) full(30 + i, 3 * i) = full(3 * i, 30 + i) = 1;
+  SparseSymmetric matrix = sparse(full);
+  SymmetricSolver solver(matrix);
+  ASSERT_TRUE(solver.factor());
+  EXPECT_EQ(solver.negative_pivots(), 10);
+}
+
+TEST(SymmetricSolver, refuses_singular_matrices) {
+  for (const double stiffness : {1.0, 0.1, 1e5 / 3}) {
+    const SparseSymmetric chain = sparse(free_chain(50, stiffness));
+    SymmetricSolver solver(chain);
+    EXPECT_FALSE(solver.factor()) << "rigid mode, stiffness " << stiffness;
+  }
+  Eigen::MatrixXd full = free_chain(5, 1);
+  full(0, 0) += 1;
+  full.row(4).setZero();
+  full.col(4).setZero();
+  full(3, 3) = 1; // node 4 is attached to nothing
+  const SparseSymmetric loose = sparse(full);
+  SymmetricSolver solver(loose);
+  EXPECT_FALSE(solver.factor());
+}
+
+} // namespace
+} // namespace dielast::fem
