@@ -134,6 +134,7 @@ struct Case {
   std::vector<Step> steps;
   std::vector<Quantity> quantities; ///< the template's and the user's
   std::vector<Check> checks;
+  int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
   SolverOptions solver;
   bool error_estimate = true;  ///< [output] error_estimate: solve once more on a coarser mesh
   bool fields = true;          ///< [output] fields: write the VTK series

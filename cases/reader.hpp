@@ -9,7 +9,8 @@
 
 namespace dielast::cases {
 
-/// Reads and validates a case file. `overrides` are texts "key=value" (see overrides.hpp). Every error is
+/// Reads and validates a case file. `overrides` are texts "key=value" (see overrides.hpp); checks are of the
+/// device as the file has it and are left out when one changes it. Every error is
 /// found before any is reported. Throws FileError when the file cannot be read and CaseError when its content
 /// is wrong.
 Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
