@@ -55,7 +55,11 @@ json archive(const Snapshot& snapshot) {
 }
 
 Snapshot restore_snapshot(const json& archived) {
-  Snapshot snapshot{archived.at("title"), archived.at("voltage"), {}, post::unpack(archived.at("field"))};
+  Snapshot snapshot{archived.at("title"),
+                    archived.at("voltage"),
+                    {},
+                    post::unpack(archived.at("thickness")),
+                    post::unpack(archived.at("field"))};
   const std::vector<double> displacement = post::unpack(archived.at("displacement"));
   for (std::size_t i = 0; i + 2 < displacement.size(); i += 3)
     snapshot.displacement.emplace_back(&displacement[i]);
@@ -74,8 +78,7 @@ std::vector<post::Column> history_columns(const Case& one) {
   std::vector<post::Column> columns{{"load_factor", "1"}};
   for (const Electrode& electrode : one.electrodes)
     columns.push_back({one.electrodes.size() == 1 ? "voltage" : "voltage_" + electrode.name, "V"});
-  for (const Quantity& quantity : one.quantities)
-    columns.push_back({quantity.name, unit_of(quantity)});
+  for (const Quantity& quantity : one.quantities) columns.push_back({quantity.name, unit_of(quantity)});
   for (const char* solver : {"iterations", "residual", "negative_pivots"}) columns.push_back({solver, "1"});
   return columns;
 }
@@ -105,6 +108,7 @@ void Recorder::record(const Frame& frame) {
   const Device& device = simulation_.device();
   const int triangles = device.mesh.blocks.front().size();
   Snapshot snapshot{record.step, largest(record.voltages), frame.measured.state.displacement,
+                    post::average(frame.measured.samples, "thickness", triangles),
                     post::average(frame.measured.samples, "electric_field", triangles)};
   // The last accepted state is replaced until its step has ended.
   const bool replaces = !journal_.records.empty() && journal_.records.back().step == record.step;

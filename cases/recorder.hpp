@@ -15,6 +15,7 @@ struct Snapshot {
   std::string title;
   double voltage = 0;                        ///< largest, V
   std::vector<Eigen::Vector3d> displacement; ///< per node, m
+  std::vector<double> thickness;             ///< m, per triangle
   std::vector<double> field;                 ///< true electric field, V/m, per triangle
 };
 

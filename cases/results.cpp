@@ -54,7 +54,8 @@ std::string meaning(const Quantity& q) {
   case QuantityKind::charge:
     return fmt::format("charge on electrode {}{}", q.of, at);
   case QuantityKind::extreme:
-    return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of, at);
+    return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
+                       at);
   }
   return "";
 }
@@ -65,22 +66,33 @@ std::string meshing_summary(const Device& device) {
                      device.model.dofs.count() - device.model.dofs.free_count());
 }
 
-post::Picture shapes(const Device& device, const Journal& journal) {
-  post::Picture picture{
-      .quantity = "True electric field", .unit = "V/m", .wall_width = device.wall_width.value_or(0)};
-  // The state that the voltage starts from, and the last one.
+post::Panel panel(const Device& device, const Snapshot& snapshot, const std::vector<double>& values) {
+  post::Panel panel{.title = fmt::format("{}, {}", snapshot.title, post::engineering(snapshot.voltage, "V")),
+                    .positions = device.mesh.nodes,
+                    .values = values};
+  for (std::size_t n = 0; n < panel.positions.size(); ++n) panel.positions[n] += snapshot.displacement[n];
+  return panel;
+}
+
+/// The shape before and after the last step, and the field that it is driven by.
+post::Section shape_section(const Device& device, const Journal& journal) {
   const auto& all = journal.snapshots;
-  std::vector<const Snapshot*> shown{&all[all.size() > 1 ? all.size() - 2 : 0]};
-  if (all.size() > 1) shown.push_back(&all.back());
-  for (const Snapshot* snapshot : shown) {
-    post::Panel panel{.title =
-                          fmt::format("{}, {}", snapshot->title, post::engineering(snapshot->voltage, "V")),
-                      .positions = device.mesh.nodes,
-                      .values = snapshot->field};
-    for (std::size_t n = 0; n < panel.positions.size(); ++n) panel.positions[n] += snapshot->displacement[n];
-    picture.panels.push_back(std::move(panel));
+  const Snapshot& last = all.back();
+  post::Picture shapes{
+      .quantity = "Film thickness", .unit = "m", .wall_width = device.wall_width.value_or(0)};
+  if (all.size() > 1)
+    shapes.panels.push_back(panel(device, all[all.size() - 2], all[all.size() - 2].thickness));
+  shapes.panels.push_back(panel(device, last, last.thickness));
+  post::Section section{"Shape", {}};
+  section.blocks.push_back(
+      post::Image{post::render_png(device.mesh, shapes), "Before and after the last step, to one scale."});
+  if (last.voltage > 0) {
+    post::Picture field{.quantity = "True electric field", .unit = "V/m", .wall_width = shapes.wall_width};
+    field.panels.push_back(panel(device, last, last.field));
+    section.blocks.push_back(
+        post::Image{post::render_png(device.mesh, field), "The field that the film must bear."});
   }
-  return picture;
+  return section;
 }
 
 /// Every quantity against the largest voltage, those of one unit and size in one plot.
@@ -196,10 +208,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   if (!results.outcome.message.empty())
     report.sections.push_back({"How it ended", {post::Paragraph{results.outcome.message}}});
 
-  post::Section shape{"Shape", {}};
-  shape.blocks.push_back(post::Image{post::render_png(device.mesh, shapes(device, journal)),
-                                     "Before and after the last step, to the same scale."});
-  report.sections.push_back(std::move(shape));
+  report.sections.push_back(shape_section(device, journal));
 
   post::Section plots{"Against voltage", {}};
   for (std::string& svg : post::render_svg(curves(one, journal)))
