@@ -86,19 +86,35 @@ struct Step {
   int increments = 1;
 };
 
-enum class QuantityKind { distance, elongation, displacement, radius, force, capacitance, charge, extreme };
+enum class QuantityKind {
+  distance,
+  elongation,
+  size,
+  growth,
+  displacement,
+  radius,
+  force,
+  capacitance,
+  charge,
+  extreme
+};
+
+/// Elongation is the relative change of a distance, growth that of a size.
+constexpr bool is_relative(QuantityKind kind) {
+  return kind == QuantityKind::elongation || kind == QuantityKind::growth;
+}
 
 /// [[quantity]]: a number of the state, in every row of history.csv and in summary.json
 struct Quantity {
   std::string name;
   QuantityKind kind{};
   std::array<std::string, 2> between; ///< distance, elongation: two places (their centroids)
-  std::string
-      of; ///< displacement, radius, force: a place; capacitance, charge: an electrode; extreme: a field
+  std::string of; ///< size, growth, displacement, radius, force: a place; capacitance, charge: an electrode;
+                  ///< extreme: a field
   std::optional<int> along; ///< 0, 1, 2 = x, y, z; absent: magnitude
   post::Extreme extreme{};
   std::string at;        ///< the step at whose end summary.json reads it; empty: the last
-  std::string since;     ///< elongation: the step at whose end it is zero; empty: the mesh as drawn
+  std::string since;     ///< elongation, growth: the step at whose end it is zero; empty: the mesh as drawn
   bool standard = false; ///< brought by the geometry's template, not written by the user
 };
 

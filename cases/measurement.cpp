@@ -37,16 +37,27 @@ Eigen::Vector3d Measurement::position(const std::string& place, const fem::State
 }
 
 double Measurement::length(const Quantity& quantity, const fem::State& state) const {
-  return std::abs(
-      component(position(quantity.between[1], state) - position(quantity.between[0], state), quantity.along));
+  if (quantity.kind == QuantityKind::distance || quantity.kind == QuantityKind::elongation)
+    return std::abs(component(position(quantity.between[1], state) - position(quantity.between[0], state),
+                              quantity.along));
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const int n : device_.mesh.node_sets.at(quantity.of)) {
+    const Eigen::Vector3d x =
+        device_.mesh.nodes[static_cast<std::size_t>(n)] + state.displacement[static_cast<std::size_t>(n)];
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return component(high - low, quantity.along);
 }
 
 double Measurement::evaluate(const Quantity& quantity, const Measured& measured) const {
   const fem::State& state = measured.state;
   switch (quantity.kind) {
   case QuantityKind::distance:
+  case QuantityKind::size:
     return length(quantity, state);
-  case QuantityKind::elongation: {
+  case QuantityKind::elongation:
+  case QuantityKind::growth: {
     if (quantity.since.empty()) {
       const double drawn = length(quantity, device_.model.initial_state());
       return length(quantity, state) / drawn - 1;
@@ -101,7 +112,7 @@ std::vector<double> Measurement::all(const Measured& measured) const {
 
 void Measurement::step_ended(const std::string& step, const Measured& measured) {
   for (const Quantity& quantity : case_.quantities)
-    if (quantity.kind == QuantityKind::elongation && quantity.since == step)
+    if (is_relative(quantity.kind) && quantity.since == step)
       rest_lengths[quantity.name] = length(quantity, measured.state);
 }
 

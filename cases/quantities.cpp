@@ -5,10 +5,12 @@ namespace dielast::cases {
 std::string unit_of(const Quantity& quantity) {
   switch (quantity.kind) {
   case QuantityKind::distance:
+  case QuantityKind::size:
   case QuantityKind::displacement:
   case QuantityKind::radius:
     return "m";
   case QuantityKind::elongation:
+  case QuantityKind::growth:
     return "1";
   case QuantityKind::force:
     return "N";

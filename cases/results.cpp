@@ -29,7 +29,7 @@ const char* word(Ending ending) {
 }
 
 post::Ratio ratio_of(const Quantity& quantity) {
-  return quantity.kind == QuantityKind::elongation ? post::Ratio::percent : post::Ratio::plain;
+  return is_relative(quantity.kind) ? post::Ratio::percent : post::Ratio::plain;
 }
 
 /// A quantity in words, for a person who did not write the case.
@@ -42,6 +42,11 @@ std::string meaning(const Quantity& q) {
     return fmt::format("distance of {} and {}{}{}", q.between[0], q.between[1], along, at);
   case QuantityKind::elongation:
     return fmt::format("elongation from {} to {}{}, since {}{}", q.between[0], q.between[1], along,
+                       q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
+  case QuantityKind::size:
+    return fmt::format("size of {}{}{}", q.of, along, at);
+  case QuantityKind::growth:
+    return fmt::format("growth of {}{}, since {}{}", q.of, along,
                        q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
   case QuantityKind::displacement:
     return fmt::format("displacement of {}{}{}", q.of, along, at);
@@ -106,7 +111,7 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
     for (const auto& row : journal.values)
       if (std::isfinite(row[q])) size = std::max(size, std::abs(row[q]));
     const auto scaled = post::scaled_unit(size, unit_of(quantity), ratio_of(quantity));
-    const bool strain = quantity.kind == QuantityKind::elongation;
+    const bool strain = is_relative(quantity.kind);
     post::Series series{.label = quantity.name, .style = post::Series::Style::line_and_points};
     for (std::size_t r = 1; r < journal.records.size(); ++r) { // the drawn state is held by the frame
       const auto& voltages = journal.records[r].voltages;

@@ -34,6 +34,8 @@ Section quantity_section() {
       word("kind",
            {{"distance", "between the centroids of two places (m)"},
             {"elongation", "relative change of the distance between two places (-)"},
+            {"size", "of the box around a place (m)"},
+            {"growth", "relative change of the size of a place (-)"},
             {"displacement", "of the centroid of a place (m)"},
             {"radius", "mean distance of a place's nodes from their centroid (m)"},
             {"force", "reaction at a support (N)"},
@@ -45,7 +47,7 @@ Section quantity_section() {
           .values(2, 2)
           .only({"distance", "elongation"})
           .refers_to(Reference::place),
-      of("the place").only({"displacement", "radius"}).refers_to(Reference::place),
+      of("the place").only({"size", "growth", "displacement", "radius"}).refers_to(Reference::place),
       of("the place of a support").only({"force"}).refers_to(Reference::supported_place),
       of("the electrode").only({"capacitance", "charge"}).refers_to(Reference::electrode),
       word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
@@ -55,10 +57,10 @@ Section quantity_section() {
       word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
-          .only({"distance", "elongation", "displacement", "force"}),
+          .only({"distance", "elongation", "size", "growth", "displacement", "force"}),
       text("since", to(&Quantity::since), "step at whose end it is zero; without it the mesh as drawn")
           .optional()
-          .only({"elongation"})
+          .only({"elongation", "growth"})
           .refers_to(Reference::step),
       text("at", to(&Quantity::at), "step at whose end summary.json reads it; without it the last")
           .optional()

@@ -1,0 +1,96 @@
+#include "cases/device.hpp"
+
+#include "cases/reader.hpp"
+#include "cases/simulation.hpp"
+#include "meshing/mesh_error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dielast::cases {
+namespace {
+
+const std::filesystem::path valid = std::filesystem::path(DIELAST_SOURCE_DIR) / "tests/cases/valid";
+const std::vector<std::string> small{"honeycomb.columns=[2, 1, 2]", "mesh.wall_elements=2",
+                                     "step.voltage.increments=2"};
+
+Case honeycomb(std::vector<std::string> overrides = {}) {
+  overrides.insert(overrides.begin(), small.begin(), small.end());
+  return read_case(valid / "honeycomb.toml", overrides);
+}
+
+TEST(Coarser, HalvesTheMesh) {
+  EXPECT_EQ(coarser(honeycomb({"mesh.wall_elements=8"}))->mesh.wall_elements, 4);
+  EXPECT_EQ(coarser(honeycomb({"mesh.wall_elements=2"}))->mesh.wall_elements, 1);
+  EXPECT_FALSE(coarser(honeycomb({"mesh.wall_elements=1"})));
+  const Case disc = read_case(valid / "disc.toml");
+  EXPECT_EQ(coarser(disc)->mesh.rings, disc.mesh.rings / 2);
+  EXPECT_EQ(coarser(disc)->mesh.order, disc.mesh.order);
+  EXPECT_FALSE(coarser(read_case(valid / "disc.toml", {"mesh.rings=3"})));
+  EXPECT_FALSE(coarser(read_case(valid / "own_mesh.toml")));
+}
+
+// Half of an odd number of elements is not a mesh twice as coarse: a third of the difference to it misleads.
+TEST(Coarser, TwiceAsLargeElementsHaveTheErrorTimesFour) {
+  for (const int elements : {2, 3, 4, 5, 8}) {
+    const auto coarse = coarser(honeycomb({"mesh.wall_elements=" + std::to_string(elements)}));
+    EXPECT_NEAR(elements, 2 * coarse->mesh.wall_elements, 1);
+  }
+}
+
+TEST(Device, PlacesAreThoseOfTheMesh) {
+  const Device device = build_device(honeycomb());
+  const auto places = places_of(device.mesh);
+  EXPECT_TRUE(std::is_sorted(places.begin(), places.end()));
+  for (const char* place :
+       {"film", "walls", "left_apex", "right_apex", "corner_top", "corner_bottom", "centre"})
+    EXPECT_TRUE(std::binary_search(places.begin(), places.end(), place)) << place;
+  EXPECT_EQ(device.wall_width, 0.0008);
+}
+
+TEST(Device, OwnMeshThatIsBrokenIsAMeshError) {
+  EXPECT_THROW(build_device(read_case(valid / "own_mesh.toml")), meshing::MeshError);
+}
+
+TEST(FreeBody, IsPinnedAgainstRigidMotionOnly) {
+  for (const auto& [model, pins] : {std::pair{"model=planar", 3}, {"model=3d", 6}}) {
+    const Device device = build_device(honeycomb({model}));
+    EXPECT_TRUE(device.free_body);
+    EXPECT_EQ(device.model.dofs.count() - device.model.dofs.free_count(), pins) << model;
+  }
+  EXPECT_FALSE(build_device(read_case(valid / "disc.toml")).free_body);
+}
+
+TEST(FreeBody, ItsPinsExertNoForce) {
+  for (const char* model : {"model=planar", "model=3d"}) {
+    const Case one = honeycomb({model, "drive.voltage=5 kV"});
+    Simulation simulation(one, 1);
+    const fem::DofMap& dofs = simulation.device().model.dofs;
+    double pins = 0, forces = 0;
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      if (frame.ends_step) {
+        pins = std::max(pins, frame.measured.internal_force.tail(dofs.count() - dofs.free_count()).norm());
+        forces = 45e3 * 1e-3 * 8e-3; // mu H L
+      }
+      return true;
+    };
+    EXPECT_EQ(simulation.run(observer).ending, Ending::complete);
+    EXPECT_GT(forces, 0);
+    EXPECT_LT(pins, 1e-6 * forces) << model;
+  }
+}
+
+TEST(Loads, AreSpreadEvenlyOverTheirPlace) {
+  const Case one =
+      read_case(valid / "disc.toml",
+                {"load=[{place='electrode_edge', force=['6 mN', '0 N', '0 N']}]", "step=[{kind='force'}]"});
+  const Device device = build_device(one);
+  EXPECT_NEAR(device.loads.sum(), 6e-3, 1e-15);
+  const auto& nodes = device.mesh.node_sets.at("electrode_edge");
+  for (const int n : nodes)
+    EXPECT_NEAR(device.loads[device.model.dofs.equation(n, 0)], 6e-3 / static_cast<double>(nodes.size()),
+                1e-15);
+}
+
+} // namespace
+} // namespace dielast::cases

@@ -1,0 +1,70 @@
+#include "tests/cases/command.hpp"
+
+#include <optional>
+#include <regex>
+
+namespace dielast::test {
+namespace {
+
+class Events : public CommandTest {
+ protected:
+  /// Events of the honeycomb with these overrides.
+  nlohmann::json events(std::vector<std::string> overrides) {
+    std::vector<std::string> words{"run", "small.toml", "-o", "out", "-q"};
+    overrides.insert(overrides.end(), {"output.error_estimate=false", "output.fields=false"});
+    for (const std::string& assignment : overrides) words.insert(words.end(), {"--set", assignment});
+    exit_code = dielast(words).exit_code;
+    return json_of("out/summary.json")["events"];
+  }
+  static std::optional<nlohmann::json> of_kind(const nlohmann::json& events, const std::string& kind) {
+    for (const auto& event : events)
+      if (event["kind"] == kind) return event;
+    return std::nullopt;
+  }
+  /// Of a case that is only released.
+  std::optional<nlohmann::json> contact_on_release(const std::string& angle) {
+    const auto all = events({"honeycomb.angle=" + angle, "mesh.wall_elements=4", "step=[{kind='release'}]"});
+    EXPECT_EQ(exit_code, 0) << angle;
+    return of_kind(all, "wall contact");
+  }
+
+  int exit_code = -1;
+};
+
+TEST_F(Events, WallsTouchOnReleaseBelow77Degrees) {
+  for (const char* angle : {"65 deg", "70 deg", "75 deg"}) {
+    const auto contact = contact_on_release(angle);
+    ASSERT_TRUE(contact) << angle;
+    EXPECT_EQ((*contact)["step"], "release");
+    EXPECT_TRUE(std::regex_match((*contact)["place"].get<std::string>(), std::regex(R"(cell\[\d+,\d+\])")))
+        << (*contact)["place"];
+    EXPECT_NE((*contact)["message"].get<std::string>().find("the walls are 800 µm wide"), std::string::npos)
+        << (*contact)["message"];
+  }
+  for (const char* angle : {"80 deg", "90 deg", "120 deg", "150 deg"})
+    EXPECT_FALSE(contact_on_release(angle)) << angle;
+}
+
+TEST_F(Events, OneWhenTheFieldBreaksDownOrTheTensionIsLost) {
+  const auto all = events({"drive.voltage=30 kV", "step.voltage.increments=60"});
+  EXPECT_EQ(exit_code, 4);
+  EXPECT_TRUE(of_kind(all, "breakdown") || of_kind(all, "loss of tension")) << all.dump(1);
+}
+
+TEST_F(Events, LossOfTensionAndBreakdownAreToldOnceWithTheirPlace) {
+  // Stiff walls and a hard clamp keep the film from running away before it breaks down and slackens.
+  const auto all = events({"honeycomb.wall_height=40 mm", "honeycomb.angle=120 deg", "drive.voltage=12 kV"});
+  for (const char* kind : {"breakdown", "loss of tension"}) {
+    const auto event = of_kind(all, kind);
+    ASSERT_TRUE(event) << kind << all.dump(1);
+    EXPECT_EQ((*event)["step"], "voltage");
+    EXPECT_GT((*event)["voltages"][0].get<double>(), 0);
+    EXPECT_FALSE((*event)["place"].get<std::string>().empty());
+    EXPECT_EQ(count(all.dump(), std::string("\"kind\":\"") + kind + '"'), 1u);
+  }
+}
+
+TEST_F(Events, NoneAtTheUsualVoltage) { EXPECT_EQ(events({}), nlohmann::json::array()); }
+
+} // namespace
+} // namespace dielast::test

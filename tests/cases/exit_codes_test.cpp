@@ -1,0 +1,153 @@
+#include "tests/cases/command.hpp"
+
+namespace dielast::test {
+namespace {
+
+class ExitCodes : public CommandTest {
+ protected:
+  void expect_file_error(const std::vector<std::string>& arguments, const std::string& message) {
+    const Ended ended = dielast(arguments);
+    EXPECT_EQ(ended.exit_code, 1) << ended.err;
+    EXPECT_EQ(ended.err, "error: " + message + "\n");
+  }
+};
+
+TEST_F(ExitCodes, ZeroForARunInItsDefaultDirectory) {
+  const Ended ended = dielast({"run", "small.toml"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  EXPECT_TRUE(exists("small-results/summary.json"));
+  EXPECT_FALSE(exists("small-results/checkpoint.cbor"));
+}
+
+TEST_F(ExitCodes, QuietRunsSayNothing) {
+  const Ended ended = dielast({"run", "small.toml", "--quiet"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_EQ(ended.out + ended.err, "");
+  EXPECT_NE(content("small-results/run.log"), "");
+}
+
+TEST_F(ExitCodes, OneForWrongUsage) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{},
+                                             {"rum", "small.toml"},
+                                             {"run"},
+                                             {"run", "small.toml", "--sat", "a=1"},
+                                             {"run", "small.toml", "-j", "-1"},
+                                             {"run", "small.toml", "-j", "many"},
+                                             {"check", "small.toml", "disc.toml"}}) {
+    const Ended ended = dielast(words);
+    EXPECT_EQ(ended.exit_code, 1) << testing::PrintToString(words);
+    EXPECT_NE(ended.err, "") << testing::PrintToString(words);
+  }
+  EXPECT_FALSE(exists("small-results"));
+}
+
+TEST_F(ExitCodes, OneForAnUnknownTopic) {
+  const Ended ended = dielast({"info", "device"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("did you mean \"devices\"?"), std::string::npos) << ended.err;
+}
+
+TEST_F(ExitCodes, OneForFilesThatCannotBeRead) {
+  for (const char* command : {"run", "check", "mesh", "study"})
+    for (const char* file : {"nowhere.toml", ".", ""}) {
+      const Ended ended = dielast({
+          command,
+          file,
+      });
+      EXPECT_EQ(ended.exit_code, 1) << command << " " << file;
+      EXPECT_TRUE(ended.err.starts_with("error: ")) << ended.err;
+      EXPECT_EQ(lines_of(ended.err).size(), 1u) << ended.err;
+    }
+}
+
+TEST_F(ExitCodes, OneForAnOutputDirectoryThatIsAFile) {
+  write("taken", "text");
+  expect_file_error({"run", "small.toml", "-o", "taken"},
+                    "taken: is not a directory; choose another with -o");
+  expect_file_error({"mesh", "small.toml", "-o", "taken"},
+                    "taken: is not a directory; choose another with -o");
+  expect_file_error({"run", "small.toml", "-o", "taken/inside"},
+                    "taken/inside: cannot make the output directory: Not a directory");
+  EXPECT_EQ(content("taken"), "text");
+}
+
+// The kernel's own files are closed to everyone, root too.
+TEST_F(ExitCodes, OneForAnOutputDirectoryThatCannotBeMade) {
+  const Ended ended = dielast({"run", "small.toml", "-o", "/proc/dielast"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_TRUE(ended.err.starts_with("error: /proc/dielast: cannot make the output directory")) << ended.err;
+}
+
+// A limit of file sizes stands in for a full disk: as there, writing fails in the middle of a run.
+TEST_F(ExitCodes, OneForAFullDiskAndWhatWasWrittenStays) {
+  const Ended ended = dielast(
+      {"run", "small.toml", "--set", "step.voltage.increments=200", "--set", "output.error_estimate=false"},
+      [] { limit(RLIMIT_FSIZE, 20000); });
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("File too large"), std::string::npos) << ended.err;
+  EXPECT_TRUE(ended.err.starts_with("error: cannot write small-results/")) << ended.err;
+  EXPECT_FALSE(exists("small-results/summary.json"));
+  const std::string list = content("small-results/small.pvd");
+  EXPECT_NE(list.find("</VTKFile>"), std::string::npos);
+  for (const auto& entry : std::filesystem::directory_iterator(directory / "small-results")) {
+    const std::string name = entry.path().filename();
+    EXPECT_NE(entry.path().extension(), ".part") << name;
+    if (entry.path().extension() == ".vtu") {
+      EXPECT_NE(text_of(entry.path()).find("</VTKFile>"), std::string::npos) << name;
+    }
+  }
+  EXPECT_GT(table_of(directory / "small-results/history.csv").size(), 1u);
+}
+
+TEST_F(ExitCodes, ThreeForABrokenMesh) {
+  for (const char* text : {"", "$MeshFormat\n", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1",
+                           "\x7f"
+                           "ELF"}) {
+    write("own.msh", text);
+    std::filesystem::copy_file(source_folder / "tests/cases/valid/own_mesh.toml", directory / "own.toml",
+                               std::filesystem::copy_options::overwrite_existing);
+    for (const char* command : {"run", "check", "mesh"}) {
+      const Ended ended = dielast({command, "own.toml"});
+      EXPECT_EQ(ended.exit_code, 3) << command << " " << text;
+      EXPECT_TRUE(ended.err.starts_with("error: ")) << ended.err;
+      EXPECT_NE(ended.err.find("own.msh"), std::string::npos) << ended.err;
+    }
+  }
+}
+
+TEST_F(ExitCodes, FourBeyondTheLimitPointAndEveryAcceptedStateIsKept) {
+  const Ended ended = dielast({"run", "small.toml", "--set", "drive.voltage=30 kV"});
+  EXPECT_EQ(ended.exit_code, 4);
+  const nlohmann::json summary = json_of("small-results/summary.json");
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary["status"], "not converged");
+  const std::string message = summary["message"];
+  EXPECT_TRUE(message.starts_with("limit point near ")) << message;
+  EXPECT_NE(message.find(" kV: equilibrium found up to "), std::string::npos) << message;
+  EXPECT_NE(ended.out.find(message), std::string::npos);
+  const auto rows = table_of(directory / "small-results/history.csv");
+  ASSERT_EQ(rows.size() - 1, summary["steps"]["accepted"].get<std::size_t>());
+  EXPECT_GT(rows.size(), 3u);
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  EXPECT_EQ(count(content("small-results/small.pvd"), "part=\"0\""), rows.size() - 1);
+  EXPECT_NE(content("small-results/report.html").find("limit point near"), std::string::npos);
+  EXPECT_TRUE(summary["quantities"]["eps_y"]["value"].is_number());
+}
+
+TEST_F(ExitCodes, FiveForAFailedCheck) {
+  const std::string check =
+      "[[check]]\nquantity = \"eps_y\"\nvalue = 5\ntolerance = \"1 %\"\nsource = \"nobody\"\n";
+  write("checked.toml", small_honeycomb + check);
+  const Ended ended = dielast({"run", "checked.toml"});
+  EXPECT_EQ(ended.exit_code, 5);
+  EXPECT_NE(ended.out.find("FAILED"), std::string::npos);
+  const nlohmann::json checks = json_of("checked-results/summary.json")["checks"];
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks[0]["passed"], false);
+  EXPECT_EQ(checks[0]["expected"], 5);
+}
+
+} // namespace
+} // namespace dielast::test

@@ -1,0 +1,103 @@
+#include "tests/cases/command.hpp"
+
+#include <map>
+
+namespace dielast::test {
+namespace {
+
+class Interrupt : public CommandTest {
+ protected:
+  std::size_t rows(const std::string& table) const { return lines_of(content(table)).size(); }
+
+  const std::vector<std::string> many{
+      "run", "small.toml", "--set", "step.voltage.increments=150", "--set", "output.error_estimate=false"};
+  std::vector<std::string> into(const std::string& folder, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = many;
+    words.insert(words.end(), {"-o", folder});
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  void expect_same_results(const std::string& folder, const std::string& other) const {
+    for (const char* file : {"history.csv", "summary.json", "resolved.toml", "small.pvd"})
+      EXPECT_EQ(content(folder + "/" + file), content(other + "/" + file)) << file;
+    for (const auto& entry : std::filesystem::directory_iterator(directory / folder))
+      if (entry.path().extension() == ".vtu") {
+        EXPECT_EQ(text_of(entry.path()), text_of(directory / other / entry.path().filename()))
+            << entry.path();
+      }
+  }
+};
+
+TEST_F(Interrupt, ResumedRunsEndInTheSameBits) {
+  ASSERT_EQ(dielast(into("straight")).exit_code, 0);
+  int resumes = 0;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::size_t enough = resumes ? 100 : 40;
+    const pid_t process =
+        start(into("stopped", resumes ? std::vector<std::string>{"--resume"} : std::vector<std::string>{}));
+    ASSERT_TRUE(until([&] { return rows("stopped/history.csv") > enough; }));
+    kill(process, signal);
+    const Ended ended = wait_for(process);
+    ASSERT_EQ(ended.exit_code, 130) << ended.err;
+    EXPECT_NE(ended.out.find("go on with --resume"), std::string::npos);
+    EXPECT_FALSE(exists("stopped/summary.json"));
+    EXPECT_LT(rows("stopped/history.csv"), 152u);
+    ++resumes;
+  }
+  const Ended ended = dielast(into("stopped", {"--resume"}));
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("resumed behind"), std::string::npos);
+  expect_same_results("stopped", "straight");
+}
+
+TEST_F(Interrupt, KilledRunsStartFromTheirLastCheckpointOrAnew) {
+  ASSERT_EQ(dielast(into("straight")).exit_code, 0);
+  const pid_t process = start(into("killed"));
+  ASSERT_TRUE(until([&] { return rows("killed/history.csv") > 50; }));
+  kill(process, SIGKILL);
+  EXPECT_EQ(wait_for(process).exit_code, -SIGKILL);
+  ASSERT_EQ(dielast(into("killed", {"--resume"})).exit_code, 0);
+  expect_same_results("killed", "straight");
+}
+
+TEST_F(Interrupt, CheckpointsOfAnotherCaseAreRefused) {
+  const pid_t process = start(into("stopped"));
+  ASSERT_TRUE(until([&] { return rows("stopped/history.csv") > 20; }));
+  kill(process, SIGINT);
+  ASSERT_EQ(wait_for(process).exit_code, 130);
+  const std::string before = content("stopped/history.csv");
+  const Ended ended = dielast(into("stopped", {"--resume", "--set", "drive.voltage=5 kV"}));
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("the case has changed since"), std::string::npos) << ended.err;
+  EXPECT_EQ(content("stopped/history.csv"), before);
+}
+
+TEST_F(Interrupt, BrokenCheckpointsAreRefused) {
+  const pid_t process = start(into("stopped"));
+  ASSERT_TRUE(until([&] { return rows("stopped/history.csv") > 20; }));
+  kill(process, SIGINT);
+  ASSERT_EQ(wait_for(process).exit_code, 130);
+  std::filesystem::path checkpoint;
+  for (const auto& entry : std::filesystem::directory_iterator(directory / "stopped"))
+    if (entry.path().filename().string().find("checkpoint") != std::string::npos) checkpoint = entry.path();
+  const std::string whole = text_of(checkpoint);
+  ASSERT_FALSE(whole.empty());
+  for (const std::string& broken :
+       {whole.substr(0, whole.size() / 2), std::string(), std::string("checkpoint")}) {
+    std::ofstream(checkpoint, std::ios::binary) << broken;
+    const Ended ended = dielast(into("stopped", {"--resume"}));
+    EXPECT_EQ(ended.exit_code, 1) << broken.size();
+    EXPECT_NE(ended.err.find("without --resume"), std::string::npos) << ended.err;
+  }
+}
+
+TEST_F(Interrupt, ResumingAFinishedRunRepeatsIt) {
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);
+  const std::string summary = content("out/summary.json"), history = content("out/history.csv");
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out", "--resume"}).exit_code, 0);
+  EXPECT_EQ(content("out/summary.json"), summary);
+  EXPECT_EQ(content("out/history.csv"), history);
+}
+
+} // namespace
+} // namespace dielast::test

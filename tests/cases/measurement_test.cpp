@@ -1,0 +1,152 @@
+#include "cases/measurement.hpp"
+#include "cases/reader.hpp"
+#include "fem/equilibrium.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+/// A small disc as clamped at 5 kV, every kind of quantity read at a deformation of our choice.
+class DiscMeasurement : public test::ScratchTest {
+ protected:
+  void SetUp() override {
+    ScratchTest::SetUp();
+    write("measured.toml", test::small_disc + R"(
+[[quantity]]
+name = "rim"
+kind = "radius"
+of = "rim"
+[[quantity]]
+name = "moved"
+kind = "displacement"
+of = "centre"
+[[quantity]]
+name = "moved_y"
+kind = "displacement"
+of = "centre"
+along = "y"
+[[quantity]]
+name = "force_x"
+kind = "force"
+of = "rim"
+along = "x"
+[[quantity]]
+name = "force_y"
+kind = "force"
+of = "rim"
+along = "y"
+[[quantity]]
+name = "charge"
+kind = "charge"
+of = "film"
+[[quantity]]
+name = "gap"
+kind = "distance"
+between = ["centre", "rim"]
+[[quantity]]
+name = "thinnest"
+kind = "extreme"
+of = "thickness"
+extreme = "minimum"
+)");
+    one = read_case(directory / "measured.toml");
+    device.emplace(build_device(one));
+    state = device->model.initial_state();
+    state.voltage = {5000};
+  }
+  double value(const std::string& name) {
+    fem::Equilibrium equilibrium(device->model, 1);
+    Eigen::VectorXd force;
+    equilibrium.internal_force(state, force);
+    const fem::Samples samples = device->model.sample(state);
+    const std::vector<double> all = Measurement(one, *device).all({state, samples, force});
+    for (std::size_t q = 0; q < all.size(); ++q)
+      if (one.quantities[q].name == name) return all[q];
+    ADD_FAILURE() << name;
+    return 0;
+  }
+  /// Area of the electrode's polygonal or curved triangles, m^2.
+  double electrode_area() const {
+    double area = 0;
+    const fem::Samples samples = device->model.sample(state);
+    for (const auto& s : samples.film)
+      if (s.electrode == 0) area += s.volume * 9 / s.thickness; // stretched 3 x 3 as drawn
+    return area;
+  }
+
+  Case one;
+  std::optional<Device> device;
+  fem::State state;
+};
+
+TEST_F(DiscMeasurement, AsClamped) {
+  EXPECT_NEAR(value("electrode_radius"), 0.03, 2e-8);
+  EXPECT_NEAR(value("rim"), 0.09, 1e-7);
+  EXPECT_EQ(value("moved"), 0);
+  EXPECT_NEAR(value("gap"), 0, 1e-12); // of their centroids
+  EXPECT_NEAR(value("thinnest"), 1e-3 / 9, 1e-12);
+  EXPECT_NEAR(value("max_field"), 5000 * 9 / 1e-3, 1e-3);
+  EXPECT_NEAR(value("force_x"), 0, 1e-9);
+}
+
+// C = eps A / h of a flat film; the mesh's circle is a little off the true one.
+TEST_F(DiscMeasurement, CapacitanceAndCharge) {
+  const double h = 1e-3 / 9;
+  EXPECT_NEAR(electrode_area(), std::numbers::pi * 9e-4, 1e-3 * std::numbers::pi * 9e-4);
+  const double capacitance = 4e-11 * electrode_area() / h;
+  EXPECT_NEAR(value("capacitance"), capacitance, 1e-12 * capacitance);
+  EXPECT_NEAR(value("charge"), 5000 * capacitance, 1e-12 * 5000 * capacitance);
+}
+
+// Stretched by lambda_1 and lambda_2 the area grows by their product, the thickness falls by it.
+TEST_F(DiscMeasurement, CapacitanceGrowsWithTheSquareOfTheArea) {
+  const double before = value("capacitance"), a = 1.2, b = 1.1;
+  for (std::size_t n = 0; n < device->mesh.nodes.size(); ++n) {
+    const Eigen::Vector3d& x = device->mesh.nodes[n];
+    state.displacement[n] = {(a - 1) * x.x(), (b - 1) * x.y(), 0};
+  }
+  EXPECT_NEAR(value("capacitance"), before * std::pow(a * b, 2), 1e-9 * before);
+  EXPECT_NEAR(value("thinnest"), 1e-3 / 9 / (a * b), 1e-12);
+}
+
+TEST_F(DiscMeasurement, DisplacementOfAPlace) {
+  const int centre = device->mesh.node_sets.at("centre")[0];
+  state.displacement[static_cast<std::size_t>(centre)] = {3e-4, -4e-4, 0};
+  EXPECT_DOUBLE_EQ(value("moved"), 5e-4);
+  EXPECT_DOUBLE_EQ(value("moved_y"), -4e-4);
+}
+
+// The rim's reaction balances a dead force in the film: what the support exerts on the device.
+TEST_F(DiscMeasurement, ForceOfASupportBalancesTheLoad) {
+  fem::Equilibrium equilibrium(device->model, 1);
+  const int centre = device->mesh.node_sets.at("centre")[0];
+  state.dead_force[device->model.dofs.equation(centre, 0)] = 0.02;
+  state.dead_force[device->model.dofs.equation(centre, 1)] = -0.01;
+  state.voltage = {0};
+  ASSERT_EQ(equilibrium.solve(state, {.tolerance = 1e-12}).outcome, fem::Outcome::converged);
+  EXPECT_NEAR(value("force_x"), -0.02, 1e-9);
+  EXPECT_NEAR(value("force_y"), 0.01, 1e-9);
+  EXPECT_GT(value("moved"), 0);
+}
+
+TEST_F(DiscMeasurement, ElongationsStartWhereTheirStepEnds) {
+  const Case lattice = read_case(directory / "small.toml");
+  const Device built = build_device(lattice);
+  Measurement measurement(lattice, built);
+  fem::State at = built.model.initial_state();
+  const fem::Samples samples = built.model.sample(at);
+  const Eigen::VectorXd force = Eigen::VectorXd::Zero(built.model.dofs.count());
+  EXPECT_TRUE(std::isnan(measurement.all({at, samples, force})[0])); // eps_x, since the release
+  measurement.step_ended("release", {at, samples, force});
+  EXPECT_EQ(measurement.all({at, samples, force})[0], 0);
+  for (std::size_t n = 0; n < built.mesh.nodes.size(); ++n) at.displacement[n] = 0.25 * built.mesh.nodes[n];
+  EXPECT_NEAR(measurement.all({at, samples, force})[0], 0.25, 1e-12);
+  EXPECT_NEAR(measurement.all({at, samples, force})[1], 0.25, 1e-12);
+}
+
+} // namespace
+} // namespace dielast::cases

@@ -1,0 +1,117 @@
+#include "tests/cases/command.hpp"
+
+#include <regex>
+
+namespace dielast::test {
+namespace {
+
+class Outputs : public CommandTest {
+ protected:
+  static void expect_quantity(const nlohmann::json& summary, const std::string& name,
+                              const std::string& unit) {
+    ASSERT_TRUE(summary["quantities"].contains(name)) << name;
+    const nlohmann::json& quantity = summary["quantities"][name];
+    EXPECT_TRUE(quantity["value"].is_number()) << name;
+    EXPECT_EQ(quantity["unit"], unit) << name;
+    EXPECT_TRUE(quantity["error_estimate"].is_number()) << name;
+    EXPECT_GE(quantity["error_estimate"], 0) << name;
+  }
+};
+
+TEST_F(Outputs, OfAHoneycomb) {
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);
+  for (const char* file :
+       {"small.pvd", "history.csv", "summary.json", "resolved.toml", "report.html", "run.log"})
+    EXPECT_GT(std::filesystem::file_size(directory / "out" / file), 0u) << file;
+
+  const nlohmann::json summary = json_of("out/summary.json");
+  EXPECT_EQ(summary["status"], "complete");
+  for (const auto& [name, unit] : std::map<std::string, std::string>{{"eps_x", "1"},
+                                                                     {"eps_y", "1"},
+                                                                     {"released_length_x", "m"},
+                                                                     {"released_length_y", "m"},
+                                                                     {"max_field", "V/m"},
+                                                                     {"breakdown_ratio", "1"},
+                                                                     {"min_principal_stress", "Pa"},
+                                                                     {"capacitance", "F"}})
+    expect_quantity(summary, name, unit);
+
+  const auto rows = table_of(directory / "out/history.csv");
+  ASSERT_EQ(rows.size(), 6u); // header, drawn, release, three increments
+  EXPECT_EQ(rows[0][0], "step");
+  for (std::size_t c = 1; c < rows[0].size(); ++c)
+    EXPECT_TRUE(std::regex_match(rows[0][c], std::regex(R"(\w+\[[^\]]+\])"))) << rows[0][c];
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  EXPECT_EQ(rows.back()[0], "voltage");
+  EXPECT_EQ(std::stod(rows.back()[1]), 1);
+  EXPECT_EQ(std::stod(rows.back()[2]), 6000);
+}
+
+TEST_F(Outputs, SeriesHasAStepForEveryRow) {
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);
+  const std::string list = content("out/small.pvd");
+  const std::size_t rows = table_of(directory / "out/history.csv").size() - 1;
+  std::map<std::string, std::vector<double>> times;
+  const std::regex entry(R"re(timestep="([^"]+)" part="\d" name="([^"]+)" file="([^"]+)")re");
+  for (std::sregex_iterator found(list.begin(), list.end(), entry), end; found != end; ++found) {
+    times[(*found)[2]].push_back(std::stod((*found)[1]));
+    EXPECT_TRUE(exists("out/" + (*found)[3].str())) << (*found)[3];
+  }
+  ASSERT_EQ(times.size(), 2u);
+  for (const auto& [part, of_part] : times) {
+    EXPECT_EQ(of_part.size(), rows) << part;
+    for (std::size_t i = 1; i < of_part.size(); ++i) EXPECT_LT(of_part[i - 1], of_part[i]) << part;
+  }
+}
+
+TEST_F(Outputs, FieldsCanBeLeftOut) {
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out", "--set", "output.fields=false"}).exit_code, 0);
+  for (const auto& entry : std::filesystem::directory_iterator(directory / "out")) {
+    EXPECT_NE(entry.path().extension(), ".vtu");
+    EXPECT_NE(entry.path().extension(), ".pvd");
+  }
+  EXPECT_TRUE(exists("out/report.html"));
+}
+
+TEST_F(Outputs, OfADisc) {
+  ASSERT_EQ(dielast({"run", "disc.toml"}).exit_code, 0);
+  const nlohmann::json summary = json_of("disc-results/summary.json");
+  for (const auto& [name, unit] : std::map<std::string, std::string>{
+           {"electrode_radius", "m"}, {"max_field", "V/m"}, {"breakdown_ratio", "1"}, {"capacitance", "F"}})
+    expect_quantity(summary, name, unit);
+  EXPECT_NEAR(summary["quantities"]["electrode_radius"]["value"].get<double>(), 0.0338, 1e-4);
+}
+
+TEST_F(Outputs, ReportNeedsNothingElse) {
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);
+  const std::string report = content("out/report.html");
+  EXPECT_NE(report.find("</html>"), std::string::npos);
+  EXPECT_NE(report.find("src=\"data:image/png;base64,"), std::string::npos);
+  EXPECT_NE(report.find("<svg"), std::string::npos);
+  const std::regex outside(
+      R"re((?:src|href)="(?!data:|#)[^"]*"|<script|<link|@import|url\((?!#|'#|"#|data:))re");
+  std::smatch found;
+  EXPECT_FALSE(std::regex_search(report, found, outside)) << found.str();
+}
+
+TEST_F(Outputs, ResolvedCaseGivesTheSameResults) {
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out", "--set", "film.prestretch=3"}).exit_code, 0);
+  std::filesystem::create_directory(directory / "again");
+  write("again/small.toml", content("out/resolved.toml"));
+  ASSERT_EQ(dielast({"run", "again/small.toml", "-o", "again/out"}).exit_code, 0);
+  for (const char* file : {"summary.json", "history.csv", "resolved.toml"})
+    EXPECT_EQ(content(std::string("again/out/") + file), content(std::string("out/") + file)) << file;
+}
+
+TEST_F(Outputs, ASecondRunReplacesTheFirst) {
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out", "--set", "step.voltage.increments=6"}).exit_code, 0);
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);
+  EXPECT_EQ(table_of(directory / "out/history.csv").size(), 6u);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(directory / "out"))
+    files += entry.path().extension() == ".vtu";
+  EXPECT_EQ(files, 10u); // film and walls of five states: nothing left of the first run
+}
+
+} // namespace
+} // namespace dielast::test

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+namespace dielast::test {
+
+inline const std::filesystem::path source_folder = DIELAST_SOURCE_DIR;
+
+/// A honeycomb of five cells that runs in a fraction of a second.
+inline const std::string small_honeycomb = R"(title = "Small honeycomb"
+[film]
+material = "VHB 4910 (honeycomb)"
+thickness = "1 mm"
+prestretch = [4.0, 2.5]
+[honeycomb]
+angle = "150 deg"
+columns = [2, 1, 2]
+wall_length = "8 mm"
+wall_width = "0.8 mm"
+wall_height = "2 mm"
+[drive]
+voltage = "6 kV"
+[mesh]
+wall_elements = 2
+[[step]]
+kind = "release"
+[[step]]
+kind = "voltage"
+increments = 3
+)";
+
+inline const std::string small_disc = R"(title = "Small disc"
+[film]
+material = "VHB 4910 (honeycomb)"
+thickness = "1 mm"
+prestretch = 3
+[disc]
+radius = "90 mm"
+electrode_radius = "30 mm"
+[drive]
+voltage = "5 kV"
+[mesh]
+rings = 6
+[[step]]
+kind = "voltage"
+increments = 2
+)";
+
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A test with a directory of its own, and small cases in it.
+class ScratchTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "dielast_command_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch directory");
+    directory = pattern;
+    write("small.toml", small_honeycomb);
+    write("disc.toml", small_disc);
+  }
+  void TearDown() override { std::filesystem::remove_all(directory); }
+
+  void write(const std::string& file, const std::string& text) const {
+    std::ofstream(directory / file, std::ios::binary) << text;
+  }
+  std::string content(const std::string& file) const { return text_of(directory / file); }
+  bool exists(const std::string& file) const { return std::filesystem::exists(directory / file); }
+
+  std::filesystem::path directory;
+};
+
+} // namespace dielast::test

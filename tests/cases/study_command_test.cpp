@@ -1,0 +1,133 @@
+#include "tests/cases/command.hpp"
+
+#include <map>
+
+namespace dielast::test {
+namespace {
+
+class StudyCommand : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    write_study(
+        R"({ "honeycomb.angle" = ["120 deg", "150 deg"], "drive.voltage" = ["2 kV", "4 kV", "6 kV"] })");
+  }
+  void write_study(const std::string& vary) const {
+    write("study.toml", "title = \"Small study\"\ncase = \"small.toml\"\n[study]\nvary = " + vary +
+                            "\ncollect = [\"eps_x\", \"eps_y\"]\n"
+                            "plot = [{ x = \"drive.voltage\", y = [\"eps_y\"] }]\n");
+  }
+  std::string mark(int point) const { return "out/point-000" + std::to_string(point) + "/point.json"; }
+  std::vector<std::string> into(const std::string& folder, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"study", "study.toml", "-o", folder};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+};
+
+TEST_F(StudyCommand, RunsEveryPointOfTheGrid) {
+  const Ended ended = dielast(into("out"));
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto rows = table_of(directory / "out/study.csv");
+  ASSERT_EQ(rows.size(), 7u);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"point", "honeycomb.angle", "drive.voltage", "eps_x[1]",
+                                               "eps_y[1]", "exit_code", "events", "message"}));
+  EXPECT_EQ(rows[1][1], "120 deg");
+  EXPECT_EQ(rows[6][2], "6 kV");
+  for (std::size_t p = 1; p < rows.size(); ++p) {
+    EXPECT_EQ(rows[p][0], std::to_string(p));
+    EXPECT_EQ(rows[p][5], "0");
+  }
+  EXPECT_NE(content("out/report.html").find("</html>"), std::string::npos);
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "one", "-j", "1"}).exit_code, 0);
+  EXPECT_EQ(json_of("out/point-0006/summary.json"), json_of("one/summary.json"));
+  EXPECT_EQ(ended.out.find('\r'), std::string::npos); // plain lines in a pipe
+}
+
+TEST_F(StudyCommand, KilledAndResumedItEndsInTheSameBits) {
+  ASSERT_EQ(dielast(into("straight")).exit_code, 0);
+  const pid_t process = start(into("out", {"-j", "1"}));
+  ASSERT_TRUE(until([&] { return exists(mark(2)); }));
+  kill(process, SIGKILL);
+  ASSERT_EQ(wait_for(process).exit_code, -SIGKILL);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50)); // its child dies with it
+  ASSERT_FALSE(exists(mark(6)));
+  std::map<int, std::filesystem::file_time_type> written;
+  for (const int point : {1, 2}) written[point] = std::filesystem::last_write_time(directory / mark(point));
+  ASSERT_EQ(dielast(into("out", {"--resume", "-j", "2"})).exit_code, 0);
+  for (const auto& [point, time] : written)
+    EXPECT_EQ(std::filesystem::last_write_time(directory / mark(point)), time) << point;
+  EXPECT_EQ(content("out/study.csv"), content("straight/study.csv"));
+  EXPECT_EQ(content("out/report.html"), content("straight/report.html"));
+}
+
+TEST_F(StudyCommand, WithoutResumeEverythingIsRepeated) {
+  write_study("{ \"drive.voltage\" = [\"2 kV\"] }");
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  const auto time = std::filesystem::last_write_time(directory / mark(1));
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  EXPECT_NE(std::filesystem::last_write_time(directory / mark(1)), time);
+}
+
+TEST_F(StudyCommand, PointsOfAnotherGridAreNotReused) {
+  write_study("{ \"drive.voltage\" = [\"2 kV\", \"4 kV\"] }");
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  write_study("{ \"drive.voltage\" = [\"4 kV\", \"2 kV\"] }");
+  ASSERT_EQ(dielast(into("out", {"--resume"})).exit_code, 0);
+  ASSERT_EQ(dielast(into("fresh")).exit_code, 0);
+  EXPECT_EQ(content("out/study.csv"), content("fresh/study.csv"));
+}
+
+// The case file is part of what a finished point is a result of.
+TEST_F(StudyCommand, PointsOfAnEditedCaseAreNotReused) {
+  write_study("{ \"drive.voltage\" = [\"2 kV\"] }");
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  std::string edited = small_honeycomb;
+  edited.replace(edited.find("[4.0, 2.5]"), 10, "[3.0, 3.0]");
+  write("small.toml", edited);
+  dielast(into("out", {"--resume"}));
+  ASSERT_EQ(dielast(into("fresh")).exit_code, 0);
+  EXPECT_EQ(content("out/study.csv"), content("fresh/study.csv"));
+}
+
+TEST_F(StudyCommand, FailedPointsAreRecordedAndDoNotStopTheRest) {
+  write_study(R"({ "drive.voltage" = ["2 kV", "30 kV", "4 kV"] })");
+  const Ended ended = dielast(into("out", {"-j", "1"}));
+  EXPECT_EQ(ended.exit_code, 4);
+  const auto rows = table_of(directory / "out/study.csv");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[1][4], "0");
+  EXPECT_EQ(rows[2][4], "4");
+  EXPECT_EQ(rows[3][4], "0");
+  EXPECT_NE(content("out/study.csv").find("limit point near"), std::string::npos);
+  EXPECT_NE(ended.out.find("2 of 3 points"), std::string::npos) << ended.out;
+}
+
+TEST_F(StudyCommand, ImpossiblePointsAreRecordedAndDoNotStopTheRest) {
+  write_study(R"({ "honeycomb.angle" = ["150 deg", "60 deg", "120 deg"] })");
+  EXPECT_EQ(dielast(into("out")).exit_code, 4);
+  const auto rows = table_of(directory / "out/study.csv");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[2][4], "2");
+  EXPECT_EQ(rows[3][4], "0");
+  EXPECT_NE(content("out/study.csv").find("cells close up at 60 deg"), std::string::npos);
+}
+
+// A point that needs more processor time than the system allows is ended by it, as by a crash.
+TEST_F(StudyCommand, CrashedPointsAreRecordedAndDoNotStopTheRest) {
+  write_study(R"({ "mesh.wall_elements" = [2, 60, 3] })");
+  const Ended ended = dielast(into("out"), [] {
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, 1);
+  });
+  EXPECT_EQ(ended.exit_code, 4);
+  const auto rows = table_of(directory / "out/study.csv");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[1][4], "0");
+  EXPECT_LT(std::stoi(rows[2][4]), 0);
+  EXPECT_TRUE(rows[2][6].starts_with("crashed (signal ")) << rows[2][6];
+  EXPECT_EQ(rows[3][4], "0");
+}
+
+} // namespace
+} // namespace dielast::test

@@ -1,0 +1,113 @@
+#include "post/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+#include <random>
+
+namespace dielast::post {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t nodes = 5, equations = 12;
+
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+fem::RampProgress sample_progress(int points = 3) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto vector = [&](std::size_t size) {
+    return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [&] { return uniform(random); })
+        .eval();
+  };
+  fem::RampProgress progress{.start = {{uniform(random), 1e3}, vector(equations)},
+                             .load_factor = 1.0 / 3,
+                             .increment = 0.1,
+                             .negative_pivots = 2};
+  for (int p = 0; p < points; ++p) {
+    fem::State state;
+    for (std::size_t n = 0; n < nodes; ++n) {
+      state.displacement.emplace_back(uniform(random), -0.0, std::numeric_limits<double>::denorm_min());
+      state.rotation.emplace_back(uniform(random), uniform(random), uniform(random), uniform(random));
+    }
+    state.voltage = {uniform(random), 7500};
+    state.dead_force = vector(equations);
+    progress.points.push_back({uniform(random), state});
+  }
+  return progress;
+}
+
+void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
+  EXPECT_EQ(one.start.voltage, other.start.voltage);
+  EXPECT_EQ(one.start.dead_force, other.start.dead_force);
+  EXPECT_EQ(bits(one.load_factor), bits(other.load_factor));
+  EXPECT_EQ(bits(one.increment), bits(other.increment));
+  EXPECT_EQ(one.negative_pivots, other.negative_pivots);
+  ASSERT_EQ(one.points.size(), other.points.size());
+  for (std::size_t p = 0; p < one.points.size(); ++p) {
+    const fem::State &a = one.points[p].state, &b = other.points[p].state;
+    EXPECT_EQ(bits(one.points[p].parameter), bits(other.points[p].parameter));
+    EXPECT_EQ(a.voltage, b.voltage);
+    EXPECT_EQ(a.dead_force, b.dead_force);
+    ASSERT_EQ(a.displacement.size(), b.displacement.size());
+    for (std::size_t n = 0; n < nodes; ++n) {
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(bits(a.displacement[n][c]), bits(b.displacement[n][c]));
+      for (int c = 0; c < 4; ++c) EXPECT_EQ(bits(a.rotation[n].coeffs()[c]), bits(b.rotation[n].coeffs()[c]));
+    }
+  }
+}
+
+json through_file(const json& archived) { return json::from_cbor(json::to_cbor(archived)); }
+
+TEST(Checkpoint, RestoresEveryBit) {
+  for (const int points : {1, 4}) {
+    const fem::RampProgress progress = sample_progress(points);
+    expect_same(restore(through_file(archive(progress)), nodes, equations), progress);
+  }
+}
+
+TEST(Checkpoint, PacksWhatNumbersAsTextWouldLose) {
+  const std::vector<double> odd{0.1,
+                                -0.0,
+                                5e-324,
+                                1e308,
+                                std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::quiet_NaN()};
+  const std::vector<double> back = unpack(through_file(pack(odd)));
+  ASSERT_EQ(back.size(), odd.size());
+  for (std::size_t i = 0; i < odd.size(); ++i) EXPECT_EQ(bits(back[i]), bits(odd[i]));
+  EXPECT_TRUE(unpack(through_file(pack({}))).empty());
+}
+
+TEST(Checkpoint, OnlyPacksAreUnpacked) {
+  for (const json& other : {json(1.5), json("text"), json::array({1.0}), json(), json::binary({1, 2, 3})})
+    EXPECT_THROW(unpack(other), std::runtime_error) << other;
+}
+
+TEST(Checkpoint, OfAnotherModelIsRefused) {
+  const json archived = archive(sample_progress());
+  EXPECT_NO_THROW(restore(archived, nodes, equations));
+  EXPECT_THROW(restore(archived, nodes + 1, equations), std::runtime_error);
+  EXPECT_THROW(restore(archived, nodes, equations - 1), std::runtime_error);
+  EXPECT_THROW(restore(archived, 0, 0), std::runtime_error);
+}
+
+TEST(Checkpoint, DamageIsRefused) {
+  const json archived = archive(sample_progress());
+  for (const auto& [key, value] : archived.items()) {
+    json without = archived, other = archived;
+    without.erase(key);
+    EXPECT_THROW(restore(without, nodes, equations), std::runtime_error) << key;
+    other[key] = "text";
+    EXPECT_THROW(restore(other, nodes, equations), std::runtime_error) << key;
+  }
+  json empty = archived;
+  empty["points"] = json::array();
+  EXPECT_THROW(restore(empty, nodes, equations), std::runtime_error);
+  EXPECT_THROW(restore(json(), nodes, equations), std::runtime_error);
+}
+
+} // namespace
+} // namespace dielast::post
