@@ -52,6 +52,7 @@ using Geometry = std::variant<Honeycomb, Disc, Annulus, MeshFile>;
 
 /// [mesh]
 struct MeshOptions {
+  double unit = 1;       ///< m per unit of length of a user's own mesh
   int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
   int wall_elements = 8; ///< beams per wall (honeycomb)
   double grading = 0;    ///< largest film element over the wall's elements; 1 is uniform (honeycomb)

@@ -20,16 +20,6 @@ struct Overloaded : Functions... {
   using Functions::operator()...;
 };
 
-/// The mesh's block of triangles or of lines; null when it has none.
-const meshing::CellBlock* find_block(const meshing::Mesh& mesh, bool triangles) {
-  for (const auto& block : mesh.blocks) {
-    const bool is_triangle =
-        block.type == meshing::CellType::triangle3 || block.type == meshing::CellType::triangle6;
-    if (is_triangle == triangles && block.size() > 0) return &block;
-  }
-  return nullptr;
-}
-
 /// Electrode over each triangle.
 std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {
   std::vector<int> map(static_cast<std::size_t>(film.size()), fem::passive);
@@ -38,9 +28,61 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
     if (place == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(place->second.block)] != &film)
       throw meshing::MeshError("electrode \"" + one.electrodes[e].name + "\": the place \"" +
                                one.electrodes[e].place + "\" is not a part of the film");
-    for (const int cell : place->second.cells) map[static_cast<std::size_t>(cell)] = static_cast<int>(e);
+    for (const int cell : place->second.cells) {
+      int& electrode = map[static_cast<std::size_t>(cell)];
+      if (electrode != fem::passive)
+        throw meshing::MeshError("electrodes \"" + one.electrodes[static_cast<std::size_t>(electrode)].name +
+                                 "\" and \"" + one.electrodes[e].name + "\" overlap");
+      electrode = static_cast<int>(e);
+    }
   }
   return map;
+}
+
+/// A user's mesh in m, without the lines that only name places.
+meshing::Mesh film_of(meshing::Mesh mesh, double unit) {
+  for (auto& x : mesh.nodes) x *= unit;
+  for (int b = static_cast<int>(mesh.blocks.size()) - 1; b >= 0; --b) {
+    if (!meshing::is_line(mesh.blocks[static_cast<std::size_t>(b)].type)) continue;
+    mesh.blocks.erase(mesh.blocks.begin() + b);
+    std::erase_if(mesh.cell_sets, [b](const auto& place) { return place.second.block == b; });
+    for (auto& [name, set] : mesh.cell_sets) set.block -= set.block > b;
+  }
+  return mesh;
+}
+
+/// Says which [[load]] cannot act.
+[[noreturn]] void reject_load(const Case& one, std::size_t number, const std::string& reason) {
+  const std::string key = "load[" + std::to_string(number + 1) + "].";
+  for (const Mention& mention : one.places)
+    if (mention.key == key + "place") throw CaseError({{mention.source, key + "force", reason}});
+  throw CaseError({{{one.source.string()}, key + "force", reason}});
+}
+
+/// Dead forces of all loads, per equation.
+Eigen::VectorXd load_vector(const Case& one, const Device& device) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(device.model.dofs.count());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double largest = 0;
+  for (std::size_t l = 0; l < one.loads.size(); ++l) {
+    const Load& load = one.loads[l];
+    const auto& nodes = device.mesh.node_sets.at(load.place);
+    for (int c = 0; c < 3; ++c) {
+      const double share = load.force[static_cast<std::size_t>(c)] / static_cast<double>(nodes.size());
+      if (share == 0) continue;
+      for (const int node : nodes) {
+        const int e = device.model.dofs.equation(node, c);
+        if (e == fem::DofMap::absent)
+          reject_load(one, l, "a planar model does not move along z; use model = \"3d\"");
+        forces[e] += share;
+      }
+      sum[c] += load.force[static_cast<std::size_t>(c)];
+      largest = std::max(largest, std::abs(load.force[static_cast<std::size_t>(c)]));
+    }
+  }
+  if (device.free_body && sum.norm() > 1e-9 * largest)
+    reject_load(one, 0, "the forces on a free body must balance; hold it with [[support]]");
+  return forces;
 }
 
 /// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
@@ -84,7 +126,7 @@ meshing::Mesh build_mesh(const Case& one) {
               return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order,
                                            true);
             },
-            [&](const MeshFile& file) { return meshing::read_gmsh(file.path); },
+            [&](const MeshFile& file) { return film_of(meshing::read_gmsh(file.path), options.unit); },
         },
         one.geometry);
   } catch (const std::invalid_argument& error) {
@@ -112,7 +154,10 @@ Device build_device(const Case& one) {
   }
   model.extent = (high - low).norm();
 
-  const meshing::CellBlock* film = find_block(mesh, true);
+  if (high.z() - low.z() > 1e-9 * model.extent)
+    throw meshing::MeshError("the film must lie in a plane of constant z");
+
+  const meshing::CellBlock* film = mesh.triangles();
   if (!film) throw meshing::MeshError("the mesh has no triangles: there is no film");
   model.length_scale = model.extent / std::sqrt(static_cast<double>(film->size()));
   const int points = film->type == meshing::CellType::triangle6 ? one.mesh.quadrature : 1;
@@ -124,7 +169,7 @@ Device build_device(const Case& one) {
     throw meshing::MeshError(error.what());
   }
   const auto* lattice = std::get_if<Honeycomb>(&one.geometry);
-  if (const meshing::CellBlock* walls = find_block(mesh, false); walls && lattice)
+  if (const meshing::CellBlock* walls = mesh.lines(); walls && lattice)
     model.blocks.push_back(fem::make_beam_block(
         mesh, *walls,
         materials::rectangular_section(lattice->wall_material, lattice->wall_width, lattice->wall_height)));
@@ -140,29 +185,23 @@ Device build_device(const Case& one) {
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
   device.rest = {std::vector<double>(one.electrodes.size(), 0.0),
                  Eigen::VectorXd::Zero(device.model.dofs.count())};
-  device.loads = device.rest.dead_force;
-  for (const Load& load : one.loads) {
-    const auto& nodes = device.mesh.node_sets.at(load.place);
-    for (const int node : nodes)
-      for (int c = 0; c < 3; ++c)
-        if (const int e = device.model.dofs.equation(node, c); e != fem::DofMap::absent)
-          device.loads[e] += load.force[static_cast<std::size_t>(c)] / static_cast<double>(nodes.size());
-  }
+  device.loads = load_vector(one, device);
   if (lattice) device.wall_width = lattice->wall_width;
   return device;
 }
 
-std::optional<Case> coarser(const Case& one) {
-  if (std::holds_alternative<MeshFile>(one.geometry)) return std::nullopt;
-  Case coarse = one;
-  if (std::holds_alternative<Honeycomb>(one.geometry)) {
-    if (one.mesh.wall_elements < 2) return std::nullopt;
-    coarse.mesh.wall_elements = one.mesh.wall_elements / 2;
-  } else {
-    if (one.mesh.rings < 4) return std::nullopt;
-    coarse.mesh.rings = one.mesh.rings / 2;
-  }
-  return coarse;
+std::optional<Coarser> coarser(const Case& one) {
+  const auto halve = [&one](int MeshOptions::*elements, int fewest) -> std::optional<Coarser> {
+    const int fine = one.mesh.*elements;
+    if (fine / 2 < fewest) return std::nullopt;
+    Coarser result{one, static_cast<double>(fine) / (fine / 2)};
+    result.coarse.mesh.*elements = fine / 2;
+    return result;
+  };
+  return std::visit(Overloaded{[&](const Honeycomb&) { return halve(&MeshOptions::wall_elements, 1); },
+                               [](const MeshFile&) -> std::optional<Coarser> { return std::nullopt; },
+                               [&](const auto& /*rings*/) { return halve(&MeshOptions::rings, 2); }},
+                    one.geometry);
 }
 
 } // namespace dielast::cases

@@ -29,9 +29,8 @@ struct Arguments {
   bool resume = false, quiet = false, tangent = false;
 
   /// Where results go unless the user says so: beside where the command was given, named after the case.
-  std::filesystem::path output() const {
-    if (!directory.empty()) return directory;
-    return std::filesystem::path(case_file).stem().string() + "-results";
+  std::filesystem::path output(const std::string& suffix = "-results") const {
+    return directory.empty() ? std::filesystem::path(case_file).stem().string() + suffix : directory;
   }
 };
 
@@ -151,10 +150,13 @@ int main(int argc, char** argv) {
   };
   const auto takes_overrides = [&](CLI::App* command) {
     command->add_option("--set", arguments.overrides, "override a key: --set honeycomb.angle=\"140 deg\"")
-        ->type_name("KEY=VALUE");
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
   };
   const auto takes_directory = [&](CLI::App* command) {
-    command->add_option("-o,--output", arguments.directory, "directory of the results [<case>-results]")
+    command
+        ->add_option("-o,--output", arguments.directory,
+                     "directory of the results [<case>-results, <case>-study]")
         ->type_name("DIR");
   };
   const auto takes_threads = [&](CLI::App* command, const char* meaning) {

@@ -37,9 +37,13 @@ Eigen::Vector3d Measurement::position(const std::string& place, const fem::State
 }
 
 double Measurement::length(const Quantity& quantity, const fem::State& state) const {
-  if (quantity.kind == QuantityKind::distance || quantity.kind == QuantityKind::elongation)
-    return std::abs(component(position(quantity.between[1], state) - position(quantity.between[0], state),
-                              quantity.along));
+  if (quantity.kind == QuantityKind::distance || quantity.kind == QuantityKind::elongation) {
+    const auto between = [&](const fem::State& at) {
+      return component(position(quantity.between[1], at) - position(quantity.between[0], at), quantity.along);
+    };
+    // Positive as drawn; negative when the places have passed each other.
+    return between(device_.model.initial_state()) < 0 ? -between(state) : between(state);
+  }
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const int n : device_.mesh.node_sets.at(quantity.of)) {
     const Eigen::Vector3d x =
@@ -84,7 +88,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     for (const int n : device_.mesh.node_sets.at(quantity.of))
       for (int c = 0; c < 3; ++c) {
         const int e = device_.model.dofs.equation(n, c);
-        if (e >= device_.model.dofs.free_count()) sum[c] += measured.internal_force[e];
+        if (e >= device_.model.dofs.free_count()) sum[c] += measured.internal_force[e] - state.dead_force[e];
       }
     return component(sum, quantity.along);
   }

@@ -12,7 +12,7 @@ namespace {
 
 /// Keys that say how a case is computed, not which device it is.
 bool keeps_the_device(std::string_view assignment) {
-  for (const std::string_view how : {"mesh.", "solver.", "output.", "check", "quantity", "title"})
+  for (const std::string_view how : {"model=", "mesh.", "solver.", "output.", "check", "quantity", "title"})
     if (assignment.starts_with(how)) return !assignment.starts_with("mesh.file");
   return false;
 }

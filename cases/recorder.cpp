@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 namespace dielast::cases {
 
@@ -18,10 +17,6 @@ namespace {
 
 /// Shorter runs are repeated faster than their checkpoints are written.
 constexpr std::chrono::seconds checkpoint_interval{2};
-
-double largest(const std::vector<double>& voltages) {
-  return voltages.empty() ? 0 : *std::max_element(voltages.begin(), voltages.end());
-}
 
 json archive(const fem::StepRecord& record) {
   json events = json::array();
@@ -51,6 +46,7 @@ json archive(const Snapshot& snapshot) {
       {"title", snapshot.title},
       {"voltage", snapshot.voltage},
       {"displacement", post::pack({snapshot.displacement.front().data(), 3 * snapshot.displacement.size()})},
+      {"thickness", post::pack(snapshot.thickness)},
       {"field", post::pack(snapshot.field)}};
 }
 
@@ -64,12 +60,6 @@ Snapshot restore_snapshot(const json& archived) {
   for (std::size_t i = 0; i + 2 < displacement.size(); i += 3)
     snapshot.displacement.emplace_back(&displacement[i]);
   return snapshot;
-}
-
-std::string resolved_text(const Case& one) {
-  std::ostringstream text;
-  write_resolved(one, text);
-  return text.str();
 }
 
 } // namespace
@@ -106,8 +96,8 @@ void Recorder::record(const Frame& frame) {
                    frame.measured.samples);
 
   const Device& device = simulation_.device();
-  const int triangles = device.mesh.blocks.front().size();
-  Snapshot snapshot{record.step, largest(record.voltages), frame.measured.state.displacement,
+  const int triangles = device.mesh.triangles()->size();
+  Snapshot snapshot{record.step, record.largest_voltage(), frame.measured.state.displacement,
                     post::average(frame.measured.samples, "thickness", triangles),
                     post::average(frame.measured.samples, "electric_field", triangles)};
   // The last accepted state is replaced until its step has ended.

@@ -31,7 +31,7 @@ struct Journal {
 class Recorder {
  public:
   /// With `resume`, restores the simulation and the journal from the directory's checkpoint, and cuts the
-  /// files back to it; throws FileError when there is none or it is of another case.
+  /// files back to it; starts over when there is none, throws FileError when it is of another case.
   Recorder(const Case& one, Simulation& simulation, std::filesystem::path directory, bool resume);
 
   void record(const Frame& frame);

@@ -4,6 +4,8 @@
 
 #include <fmt/ostream.h>
 
+#include <sstream>
+
 namespace dielast::cases {
 namespace {
 
@@ -41,6 +43,12 @@ void write_resolved(const Case& one, std::ostream& out) {
   for (const Quantity& quantity : one.quantities)
     if (quantity.standard) fmt::print(out, " {}", quantity.name);
   fmt::print(out, "\n");
+}
+
+std::string resolved_text(const Case& one) {
+  std::ostringstream text;
+  write_resolved(one, text);
+  return text.str();
 }
 
 } // namespace dielast::cases

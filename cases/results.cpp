@@ -79,8 +79,8 @@ post::Panel panel(const Device& device, const Snapshot& snapshot, const std::vec
   return panel;
 }
 
-/// The shape before and after the last step, and the field that it is driven by.
-post::Section shape_section(const Device& device, const Journal& journal) {
+/// The shape before and after the last step, and the field that drives it.
+std::vector<post::Section> picture_sections(const Device& device, const Journal& journal) {
   const auto& all = journal.snapshots;
   const Snapshot& last = all.back();
   post::Picture shapes{
@@ -88,22 +88,34 @@ post::Section shape_section(const Device& device, const Journal& journal) {
   if (all.size() > 1)
     shapes.panels.push_back(panel(device, all[all.size() - 2], all[all.size() - 2].thickness));
   shapes.panels.push_back(panel(device, last, last.thickness));
-  post::Section section{"Shape", {}};
-  section.blocks.push_back(
-      post::Image{post::render_png(device.mesh, shapes), "Before and after the last step, to one scale."});
+  std::vector<post::Section> sections{{"Shape",
+                                       {post::Image{post::render_png(device.mesh, shapes),
+                                                    "Before and after the last step, to one scale."}}}};
   if (last.voltage > 0) {
     post::Picture field{.quantity = "True electric field", .unit = "V/m", .wall_width = shapes.wall_width};
     field.panels.push_back(panel(device, last, last.field));
-    section.blocks.push_back(
-        post::Image{post::render_png(device.mesh, field), "The field that the film must bear."});
+    sections.push_back(
+        {"Electric field", {post::Image{post::render_png(device.mesh, field), "What the film must bear."}}});
   }
-  return section;
+  return sections;
 }
 
-/// Every quantity against the largest voltage, those of one unit and size in one plot.
+/// Every quantity against the largest voltage from where it rises, or against the load factor of the last
+/// step in a run without voltage; strains in one plot.
 std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
   std::vector<post::Plot> plots;
   std::map<std::string, std::size_t> by_label;
+  const auto& records = journal.records;
+  const auto charged = std::find_if(records.begin(), records.end(), [](const fem::StepRecord& record) {
+    return record.largest_voltage() > 0;
+  });
+  const bool electric = charged != records.end();
+  const auto begin = electric
+                         ? charged - (charged != records.begin())
+                         : std::find_if(records.begin(), records.end(), [&](const fem::StepRecord& record) {
+                             return record.step == records.back().step;
+                           });
+  const std::string x_label = electric ? "voltage [kV]" : fmt::format("load factor of \"{}\"", begin->step);
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     if (!quantity.at.empty()) continue;
@@ -113,14 +125,15 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
     const auto scaled = post::scaled_unit(size, unit_of(quantity), ratio_of(quantity));
     const bool strain = is_relative(quantity.kind);
     post::Series series{.label = quantity.name, .style = post::Series::Style::line_and_points};
-    for (std::size_t r = 1; r < journal.records.size(); ++r) { // the drawn state is held by the frame
-      const auto& voltages = journal.records[r].voltages;
-      series.x.push_back(voltages.empty() ? 0 : *std::max_element(voltages.begin(), voltages.end()) / 1000);
+    for (auto r = static_cast<std::size_t>(begin - records.begin()); r < records.size(); ++r) {
+      series.x.push_back(electric ? records[r].largest_voltage() / 1000 : records[r].load_factor);
       series.y.push_back(journal.values[r][q] * scaled.factor);
     }
-    const std::string label = strain ? "strain [%]" : fmt::format("{} [{}]", quantity.name, scaled.unit);
+    const std::string label = strain                ? "strain [%]"
+                              : scaled.unit.empty() ? quantity.name
+                                                    : fmt::format("{} [{}]", quantity.name, scaled.unit);
     const auto [place, fresh] = by_label.try_emplace(label, plots.size());
-    if (fresh) plots.push_back({strain ? "strains" : quantity.name, "voltage [kV]", label, {}});
+    if (fresh) plots.push_back({strain ? "strains" : quantity.name, x_label, label, {}});
     plots[place->second].series.push_back(std::move(series));
   }
   return plots;
@@ -186,6 +199,16 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                         {"voltages", record.voltages},
                         {"place", event.place},
                         {"message", event.message}});
+  if (!results.outcome.kind.empty() && !journal.records.empty()) {
+    const auto& last = journal.records.back();
+    events.push_back({{"kind", results.outcome.kind},
+                      {"step", last.step},
+                      {"record", last.index},
+                      {"load_factor", last.load_factor},
+                      {"voltages", last.voltages},
+                      {"place", ""},
+                      {"message", results.outcome.message}});
+  }
   summary["events"] = events;
   int iterations = 0;
   for (const auto& record : journal.records) iterations += record.iterations;
@@ -204,7 +227,10 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   post::Report report{
       .title = one.title, .subtitle = one.source.filename().string(), .footer = "dielast " DIELAST_VERSION};
   const bool converged = results.outcome.ending == Ending::complete;
-  report.status = {word(results.outcome.ending), converged ? post::Tone::good : post::Tone::warning};
+  const bool quiet = std::all_of(journal.records.begin(), journal.records.end(),
+                                 [](const fem::StepRecord& record) { return record.events.empty(); });
+  report.status = {std::string(word(results.outcome.ending)) + (quiet ? "" : ", see the events"),
+                   converged && quiet && results.checks_passed() ? post::Tone::good : post::Tone::warning};
   for (const auto& row : results.quantities)
     if (report.highlights.size() < 6)
       report.highlights.push_back(
@@ -213,9 +239,10 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   if (!results.outcome.message.empty())
     report.sections.push_back({"How it ended", {post::Paragraph{results.outcome.message}}});
 
-  report.sections.push_back(shape_section(device, journal));
+  for (post::Section& section : picture_sections(device, journal))
+    report.sections.push_back(std::move(section));
 
-  post::Section plots{"Against voltage", {}};
+  post::Section plots{"Curves", {}};
   for (std::string& svg : post::render_svg(curves(one, journal)))
     if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
   if (plots.blocks.empty()) plots.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
@@ -226,7 +253,8 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
        {post::quantity_table(results.quantities),
         post::Paragraph{"Errors are estimates of what is left of the discretisation, from a second solution "
                         "with elements "
-                        "twice as large (a third of the difference, as for second-order convergence)."}}});
+                        "about twice as large: a third of the difference (second order), for extremes of "
+                        "fields all of it (first order)."}}});
   if (!results.checks.empty()) report.sections.push_back({"Checks", {post::check_table(results.checks)}});
   if (post::Table events = post::event_table(journal.records); !events.rows.empty())
     report.sections.push_back({"Events", {std::move(events)}});

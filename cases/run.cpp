@@ -1,5 +1,6 @@
 #include "cases/run.hpp"
 
+#include "cases/resolved.hpp"
 #include "cases/results.hpp"
 #include "meshing/quality.hpp"
 #include "post/file_output.hpp"
@@ -28,16 +29,12 @@ spdlog::logger make_logger(const RunSettings& settings) {
   auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>((settings.directory / "run.log").string(),
                                                                   !settings.resume);
   auto terminal = std::make_shared<spdlog::sinks::stdout_sink_st>();
-  terminal->set_level(settings.quiet ? spdlog::level::off : spdlog::level::info);
+  terminal->set_level(settings.quiet ? spdlog::level::err : spdlog::level::info);
   spdlog::logger logger("run", {file, terminal});
   logger.set_pattern("%v");
   logger.set_level(spdlog::level::debug);
   logger.flush_on(spdlog::level::info);
   return logger;
-}
-
-double largest(const std::vector<double>& voltages) {
-  return voltages.empty() ? 0 : *std::max_element(voltages.begin(), voltages.end());
 }
 
 /// Logs a simulation, records it, and stops it on an interrupt.
@@ -56,7 +53,7 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
   observer.on_accept = [&one, &recorder, &log](const Frame& frame) {
     std::string line =
         fmt::format("    {:8.6f}  {:>9}  {:2d} iterations", frame.record.load_factor,
-                    post::engineering(largest(frame.record.voltages), "V"), frame.record.iterations);
+                    post::engineering(frame.record.largest_voltage(), "V"), frame.record.iterations);
     for (std::size_t q = 0; q < std::min<std::size_t>(frame.values.size(), 2); ++q)
       if (std::isfinite(frame.values[q]))
         line += fmt::format("   {} {:.5g}", one.quantities[q].name, frame.values[q]);
@@ -69,18 +66,24 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
   return observer;
 }
 
-/// A third of the difference to a solution with elements twice as large: Richardson's estimate for second
-/// order, which is what the slowest converging part of the model, the stress peaks at the lattice's corners,
-/// shows.
-std::vector<double> estimate_errors(const Case& one, const Simulation& fine, int threads) {
-  std::optional<Case> coarse = coarser(one);
-  if (!coarse) return {};
-  for (Step& step : coarse->steps) step.increments = (step.increments + 2) / 3;
-  Simulation simulation(*coarse, threads);
-  if (simulation.run({}).ending != Ending::complete) return {};
+/// Richardson's estimate from a second solution with coarser elements, as for convergence of second order;
+/// extremes of fields sit at the lattice's corners, where only first order can be hoped for.
+std::vector<double> estimate_errors(const Case& one, const Simulation& fine, int threads,
+                                    spdlog::logger& log) {
+  std::optional<Coarser> second = coarser(one);
+  if (!second) return {};
+  for (Step& step : second->coarse.steps) step.increments = (step.increments + 2) / 3;
+  Simulation simulation(second->coarse, threads);
+  if (simulation.run({}).ending != Ending::complete) {
+    log.warn("no error estimate: the coarser mesh found no equilibrium");
+    return {};
+  }
   std::vector<double> errors;
-  for (std::size_t q = 0; q < fine.results().size(); ++q)
-    errors.push_back(std::abs(fine.results()[q] - simulation.results()[q]) / 3);
+  for (std::size_t q = 0; q < fine.results().size(); ++q) {
+    const int order = one.quantities[q].kind == QuantityKind::extreme ? 1 : 2;
+    errors.push_back(std::abs(fine.results()[q] - simulation.results()[q]) /
+                     (std::pow(second->ratio, order) - 1));
+  }
   return errors;
 }
 
@@ -88,6 +91,12 @@ std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();
+}
+
+/// The directory holds the results of exactly this case.
+bool is_complete(const Case& one, const std::filesystem::path& directory) {
+  return std::filesystem::exists(directory / "summary.json") &&
+         read_text(directory / "resolved.toml") == resolved_text(one);
 }
 
 } // namespace
@@ -117,13 +126,19 @@ void make_directory(const std::filesystem::path& directory) {
 
 ExitCode run_case(const Case& one, const RunSettings& settings) {
   make_directory(settings.directory);
+  if (settings.resume && is_complete(one, settings.directory)) {
+    fmt::print("{}: already complete, nothing to resume\n", settings.directory.string());
+    return ExitCode::ok;
+  }
+  for (const char* stale : {"summary.json", "report.html"})
+    std::filesystem::remove(settings.directory / stale);
   Simulation simulation(one, settings.threads);
   Recorder recorder(one, simulation, settings.directory, settings.resume);
   spdlog::logger log = make_logger(settings);
   const Device& device = simulation.device();
   log.info("dielast " DIELAST_VERSION "  {}", one.title);
-  log.info("{} triangles, {} beams, {} unknowns; smallest angle {:.1f} deg", device.mesh.blocks[0].size(),
-           device.mesh.blocks.size() > 1 ? device.mesh.blocks[1].size() : 0, device.model.dofs.free_count(),
+  log.info("{} triangles, {} beams, {} unknowns; smallest angle {:.1f} deg", device.mesh.triangles()->size(),
+           device.mesh.lines() ? device.mesh.lines()->size() : 0, device.model.dofs.free_count(),
            meshing::quality(device.mesh).smallest_angle);
   if (!recorder.journal().records.empty())
     log.info("resumed behind {} accepted states", recorder.journal().records.size());
@@ -137,7 +152,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   }
   std::vector<double> errors;
   if (one.error_estimate && outcome.ending == Ending::complete)
-    errors = estimate_errors(one, simulation, settings.threads);
+    errors = estimate_errors(one, simulation, settings.threads, log);
   const Results results = collect_results(one, simulation, outcome, errors);
 
   log.info("results");

@@ -180,11 +180,16 @@ Section mesh_section() {
       text("file", mesh_file(),
            "the user's own gmsh mesh (.msh 4.1), beside the case file; physical names are places")
           .only({"file"}),
+      measure("unit", "m", mesh_option(&MeshOptions::unit), "what one unit of length of the file stands for")
+          .above(0)
+          .otherwise("1 m")
+          .only({"file"}),
       integer("order", mesh_option(&MeshOptions::order),
               "1: 3-node triangles, 2-node beams; 2: 6-node and 3-node")
           .at_least(1)
           .at_most(2)
-          .otherwise("2"),
+          .otherwise("2")
+          .only({"honeycomb", "disc", "annulus"}),
       integer("wall_elements", mesh_option(&MeshOptions::wall_elements), "beams per wall")
           .at_least(1)
           .at_most(200)

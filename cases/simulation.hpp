@@ -39,7 +39,8 @@ enum class Ending { complete, gave_up, interrupted };
 
 struct Outcome {
   Ending ending = Ending::complete;
-  std::string message; ///< gave_up: what happened and what to do
+  std::string kind{};    ///< gave_up: "limit point", "singular tangent", "no equilibrium"
+  std::string message{}; ///< gave_up: what happened and what to do
 };
 
 /// Takes a case through its steps.
@@ -61,12 +62,12 @@ class Simulation {
   void set_results(std::vector<double> results) { results_ = std::move(results); }
 
  private:
-  fem::RampTarget target(const Step& step, const fem::State& from) const;
+  fem::RampTarget target(int step, const fem::RampTarget& start) const;
   fem::RampOptions options(const Step& step) const;
-  fem::State drawn_state();
+  Eigen::VectorXd frame_force();
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
               double load_factor, const fem::NewtonResult& newton);
-  std::string failure(const Step& step, const fem::RampResult& result, const fem::RampTarget& target) const;
+  Outcome failure(const Step& step, const fem::RampResult& result, const fem::RampTarget& target) const;
 
   const Case& case_;
   Device device_;
@@ -74,6 +75,8 @@ class Simulation {
   Measurement measurement_;
   Watch watch_;
   std::vector<Step> steps_;
+  Eigen::VectorXd
+      frame_force_; ///< dead forces by which a frame holds the free nodes as drawn, until the release
   std::vector<double> results_;
   int step_ = 0, records_ = 0;
   fem::RampProgress ramp_;

@@ -1,6 +1,7 @@
 #include "cases/study.hpp"
 
 #include "cases/reader.hpp"
+#include "cases/resolved.hpp"
 #include "cases/run.hpp"
 #include "cases/study_report.hpp"
 #include "meshing/mesh_error.hpp"
@@ -10,7 +11,9 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <map>
+#include <sstream>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <thread>
@@ -45,6 +48,17 @@ namespace {
   }
   std::fflush(nullptr);
   _exit(code);
+}
+
+/// The point's directory, as far as it goes, is of the case as it is now.
+bool is_current(const Study& study, const StudyPoint& point) {
+  std::ostringstream resolved;
+  resolved << std::ifstream(point.directory / "resolved.toml").rdbuf();
+  try {
+    return resolved.str() == resolved_text(read_case(study.base, point.overrides));
+  } catch (const CaseError&) {
+    return false; // it fails again as quickly
+  }
 }
 
 /// One line that says how far the study is: rewritten in place on a terminal, one per point in a pipe.
@@ -98,11 +112,12 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   ProgressLine progress(points.size());
   std::vector<const StudyPoint*> waiting;
   for (const StudyPoint& point : points) {
-    if (settings.resume && result_of(study, point)) {
+    const bool current = settings.resume && is_current(study, point);
+    if (current && result_of(study, point)) {
       progress.skipped();
       continue;
     }
-    if (!settings.resume) std::filesystem::remove_all(point.directory);
+    if (!current) std::filesystem::remove_all(point.directory);
     waiting.push_back(&point);
   }
   progress.show();

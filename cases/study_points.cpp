@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 
 namespace dielast::cases {
@@ -70,17 +69,15 @@ std::optional<PointResult> result_of(const Study& study, const StudyPoint& point
   return result;
 }
 
-std::optional<AxisNumber> axis_number(const std::string& toml) {
+std::optional<WrittenMeasure> axis_number(const std::string& toml) {
   std::string_view text = toml;
   if (text.size() > 1 && (text.front() == '"' || text.front() == '\''))
     text = text.substr(1, text.size() - 2);
-  AxisNumber number;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number.value);
-  if (error != std::errc{}) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
-  const auto unit = text.find_first_not_of(' ');
-  if (unit != std::string_view::npos) number.unit = text.substr(unit);
-  return number;
+  try {
+    return split_measure(text);
+  } catch (const UnitError&) {
+    return std::nullopt;
+  }
 }
 
 } // namespace dielast::cases

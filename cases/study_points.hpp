@@ -2,6 +2,7 @@
 
 #include "cases/exit_code.hpp"
 #include "cases/study_spec.hpp"
+#include "cases/units.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -36,10 +37,6 @@ void mark_done(const StudyPoint& point, int exit_code, const std::string& messag
 std::optional<PointResult> result_of(const Study& study, const StudyPoint& point);
 
 /// A value as a number in the user's own unit: "75 deg" is 75 in "deg". Nothing for lists and words.
-struct AxisNumber {
-  double value = 0;
-  std::string unit;
-};
-std::optional<AxisNumber> axis_number(const std::string& toml);
+std::optional<WrittenMeasure> axis_number(const std::string& toml);
 
 } // namespace dielast::cases

@@ -3,34 +3,27 @@
 #include "cases/case_tree.hpp"
 #include "cases/overrides.hpp"
 #include "cases/section_reader.hpp"
+#include "cases/units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
 namespace dielast::cases {
 namespace {
 
-struct Measured {
-  double number = 0;
-  std::string unit; ///< as written
-};
-
-/// "70 deg" or 70: the number and the unit, whatever it is.
-std::optional<Measured> measured(const Node* node) {
+/// A number of { from, to, step }, with the unit as written.
+std::optional<WrittenMeasure> measured(const Node* node) {
   if (!node) return std::nullopt;
-  if (node->is(Node::Kind::integer) || node->is(Node::Kind::number)) return Measured{node->number, ""};
+  if (node->is(Node::Kind::integer) || node->is(Node::Kind::number)) return WrittenMeasure{node->number, ""};
   if (!node->is(Node::Kind::text)) return std::nullopt;
-  Measured result;
-  const char* end = node->text.data() + node->text.size();
-  const auto [rest, problem] = std::from_chars(node->text.data(), end, result.number);
-  if (problem != std::errc{}) return std::nullopt;
-  result.unit.assign(rest, end);
-  result.unit.erase(0, result.unit.find_first_not_of(' '));
-  return result;
+  try {
+    return split_measure(node->text);
+  } catch (const UnitError&) {
+    return std::nullopt;
+  }
 }
 
 /// Values of { from, to, step }, both ends included; every unit must be written alike. Empty after a report.
@@ -141,6 +134,22 @@ void check_names(SectionReader& reader, const Node& section, const Study& study,
   }
 }
 
+/// Without `collect` every quantity is collected; what the plots show always is.
+void complete_collection(Study& study, const Case& base) {
+  const auto add = [&](const std::string& name) {
+    const bool known = std::any_of(base.quantities.begin(), base.quantities.end(),
+                                   [&](const Quantity& quantity) { return quantity.name == name; });
+    if (known && std::find(study.collect.begin(), study.collect.end(), name) == study.collect.end())
+      study.collect.push_back(name);
+  };
+  if (study.collect.empty())
+    for (const Quantity& quantity : base.quantities) add(quantity.name);
+  for (const StudyPlot& plot : study.plots) {
+    add(plot.x);
+    for (const std::string& y : plot.y) add(y);
+  }
+}
+
 /// A file with `case` holds nothing but the study.
 void require_only_study(SectionReader& reader, const Node& tree) {
   for (std::size_t i = 0; i < tree.items.size(); ++i)
@@ -177,6 +186,7 @@ Study read_study(const std::filesystem::path& path) {
   reader.read_table(*case_schema().find_section("study"), *section, &study, "study");
   read_axes(reader, *section, base, study);
   check_names(reader, *section, study, base_case);
+  complete_collection(study, base_case);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   return study;
 }

@@ -86,7 +86,7 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
       series.style = post::Series::Style::line_and_points;
       if (x_axis) {
         const auto number = axis_number(points[p].values[*x_axis]);
-        series.x.push_back(number ? number->value : static_cast<double>(p + 1));
+        series.x.push_back(number ? number->number : static_cast<double>(p + 1));
         plot.x_label =
             number && !number->unit.empty() ? fmt::format("{} [{}]", spec.x, number->unit) : spec.x;
       } else {

@@ -80,6 +80,8 @@ std::span<const Dimension> dimensions() {
       Dimension{"F", "a capacitance", "1 nF", 1, "F", "pF nF uF F"},
       Dimension{"C", "a charge", "1 uC", 1, "C", "nC uC mC C"},
       Dimension{"F/m", "a permittivity", "4e-11 F/m", 1e-6, "F/m", "F/m pF/m"},
+      Dimension{"N m", "a moment", "1 mN m", 1e6, "N m", "mN.m N.m"},
+      Dimension{"1/m", "a curvature", "10 1/m", 1e9, "1/m", "1/m 1/mm"},
       Dimension{"kg/m^3", "a density", "960 kg/m^3", 1e5, "kg/m^3", "kg/m^3 g/cm^3"},
   };
   return table;
@@ -91,15 +93,20 @@ const Dimension& dimension(std::string_view unit) {
   throw std::logic_error(fmt::format("no dimension has the SI unit \"{}\"", unit));
 }
 
-Measure parse_measure(std::string_view text, std::string_view si_unit) {
+WrittenMeasure split_measure(std::string_view text) {
   std::string_view rest = trimmed(text);
   if (rest.starts_with('+')) rest.remove_prefix(1);
-  double number = 0;
-  const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  WrittenMeasure written;
+  const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), written.number);
   if (problem == std::errc::result_out_of_range) throw UnitError("which is too large or too small to store");
   if (problem != std::errc{}) throw UnitError("which does not start with a number");
-  if (!std::isfinite(number)) throw UnitError("which is not finite");
-  const std::string unit(trimmed(rest.substr(static_cast<std::size_t>(end - rest.data()))));
+  if (!std::isfinite(written.number)) throw UnitError("which is not finite");
+  written.unit = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
+  return written;
+}
+
+Measure parse_measure(std::string_view text, std::string_view si_unit) {
+  const auto [number, unit] = split_measure(text);
   // udunits would take "1 2 mm" for 1 x (2 mm)
   if (!unit.empty() && std::string_view("0123456789.+-*/^(),").find(unit[0]) != std::string_view::npos)
     throw UnitError(fmt::format("with \"{}\" after the number", unit));

@@ -35,6 +35,15 @@ class UnitError : public std::runtime_error {
   std::string unknown_unit_;
 };
 
+/// A quantity as written.
+struct WrittenMeasure {
+  double number = 0;
+  std::string unit; ///< empty for a pure number
+};
+
+/// "70 deg" -> 70 and "deg", whatever the unit. Throws UnitError: no finite number in front.
+WrittenMeasure split_measure(std::string_view text);
+
 struct Measure {
   double value = 0; ///< SI
   std::string unit; ///< as written; empty for a pure number

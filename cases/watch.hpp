@@ -28,7 +28,7 @@ class Watch {
 
   const Device& device_;
   std::optional<fem::WallContactSearch> contacts_;
-  const meshing::CellBlock* lines_ = nullptr;
+  const meshing::CellBlock* lines_;
 };
 
 } // namespace dielast::cases

@@ -110,6 +110,7 @@ void Assembler::build_pattern() {
 
 void Assembler::colour_chunks() {
   constexpr int most_colours = 64;
+  std::vector<Chunk> alone;
   std::vector<std::uint64_t> taken(static_cast<std::size_t>(model_.dofs.count()), 0);
   for (std::size_t b = 0; b < equations_.size(); ++b) {
     const ElementBlock& block = *model_.blocks[b];
@@ -125,7 +126,10 @@ void Assembler::colour_chunks() {
         if (*e != DofMap::absent) used |= taken[static_cast<std::size_t>(*e)];
       int colour = 0;
       while (colour < most_colours && (used >> colour & 1)) ++colour;
-      if (colour == most_colours) throw std::length_error("more than 64 element chunks meet at one node");
+      if (colour == most_colours) { // too many neighbours: a colour of its own
+        alone.push_back(chunk);
+        continue;
+      }
       for (auto e = begin; e != end; ++e)
         if (*e != DofMap::absent) taken[static_cast<std::size_t>(*e)] |= std::uint64_t{1} << colour;
       if (colours_.size() <= static_cast<std::size_t>(colour))
@@ -133,6 +137,7 @@ void Assembler::colour_chunks() {
       colours_[static_cast<std::size_t>(colour)].push_back(chunk);
     }
   }
+  for (const Chunk& chunk : alone) colours_.push_back({chunk});
 }
 
 Evaluation Assembler::run(const State& state, bool want_residual, bool want_tangent) {

@@ -38,6 +38,16 @@ Equilibrium::Equilibrium(const Model& model, int threads)
   for (int n = 0; n < model.dofs.node_count(); ++n)
     for (int c = 3; c < DofMap::components; ++c)
       if (const int e = model.dofs.equation(n, c); e != DofMap::absent) weight_[e] = 1 / model.length_scale;
+  // Positions are known to a rounding of the extent; the stiffest unknowns turn it into force.
+  assembler_.tangent(model.initial_state());
+  const SparseSymmetric& K = assembler_.matrix();
+  double stiffest = 0;
+  for (int c = 0; c < K.size; ++c) {
+    const auto diagonal = static_cast<std::size_t>(K.column_start[static_cast<std::size_t>(c)]);
+    stiffest = std::max(stiffest, std::abs(K.values[diagonal]) * weight_[c] * weight_[c]);
+  }
+  round_off_ = std::numeric_limits<double>::epsilon() * stiffest * model.extent *
+               std::sqrt(static_cast<double>(K.size));
 }
 
 double Equilibrium::weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const {
@@ -81,6 +91,7 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
   double norm = weighted_norm(force, free);
   double scale = force_scale(state);
   const double first_norm = norm;
+  double previous_norm = std::numeric_limits<double>::infinity();
   double step_length = 0;
   int indefinite = 0;
   double stale_tangent =
@@ -92,7 +103,8 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
     }
     result.residual = scale > 0 ? norm / scale : 0;
     if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
-    if (norm <= options.tolerance * scale || norm <= noise_) {
+    const bool stagnates = norm <= round_off_ && norm > 0.3 * previous_norm;
+    if (norm <= options.tolerance * scale || stagnates) {
       result.outcome = Outcome::converged;
       if (stale_tangent > near && !refresh_inertia(state, result)) result.outcome = Outcome::singular;
       return result;
@@ -102,19 +114,10 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
       result.outcome = Outcome::not_converged;
       return result;
     }
+    previous_norm = norm;
     ++timings_.iterations;
     stale_tangent = result.residual;
     const bool regular = factor_tangent(state);
-    if (noise_ == 0) {
-      const SparseSymmetric& K = assembler_.matrix();
-      double stiffest = 0;
-      for (int c = 0; c < K.size; ++c) {
-        const auto at = static_cast<std::size_t>(K.column_start[static_cast<std::size_t>(c)]);
-        stiffest = std::max(stiffest, std::abs(K.values[at]) * weight_[c] * weight_[c]);
-      }
-      noise_ = std::numeric_limits<double>::epsilon() * stiffest * model_.extent *
-               std::sqrt(static_cast<double>(free));
-    }
     if (!regular) {
       result.outcome = Outcome::singular;
       return result;
@@ -148,8 +151,8 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
         scale = force_scale(state);
       }
     }
-    if (!accepted) {
-      result.outcome = Outcome::not_converged;
+    if (!accepted) { // round-off knows no descent
+      result.outcome = norm <= round_off_ ? Outcome::converged : Outcome::not_converged;
       return result;
     }
   }

@@ -52,9 +52,10 @@ class Equilibrium {
     return assembler_.residual(state, force);
   }
 
+  /// Norm of residuals that are only rounding of the positions, N.
+  double round_off() const { return round_off_; }
   const Model& model() const { return model_; }
   Assembler& assembler() { return assembler_; }
-  SymmetricSolver& solver() { return solver_; }
   const Timings& timings() const { return timings_; }
 
  private:
@@ -67,7 +68,7 @@ class Equilibrium {
   Assembler assembler_;
   SymmetricSolver solver_;
   Eigen::VectorXd weight_; ///< 1 for forces, 1/length_scale for moments
-  double noise_ = 0;       ///< force that is round-off, N
+  double round_off_ = 0;
   Timings timings_;
 };
 

@@ -246,6 +246,7 @@ Evaluation MembraneBlock<Nodes, Dim, Law>::evaluate(const State& state, int firs
 
 template<int Nodes, int Dim, class Law>
 void MembraneBlock<Nodes, Dim, Law>::sample(const State& state, Samples& samples) const {
+  samples.film.reserve(samples.film.size() + static_cast<std::size_t>(count_ * points_));
   for (int e = 0; e < count_; ++e) {
     const int pack = e / lanes, l = e % lanes;
     Lanes x[Nodes][Dim];

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,10 @@ struct StepRecord {
   double residual = 0;          ///< relative norm on acceptance
   int negative_pivots = 0;      ///< of the tangent; 0 is a stable state
   std::vector<Event> events;
+
+  double largest_voltage() const {
+    return voltages.empty() ? 0 : *std::max_element(voltages.begin(), voltages.end());
+  }
 };
 
 } // namespace dielast::fem

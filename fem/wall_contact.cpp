@@ -9,6 +9,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Cosine of the angle by which a wall may bend between two of its beams (20 deg).
+constexpr double straight = 0.94;
+
 /// Distance of two segments (Ericson, Real-Time Collision Detection, 5.1.9).
 double segment_distance(const Vector3d& p1, const Vector3d& q1, const Vector3d& p2, const Vector3d& q2) {
   const Vector3d d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
@@ -32,7 +35,19 @@ WallContactSearch::WallContactSearch(const meshing::Mesh& mesh, const meshing::C
     lines_.push_back({{lines.cell(l)[0], lines.cell(l)[1]}, -1});
     for (const int n : lines_.back().node) at[static_cast<std::size_t>(n)].push_back(l);
   }
-  const auto is_joint = [&](int node) { return at[static_cast<std::size_t>(node)].size() != 2; };
+  // A joint also stands where two beams meet at an angle, as at the lattice's outline.
+  const auto is_joint = [&](int node) {
+    const auto& meeting = at[static_cast<std::size_t>(node)];
+    if (meeting.size() != 2) return true;
+    std::array<Vector3d, 2> away;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& ends = lines_[static_cast<std::size_t>(meeting[i])].node;
+      const int other = ends[0] == node ? ends[1] : ends[0];
+      away[i] = (mesh.nodes[static_cast<std::size_t>(other)] - mesh.nodes[static_cast<std::size_t>(node)])
+                    .normalized();
+    }
+    return away[0].dot(away[1]) > -straight;
+  };
   // Walks from an unvisited line in both directions until joints (or, on a closed chain, itself) stop it.
   for (int l = 0; l < lines.size(); ++l) {
     if (lines_[static_cast<std::size_t>(l)].wall >= 0) continue;

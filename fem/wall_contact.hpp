@@ -14,7 +14,7 @@ struct WallContact {
   double distance = 0;      ///< between their centrelines, m
 };
 
-/// Finds walls that touch. Walls are chains of beams between joints (nodes where not exactly two beams meet);
+/// Finds walls that touch. Walls are chains of beams between joints (nodes where not two beams meet in line);
 /// walls that share a joint always meet there and are left out. Distances are taken between the beams'
 /// chords. Contact is reported, not resisted.
 class WallContactSearch {

@@ -40,7 +40,7 @@ std::optional<CellType> cell_type(const GmshContents::Elements& elements) {
 }
 
 bool is_triangle(const CellBlock& block) {
-  return block.type == CellType::triangle3 || block.type == CellType::triangle6;
+  return !is_line(block.type);
 }
 
 /// Makes the mesh; messages come without the file's name.

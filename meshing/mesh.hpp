@@ -27,6 +27,8 @@ constexpr int nodes_per_cell(CellType type) {
   return 0;
 }
 
+constexpr bool is_line(CellType type) { return type == CellType::line2 || type == CellType::line3; }
+
 /// All cells of one type, node numbers one after another.
 struct CellBlock {
   CellType type{};
@@ -55,6 +57,16 @@ struct Mesh {
   std::map<std::string, CellSet> cell_sets;
 
   int node_count() const { return static_cast<int>(nodes.size()); }
+  /// The block of triangles, of lines; null when there is none.
+  const CellBlock* triangles() const { return find_block(false); }
+  const CellBlock* lines() const { return find_block(true); }
+
+ private:
+  const CellBlock* find_block(bool of_lines) const {
+    for (const CellBlock& block : blocks)
+      if (is_line(block.type) == of_lines && block.size() > 0) return &block;
+    return nullptr;
+  }
 };
 
 } // namespace dielast::meshing

@@ -54,7 +54,7 @@ QualityReport quality(const Mesh& mesh) {
                        .smallest_area = infinity,
                        .largest_area = -infinity};
   for (const CellBlock& block : mesh.blocks) {
-    if (block.type == CellType::line2 || block.type == CellType::line3) {
+    if (is_line(block.type)) {
       report.lines += block.size();
       continue;
     }

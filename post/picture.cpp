@@ -33,8 +33,6 @@ struct Canvas {
   Context context;
 };
 
-bool is_line(CellType type) { return type == CellType::line2 || type == CellType::line3; }
-
 /// A cell's nodes in the order in which its outline, or the line itself, passes them.
 std::array<int, 6> outline(CellType type, std::span<const int> n) {
   switch (type) {

@@ -27,13 +27,14 @@ h2 { font-size: 19px; margin: 40px 0 12px; }
 .status { display: inline-block; margin-top: 12px; padding: 3px 12px; border-radius: 14px; font-weight: 600; font-size: 13.5px; background: var(--panel); border: 1px solid currentColor; }
 .good { color: var(--good); } .warning { color: var(--warning); } .bad { color: var(--bad); }
 td.good, td.warning, td.bad { font-weight: 600; }
-.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 24px 0 0; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 12px; margin: 24px 0 0; }
 .card { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; }
 .card .label { color: var(--soft); font-size: 13px; }
-.card .value { font-size: 23px; font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
+.card .value { font-size: 21px; font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .card .note { color: var(--soft); font-size: 12.5px; }
 .scroll { overflow-x: auto; margin: 0 0 14px; }
 table { border-collapse: collapse; min-width: 55%; font-size: 14px; font-variant-numeric: tabular-nums; }
+td:first-child { white-space: nowrap; }
 th { text-align: left; color: var(--soft); font-weight: 600; font-size: 13px; border-bottom: 2px solid var(--line); }
 th, td { padding: 6px 24px 6px 0; vertical-align: top; }
 td { border-bottom: 1px solid var(--line); }

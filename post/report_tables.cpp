@@ -9,9 +9,24 @@ namespace dielast::post {
 
 namespace {
 
+/// An estimate says nothing about digits that nobody reads.
+constexpr double smallest_relative_error = 1e-6;
+
 /// The error in the unit in which the value is shown, to the two digits that it deserves.
 std::string error_text(const QuantityRow& row, const ScaledUnit& scaled) {
-  return row.error ? significant(std::abs(*row.error) * scaled.factor, 2) : "-";
+  if (!row.error) return "-";
+  const double shown = std::max(std::abs(*row.error), smallest_relative_error * std::abs(row.value));
+  return (shown > std::abs(*row.error) ? "< " : "") + significant(shown * scaled.factor, 2);
+}
+
+/// The value to the digits that its error leaves.
+std::string value_text(const QuantityRow& row, const ScaledUnit& scaled) {
+  constexpr int fewest = 4, most = 8;
+  int digits = fewest;
+  if (row.error && *row.error > 0)
+    digits = static_cast<int>(
+        std::clamp(std::log10(std::abs(row.value / *row.error)) + 2, 1.0 * fewest, 1.0 * most));
+  return significant(row.value * scaled.factor, digits);
 }
 
 std::string load_text(const fem::StepRecord& record) { return significant(record.load_factor, 3); }
@@ -21,7 +36,7 @@ std::string load_text(const fem::StepRecord& record) { return significant(record
 std::string with_error(const QuantityRow& row) {
   if (!row.error || std::isnan(row.value)) return engineering(row.value, row.unit, row.ratio);
   const ScaledUnit scaled = scaled_unit(row.value, row.unit, row.ratio);
-  return fmt::format("{} ± {}{}{}", significant(row.value * scaled.factor), error_text(row, scaled),
+  return fmt::format("{} ± {}{}{}", value_text(row, scaled), error_text(row, scaled),
                      scaled.unit.empty() ? "" : " ", scaled.unit);
 }
 
@@ -29,8 +44,8 @@ Table quantity_table(std::span<const QuantityRow> rows) {
   Table table{{"Quantity", "Value", "Error", "Unit", "Meaning"}, {}};
   for (const QuantityRow& row : rows) {
     const ScaledUnit scaled = scaled_unit(row.value, row.unit, row.ratio);
-    table.rows.push_back({row.name, significant(row.value * scaled.factor), error_text(row, scaled),
-                          scaled.unit, row.meaning});
+    table.rows.push_back(
+        {row.name, value_text(row, scaled), error_text(row, scaled), scaled.unit, row.meaning});
   }
   return table;
 }

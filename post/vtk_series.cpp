@@ -43,7 +43,7 @@ int vtk_type(meshing::CellType type) {
 }
 
 Part part_of(meshing::CellType type) {
-  return type == meshing::CellType::line2 || type == meshing::CellType::line3 ? Part::walls : Part::film;
+  return meshing::is_line(type) ? Part::walls : Part::film;
 }
 
 template<class Point>

@@ -83,6 +83,7 @@ class CommandTest : public ScratchTest {
     for (const std::string& argument : arguments) words.push_back(argument.c_str());
     words.push_back(nullptr);
     const std::string out = directory / ".out", err = directory / ".err";
+    std::fflush(nullptr); // or the child would print it again
     const pid_t process = fork();
     if (process != 0) return process;
     if (chdir(folder.c_str()) != 0 || !std::freopen(out.c_str(), "w", stdout) ||

@@ -14,7 +14,7 @@ namespace dielast::test {
 inline const std::filesystem::path source_folder = DIELAST_SOURCE_DIR;
 
 /// A honeycomb of five cells that runs in a fraction of a second.
-inline const std::string small_honeycomb = R"(title = "Small honeycomb"
+inline const std::string small_honeycomb = R"toml(title = "Small honeycomb"
 [film]
 material = "VHB 4910 (honeycomb)"
 thickness = "1 mm"
@@ -34,9 +34,9 @@ kind = "release"
 [[step]]
 kind = "voltage"
 increments = 3
-)";
+)toml";
 
-inline const std::string small_disc = R"(title = "Small disc"
+inline const std::string small_disc = R"toml(title = "Small disc"
 [film]
 material = "VHB 4910 (honeycomb)"
 thickness = "1 mm"
@@ -51,7 +51,7 @@ rings = 6
 [[step]]
 kind = "voltage"
 increments = 2
-)";
+)toml";
 
 inline std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -15,7 +15,7 @@ class StudyCommand : public CommandTest {
   void write_study(const std::string& vary) const {
     write("study.toml", "title = \"Small study\"\ncase = \"small.toml\"\n[study]\nvary = " + vary +
                             "\ncollect = [\"eps_x\", \"eps_y\"]\n"
-                            "plot = [{ x = \"drive.voltage\", y = [\"eps_y\"] }]\n");
+                            "plot = [{ x = \"eps_x\", y = [\"eps_y\"] }]\n");
   }
   std::string mark(int point) const { return "out/point-000" + std::to_string(point) + "/point.json"; }
   std::vector<std::string> into(const std::string& folder, const std::vector<std::string>& more = {}) const {
@@ -103,19 +103,34 @@ TEST_F(StudyCommand, FailedPointsAreRecordedAndDoNotStopTheRest) {
   EXPECT_NE(ended.out.find("2 of 3 points"), std::string::npos) << ended.out;
 }
 
-TEST_F(StudyCommand, ImpossiblePointsAreRecordedAndDoNotStopTheRest) {
+TEST_F(StudyCommand, ImpossibleValuesAreRefusedBeforeAnythingRuns) {
   write_study(R"({ "honeycomb.angle" = ["150 deg", "60 deg", "120 deg"] })");
-  EXPECT_EQ(dielast(into("out")).exit_code, 4);
+  const Ended ended = dielast(into("out"));
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_TRUE(ended.err.starts_with("study.toml:4:")) << ended.err;
+  EXPECT_NE(ended.err.find("cells close up at 60 deg"), std::string::npos) << ended.err;
+  EXPECT_FALSE(exists("out"));
+}
+
+// Every value alone is possible with the case's others; two of them together are not.
+TEST_F(StudyCommand, ImpossibleCombinationsAreRecordedAndDoNotStopTheRest) {
+  write("study.toml", R"(title = "Discs"
+case = "disc.toml"
+[study]
+vary = { "disc.radius" = ["35 mm", "90 mm"], "disc.electrode_radius" = ["50 mm", "30 mm"] }
+)");
+  const Ended ended = dielast(into("out"));
+  EXPECT_EQ(ended.exit_code, 4) << ended.err;
   const auto rows = table_of(directory / "out/study.csv");
-  ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(rows[2][4], "2");
-  EXPECT_EQ(rows[3][4], "0");
-  EXPECT_NE(content("out/study.csv").find("cells close up at 60 deg"), std::string::npos);
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(json_of(mark(1))["exit_code"], 2);
+  EXPECT_NE(json_of(mark(1))["message"], "");
+  for (const int point : {2, 3, 4}) EXPECT_EQ(json_of(mark(point))["exit_code"], 0) << point;
 }
 
 // A point that needs more processor time than the system allows is ended by it, as by a crash.
 TEST_F(StudyCommand, CrashedPointsAreRecordedAndDoNotStopTheRest) {
-  write_study(R"({ "mesh.wall_elements" = [2, 60, 3] })");
+  write_study(R"({ "mesh.wall_elements" = [2, 100, 3] })");
   const Ended ended = dielast(into("out"), [] {
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, 1);

@@ -44,7 +44,7 @@ TEST_F(Topics, SchemaIsJson) {
 TEST_F(Topics, MeshIsWrittenAndItsPlacesListed) {
   const Ended ended = dielast({"mesh", "small.toml", "-o", "out"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  for (const char* place : {"film", "walls", "boundary", "cell[1,1]", "wall[1]", "left_apex", "corner_top"})
+  for (const char* place : {"film", "walls", "boundary", "cell[1,0]", "wall[1]", "left_apex", "corner_top"})
     EXPECT_NE(ended.out.find(std::string("  ") + place + " "), std::string::npos) << place << ended.out;
   EXPECT_NE(content("out/small-mesh.pvd").find("</VTKFile>"), std::string::npos);
   EXPECT_NE(content("out/small-mesh_film_0000.vtu").find("</VTKFile>"), std::string::npos);

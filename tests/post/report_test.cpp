@@ -83,11 +83,11 @@ TEST_F(ReportFileTest, AFullDiskKeepsTheOldOne) {
 
 TEST(ReportTables, ShowErrorsInTheUnitOfTheValue) {
   const QuantityRow length{"released_length_x", 0.08397, "m", Ratio::plain, 2.1e-5, "length"};
-  EXPECT_EQ(with_error(length), "83.97 ± 0.021 mm");
+  EXPECT_EQ(with_error(length), "83.970 ± 0.021 mm");
   EXPECT_EQ(with_error({"eps_y", 0.3319, "1", Ratio::percent, {}, ""}), "33.19 %");
   EXPECT_EQ(with_error({"eps_y", NAN, "1", Ratio::percent, 0.1, ""}), "-");
   const auto row = quantity_table(std::vector{length}).rows.at(0);
-  EXPECT_EQ(row[1].text, "83.97");
+  EXPECT_EQ(row[1].text, "83.970");
   EXPECT_EQ(row[2].text, "0.021");
   EXPECT_EQ(row[3].text, "mm");
 }
