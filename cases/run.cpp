@@ -34,6 +34,7 @@ spdlog::logger make_logger(const RunSettings& settings) {
   logger.set_pattern("%v");
   logger.set_level(spdlog::level::debug);
   logger.flush_on(spdlog::level::info);
+  logger.set_error_handler([](const std::string&) {}); // a full disk is told by the results' own files
   return logger;
 }
 
@@ -113,12 +114,12 @@ bool interrupted() { return interrupt_requested; }
 
 void make_directory(const std::filesystem::path& directory) {
   std::error_code error;
+  if (std::filesystem::exists(directory, error) && !std::filesystem::is_directory(directory, error))
+    throw FileError(fmt::format("{}: is not a directory; choose another with -o", directory.string()));
   std::filesystem::create_directories(directory, error);
   if (error)
     throw FileError(
         fmt::format("{}: cannot make the output directory: {}", directory.string(), error.message()));
-  if (!std::filesystem::is_directory(directory))
-    throw FileError(fmt::format("{}: is not a directory; choose another with -o", directory.string()));
   if (access(directory.c_str(), W_OK) != 0)
     throw FileError(
         fmt::format("{}: cannot write to the output directory; choose another with -o", directory.string()));

@@ -113,7 +113,8 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   std::vector<const StudyPoint*> waiting;
   for (const StudyPoint& point : points) {
     const bool current = settings.resume && is_current(study, point);
-    if (current && result_of(study, point)) {
+    const auto result = current ? result_of(study, point) : std::nullopt;
+    if (result && result->exit_code >= 0) { // a crashed one is tried again
       progress.skipped();
       continue;
     }

@@ -108,7 +108,8 @@ WrittenMeasure split_measure(std::string_view text) {
 Measure parse_measure(std::string_view text, std::string_view si_unit) {
   const auto [number, unit] = split_measure(text);
   // udunits would take "1 2 mm" for 1 x (2 mm)
-  if (!unit.empty() && std::string_view("0123456789.+-*/^(),").find(unit[0]) != std::string_view::npos)
+  if (!unit.empty() && !unit.starts_with("1/") &&
+      std::string_view("0123456789.+-*/^(),").find(unit[0]) != std::string_view::npos)
     throw UnitError(fmt::format("with \"{}\" after the number", unit));
   const double value = scaled(number, factor_to_si(unit, si_unit));
   if (!std::isfinite(value)) throw UnitError("which is too large or too small to store");

@@ -78,7 +78,8 @@ std::vector<fem::Event> Watch::check(const fem::State& state, const fem::Samples
           {"wall contact", cell_of(worst.lines[0], worst.lines[1]),
            fmt::format("walls touch at {} place{}; the nearest centrelines are {} apart, the walls are {} "
                        "wide. Contact is not resisted: the shape beyond it is not what a device does",
-                       found.size(), found.size() == 1 ? "" : "s", post::engineering(worst.distance, "m"),
+                       found.size(), found.size() == 1 ? "" : "s",
+                       worst.distance > 1e-9 ? post::engineering(worst.distance, "m") : "0",
                        post::engineering(*device_.wall_width, "m"))});
     }
   }

@@ -11,6 +11,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -42,9 +43,7 @@ int vtk_type(meshing::CellType type) {
   return VTK_EMPTY_CELL;
 }
 
-Part part_of(meshing::CellType type) {
-  return meshing::is_line(type) ? Part::walls : Part::film;
-}
+Part part_of(meshing::CellType type) { return meshing::is_line(type) ? Part::walls : Part::film; }
 
 template<class Point>
 vtkNew<vtkFloatArray> cell_array(const Field<Point>& field, const std::vector<double>& values) {
@@ -119,6 +118,13 @@ class VtkSeries::PartFile {
     else
       set_cell_data(samples.walls, wall_fields());
     grid_->Modified();
+    // A file must not tell of the one before: ranges that writing cached are dropped.
+    time_->Modified();
+    step_->Modified();
+    for (vtkAbstractArray* kept :
+         {static_cast<vtkAbstractArray*>(grid_->GetPoints()->GetData()),
+          static_cast<vtkAbstractArray*>(displacement_), static_cast<vtkAbstractArray*>(time_)})
+      kept->GetInformation()->Clear();
     if (writer_->Write() == 0) throw std::runtime_error("VTK could not encode a step");
     return writer_->GetOutputString();
   }

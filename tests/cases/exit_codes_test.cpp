@@ -65,9 +65,9 @@ TEST_F(ExitCodes, OneForFilesThatCannotBeRead) {
 TEST_F(ExitCodes, OneForAnOutputDirectoryThatIsAFile) {
   write("taken", "text");
   expect_file_error({"run", "small.toml", "-o", "taken"},
-                    "taken: cannot make the output directory: Not a directory");
+                    "taken: is not a directory; choose another with -o");
   expect_file_error({"mesh", "small.toml", "-o", "taken"},
-                    "taken: cannot make the output directory: Not a directory");
+                    "taken: is not a directory; choose another with -o");
   expect_file_error({"run", "small.toml", "-o", "taken/inside"},
                     "taken/inside: cannot make the output directory: Not a directory");
   EXPECT_EQ(content("taken"), "text");
