@@ -18,9 +18,9 @@ namespace {
 /// Shorter runs are repeated faster than their checkpoints are written.
 constexpr std::chrono::seconds checkpoint_interval{2};
 
-json archive(const fem::StepRecord& record) {
+json archive(const post::StepRecord& record) {
   json events = json::array();
-  for (const fem::Event& event : record.events) events.push_back({event.kind, event.place, event.message});
+  for (const post::Event& event : record.events) events.push_back({event.kind, event.place, event.message});
   return {{"index", record.index},
           {"step", record.step},
           {"load_factor", record.load_factor},
@@ -31,11 +31,11 @@ json archive(const fem::StepRecord& record) {
           {"events", std::move(events)}};
 }
 
-fem::StepRecord restore_record(const json& archived) {
-  fem::StepRecord record{archived.at("index"),           archived.at("step"),
-                         archived.at("load_factor"),     archived.at("voltages"),
-                         archived.at("iterations"),      archived.at("residual"),
-                         archived.at("negative_pivots"), {}};
+post::StepRecord restore_record(const json& archived) {
+  post::StepRecord record{archived.at("index"),           archived.at("step"),
+                          archived.at("load_factor"),     archived.at("voltages"),
+                          archived.at("iterations"),      archived.at("residual"),
+                          archived.at("negative_pivots"), {}};
   for (const json& event : archived.at("events"))
     record.events.push_back({event.at(0), event.at(1), event.at(2)});
   return record;
@@ -84,7 +84,7 @@ Recorder::Recorder(const Case& one, Simulation& simulation, std::filesystem::pat
 }
 
 void Recorder::record(const Frame& frame) {
-  const fem::StepRecord& record = frame.record;
+  const post::StepRecord& record = frame.record;
   std::vector<double> row{record.load_factor};
   row.insert(row.end(), record.voltages.begin(), record.voltages.end());
   row.insert(row.end(), frame.values.begin(), frame.values.end());

@@ -21,7 +21,7 @@ struct Snapshot {
 
 /// What a run has gathered so far.
 struct Journal {
-  std::vector<fem::StepRecord> records;
+  std::vector<post::StepRecord> records;
   std::vector<std::vector<double>> values; ///< of the quantities, per record
   std::vector<Snapshot> snapshots;         ///< drawn, the end of each step, and the last accepted state
 };

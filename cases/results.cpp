@@ -106,13 +106,13 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
   std::vector<post::Plot> plots;
   std::map<std::string, std::size_t> by_label;
   const auto& records = journal.records;
-  const auto charged = std::find_if(records.begin(), records.end(), [](const fem::StepRecord& record) {
+  const auto charged = std::find_if(records.begin(), records.end(), [](const post::StepRecord& record) {
     return record.largest_voltage() > 0;
   });
   const bool electric = charged != records.end();
   const auto begin = electric
                          ? charged - (charged != records.begin())
-                         : std::find_if(records.begin(), records.end(), [&](const fem::StepRecord& record) {
+                         : std::find_if(records.begin(), records.end(), [&](const post::StepRecord& record) {
                              return record.step == records.back().step;
                            });
   const std::string x_label = electric ? "voltage [kV]" : fmt::format("load factor of \"{}\"", begin->step);
@@ -228,7 +228,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
       .title = one.title, .subtitle = one.source.filename().string(), .footer = "dielast " DIELAST_VERSION};
   const bool converged = results.outcome.ending == Ending::complete;
   const bool quiet = std::all_of(journal.records.begin(), journal.records.end(),
-                                 [](const fem::StepRecord& record) { return record.events.empty(); });
+                                 [](const post::StepRecord& record) { return record.events.empty(); });
   report.status = {std::string(word(results.outcome.ending)) + (quiet ? "" : ", see the events"),
                    converged && quiet && results.checks_passed() ? post::Tone::good : post::Tone::warning};
   for (const auto& row : results.quantities)

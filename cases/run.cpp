@@ -59,7 +59,7 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
       if (std::isfinite(frame.values[q]))
         line += fmt::format("   {} {:.5g}", one.quantities[q].name, frame.values[q]);
     log.info(line);
-    for (const fem::Event& event : frame.record.events)
+    for (const post::Event& event : frame.record.events)
       log.warn("    {}{}{}: {}", event.kind, event.place.empty() ? "" : " in ", event.place, event.message);
     recorder.record(frame);
     return !interrupted();

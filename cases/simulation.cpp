@@ -90,14 +90,14 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
     const std::string& at = case_.quantities[q].at;
     if (at.empty() || (ends && at == step.name)) results_[q] = values[q];
   }
-  const fem::StepRecord record{.index = records_++,
-                               .step = is_drawn ? drawn : step.name,
-                               .load_factor = load_factor,
-                               .voltages = state.voltage,
-                               .iterations = newton.iterations,
-                               .residual = newton.residual,
-                               .negative_pivots = newton.negative_pivots,
-                               .events = watch_.check(state, samples, newton.negative_pivots)};
+  const post::StepRecord record{.index = records_++,
+                                .step = is_drawn ? drawn : step.name,
+                                .load_factor = load_factor,
+                                .voltages = state.voltage,
+                                .iterations = newton.iterations,
+                                .residual = newton.residual,
+                                .negative_pivots = newton.negative_pivots,
+                                .events = watch_.check(state, samples, newton.negative_pivots)};
   return !observer.on_accept || observer.on_accept({record, measured, values, ends});
 }
 

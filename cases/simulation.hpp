@@ -19,7 +19,7 @@ struct SimulationProgress {
 
 /// An accepted state.
 struct Frame {
-  const fem::StepRecord& record;
+  const post::StepRecord& record;
   const Measured& measured;
   const std::vector<double>& values; ///< of the quantities, in the case's order, SI
   bool ends_step = false;

@@ -1,6 +1,7 @@
 #include "cases/study_report.hpp"
 
 #include "post/engineering.hpp"
+#include "post/history.hpp"
 #include "post/plot.hpp"
 
 #include <fmt/format.h>
@@ -15,13 +16,6 @@ namespace dielast::cases {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-/// A CSV cell; quoted where it must be.
-std::string csv(std::string text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
-  return '"' + text + '"';
-}
 
 std::string unquoted(const std::string& toml) {
   return toml.size() > 1 && toml.front() == '"' ? toml.substr(1, toml.size() - 2) : toml;
@@ -104,22 +98,22 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
 std::string study_table(const Study& study, const std::vector<StudyPoint>& points) {
   const Collected collected(study, points);
   std::string table = "point";
-  for (const StudyAxis& axis : study.axes) table += "," + csv(axis.key);
+  for (const StudyAxis& axis : study.axes) table += "," + post::csv_cell(axis.key);
   for (std::size_t q = 0; q < study.collect.size(); ++q)
     table += fmt::format(",{}[{}]", study.collect[q], collected.units[q]);
   table += ",exit_code,events,message\n";
   for (std::size_t p = 0; p < points.size(); ++p) {
     table += fmt::format("{}", points[p].number);
-    for (const std::string& value : points[p].values) table += "," + csv(unquoted(value));
+    for (const std::string& value : points[p].values) table += "," + post::csv_cell(unquoted(value));
     for (std::size_t q = 0; q < study.collect.size(); ++q) {
       const double value = collected.value(p, q);
       table += std::isfinite(value) ? fmt::format(",{}", value) : ",";
     }
     const auto& result = collected.results[p];
-    table += result
-                 ? fmt::format(",{},{},{}\n", result->exit_code,
-                               csv(fmt::format("{}", fmt::join(result->events, "; "))), csv(result->message))
-                 : ",,,\n";
+    table += result ? fmt::format(",{},{},{}\n", result->exit_code,
+                                  post::csv_cell(fmt::format("{}", fmt::join(result->events, "; "))),
+                                  post::csv_cell(result->message))
+                    : ",,,\n";
   }
   return table;
 }

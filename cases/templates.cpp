@@ -85,15 +85,10 @@ electrode = [{ name = "film", place = "film" }]
 step = [{ kind = "voltage" }]
 )";
 
-/// Nodes of a default carry the file's name but no line: the user did not write them.
-void relocate(Node& node, const Source& source) {
-  node.source = node.key_source = source;
-  for (Node& item : node.items) relocate(item, source);
-}
-
 Node parse_default(std::string_view toml, const Node& tree) {
   Node parsed = parse_tree(toml, "");
-  relocate(parsed, {tree.source.file, 0, 0});
+  // They carry the file's name but no line: the user did not write them.
+  parsed.relocate({tree.source.file, 0, 0});
   return parsed;
 }
 

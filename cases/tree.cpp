@@ -57,12 +57,12 @@ Node node_of(const toml::node& from, const std::string& file) {
   return node;
 }
 
-void relocate(Node& node, const Source& source) {
-  node.source = node.key_source = source;
-  for (Node& item : node.items) relocate(item, source);
-}
-
 } // namespace
+
+void Node::relocate(const Source& new_source) {
+  source = key_source = new_source;
+  for (Node& item : items) item.relocate(new_source);
+}
 
 const Node* Node::find(std::string_view key) const {
   const auto found = std::find(keys.begin(), keys.end(), key);
@@ -121,7 +121,7 @@ Node parse_value(std::string_view text, const Source& source) {
   if (!parses(fmt::format("value = {}\n", text)) && !parses(fmt::format("value = '''{}'''", text)))
     throw CaseError({{source, "", "the value is not readable text (UTF-8 without control characters)"}});
   if (value.is(Node::Kind::date)) value.kind = Node::Kind::text;
-  relocate(value, source);
+  value.relocate(source);
   return value;
 }
 

@@ -28,6 +28,8 @@ struct Node {
   /// Entry of a table; null when there is none.
   const Node* find(std::string_view key) const;
   Node* find(std::string_view key);
+  /// Gives this node and all below it one source.
+  void relocate(const Source& source);
   /// Adds an entry; returns it.
   Node& add(std::string key, Node value);
 };

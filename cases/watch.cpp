@@ -48,9 +48,9 @@ std::string Watch::cell_of(int line, int other) const {
   return one_of_first + " and " + one_of_other;
 }
 
-std::vector<fem::Event> Watch::check(const fem::State& state, const fem::Samples& samples,
-                                     int negative_pivots) {
-  std::vector<fem::Event> events;
+std::vector<post::Event> Watch::check(const fem::State& state, const fem::Samples& samples,
+                                      int negative_pivots) {
+  std::vector<post::Event> events;
   const auto begins = [&](bool holds, const std::string& kind) {
     if (!holds) active.erase(kind);
     return holds && active.insert(kind).second;

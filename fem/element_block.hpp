@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem/dofs.hpp"
-#include "fem/records.hpp"
+#include "fem/samples.hpp"
 #include "fem/state.hpp"
 
 #include <span>

@@ -42,18 +42,4 @@ Eigen::Matrix<double, 6, 2> shape_gradients<6>(double xi, double eta) {
   return gradients;
 }
 
-template<>
-Eigen::Vector<double, 3> shape_values<3>(double xi, double eta) {
-  return {1 - xi - eta, xi, eta};
-}
-
-template<>
-Eigen::Vector<double, 6> shape_values<6>(double xi, double eta) {
-  const double zeta = 1 - xi - eta;
-  Eigen::Vector<double, 6> values;
-  values << zeta * (2 * zeta - 1), xi * (2 * xi - 1), eta * (2 * eta - 1), 4 * zeta * xi, 4 * xi * eta,
-      4 * eta * zeta;
-  return values;
-}
-
 } // namespace dielast::fem

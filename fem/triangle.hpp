@@ -22,8 +22,4 @@ std::span<const TrianglePoint> triangle_rule(int points);
 template<int Nodes>
 Eigen::Matrix<double, Nodes, 2> shape_gradients(double xi, double eta);
 
-/// The shape functions themselves.
-template<int Nodes>
-Eigen::Vector<double, Nodes> shape_values(double xi, double eta);
-
 } // namespace dielast::fem

@@ -16,17 +16,6 @@ namespace dielast::post {
 
 namespace {
 
-/// Quoted where CSV needs it; a row must stay one line, or truncation would miscount.
-std::string csv_cell(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return quoted + '"';
-}
-
 std::string header_of(const std::vector<Column>& columns) {
   std::string header = "step";
   for (const Column& column : columns) header += "," + csv_cell(column.name + "[" + column.unit + "]");
@@ -52,6 +41,16 @@ std::string kept_part(const std::filesystem::path& path, const std::string& head
 }
 
 } // namespace
+
+std::string csv_cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return quoted + '"';
+}
 
 History::History(std::filesystem::path path, const std::vector<Column>& columns, int rows_to_keep)
     : path_(std::move(path)), column_count_(columns.size()) {

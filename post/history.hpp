@@ -14,6 +14,10 @@ struct Column {
   std::string unit; ///< SI; "1" when it has none
 };
 
+/// A text as a cell of a CSV table: in quotes where it must be, always on one line, as rows are counted by
+/// lines.
+std::string csv_cell(std::string_view text);
+
 /// The table of a run as CSV: header `step,name[unit],...`, one row per accepted step, each written at once,
 /// so that a killed run leaves whole rows. Numbers are the shortest that read back to the same double; NaN is
 /// an empty cell.

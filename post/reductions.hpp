@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/records.hpp"
+#include "fem/samples.hpp"
 #include "post/fields.hpp"
 
 #include <optional>

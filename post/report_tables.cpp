@@ -29,7 +29,7 @@ std::string value_text(const QuantityRow& row, const ScaledUnit& scaled) {
   return significant(row.value * scaled.factor, digits);
 }
 
-std::string load_text(const fem::StepRecord& record) { return significant(record.load_factor, 3); }
+std::string load_text(const StepRecord& record) { return significant(record.load_factor, 3); }
 
 } // namespace
 
@@ -62,18 +62,18 @@ Table check_table(std::span<const CheckRow> rows) {
   return table;
 }
 
-Table event_table(std::span<const fem::StepRecord> records) {
+Table event_table(std::span<const StepRecord> records) {
   Table table{{"Step", "Load", "Event", "Place", "What happened"}, {}};
-  for (const fem::StepRecord& record : records)
-    for (const fem::Event& event : record.events)
+  for (const StepRecord& record : records)
+    for (const Event& event : record.events)
       table.rows.push_back(
           {record.step, load_text(record), {event.kind, Tone::warning}, event.place, event.message});
   return table;
 }
 
-Table increment_table(std::span<const fem::StepRecord> records) {
+Table increment_table(std::span<const StepRecord> records) {
   Table table{{"#", "Step", "Load", "Voltage", "Iterations", "Residual", "Tangent"}, {}};
-  for (const fem::StepRecord& record : records) {
+  for (const StepRecord& record : records) {
     double voltage = 0;
     for (const double v : record.voltages)
       if (std::abs(v) > std::abs(voltage)) voltage = v;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fem/records.hpp"
 #include "post/engineering.hpp"
 #include "post/report.hpp"
+#include "post/step_record.hpp"
 
 #include <optional>
 #include <span>
@@ -37,10 +37,10 @@ Table quantity_table(std::span<const QuantityRow> rows);
 Table check_table(std::span<const CheckRow> rows);
 
 /// The events of all steps, in order; no rows when nothing happened.
-Table event_table(std::span<const fem::StepRecord> records);
+Table event_table(std::span<const StepRecord> records);
 
 /// One row per accepted increment: step, load factor, largest voltage, iterations, residual, and whether the
 /// tangent is stable or how many negative pivots it has.
-Table increment_table(std::span<const fem::StepRecord> records);
+Table increment_table(std::span<const StepRecord> records);
 
 } // namespace dielast::post

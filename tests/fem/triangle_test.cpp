@@ -11,6 +11,23 @@ namespace {
 constexpr std::array<std::array<double, 2>, 6> places{
     {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
 
+template<int Nodes>
+Eigen::Vector<double, Nodes> shape_values(double xi, double eta);
+
+template<>
+Eigen::Vector<double, 3> shape_values<3>(double xi, double eta) {
+  return {1 - xi - eta, xi, eta};
+}
+
+template<>
+Eigen::Vector<double, 6> shape_values<6>(double xi, double eta) {
+  const double zeta = 1 - xi - eta;
+  Eigen::Vector<double, 6> values;
+  values << zeta * (2 * zeta - 1), xi * (2 * xi - 1), eta * (2 * eta - 1), 4 * zeta * xi, 4 * xi * eta,
+      4 * eta * zeta;
+  return values;
+}
+
 double factorial(int n) { return std::tgamma(n + 1.0); }
 
 // int xi^p eta^q over the triangle = p! q! / (p + q + 2)!

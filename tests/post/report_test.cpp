@@ -104,9 +104,9 @@ TEST(ReportTables, ChecksSayPassOrFailInWords) {
 }
 
 TEST(ReportTables, EventsAndIncrements) {
-  fem::StepRecord calm;
+  StepRecord calm;
   calm.step = "release";
-  fem::StepRecord tense = calm;
+  StepRecord tense = calm;
   tense.voltages = {-5000, 1000};
   tense.negative_pivots = 1;
   tense.events = {{"wall contact", "cell[2,3]", "the apexes touch"}};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/records.hpp"
+#include "fem/samples.hpp"
 #include "meshing/mesh.hpp"
 
 namespace dielast::post {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace dielast::post {
+
+/// Something a user must know about an accepted state.
+struct Event {
+  std::string
+      kind; ///< "loss of tension", "breakdown", "wall contact", "wall yield", "limit point", "instability"
+  std::string place;   ///< named place, e.g. "cell[2,3]"; empty when it is everywhere
+  std::string message; ///< one sentence with numbers and units
+};
+
+/// One accepted increment of one step.
+struct StepRecord {
+  int index = 0;                ///< 0 is the state in which the mesh was drawn
+  std::string step;             ///< name of the step, e.g. "release"
+  double load_factor = 0;       ///< 0..1 within the step
+  std::vector<double> voltages; ///< V, one per electrode
+  int iterations = 0;           ///< Newton iterations that this increment took
+  double residual = 0;          ///< relative norm on acceptance
+  int negative_pivots = 0;      ///< of the tangent; 0 is a stable state
+  std::vector<Event> events;
+
+  double largest_voltage() const {
+    return voltages.empty() ? 0 : *std::max_element(voltages.begin(), voltages.end());
+  }
+};
+
+} // namespace dielast::post
