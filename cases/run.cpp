@@ -28,7 +28,8 @@ std::atomic<bool> interrupt_requested = false;
 spdlog::logger make_logger(const RunSettings& settings) {
   auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>((settings.directory / "run.log").string(),
                                                                   !settings.resume);
-  auto terminal = std::make_shared<spdlog::sinks::stdout_sink_st>();
+  spdlog::sink_ptr terminal = std::make_shared<spdlog::sinks::stdout_sink_st>();
+  if (settings.quiet) terminal = std::make_shared<spdlog::sinks::stderr_sink_st>();
   terminal->set_level(settings.quiet ? spdlog::level::err : spdlog::level::info);
   spdlog::logger logger("run", {file, terminal});
   logger.set_pattern("%v");
