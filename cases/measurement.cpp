@@ -101,7 +101,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
                                                  : value;
   }
   case QuantityKind::extreme: {
-    const auto extremum = post::extreme(measured.samples, quantity.of, quantity.extreme);
+    const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);
     return extremum ? extremum->value : unknown;
   }
   }

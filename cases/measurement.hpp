@@ -12,6 +12,7 @@ namespace dielast::cases {
 struct Measured {
   const fem::State& state;
   const fem::Samples& samples;
+  const post::Extremes& extremes;        ///< of these samples
   const Eigen::VectorXd& internal_force; ///< per equation, N; at held equations the reaction on the support
 };
 

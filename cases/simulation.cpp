@@ -83,7 +83,8 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   const fem::Samples samples = device_.model.sample(state);
   Eigen::VectorXd force;
   equilibrium_.internal_force(state, force);
-  const Measured measured{state, samples, force};
+  const post::Extremes extremes(samples);
+  const Measured measured{state, samples, extremes, force};
   if (ends) measurement_.step_ended(step.name, measured);
   const std::vector<double> values = measurement_.all(measured);
   for (std::size_t q = 0; q < values.size(); ++q) {
@@ -97,7 +98,7 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
                                 .iterations = newton.iterations,
                                 .residual = newton.residual,
                                 .negative_pivots = newton.negative_pivots,
-                                .events = watch_.check(state, samples, newton.negative_pivots)};
+                                .events = watch_.check(state, extremes, newton.negative_pivots)};
   return !observer.on_accept || observer.on_accept({record, measured, values, ends});
 }
 

@@ -48,25 +48,25 @@ std::string Watch::cell_of(int line, int other) const {
   return one_of_first + " and " + one_of_other;
 }
 
-std::vector<post::Event> Watch::check(const fem::State& state, const fem::Samples& samples,
+std::vector<post::Event> Watch::check(const fem::State& state, const post::Extremes& extremes,
                                       int negative_pivots) {
   std::vector<post::Event> events;
   const auto begins = [&](bool holds, const std::string& kind) {
     if (!holds) active.erase(kind);
     return holds && active.insert(kind).second;
   };
-  if (const auto stress = post::extreme(samples, "min_principal_stress", post::Extreme::minimum);
+  if (const auto stress = extremes.find("min_principal_stress", post::Extreme::minimum);
       stress && begins(stress->value < -smallest_stress, "loss of tension"))
     events.push_back(
         {"loss of tension", place_of_triangle(stress->cell),
          fmt::format(
              "the film is compressed here ({}): it would wrinkle, which this membrane does not resolve",
              post::engineering(stress->value, "Pa"))});
-  if (const auto ratio = post::extreme(samples, "breakdown_ratio", post::Extreme::maximum);
+  if (const auto ratio = extremes.find("breakdown_ratio", post::Extreme::maximum);
       ratio && begins(ratio->value >= 1, "breakdown"))
     events.push_back({"breakdown", place_of_triangle(ratio->cell),
                       fmt::format("the electric field is {:.3g} times the breakdown field", ratio->value)});
-  if (const auto ratio = post::extreme(samples, "yield_ratio", post::Extreme::maximum);
+  if (const auto ratio = extremes.find("yield_ratio", post::Extreme::maximum);
       ratio && begins(ratio->value >= 1, "wall yield"))
     events.push_back({"wall yield", place_of_line(ratio->cell),
                       fmt::format("a wall's fibre is strained {:.3g} times its yield strain", ratio->value)});

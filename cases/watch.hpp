@@ -2,6 +2,7 @@
 
 #include "cases/device.hpp"
 #include "fem/wall_contact.hpp"
+#include "post/reductions.hpp"
 #include "post/step_record.hpp"
 
 #include <optional>
@@ -17,7 +18,8 @@ class Watch {
   /// The device must outlive this.
   explicit Watch(const Device& device);
 
-  std::vector<post::Event> check(const fem::State& state, const fem::Samples& samples, int negative_pivots);
+  std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes,
+                                 int negative_pivots);
 
   /// Kinds of the conditions that hold now; stored with a checkpoint.
   std::set<std::string> active;

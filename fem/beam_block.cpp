@@ -195,8 +195,8 @@ void BeamBlock<Nodes>::accumulate_tangent(const Point& point, const BeamKinemati
     J[a].template block<4, 3>(BeamKinematics::quaternion_slope, 3) = point.slope[a] * G;
   }
   for (int a = 0; a < Nodes; ++a) {
-    const Eigen::Matrix<double, 6, 11> JtH = J[a].transpose() * H;
-    for (int b = 0; b <= a; ++b) tangent.template block<6, 6>(6 * a, 6 * b) += JtH * J[b];
+    const Eigen::Matrix<double, 6, 11> JtH = J[a].transpose().lazyProduct(H); // too small for blocking
+    for (int b = 0; b <= a; ++b) tangent.template block<6, 6>(6 * a, 6 * b) += JtH.lazyProduct(J[b]);
     const double curvature = -0.25 * (point.value[a] * g.segment<4>(BeamKinematics::quaternion) +
                                       point.slope[a] * g.segment<4>(BeamKinematics::quaternion_slope))
                                          .dot(nodal.q[a]);

@@ -84,21 +84,37 @@ std::vector<Scalar> scalars() {
   return all;
 }
 
-std::optional<Extremum> extreme(const fem::Samples& samples, std::string_view scalar, Extreme which) {
-  return with_scalar(samples, scalar,
-                     [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field,
-                                                    int component, Part part) -> std::optional<Extremum> {
-                       std::optional<Extremum> found;
-                       std::array<double, widest_field> values;
-                       for (const Sample& sample : points) {
-                         field.evaluate(Point{sample}, values.data());
-                         const double value = values[static_cast<std::size_t>(component)];
-                         if (!found ||
-                             (which == Extreme::minimum ? value < found->value : value > found->value))
-                           found = Extremum{value, sample.cell, part};
-                       }
-                       return found;
-                     });
+Extremes::Extremes(const fem::Samples& samples) {
+  const auto add = [this](const auto& points, const auto& fields, auto make_point, Part part) {
+    const std::size_t first = entries_.size();
+    for (const auto& field : fields)
+      for (std::size_t c = 0; c < static_cast<std::size_t>(field.width()); ++c)
+        entries_.push_back({scalar_name(field, c), std::nullopt, std::nullopt});
+    std::array<double, widest_field> values;
+    for (const auto& sample : points) {
+      const auto point = make_point(sample);
+      std::size_t entry = first;
+      for (const auto& field : fields) {
+        field.evaluate(point, values.data());
+        for (std::size_t c = 0; c < static_cast<std::size_t>(field.width()); ++c, ++entry) {
+          auto& [name, low, high] = entries_[entry];
+          if (!low || values[c] < low->value) low = Extremum{values[c], sample.cell, part};
+          if (!high || values[c] > high->value) high = Extremum{values[c], sample.cell, part};
+        }
+      }
+    }
+  };
+  add(
+      samples.film, film_fields(), [](const fem::MembraneSample& sample) { return FilmPoint(sample); },
+      Part::film);
+  add(
+      samples.walls, wall_fields(), [](const fem::BeamSample& sample) { return sample; }, Part::walls);
+}
+
+std::optional<Extremum> Extremes::find(std::string_view scalar, Extreme which) const {
+  for (const Entry& entry : entries_)
+    if (entry.name == scalar) return which == Extreme::minimum ? entry.low : entry.high;
+  throw std::invalid_argument("unknown field '" + std::string(scalar) + "'");
 }
 
 std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count) {

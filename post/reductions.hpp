@@ -40,8 +40,21 @@ struct Extremum {
   Part part{};
 };
 
-/// Nothing when the model has no points of that part. Throws std::invalid_argument for an unknown name.
-std::optional<Extremum> extreme(const fem::Samples& samples, std::string_view scalar, Extreme which);
+/// The smallest and largest values of every scalar of a state, found in one pass over its integration points.
+class Extremes {
+ public:
+  explicit Extremes(const fem::Samples& samples);
+
+  /// Nothing when the model has no points of that part. Throws std::invalid_argument for an unknown name.
+  std::optional<Extremum> find(std::string_view scalar, Extreme which) const;
+
+ private:
+  struct Entry {
+    std::string name;
+    std::optional<Extremum> low, high;
+  };
+  std::vector<Entry> entries_; ///< in the order of scalars()
+};
 
 /// Cell averages of one scalar. Throws std::invalid_argument for an unknown name.
 std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count);

@@ -63,7 +63,8 @@ extreme = "minimum"
     Eigen::VectorXd force;
     equilibrium.internal_force(state, force);
     const fem::Samples samples = device->model.sample(state);
-    const std::vector<double> all = Measurement(one, *device).all({state, samples, force});
+    const std::vector<double> all =
+        Measurement(one, *device).all({state, samples, post::Extremes(samples), force});
     for (std::size_t q = 0; q < all.size(); ++q)
       if (one.quantities[q].name == name) return all[q];
     ADD_FAILURE() << name;
@@ -140,12 +141,13 @@ TEST_F(DiscMeasurement, ElongationsStartWhereTheirStepEnds) {
   fem::State at = built.model.initial_state();
   const fem::Samples samples = built.model.sample(at);
   const Eigen::VectorXd force = Eigen::VectorXd::Zero(built.model.dofs.count());
-  EXPECT_TRUE(std::isnan(measurement.all({at, samples, force})[0])); // eps_x, since the release
-  measurement.step_ended("release", {at, samples, force});
-  EXPECT_EQ(measurement.all({at, samples, force})[0], 0);
+  EXPECT_TRUE(std::isnan(
+      measurement.all({at, samples, post::Extremes(samples), force})[0])); // eps_x, since the release
+  measurement.step_ended("release", {at, samples, post::Extremes(samples), force});
+  EXPECT_EQ(measurement.all({at, samples, post::Extremes(samples), force})[0], 0);
   for (std::size_t n = 0; n < built.mesh.nodes.size(); ++n) at.displacement[n] = 0.25 * built.mesh.nodes[n];
-  EXPECT_NEAR(measurement.all({at, samples, force})[0], 0.25, 1e-12);
-  EXPECT_NEAR(measurement.all({at, samples, force})[1], 0.25, 1e-12);
+  EXPECT_NEAR(measurement.all({at, samples, post::Extremes(samples), force})[0], 0.25, 1e-12);
+  EXPECT_NEAR(measurement.all({at, samples, post::Extremes(samples), force})[1], 0.25, 1e-12);
 }
 
 } // namespace

@@ -46,21 +46,23 @@ TEST(Reductions, AveragesOfAllFieldsLieCellByCell) {
 
 TEST(Reductions, ExtremeFindsThePoint) {
   const fem::Samples samples = two_points_in_cell_one();
-  const auto field = extreme(samples, "electric_field", Extreme::maximum);
+  const auto field = Extremes(samples).find("electric_field", Extreme::maximum);
   ASSERT_TRUE(field);
   EXPECT_DOUBLE_EQ(field->value, 4e6);
   EXPECT_EQ(field->cell, 1);
   EXPECT_EQ(field->part, Part::film);
-  const auto force = extreme(samples, "axial_force", Extreme::minimum);
+  const auto force = Extremes(samples).find("axial_force", Extreme::minimum);
   ASSERT_TRUE(force);
   EXPECT_DOUBLE_EQ(force->value, -2);
   EXPECT_EQ(force->part, Part::walls);
 }
 
-TEST(Reductions, NothingWithoutPoints) { EXPECT_FALSE(extreme({}, "thickness", Extreme::minimum)); }
+TEST(Reductions, NothingWithoutPoints) {
+  EXPECT_FALSE(Extremes(fem::Samples{}).find("thickness", Extreme::minimum));
+}
 
 TEST(Reductions, UnknownNamesAreRefused) {
-  EXPECT_THROW(extreme({}, "cauchy_stress", Extreme::minimum), std::invalid_argument);
+  EXPECT_THROW(Extremes(fem::Samples{}).find("cauchy_stress", Extreme::minimum), std::invalid_argument);
   EXPECT_THROW(average(fem::Samples{}, "thicknes", 1), std::invalid_argument);
 }
 
@@ -69,7 +71,7 @@ TEST(Reductions, EveryScalarHasOneNameThatWorks) {
   for (const Scalar& scalar : scalars()) {
     EXPECT_TRUE(names.insert(scalar.name).second) << scalar.name;
     EXPECT_FALSE(scalar.unit.empty() || scalar.meaning.empty()) << scalar.name;
-    const auto found = extreme(two_points_in_cell_one(), scalar.name, Extreme::maximum);
+    const auto found = Extremes(two_points_in_cell_one()).find(scalar.name, Extreme::maximum);
     ASSERT_TRUE(found) << scalar.name;
     EXPECT_EQ(found->part, scalar.part);
   }
