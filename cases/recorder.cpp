@@ -101,7 +101,7 @@ void Recorder::record(const Frame& frame) {
                     post::average(frame.measured.samples, "thickness", triangles),
                     post::average(frame.measured.samples, "electric_field", triangles)};
   // The last accepted state is replaced until its step has ended.
-  const bool replaces = !journal_.records.empty() && journal_.records.back().step == record.step;
+  const bool replaces = record.index > 1 && journal_.records.back().step == record.step;
   if (replaces)
     journal_.snapshots.back() = std::move(snapshot);
   else
