@@ -95,10 +95,15 @@ std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// The directory holds the results of exactly this case.
-bool is_complete(const Case& one, const std::filesystem::path& directory) {
-  return std::filesystem::exists(directory / "summary.json") &&
-         read_text(directory / "resolved.toml") == resolved_text(one);
+/// How the run ended whose results of exactly this case the directory holds; nothing when it holds none.
+std::optional<ExitCode> finished(const Case& one, const std::filesystem::path& directory) {
+  if (read_text(directory / "resolved.toml") != resolved_text(one)) return std::nullopt;
+  const auto summary = nlohmann::json::parse(read_text(directory / "summary.json"), nullptr, false);
+  if (summary.is_discarded()) return std::nullopt;
+  if (summary.at("status") != "complete") return ExitCode::not_converged;
+  for (const auto& check : summary.at("checks"))
+    if (!check.at("passed")) return ExitCode::check_failed;
+  return ExitCode::ok;
 }
 
 } // namespace
@@ -128,9 +133,9 @@ void make_directory(const std::filesystem::path& directory) {
 
 ExitCode run_case(const Case& one, const RunSettings& settings) {
   make_directory(settings.directory);
-  if (settings.resume && is_complete(one, settings.directory)) {
-    fmt::print("{}: already complete, nothing to resume\n", settings.directory.string());
-    return ExitCode::ok;
+  if (const auto ended = settings.resume ? finished(one, settings.directory) : std::nullopt) {
+    fmt::print("{}: has run to its end, nothing to resume\n", settings.directory.string());
+    return *ended;
   }
   for (const char* stale : {"summary.json", "report.html"})
     std::filesystem::remove(settings.directory / stale);
