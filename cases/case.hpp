@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/diagnostics.hpp"
+#include "cases/waveform.hpp"
 #include "materials/beam_section.hpp"
 #include "materials/material.hpp"
 #include "post/reductions.hpp"
@@ -21,6 +22,7 @@ struct Film {
   materials::Material material;
   double thickness = 0;               ///< undeformed H, m
   std::array<double, 2> prestretch{}; ///< lambda_p along x and y
+  bool tension_field = false;         ///< it wrinkles where it would be compressed, and carries tension only
 };
 
 /// [honeycomb]: the geometry template of the unidirectional actuator
@@ -43,12 +45,27 @@ struct Annulus {
   double inner_radius = 0, outer_radius = 0; ///< m
 };
 
+enum class PatchMode {
+  biaxial,       ///< x and y move independently
+  equal_biaxial, ///< both stretches are one
+  pure_shear,    ///< y is held
+};
+
+/// [patch]: a homogeneous block of film. Stretches are with respect to the unstretched film, stresses nominal
+/// (force over undeformed section); a direction with neither is free of stress.
+struct Patch {
+  double length = 0, width = 0; ///< along x and y, before the prestretch, m
+  PatchMode mode{};
+  std::optional<Waveform> stretch_x, stretch_y;
+  std::optional<Waveform> stress_x, stress_y; ///< Pa
+};
+
 /// [mesh] file = "...": the user's own mesh, drawn after the prestretch, physical names as places
 struct MeshFile {
   std::filesystem::path path;
 };
 
-using Geometry = std::variant<Honeycomb, Disc, Annulus, MeshFile>;
+using Geometry = std::variant<Honeycomb, Disc, Annulus, Patch, MeshFile>;
 
 /// [mesh]
 struct MeshOptions {
@@ -69,34 +86,95 @@ struct Electrode {
 /// [[support]]
 struct Support {
   std::string place;
-  std::array<bool, 3> fixed{}; ///< x, y, z
+  std::array<bool, 3> fixed{};                     ///< x, y, z
+  std::array<std::optional<Waveform>, 3> motion{}; ///< displacement of fixed directions, m; absent: none
+  bool standard = false;                           ///< brought by the geometry, not written by the user
+
+  bool moves() const { return motion[0] || motion[1] || motion[2]; }
 };
 
-/// [[load]]: a dead force spread evenly over the nodes of a place, applied by steps of kind "force"
+/// [[load]]: a dead force spread evenly over the nodes of a place
 struct Load {
   std::string place;
-  std::array<double, 3> force{}; ///< N
+  std::array<Waveform, 3> force{}; ///< N
+  bool standard = false;           ///< brought by the geometry, not written by the user
 };
 
-enum class StepKind { release, voltage, force };
+/// [drive]: what the source of an electrode does; different steps may use the one and the other
+struct Drive {
+  std::optional<Waveform> voltage; ///< V
+  std::optional<Waveform> charge;  ///< C
+
+  bool operator==(const Drive&) const = default;
+};
+
+/// [[spring]]: a linear spring between the centroids of two places, tension stiffness (distance -
+/// free_length)
+struct Spring {
+  std::array<std::string, 2> between;
+  int along = 0;          ///< 0, 1, 2 = x, y, z
+  double stiffness = 0;   ///< N/m
+  double free_length = 0; ///< distance of the centroids along the axis at which it is free, m
+};
+
+/// [[linkage]]: a weight P at the arm b of a triangle whose other sides are the strut a and l = distance +
+/// offset: it pulls two places apart by P (b^2 + l^2 - a^2) / (2 b l) (law of cosines; rolled muscle)
+struct Linkage {
+  std::array<std::string, 2> between;
+  int along = 0;     ///< 0, 1, 2 = x, y, z
+  double force = 0;  ///< P, N
+  double arm = 0;    ///< b, m
+  double strut = 0;  ///< a, m
+  double offset = 0; ///< m
+};
+
+/// A ramp leads from where the device is to the values that waves have at t = 0; `transient` follows the
+/// waves from t = 0 on; in `hold` time passes and everything stays.
+enum class StepKind { release, voltage, charge, force, move, transient, hold };
+
+/// What the branches do during a ramp that takes no time.
+enum class Response {
+  relaxed,       ///< they have all the time they need
+  instantaneous, ///< they have none
+};
+
+/// What the electrodes keep when neither voltage nor charge is ramped: connected or isolated.
+enum class Control { voltage, charge };
+
+enum class OnInstability {
+  stop,   ///< the step ends at a limit point
+  follow, ///< along the path past it, by arclength
+  jump,   ///< lands on the next stable state
+};
+
+enum class OnBifurcation { follow, switch_branch };
 
 /// [[step]]
 struct Step {
   StepKind kind{};
   std::string name; ///< default: its kind
   int increments = 1;
+  std::optional<double> duration{}; ///< s; absent: a ramp that takes no time
+  Response response{};              ///< without a duration
+  std::optional<double> record{};   ///< s: history has rows only at its multiples; absent: at every increment
+  Control control{};                ///< of force, move, transient and hold
+  OnInstability on_instability{};
+  OnBifurcation on_bifurcation{};
 };
 
 enum class QuantityKind {
   distance,
   elongation,
+  stretch,
   size,
   growth,
   displacement,
   radius,
   force,
+  nominal_stress,
   capacitance,
   charge,
+  energy,
   extreme
 };
 
@@ -109,9 +187,9 @@ constexpr bool is_relative(QuantityKind kind) {
 struct Quantity {
   std::string name;
   QuantityKind kind{};
-  std::array<std::string, 2> between; ///< distance, elongation: two places (their centroids)
-  std::string of; ///< size, growth, displacement, radius, force: a place; capacitance, charge: an electrode;
-                  ///< extreme: a field
+  std::array<std::string, 2> between; ///< distance, elongation, stretch: two places (their centroids)
+  std::string of; ///< size, growth, displacement, radius, force, nominal_stress: a place; capacitance,
+                  ///< charge: an electrode; extreme: a field
   std::optional<int> along; ///< 0, 1, 2 = x, y, z; absent: magnitude
   post::Extreme extreme{};
   std::string at;        ///< the step at whose end summary.json reads it; empty: the last
@@ -133,6 +211,7 @@ struct SolverOptions {
   double tolerance = 0;          ///< |R_free| over the reaction scale
   int max_iterations = 0;        ///< Newton iterations before a cutback
   double smallest_increment = 0; ///< load factor below which a step gives up
+  double time_tolerance = 0;     ///< relative local error of the branches in a time step
 };
 
 /// Everything the user asked for: validated, complete, in SI. No type of the file format gets past the
@@ -147,7 +226,9 @@ struct Case {
   std::vector<Electrode> electrodes;
   std::vector<Support> supports;
   std::vector<Load> loads;
-  std::map<std::string, double> drives; ///< electrode name -> final voltage, V
+  std::map<std::string, Drive> drives; ///< by the electrode's name
+  std::vector<Spring> springs;
+  std::vector<Linkage> linkages;
   std::vector<Step> steps;
   std::vector<Quantity> quantities; ///< the template's and the user's
   std::vector<Check> checks;

@@ -1,6 +1,9 @@
 #include "cases/case_tree.hpp"
 
+#include "cases/fit_reader.hpp"
+#include "cases/patch.hpp"
 #include "cases/quantities.hpp"
+#include "cases/rules.hpp"
 #include "cases/section_reader.hpp"
 #include "cases/templates.hpp"
 
@@ -47,17 +50,6 @@ void require_one_geometry(SectionReader& reader, const Node& tree) {
           fmt::format("there are {} geometries; keep one of {}", found.size(), fmt::join(allowed, ", ")));
 }
 
-void require_steps_and_loads_match(SectionReader& reader, const Node& tree, const Case& one) {
-  const bool steps = std::any_of(one.steps.begin(), one.steps.end(),
-                                 [](const Step& step) { return step.kind == StepKind::force; });
-  if (steps && one.loads.empty())
-    reader.report(tree.find("step")->source, "step",
-                  "a step of kind \"force\" has nothing to apply; add a [[load]]");
-  if (!steps && !one.loads.empty())
-    reader.report(tree.find("load")->source, "load",
-                  "no step applies it; add a [[step]] with kind = \"force\"");
-}
-
 /// Makes the mesh file's path independent of the working directory.
 void locate_mesh(SectionReader& reader, const Node& tree, Case& one) {
   auto* file = std::get_if<MeshFile>(&one.geometry);
@@ -76,6 +68,7 @@ void locate_mesh(SectionReader& reader, const Node& tree, Case& one) {
 } // namespace
 
 Case interpret(Node tree, const std::filesystem::path& path) {
+  refuse_fit(tree);
   if (const Node* base = tree.find("case"))
     throw CaseError(
         {{base->key_source, "case", "this file is a study of another case: use `dielast study`"}});
@@ -89,7 +82,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
     standard = add_standard_quantities(tree, *device);
   }
 
-  SectionReader reader({geometries_of(tree).size() == 1 ? std::string(device->name) : "",
+  SectionReader reader({geometries_of(tree).size() == 1 ? std::string(device->name) : "", path.parent_path(),
                         [&] { return names_of(one.electrodes, &Electrode::name); },
                         [&](const std::string& name) -> std::optional<std::string> {
                           for (const Quantity& quantity : one.quantities)
@@ -100,13 +93,14 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   reader.read_table(case_schema(), tree, &one, "");
   for (int i = 0; i < std::min<int>(standard, static_cast<int>(one.quantities.size())); ++i)
     one.quantities[static_cast<std::size_t>(i)].standard = true;
+  add_patch_sides(one);
 
   require_known(reader, Reference::electrode, "electrode", names_of(one.electrodes, &Electrode::name));
   require_known(reader, Reference::step, "step", names_of(one.steps, &Step::name));
   require_known(reader, Reference::quantity, "quantity", names_of(one.quantities, &Quantity::name));
   require_known(reader, Reference::supported_place, "supported place",
                 names_of(one.supports, &Support::place));
-  require_steps_and_loads_match(reader, tree, one);
+  check_rules(reader, tree, one);
   locate_mesh(reader, tree, one);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   one.places = reader.mentions(Reference::place);

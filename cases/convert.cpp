@@ -25,6 +25,8 @@ std::string shown_text(const Node& node) {
   throw Mismatch{fmt::format("found {}{}, allowed {}", shown_text(node), reason, allowed), node.source};
 }
 
+bool is_measure(const Key& key) { return key.type == Type::measure || key.type == Type::wave; }
+
 std::vector<std::string> words_of(const Key& key) {
   std::vector<std::string> words;
   for (const Choice& choice : key.choices) words.push_back(choice.word);
@@ -41,13 +43,19 @@ std::vector<std::string> split(std::string_view words) {
   return parts;
 }
 
+std::string measure_expectation(std::string_view unit) {
+  if (unit.empty()) return "a number or a measure in the quantity's unit";
+  return unit == "1" ? "a number"
+                     : fmt::format("{} such as \"{}\"", dimension(unit).noun, dimension(unit).example);
+}
+
 /// What one item of the key may be.
 std::string item_expectation(const Key& key, std::string_view unit) {
   switch (key.type) {
   case Type::measure:
-    if (unit.empty()) return "a number or a measure in the quantity's unit";
-    return unit == "1" ? "a number"
-                       : fmt::format("{} such as \"{}\"", dimension(unit).noun, dimension(unit).example);
+    return measure_expectation(unit);
+  case Type::wave:
+    return measure_expectation(unit) + ", or a wave such as { wave = \"sine\", ... }";
   case Type::tolerance:
     return "a part of the value such as \"1 %\", or a difference in the quantity's unit";
   case Type::integer:
@@ -71,12 +79,13 @@ void require_range(const Key& key, const Node& node, double value, const std::st
   if (inside) return;
   std::string allowed = range_text(key, shown);
   if (!key.hint.empty()) allowed += ": " + key.hint;
-  const bool has_unit = bare && key.unit != "1" && key.type == Type::measure;
+  const bool has_unit = bare && key.unit != "1" && is_measure(key);
   mismatch(node, has_unit ? fmt::format(" (a number without a unit is in {})", key.unit) : "", allowed);
 }
 
 Scalar convert_measure(const Key& key, const Node& node, std::string_view unit) {
-  const std::string allowed = item_expectation(key, unit);
+  const std::string allowed =
+      key.type == Type::tolerance ? item_expectation(key, unit) : measure_expectation(unit);
   if (node.is(Node::Kind::integer) || node.is(Node::Kind::number)) {
     if (!std::isfinite(node.number)) mismatch(node, "", allowed);
     require_range(key, node, node.number, unit.empty() ? "" : std::string(dimension(unit).shown), true);
@@ -101,10 +110,14 @@ Scalar convert_measure(const Key& key, const Node& node, std::string_view unit) 
   }
 }
 
-Scalar convert_item(const Key& key, const Node& node, std::string_view unit) {
+Scalar convert_item(const Key& key, const Node& node, std::string_view unit, const WaveReader& read_wave) {
   const std::string allowed = item_expectation(key, unit);
   const bool text = node.is(Node::Kind::text);
   switch (key.type) {
+  case Type::wave:
+    if (read_wave && node.is(Node::Kind::table)) return {0, "", read_wave(node)};
+    if (!text && !node.is(Node::Kind::integer) && !node.is(Node::Kind::number)) mismatch(node, "", allowed);
+    return convert_measure(key, node, unit);
   case Type::measure:
   case Type::tolerance:
     return convert_measure(key, node, unit);
@@ -137,20 +150,31 @@ Scalar convert_item(const Key& key, const Node& node, std::string_view unit) {
   return {0, node.text};
 }
 
+std::string wave_text(const Key& key, const Waveform& wave) {
+  const Section section = wave_section(key.unit);
+  const std::string kind = section.selected_in(&wave);
+  std::string text;
+  for (const Key& part : section.keys)
+    if (part.applies_to(kind))
+      if (const auto value = part.binding.get(&wave))
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", part.name, toml_text(part, *value));
+  return fmt::format("{{ {} }}", text);
+}
+
 } // namespace
 
-Value convert(const Key& key, const Node& node, std::string_view unit) {
+Value convert(const Key& key, const Node& node, std::string_view unit, const WaveReader& read_wave) {
   Value value;
   if (!key.is_list()) {
-    value.push_back(convert_item(key, node, unit));
+    value.push_back(convert_item(key, node, unit, read_wave));
   } else if (key.spreads && !node.is(Node::Kind::list)) {
     if (node.is(Node::Kind::table) || node.is(Node::Kind::flag)) mismatch(node, "", expectation(key, unit));
-    value.assign(key.most, convert_item(key, node, unit));
+    value.assign(key.most, convert_item(key, node, unit, read_wave));
   } else {
     if (!node.is(Node::Kind::list)) mismatch(node, "", expectation(key, unit));
     if (node.items.size() < key.least || node.items.size() > key.most)
       mismatch(node, fmt::format(", a list of {}", node.items.size()), expectation(key, unit));
-    for (const Node& item : node.items) value.push_back(convert_item(key, item, unit));
+    for (const Node& item : node.items) value.push_back(convert_item(key, item, unit, read_wave));
   }
   if (key.check)
     if (const std::string wrong = key.check(value); !wrong.empty()) throw Mismatch{wrong, node.source};
@@ -160,6 +184,9 @@ Value convert(const Key& key, const Node& node, std::string_view unit) {
 std::string toml_text(const Key& key, const Value& value) {
   const auto item = [&](const Scalar& scalar) -> std::string {
     switch (key.type) {
+    case Type::wave:
+      if (scalar.wave) return wave_text(key, *scalar.wave);
+      [[fallthrough]];
     case Type::measure:
       if (key.unit.empty() || key.unit == "1") return fmt::format("{}", scalar.number);
       return toml_string(format_measure(scalar.number, key.unit));
@@ -193,9 +220,8 @@ std::string expectation(const Key& key, std::string_view unit) {
 std::string range_text(const Key& key, const std::string& shown) {
   const Range& range = key.range;
   const auto number = [&](double value) {
-    return key.type == Type::measure && !key.unit.empty()
-               ? in_unit(value, shown == "1" ? "" : shown, key.unit)
-               : fmt::format("{:.6g}", value);
+    return is_measure(key) && !key.unit.empty() ? in_unit(value, shown == "1" ? "" : shown, key.unit)
+                                                : fmt::format("{:.6g}", value);
   };
   std::string text;
   if (std::isfinite(range.low)) text = (range.low_open ? "above " : "at least ") + number(range.low);

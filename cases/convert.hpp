@@ -3,6 +3,7 @@
 #include "cases/schema.hpp"
 #include "cases/tree.hpp"
 
+#include <functional>
 #include <string>
 
 namespace dielast::cases {
@@ -13,9 +14,12 @@ struct Mismatch {
   Source source;
 };
 
+/// Reads a table that says how a quantity goes with time.
+using WaveReader = std::function<Waveform(const Node& table)>;
+
 /// The value of `key` in SI. `unit` is the SI unit of the measure: the key's, or that of the quantity of a
 /// check. Throws Mismatch.
-Value convert(const Key& key, const Node& node, std::string_view unit);
+Value convert(const Key& key, const Node& node, std::string_view unit, const WaveReader& read_wave = {});
 
 /// The inverse: TOML text of a value, in SI units.
 std::string toml_text(const Key& key, const Value& value);

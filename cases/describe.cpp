@@ -76,6 +76,9 @@ std::string values_text(const Section& section, const void* object) {
     if (key.applies_to(selected))
       if (const auto value = key.binding.get(object))
         text += fmt::format("    {:<18}{}\n", key.name, toml_text(key, *value));
+  for (const Section& inner : section.sections)
+    for (const Access::Entry& entry : inner.access.entries(object))
+      text += fmt::format("    {}\n", inner.name) + values_text(inner, entry.object);
   return text;
 }
 
@@ -110,8 +113,14 @@ std::string materials_text() {
 }
 
 std::string laws_text() {
-  return "Equilibrium laws of the film (film.material.law)\n" +
-         choices_text(*case_schema().find_section("film")->find_section("material"));
+  const Section& material = *case_schema().find_section("film")->find_section("material");
+  const Section& branch = *material.find_section("branch");
+  std::string text = "Laws of the film (film.material.law) and of its branches\n" + choices_text(material) +
+                     fmt::format("\n{}  {}, with the keys of its law and\n",
+                                 branch.heading("film.material.branch"), branch.meaning);
+  for (const Key& key : branch.keys)
+    if (key.only_for.empty()) text += key_text(key);
+  return text;
 }
 
 std::string devices_text() {
@@ -152,6 +161,25 @@ std::string quantities_text() {
 
 std::string steps_text() { return "Kinds of [[step]]\n" + choices_text(*case_schema().find_section("step")); }
 
+std::string waves_text() {
+  return "Forms of waves, for every quantity that a case lets change with time: voltages, charges, forces,\n"
+         "displacements, stretches and stresses; here of a voltage, such as\n"
+         "  voltage = { wave = \"sine\", amplitude = \"4 kV\", frequency = \"0.5 Hz\" }\n"
+         "Steps of kind \"transient\" follow them; t counts from the start of the step. Ramps lead to their "
+         "value\n"
+         "at t = 0.\n" +
+         choices_text(wave_section("V"));
+}
+
+std::string fit_text() {
+  std::string text =
+      "`dielast fit FILE` fits a material to measured tests: the [film.material] of the file is the\n"
+      "start. Parameters are called as in [film.material], those of branches as in\n"
+      "\"branch[1].relaxation_time\"; items of lists are counted from 1.\n";
+  for (const char* name : {"fit", "test"}) text += section_text(*case_schema().find_section(name), name);
+  return text;
+}
+
 std::string keys_text() { return section_text(case_schema(), ""); }
 
 std::string units_text() {
@@ -166,9 +194,16 @@ struct Topic {
 };
 
 constexpr std::array all_topics{
-    Topic{"overview", overview},    Topic{"materials", materials_text},   Topic{"laws", laws_text},
-    Topic{"devices", devices_text}, Topic{"quantities", quantities_text}, Topic{"steps", steps_text},
-    Topic{"keys", keys_text},       Topic{"units", units_text},
+    Topic{"overview", overview},
+    Topic{"materials", materials_text},
+    Topic{"laws", laws_text},
+    Topic{"devices", devices_text},
+    Topic{"quantities", quantities_text},
+    Topic{"steps", steps_text},
+    Topic{"waves", waves_text},
+    Topic{"fit", fit_text},
+    Topic{"keys", keys_text},
+    Topic{"units", units_text},
 };
 
 } // namespace

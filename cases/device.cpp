@@ -2,10 +2,12 @@
 
 #include "cases/reader.hpp"
 #include "fem/beam_block.hpp"
+#include "fem/distance_block.hpp"
 #include "fem/membrane_block.hpp"
 #include "meshing/gmsh_reader.hpp"
 #include "meshing/honeycomb_mesh.hpp"
 #include "meshing/mesh_error.hpp"
+#include "meshing/patch.hpp"
 #include "meshing/rings.hpp"
 
 #include <algorithm>
@@ -59,30 +61,50 @@ meshing::Mesh film_of(meshing::Mesh mesh, double unit) {
   throw CaseError({{{one.source.string()}, key + "force", reason}});
 }
 
-/// Dead forces of all loads, per equation.
-Eigen::VectorXd load_vector(const Case& one, const Device& device) {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(device.model.dofs.count());
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double largest = 0;
-  for (std::size_t l = 0; l < one.loads.size(); ++l) {
-    const Load& load = one.loads[l];
-    const auto& nodes = device.mesh.node_sets.at(load.place);
-    for (int c = 0; c < 3; ++c) {
-      const double share = load.force[static_cast<std::size_t>(c)] / static_cast<double>(nodes.size());
-      if (share == 0) continue;
-      for (const int node : nodes) {
-        const int e = device.model.dofs.equation(node, c);
-        if (e == fem::DofMap::absent)
-          reject_load(one, l, "a planar model does not move along z; use model = \"3d\"");
-        forces[e] += share;
-      }
-      sum[c] += load.force[static_cast<std::size_t>(c)];
-      largest = std::max(largest, std::abs(load.force[static_cast<std::size_t>(c)]));
+/// Times that tell whether the loads balance at all times.
+std::vector<double> telling_times(const Case& one) {
+  std::vector<double> times{0};
+  for (const Load& load : one.loads)
+    for (const Waveform& wave : load.force) {
+      const double period = wave.period();
+      if (std::isfinite(period)) times.insert(times.end(), {period / 3, period / 7});
+      for (const double t : wave.kinks(0, std::isfinite(period) ? period : 1e10)) times.push_back(t);
     }
+  return times;
+}
+
+/// Every load must have something to act on, and nothing would hold a free body.
+void require_loads_that_act(const Case& one, const Device& device) {
+  for (std::size_t l = 0; l < one.loads.size(); ++l)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Waveform& wave = one.loads[l].force[c];
+      if (wave == Waveform::constant_at(0)) continue;
+      for (const int node : device.mesh.node_sets.at(one.loads[l].place))
+        if (device.model.dofs.equation(node, static_cast<int>(c)) == fem::DofMap::absent)
+          reject_load(one, l, "a planar model does not move along z; use model = \"3d\"");
+    }
+  if (!device.free_body) return;
+  for (const double t : telling_times(one)) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double largest = 0;
+    for (const Load& load : one.loads)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double force = load.force[c].at(t);
+        sum[static_cast<int>(c)] += force;
+        largest = std::max(largest, std::abs(force));
+      }
+    if (sum.norm() > 1e-9 * largest)
+      reject_load(one, 0, "the forces on a free body must balance; hold it with [[support]]");
   }
-  if (device.free_body && sum.norm() > 1e-9 * largest)
-    reject_load(one, 0, "the forces on a free body must balance; hold it with [[support]]");
-  return forces;
+}
+
+/// The sides of a patch stay straight and parallel; in equal-biaxial tension both move alike.
+void keep_homogeneous(const Patch& patch, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  const auto& right = mesh.node_sets.at("right");
+  const auto& top = mesh.node_sets.at("top");
+  for (const int node : right) dofs.share(right.front(), node, 0);
+  for (const int node : top) dofs.share(top.front(), node, 1);
+  if (patch.mode == PatchMode::equal_biaxial) dofs.share(right.front(), 0, top.front(), 1);
 }
 
 /// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
@@ -108,6 +130,20 @@ void pin(const meshing::Mesh& mesh, fem::DofMap& dofs) {
   dofs.hold(along_y, 2);
 }
 
+fem::Distance distance(const meshing::Mesh& mesh, const std::array<std::string, 2>& between, int axis) {
+  return {{mesh.node_sets.at(between[0]), mesh.node_sets.at(between[1])}, axis};
+}
+
+void add_springs(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  for (const Spring& spring : one.springs)
+    model.blocks.push_back(fem::make_distance_block(mesh, distance(mesh, spring.between, spring.along),
+                                                    fem::Spring{spring.stiffness, spring.free_length}));
+  for (const Linkage& linkage : one.linkages)
+    model.blocks.push_back(
+        fem::make_distance_block(mesh, distance(mesh, linkage.between, linkage.along),
+                                 fem::Linkage{linkage.force, linkage.arm, linkage.strut, linkage.offset}));
+}
+
 } // namespace
 
 meshing::Mesh build_mesh(const Case& one) {
@@ -125,6 +161,9 @@ meshing::Mesh build_mesh(const Case& one) {
             [&](const Annulus& a) {
               return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order,
                                            true);
+            },
+            [&](const Patch& p) {
+              return meshing::patch_mesh(p.length * one.film.prestretch[0], p.width * one.film.prestretch[1]);
             },
             [&](const MeshFile& file) { return film_of(meshing::read_gmsh(file.path), options.unit); },
         },
@@ -162,9 +201,9 @@ Device build_device(const Case& one) {
   model.length_scale = model.extent / std::sqrt(static_cast<double>(film->size()));
   const int points = film->type == meshing::CellType::triangle6 ? one.mesh.quadrature : 1;
   try {
-    model.blocks.push_back(
-        fem::make_membrane_block(mesh, *film, {one.film.material, one.film.thickness, one.film.prestretch},
-                                 electrode_map(one, mesh, *film), planar, points));
+    model.blocks.push_back(fem::make_membrane_block(
+        mesh, *film, {one.film.material, one.film.thickness, one.film.prestretch, one.film.tension_field},
+        electrode_map(one, mesh, *film), planar, points));
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
@@ -174,18 +213,19 @@ Device build_device(const Case& one) {
         mesh, *walls,
         materials::rectangular_section(lattice->wall_material, lattice->wall_width, lattice->wall_height)));
 
+  add_springs(one, mesh, model);
+  model.place_histories();
   for (const auto& block : model.blocks) block->claim_dofs(model.dofs, planar);
   for (const Support& support : one.supports)
     for (const int node : mesh.node_sets.at(support.place))
       for (int c = 0; c < 3; ++c)
         if (support.fixed[static_cast<std::size_t>(c)]) model.dofs.hold(node, c);
   if (one.supports.empty()) pin(mesh, model.dofs);
+  if (const auto* patch = std::get_if<Patch>(&one.geometry)) keep_homogeneous(*patch, mesh, model.dofs);
   model.dofs.number();
 
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
-  device.rest = {std::vector<double>(one.electrodes.size(), 0.0),
-                 Eigen::VectorXd::Zero(device.model.dofs.count())};
-  device.loads = load_vector(one, device);
+  require_loads_that_act(one, device);
   if (lattice) device.wall_width = lattice->wall_width;
   return device;
 }
@@ -199,6 +239,7 @@ std::optional<Coarser> coarser(const Case& one) {
     return result;
   };
   return std::visit(Overloaded{[&](const Honeycomb&) { return halve(&MeshOptions::wall_elements, 1); },
+                               [](const Patch&) -> std::optional<Coarser> { return std::nullopt; },
                                [](const MeshFile&) -> std::optional<Coarser> { return std::nullopt; },
                                [&](const auto& /*rings*/) { return halve(&MeshOptions::rings, 2); }},
                     one.geometry);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case.hpp"
-#include "fem/ramp.hpp"
+#include "fem/model.hpp"
 #include "meshing/mesh.hpp"
 
 #include <optional>
@@ -12,8 +12,6 @@ namespace dielast::cases {
 struct Device {
   meshing::Mesh mesh;
   fem::Model model;
-  fem::RampTarget rest;             ///< no voltage, no dead force
-  Eigen::VectorXd loads;            ///< the case's [[load]] forces, per equation, N
   std::optional<double> wall_width; ///< m, of a lattice
   bool free_body = false;           ///< no support: pinned against rigid motion only, without reactions
 };

@@ -22,8 +22,15 @@ Json number_schema(const Key& key, const char* type) {
   return schema;
 }
 
+Json section_schema(const Section& section);
+
 Json item_schema(const Key& key) {
   switch (key.type) {
+  case Type::wave:
+    return {{"anyOf",
+             {number_schema(key, "number"),
+              {{"type", "string"}, {"pattern", "^\\s*[+-]?[0-9.]"}},
+              section_schema(wave_section(key.unit))}}};
   case Type::measure:
   case Type::tolerance:
     return {{"anyOf", {number_schema(key, "number"), {{"type", "string"}, {"pattern", "^\\s*[+-]?[0-9.]"}}}}};
@@ -51,14 +58,13 @@ Json key_schema(const Key& key) {
     schema = key.spreads ? Json{{"anyOf", {schema, list}}} : list;
   }
   std::string description = key.meaning;
-  if (key.type == Type::measure && !key.unit.empty() && key.unit != "1")
+  const bool is_measure = key.type == Type::measure || key.type == Type::wave;
+  if (is_measure && !key.unit.empty() && key.unit != "1")
     description += fmt::format(" ({} such as \"{}\")", dimension(key.unit).noun, dimension(key.unit).example);
   schema["description"] = description;
   if (key.fallback) schema["default"] = Json::parse(text_of(parse_value(*key.fallback, {})));
   return schema;
 }
-
-Json section_schema(const Section& section);
 
 Json shaped_schema(const Section& section) {
   Json schema = section_schema(section);

@@ -1,5 +1,7 @@
 #include "cases/describe.hpp"
 #include "cases/device.hpp"
+#include "cases/fit.hpp"
+#include "cases/fit_reader.hpp"
 #include "cases/json_schema.hpp"
 #include "cases/reader.hpp"
 #include "cases/run.hpp"
@@ -51,8 +53,9 @@ ExitCode check(const Arguments& arguments) {
   fem::Equilibrium equilibrium(device.model, arguments.threads);
   fem::State state = device.model.initial_state();
   for (std::size_t e = 0; e < one.electrodes.size(); ++e)
-    if (const auto drive = one.drives.find(one.electrodes[e].name); drive != one.drives.end())
-      state.voltage[e] = drive->second;
+    if (const auto drive = one.drives.find(one.electrodes[e].name);
+        drive != one.drives.end() && drive->second.voltage)
+      state.voltage[e] = drive->second.voltage->at(0);
   constexpr double tolerance = 1e-6;
   const auto found = fem::check_tangent(equilibrium, state, 0.02 * device.model.length_scale, 5);
   const bool passed = found.residual < tolerance && found.tangent < tolerance;
@@ -83,6 +86,10 @@ ExitCode mesh(const Arguments& arguments) {
 ExitCode study(const Arguments& arguments) {
   return run_study(cases::read_study(arguments.case_file),
                    {arguments.output(), arguments.threads, arguments.resume});
+}
+
+ExitCode fit(const Arguments& arguments) {
+  return run_fit(cases::read_fit(arguments.case_file), arguments.output("-fit"));
 }
 
 ExitCode info(const Arguments& arguments) {
@@ -133,6 +140,7 @@ int main(int argc, char** argv) {
       "  dielast run case.toml                               results in case-results/\n"
       "  dielast run case.toml --set drive.voltage=\"6 kV\" -o six\n"
       "  dielast study figure5.toml --resume\n"
+      "  dielast fit tests.toml                              results in tests-fit/\n"
       "  dielast info devices                                templates, their keys and places\n"
       "Exit codes: 0 ok, 1 usage or file, 2 invalid case, 3 mesh, 4 not converged (results kept), 5 a check\n"
       "failed, 130 interrupted (go on with --resume).");
@@ -161,7 +169,7 @@ int main(int argc, char** argv) {
   const auto takes_directory = [&](CLI::App* command) {
     command
         ->add_option("-o,--output", arguments.directory,
-                     "directory of the results [<case>-results, <case>-study]")
+                     "directory of the results [<case>-results, <case>-fit]")
         ->type_name("DIR");
   };
   const auto takes_threads = [&](CLI::App* command, const char* meaning) {
@@ -191,6 +199,9 @@ int main(int argc, char** argv) {
   takes_threads(study_command, "points at a time [every core]");
   study_command->add_flag("--resume", arguments.resume,
                           "keep the points that are done, go on with the others");
+
+  takes_directory(
+      takes_case(add("fit", "fit a material to measured tests: parameters, intervals, report", fit)));
 
   auto* info_command = add("info", "explain materials, laws, devices, quantities, steps, keys, units", info);
   info_command->add_option("topic", arguments.topic, "what to explain [overview]");

@@ -15,18 +15,48 @@ double component(const Eigen::Vector3d& vector, const std::optional<int>& along)
   return along ? vector[*along] : vector.norm();
 }
 
-/// sum of eps/h da over an electrode.
-double capacitance(const fem::Samples& samples, int electrode) {
-  double sum = 0;
-  for (const fem::MembraneSample& s : samples.film)
-    if (s.electrode == electrode) {
-      const double area_ratio_squared = (s.F.transpose() * s.F).determinant();
-      sum += s.permittivity * area_ratio_squared * s.volume / (s.thickness * s.thickness);
-    }
-  return sum;
+/// A part of the energy balance; the reader admits no other word.
+double energy(const std::string& part, const fem::EnergyBalance& balance, const fem::Work& work) {
+  const fem::EnergyParts& stored = balance.record().window.back().energy;
+  if (part == "electrical_work") return work.electrical;
+  if (part == "mechanical_work") return work.mechanical;
+  if (part == "dissipated") return work.dissipated;
+  if (part == "released") return work.released;
+  if (part == "stored") return balance.stored();
+  if (part == "elastic") return stored.elastic;
+  if (part == "branches") return stored.branches;
+  if (part == "electric") return stored.electric;
+  if (part == "wrinkle_regularisation") return stored.regularised;
+  return balance.error(work);
 }
 
 } // namespace
+
+Measured::Measured(const Device& device, fem::Equilibrium& equilibrium, const fem::State& at,
+                   const fem::EnergyBalance& balance)
+    : state(at), samples(device.model.sample(at)), extremes(samples),
+      charges(device.model.charges(at, false)), energy(balance), work(balance.work()) {
+  equilibrium.internal_force(at, internal_force);
+}
+
+const std::vector<char>& Measurement::film_at(const std::string& place) const {
+  const auto [entry, fresh] = film_at_.try_emplace(place);
+  if (!fresh) return entry->second;
+  const meshing::CellBlock& film = *device_.mesh.triangles();
+  std::vector<char>& near = entry->second;
+  near.assign(static_cast<std::size_t>(film.size()), 0);
+  const auto cells = device_.mesh.cell_sets.find(place);
+  if (cells != device_.mesh.cell_sets.end() &&
+      &device_.mesh.blocks[static_cast<std::size_t>(cells->second.block)] == &film) {
+    for (const int cell : cells->second.cells) near[static_cast<std::size_t>(cell)] = 1;
+    return near;
+  }
+  const auto& nodes = device_.mesh.node_sets.at(place);
+  for (int cell = 0; cell < film.size(); ++cell)
+    near[static_cast<std::size_t>(cell)] = std::ranges::any_of(
+        film.cell(cell), [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); });
+  return near;
+}
 
 Eigen::Vector3d Measurement::position(const std::string& place, const fem::State& state) const {
   const auto& nodes = device_.mesh.node_sets.at(place);
@@ -37,7 +67,7 @@ Eigen::Vector3d Measurement::position(const std::string& place, const fem::State
 }
 
 double Measurement::length(const Quantity& quantity, const fem::State& state) const {
-  if (quantity.kind == QuantityKind::distance || quantity.kind == QuantityKind::elongation) {
+  if (!quantity.between[0].empty()) {
     const auto between = [&](const fem::State& at) {
       return component(position(quantity.between[1], at) - position(quantity.between[0], at), quantity.along);
     };
@@ -92,13 +122,30 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
       }
     return component(sum, quantity.along);
   }
+  case QuantityKind::stretch: {
+    const double drawn = length(quantity, device_.model.initial_state());
+    return length(quantity, state) / drawn *
+           case_.film.prestretch.at(static_cast<std::size_t>(*quantity.along));
+  }
+  case QuantityKind::nominal_stress: {
+    const std::vector<char>& near = film_at(quantity.of);
+    double sum = 0, volume = 0;
+    for (const fem::MembraneSample& s : measured.samples.film) {
+      if (!near[static_cast<std::size_t>(s.cell)]) continue;
+      sum += s.volume * s.F.row(*quantity.along).dot(s.S.col(*quantity.along));
+      volume += s.volume;
+    }
+    return volume > 0 ? sum / volume : unknown;
+  }
+  case QuantityKind::energy:
+    return energy(quantity.of, measured.energy, measured.work);
   case QuantityKind::capacitance:
   case QuantityKind::charge: {
     const auto& names = device_.model.electrodes;
-    const auto electrode = std::find(names.begin(), names.end(), quantity.of) - names.begin();
-    const double value = capacitance(measured.samples, static_cast<int>(electrode));
-    return quantity.kind == QuantityKind::charge ? value * state.voltage[static_cast<std::size_t>(electrode)]
-                                                 : value;
+    const auto electrode =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), quantity.of) - names.begin());
+    return (quantity.kind == QuantityKind::charge ? measured.charges.charge
+                                                  : measured.charges.capacitance)[electrode];
   }
   case QuantityKind::extreme: {
     const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/device.hpp"
+#include "fem/energy_balance.hpp"
 
 #include <map>
 #include <string>
@@ -10,10 +11,16 @@ namespace dielast::cases {
 
 /// A state, with what is needed to measure it.
 struct Measured {
+  Measured(const Device& device, fem::Equilibrium& equilibrium, const fem::State& state,
+           const fem::EnergyBalance& energy);
+
   const fem::State& state;
-  const fem::Samples& samples;
-  const post::Extremes& extremes;        ///< of these samples
-  const Eigen::VectorXd& internal_force; ///< per equation, N; at held equations the reaction on the support
+  fem::Samples samples;
+  post::Extremes extremes;        ///< of these samples
+  Eigen::VectorXd internal_force; ///< per equation, N; at held equations the reaction on the support
+  fem::Charges charges;
+  const fem::EnergyBalance& energy;
+  fem::Work work;
 };
 
 /// Evaluates the quantities of a case on the states of a device.
@@ -35,9 +42,12 @@ class Measurement {
   double evaluate(const Quantity& quantity, const Measured& measured) const;
   double length(const Quantity& quantity, const fem::State& state) const;
   Eigen::Vector3d position(const std::string& place, const fem::State& state) const;
+  /// Which triangles belong to a place: its own, or those with a node there.
+  const std::vector<char>& film_at(const std::string& place) const;
 
   const Case& case_;
   const Device& device_;
+  mutable std::map<std::string, std::vector<char>> film_at_;
 };
 
 } // namespace dielast::cases

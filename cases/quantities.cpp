@@ -11,13 +11,18 @@ std::string unit_of(const Quantity& quantity) {
     return "m";
   case QuantityKind::elongation:
   case QuantityKind::growth:
+  case QuantityKind::stretch:
     return "1";
   case QuantityKind::force:
     return "N";
+  case QuantityKind::nominal_stress:
+    return "Pa";
   case QuantityKind::capacitance:
     return "F";
   case QuantityKind::charge:
     return "C";
+  case QuantityKind::energy:
+    return "J";
   case QuantityKind::extreme:
     break;
   }

@@ -24,18 +24,18 @@ json archive(const post::StepRecord& record) {
   return {{"index", record.index},
           {"step", record.step},
           {"load_factor", record.load_factor},
+          {"time", record.time},
           {"voltages", record.voltages},
           {"iterations", record.iterations},
           {"residual", record.residual},
-          {"negative_pivots", record.negative_pivots},
+          {"unstable_modes", record.unstable_modes},
           {"events", std::move(events)}};
 }
 
 post::StepRecord restore_record(const json& archived) {
-  post::StepRecord record{archived.at("index"),           archived.at("step"),
-                          archived.at("load_factor"),     archived.at("voltages"),
-                          archived.at("iterations"),      archived.at("residual"),
-                          archived.at("negative_pivots"), {}};
+  post::StepRecord record{archived.at("index"),    archived.at("step"),           archived.at("load_factor"),
+                          archived.at("time"),     archived.at("voltages"),       archived.at("iterations"),
+                          archived.at("residual"), archived.at("unstable_modes"), {}};
   for (const json& event : archived.at("events"))
     record.events.push_back({event.at(0), event.at(1), event.at(2)});
   return record;
@@ -65,11 +65,11 @@ Snapshot restore_snapshot(const json& archived) {
 } // namespace
 
 std::vector<post::Column> history_columns(const Case& one) {
-  std::vector<post::Column> columns{{"load_factor", "1"}};
+  std::vector<post::Column> columns{{"load_factor", "1"}, {"time", "s"}};
   for (const Electrode& electrode : one.electrodes)
     columns.push_back({one.electrodes.size() == 1 ? "voltage" : "voltage_" + electrode.name, "V"});
   for (const Quantity& quantity : one.quantities) columns.push_back({quantity.name, unit_of(quantity)});
-  for (const char* solver : {"iterations", "residual", "negative_pivots"}) columns.push_back({solver, "1"});
+  for (const char* solver : {"iterations", "residual", "unstable_modes"}) columns.push_back({solver, "1"});
   return columns;
 }
 
@@ -83,16 +83,37 @@ Recorder::Recorder(const Case& one, Simulation& simulation, std::filesystem::pat
   if (one.fields) series_.emplace(directory_, one.source.stem().string(), simulation.device().mesh, kept);
 }
 
+/// Time where it passes; otherwise the steps that have ended and the load factor, or, as that goes back along
+/// a followed path, the number of the record.
+double Recorder::series_time(const post::StepRecord& record) const {
+  if (std::ranges::any_of(case_.steps, [](const Step& step) { return step.duration.has_value(); }))
+    return record.time;
+  if (std::ranges::any_of(case_.steps,
+                          [](const Step& step) { return step.on_instability == OnInstability::follow; }))
+    return record.index;
+  return steps_ended_ + record.load_factor;
+}
+
+void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event& event) {
+  if (!case_.fields) return;
+  const Device& device = simulation_.device();
+  if (!modes_)
+    modes_.emplace(directory_, case_.source.stem().string() + "-modes", device.mesh, journal_.modes);
+  modes_->write(journal_.modes++, event.message, critical.state.displacement,
+                device.model.sample(critical.state),
+                fem::displacements(device.model.dofs, critical.mode.direction));
+}
+
 void Recorder::record(const Frame& frame) {
   const post::StepRecord& record = frame.record;
-  std::vector<double> row{record.load_factor};
+  std::vector<double> row{record.load_factor, record.time};
   row.insert(row.end(), record.voltages.begin(), record.voltages.end());
   row.insert(row.end(), frame.values.begin(), frame.values.end());
-  for (const double number : {double(record.iterations), record.residual, double(record.negative_pivots)})
+  for (const double number : {double(record.iterations), record.residual, double(record.unstable_modes)})
     row.push_back(number);
   history_->append(record.step, row);
   if (series_)
-    series_->write(steps_ended_ + record.load_factor, record.step, frame.measured.state.displacement,
+    series_->write(series_time(record), record.step, frame.measured.state.displacement,
                    frame.measured.samples);
 
   const Device& device = simulation_.device();
@@ -118,16 +139,21 @@ void Recorder::save_checkpoint() {
   for (const auto& record : journal_.records) records.push_back(archive(record));
   for (const auto& row : journal_.values) values.push_back(post::pack(row));
   for (const auto& snapshot : journal_.snapshots) snapshots.push_back(archive(snapshot));
-  const std::vector<std::uint8_t> bytes =
-      json::to_cbor({{"case", fingerprint_},
-                     {"step", progress.step},
-                     {"records", progress.records},
-                     {"ramp", post::archive(progress.ramp)},
-                     {"rest_lengths", progress.rest_lengths},
-                     {"active_events", progress.active_events},
-                     {"results", post::pack(simulation_.results())},
-                     {"steps_ended", steps_ended_},
-                     {"journal", {{"records", records}, {"values", values}, {"snapshots", snapshots}}}});
+  const std::vector<std::uint8_t> bytes = json::to_cbor(
+      {{"case", fingerprint_},
+       {"step", progress.step},
+       {"records", progress.records},
+       {"ramp", post::archive(progress.in_step.ramp)},
+       {"followed", progress.in_step.followed ? post::archive(*progress.in_step.followed) : json(nullptr)},
+       {"unstable_modes", progress.in_step.unstable_modes},
+       {"jumps", progress.in_step.jumps},
+       {"energy", post::archive(progress.energy)},
+       {"rest_lengths", progress.rest_lengths},
+       {"active_events", progress.active_events},
+       {"results", post::pack(simulation_.results())},
+       {"steps_ended", steps_ended_},
+       {"journal",
+        {{"records", records}, {"values", values}, {"snapshots", snapshots}, {"modes", journal_.modes}}}});
   post::replace_file(checkpoint_path(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   saved_ = std::chrono::steady_clock::now();
 }
@@ -143,13 +169,21 @@ void Recorder::restore_checkpoint() {
       throw FileError(checkpoint_path().string() +
                       ": the case has changed since; run it again without --resume");
     const Device& device = simulation_.device();
-    simulation_.resume({saved.at("step"), saved.at("records"),
-                        post::restore(saved.at("ramp"), device.mesh.nodes.size(),
-                                      static_cast<std::size_t>(device.model.dofs.count())),
-                        saved.at("rest_lengths"), saved.at("active_events")});
+    const auto nodes = device.mesh.nodes.size();
+    const auto equations = static_cast<std::size_t>(device.model.dofs.count());
+    StepProgress in_step{post::restore_ramp(saved.at("ramp"), nodes, equations),
+                         {},
+                         saved.at("unstable_modes"),
+                         saved.at("jumps")};
+    if (const json& followed = saved.at("followed"); !followed.is_null())
+      in_step.followed = post::restore_continuation(followed, nodes, equations);
+    simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
+                        post::restore_energy(saved.at("energy")), saved.at("rest_lengths"),
+                        saved.at("active_events")});
     simulation_.set_results(post::unpack(saved.at("results")));
     steps_ended_ = saved.at("steps_ended");
     const json& journal = saved.at("journal");
+    journal_.modes = journal.at("modes");
     for (const json& record : journal.at("records")) journal_.records.push_back(restore_record(record));
     for (const json& row : journal.at("values")) journal_.values.push_back(post::unpack(row));
     for (const json& snapshot : journal.at("snapshots"))

@@ -24,6 +24,7 @@ struct Journal {
   std::vector<post::StepRecord> records;
   std::vector<std::vector<double>> values; ///< of the quantities, per record
   std::vector<Snapshot> snapshots;         ///< drawn, the end of each step, and the last accepted state
+  int modes = 0;                           ///< written so far
 };
 
 /// Writes history.csv, the ParaView series and the checkpoint of a run as it goes, and keeps its journal.
@@ -35,6 +36,8 @@ class Recorder {
   Recorder(const Case& one, Simulation& simulation, std::filesystem::path directory, bool resume);
 
   void record(const Frame& frame);
+  /// Adds the mode of a critical point to the series `<case>-modes`.
+  void record_mode(const fem::CriticalPoint& critical, const post::Event& event);
   /// Writes the checkpoint now; the run can be resumed from it.
   void save_checkpoint();
   /// The run is complete: there is nothing to resume.
@@ -43,6 +46,7 @@ class Recorder {
   const Journal& journal() const { return journal_; }
 
  private:
+  double series_time(const post::StepRecord& record) const;
   void restore_checkpoint();
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.cbor"; }
 
@@ -53,7 +57,7 @@ class Recorder {
   Journal journal_;
   int steps_ended_ = 0;
   std::optional<post::History> history_;
-  std::optional<post::VtkSeries> series_;
+  std::optional<post::VtkSeries> series_, modes_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };
 

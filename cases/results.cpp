@@ -58,6 +58,12 @@ std::string meaning(const Quantity& q) {
     return fmt::format("capacitance of electrode {}{}", q.of, at);
   case QuantityKind::charge:
     return fmt::format("charge on electrode {}{}", q.of, at);
+  case QuantityKind::stretch:
+    return fmt::format("stretch between {} and {}{}{}", q.between[0], q.between[1], along, at);
+  case QuantityKind::nominal_stress:
+    return fmt::format("mean nominal stress of {}{}{}", q.of, along, at);
+  case QuantityKind::energy:
+    return fmt::format("energy balance: {}{}", q.of, at);
   case QuantityKind::extreme:
     return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
                        at);
@@ -100,8 +106,8 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   return sections;
 }
 
-/// Every quantity against the largest voltage from where it rises, or against the load factor of the last
-/// step in a run without voltage; strains in one plot.
+/// Every quantity against time, where it passes; otherwise against the largest voltage from where it rises,
+/// or against the load factor of the last step in a run without voltage; strains in one plot.
 std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
   std::vector<post::Plot> plots;
   std::map<std::string, std::size_t> by_label;
@@ -110,12 +116,16 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
     return record.largest_voltage() > 0;
   });
   const bool electric = charged != records.end();
-  const auto begin = electric
+  const bool timed = records.back().time > 0;
+  const auto begin = timed ? records.begin()
+                     : electric
                          ? charged - (charged != records.begin())
                          : std::find_if(records.begin(), records.end(), [&](const post::StepRecord& record) {
                              return record.step == records.back().step;
                            });
-  const std::string x_label = electric ? "voltage [kV]" : fmt::format("load factor of \"{}\"", begin->step);
+  const std::string x_label = timed      ? "time [s]"
+                              : electric ? "voltage [kV]"
+                                         : fmt::format("load factor of \"{}\"", begin->step);
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     if (!quantity.at.empty()) continue;
@@ -124,9 +134,13 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
       if (std::isfinite(row[q])) size = std::max(size, std::abs(row[q]));
     const auto scaled = post::scaled_unit(size, unit_of(quantity), ratio_of(quantity));
     const bool strain = is_relative(quantity.kind);
-    post::Series series{.label = quantity.name, .style = post::Series::Style::line_and_points};
+    post::Series series{.label = quantity.name,
+                        .style = records.size() > 100 ? post::Series::Style::line
+                                                      : post::Series::Style::line_and_points};
     for (auto r = static_cast<std::size_t>(begin - records.begin()); r < records.size(); ++r) {
-      series.x.push_back(electric ? records[r].largest_voltage() / 1000 : records[r].load_factor);
+      series.x.push_back(timed      ? records[r].time
+                         : electric ? records[r].largest_voltage() / 1000
+                                    : records[r].load_factor);
       series.y.push_back(journal.values[r][q] * scaled.factor);
     }
     const std::string label = strain                ? "strain [%]"

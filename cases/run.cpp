@@ -52,6 +52,11 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
     log.info("    {:8.6f}  not reached ({} iterations, residual {:.1e}): smaller increment", s,
              newton.iterations, newton.residual);
   };
+  observer.on_critical = [&recorder, &log](const fem::CriticalPoint& critical, const post::Event& event) {
+    log.warn("    {}", event.message);
+    recorder.record_mode(critical, event);
+  };
+  observer.on_pass = [] { return !interrupted(); };
   observer.on_accept = [&one, &recorder, &log](const Frame& frame) {
     std::string line =
         fmt::format("    {:8.6f}  {:>9}  {:2d} iterations", frame.record.load_factor,
@@ -61,7 +66,8 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
         line += fmt::format("   {} {:.5g}", one.quantities[q].name, frame.values[q]);
     log.info(line);
     for (const post::Event& event : frame.record.events)
-      log.warn("    {}{}{}: {}", event.kind, event.place.empty() ? "" : " in ", event.place, event.message);
+      if (event.kind != "limit point" && event.kind != "bifurcation") // told when they were located
+        log.warn("    {}{}{}: {}", event.kind, event.place.empty() ? "" : " in ", event.place, event.message);
     recorder.record(frame);
     return !interrupted();
   };

@@ -124,6 +124,16 @@ std::vector<std::string> Section::names_for(const std::string& selected) const {
   return known;
 }
 
+Section list_section(std::string name, std::string meaning, Access access) {
+  Section section;
+  section.name = std::move(name);
+  section.meaning = std::move(meaning);
+  section.shape = Section::Shape::list;
+  section.presence = Section::Presence::list;
+  section.access = std::move(access);
+  return section;
+}
+
 Access same_object() {
   return {[](void* parent, const std::string&) { return parent; },
           [](const void* parent) {
@@ -140,6 +150,12 @@ Key measure(std::string name, std::string_view unit, Binding binding, std::strin
 
 Key number(std::string name, Binding binding, std::string meaning) {
   return measure(std::move(name), "1", std::move(binding), std::move(meaning));
+}
+
+Key wave(std::string name, std::string_view unit, Binding binding, std::string meaning) {
+  Key made = measure(std::move(name), unit, std::move(binding), std::move(meaning));
+  made.type = Type::wave;
+  return made;
 }
 
 Key integer(std::string name, Binding binding, std::string meaning) {
@@ -176,7 +192,9 @@ const Section& case_schema() {
     for (Section& section : geometry_sections()) root.sections.push_back(std::move(section));
     root.sections.push_back(mesh_section());
     for (Section& section : action_sections()) root.sections.push_back(std::move(section));
+    root.sections.push_back(step_section());
     for (Section& section : result_sections()) root.sections.push_back(std::move(section));
+    for (Section& section : fit_sections()) root.sections.push_back(std::move(section));
     return root;
   }();
   return schema;

@@ -13,10 +13,12 @@
 
 namespace dielast::cases {
 
-/// One element of a converted value: SI number (flag: 0 or 1; word: its place among the choices) or text.
+/// One element of a converted value: SI number (flag: 0 or 1; word: its place among the choices), text or
+/// wave.
 struct Scalar {
   double number = 0;
   std::string text;
+  std::optional<Waveform> wave{}; ///< of a quantity that a wave drives
 };
 using Value = std::vector<Scalar>;
 
@@ -28,6 +30,7 @@ struct Binding {
 
 enum class Type {
   measure,   ///< quantity with a unit; unit "" is the unit of the quantity that a check names
+  wave,      ///< a measure, or a table that says how it goes with time
   tolerance, ///< a measure, or "1 %" of the check's value
   integer,
   flag,
@@ -102,6 +105,8 @@ struct Access {
   };
   std::function<void*(void* parent, const std::string& name)> enter; ///< creates or finds the object
   std::function<std::vector<Entry>(const void* parent)> entries;     ///< the objects that exist
+  /// Of a list: forgets the items that a named thing has brought, before those that are written instead.
+  std::function<void(void* parent)> clear{};
 };
 
 /// A rule between the keys of a section that have all been read: the key to blame and what is wrong with it.
@@ -146,8 +151,12 @@ struct Section {
   std::vector<std::string> names_for(const std::string& selected) const;
 };
 
+/// What may stand in the place of a quantity of this SI unit: { wave = "...", ... }. Its object is a
+/// Waveform.
+Section wave_section(std::string_view unit);
+
 /// THE table: reading, validation, defaults, `info`, the JSON schema and resolved.toml are made from it.
-/// Its objects are Case; those of the section "study" are Study.
+/// Its objects are Case; those of the section "study" are Study, those of "fit" and "test" are Fit.
 const Section& case_schema();
 
 // --- bindings
@@ -157,6 +166,8 @@ template<class M>
 void assign(M& member, const Value& value) {
   if constexpr (std::is_same_v<M, std::string> || std::is_same_v<M, std::filesystem::path>)
     member = value.at(0).text;
+  else if constexpr (std::is_same_v<M, Waveform>)
+    member = value.at(0).wave.value_or(Waveform::constant_at(value.at(0).number));
   else if constexpr (std::is_arithmetic_v<M> || std::is_enum_v<M>)
     member = static_cast<M>(value.at(0).number);
   else if constexpr (requires { member.emplace(); })
@@ -173,6 +184,8 @@ std::optional<Value> value_of(const M& member) {
     return member.empty() ? std::nullopt : std::optional(Value{{0, member}});
   else if constexpr (std::is_same_v<M, std::filesystem::path>)
     return value_of(member.string());
+  else if constexpr (std::is_same_v<M, Waveform>)
+    return member.constant() ? value_of(member.to) : Value{{0, "", member}};
   else if constexpr (std::is_arithmetic_v<M> || std::is_enum_v<M>)
     return Value{{static_cast<double>(member), ""}};
   else if constexpr (requires { member.has_value(); })
@@ -206,6 +219,7 @@ Access member(M T::*part) {
           }};
 }
 
+/// The items of a list. Those that a template has brought come back with it: they are no entries.
 template<class T, class M>
 Access each(std::vector<M> T::*list) {
   return {[list](void* parent, const std::string&) -> void* {
@@ -213,7 +227,11 @@ Access each(std::vector<M> T::*list) {
           },
           [list](const void* parent) {
             std::vector<Access::Entry> entries;
-            for (const M& item : static_cast<const T*>(parent)->*list) entries.push_back({"", &item});
+            for (const M& item : static_cast<const T*>(parent)->*list) {
+              if constexpr (requires { item.standard; })
+                if (item.standard) continue;
+              entries.push_back({"", &item});
+            }
             return entries;
           }};
 }
@@ -221,11 +239,15 @@ Access each(std::vector<M> T::*list) {
 /// The section's keys are bound to the object of the section around it.
 Access same_object();
 
+/// [[name]], any number of them, without keys yet.
+Section list_section(std::string name, std::string meaning, Access access);
+
 // --- keys
 // ----------------------------------------------------------------------------------------------------------
 
 Key measure(std::string name, std::string_view unit, Binding binding, std::string meaning);
 Key number(std::string name, Binding binding, std::string meaning);
+Key wave(std::string name, std::string_view unit, Binding binding, std::string meaning);
 Key integer(std::string name, Binding binding, std::string meaning);
 Key flag(std::string name, Binding binding, std::string meaning);
 Key word(std::string name, std::vector<Choice> choices, Binding binding, std::string meaning);
@@ -237,7 +259,9 @@ Key text(std::string name, Binding binding, std::string meaning);
 Section film_section();
 std::vector<Section> geometry_sections();
 Section mesh_section();
-std::vector<Section> action_sections(); ///< electrode, support, load, drive, step
+std::vector<Section> action_sections(); ///< electrode, support, load, spring, linkage, drive
+Section step_section();
 std::vector<Section> result_sections(); ///< quantity, check, solver, output, study
+std::vector<Section> fit_sections();    ///< fit, test
 
 } // namespace dielast::cases

@@ -5,16 +5,6 @@ namespace {
 
 const std::vector<Choice> axes{{"x", "along x"}, {"y", "along y"}, {"z", "normal to the undeformed film"}};
 
-Section list_section(std::string name, std::string meaning, Access access) {
-  Section section;
-  section.name = std::move(name);
-  section.meaning = std::move(meaning);
-  section.shape = Section::Shape::list;
-  section.presence = Section::Presence::list;
-  section.access = std::move(access);
-  return section;
-}
-
 Section electrode_section() {
   Section section = list_section("electrode", "a charged part of the film", each(&Case::electrodes));
   section.keys = {
@@ -24,8 +14,32 @@ Section electrode_section() {
   return section;
 }
 
+/// [support.displacement]
+Section displacement_section() {
+  Section section;
+  section.name = "displacement";
+  section.meaning = "where the steps of kind \"move\" and \"transient\" take a support";
+  section.access = same_object();
+  section.access.entries = [](const void* parent) {
+    return static_cast<const Support*>(parent)->moves() ? std::vector<Access::Entry>{{"", parent}}
+                                                        : std::vector<Access::Entry>{};
+  };
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    Binding motion = to_part<Support>([i](auto& support) -> auto& { return support.motion[i]; });
+    motion.set = [i](void* object, const Value& value) {
+      auto& support = *static_cast<Support*>(object);
+      assign(support.motion[i], value);
+      support.fixed[i] = true; // what is moved is held
+    };
+    section.keys.push_back(
+        wave(axes[i].word, "m", motion, "displacement " + axes[i].meaning + ", from the film as drawn")
+            .optional());
+  }
+  return section;
+}
+
 Section support_section() {
-  Section section = list_section("support", "a place that is held", each(&Case::supports));
+  Section section = list_section("support", "a place that is held or moved", each(&Case::supports));
   const Binding fixed{[](void* object, const Value& value) {
                         auto& held = static_cast<Support*>(object)->fixed;
                         held = {};
@@ -41,24 +55,66 @@ Section support_section() {
                       }};
   section.keys = {
       text("place", to(&Support::place), "the place that is held").refers_to(Reference::place),
-      word("fix", axes, fixed, "directions in which it cannot move").values(1, 3),
+      word("fix", axes, fixed, "directions in which it cannot move").values(1, 3).optional(),
+  };
+  section.sections.push_back(displacement_section());
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& fixed = static_cast<const Support*>(object)->fixed;
+    if (fixed[0] || fixed[1] || fixed[2]) return std::nullopt;
+    return Conflict{"fix", "missing; give the directions in which it is held, such as [\"x\", \"y\"], or a "
+                           "displacement"};
   };
   return section;
 }
 
 Section load_section() {
-  Section section =
-      list_section("load", "a dead force, applied by the steps of kind \"force\"", each(&Case::loads));
+  Section section = list_section(
+      "load", "a dead force, applied by the steps of kind \"force\" and \"transient\"", each(&Case::loads));
   section.keys = {
       text("place", to(&Load::place), "the place over whose nodes it is spread evenly")
           .refers_to(Reference::place),
-      measure("force", "N", to(&Load::force), "components along x, y and z").values(3, 3),
+      wave("force", "N", to(&Load::force), "components along x, y and z").values(3, 3),
   };
   return section;
 }
 
+/// Keys of what pulls at the distance of two places.
+template<class T>
+std::vector<Key> distance_keys() {
+  return {text("between", to(&T::between), "the two places (their centroids)")
+              .values(2, 2)
+              .refers_to(Reference::place),
+          word("along", axes, to(&T::along), "axis along which the distance is taken")};
+}
+
+Section spring_section() {
+  Section section = list_section("spring", "a linear spring between two places", each(&Case::springs));
+  section.keys = distance_keys<Spring>();
+  section.keys.push_back(
+      measure("stiffness", "N/m", to(&Spring::stiffness), "force per change of the distance").above(0));
+  section.keys.push_back(
+      measure("free_length", "m", to(&Spring::free_length), "distance at which it is free").at_least(0));
+  return section;
+}
+
+Section linkage_section() {
+  Section section = list_section("linkage",
+                                 "a weight P on a linkage; with l = distance + offset it pulls two places "
+                                 "apart by P (arm^2 + l^2 - strut^2) / (2 arm l)",
+                                 each(&Case::linkages));
+  section.keys = distance_keys<Linkage>();
+  section.keys.push_back(measure("force", "N", to(&Linkage::force), "the weight P"));
+  section.keys.push_back(
+      measure("arm", "m", to(&Linkage::arm), "side of the triangle that carries the weight").above(0));
+  section.keys.push_back(
+      measure("strut", "m", to(&Linkage::strut), "side of the triangle that holds it").above(0));
+  section.keys.push_back(
+      measure("offset", "m", to(&Linkage::offset), "length of the third side beyond the distance")
+          .otherwise("0 m"));
+  return section;
+}
+
 Section drive_section() {
-  using Drives = std::map<std::string, double>;
   Section section;
   section.name = "drive";
   section.meaning = "how an electrode is driven; with several electrodes [drive.<electrode>]";
@@ -68,39 +124,20 @@ Section drive_section() {
                     },
                     [](const void* parent) {
                       std::vector<Access::Entry> entries;
-                      const Drives& drives = static_cast<const Case*>(parent)->drives;
-                      for (const auto& [electrode, voltage] : drives)
-                        entries.push_back({electrode, &voltage});
+                      for (const auto& [electrode, drive] : static_cast<const Case*>(parent)->drives)
+                        entries.push_back({electrode, &drive});
                       return entries;
                     }};
-  const Binding voltage{
-      [](void* object, const Value& value) { *static_cast<double*>(object) = value.at(0).number; },
-      [](const void* object) { return value_of(*static_cast<const double*>(object)); }};
   section.keys = {
-      measure("voltage", "V", voltage, "voltage that the steps of kind \"voltage\" reach")
+      wave("voltage", "V", to(&Drive::voltage),
+           "voltage that the steps of kind \"voltage\" reach, and \"transient\" follow")
           .at_least(0)
-          .otherwise("0 V"),
-  };
-  return section;
-}
-
-Section step_section() {
-  Section section = list_section("step", "what happens, in this order", each(&Case::steps));
-  section.selector = "kind";
-  const auto increments = [] {
-    return integer("increments", to(&Step::increments), "number of equal increments to start with")
-        .at_least(1)
-        .at_most(100000);
-  };
-  section.keys = {
-      word("kind",
-           {{"release", "the prestretched film is cut free and finds its equilibrium"},
-            {"voltage", "ramps every drive to its voltage"},
-            {"force", "ramps every load to its force"}},
-           to(&Step::kind), "what happens in this step"),
-      text("name", to(&Step::name), "its name in results").otherwise_as("kind").distinct(),
-      increments().otherwise("1").only({"release"}),
-      increments().otherwise("10").only({"voltage", "force"}),
+          .optional(),
+      wave("charge", "C", to(&Drive::charge),
+           "charge that the steps of kind \"charge\" reach, and \"transient\" with control = \"charge\" "
+           "follow")
+          .at_least(0)
+          .optional(),
   };
   return section;
 }
@@ -108,7 +145,8 @@ Section step_section() {
 } // namespace
 
 std::vector<Section> action_sections() {
-  return {electrode_section(), support_section(), load_section(), drive_section(), step_section()};
+  return {electrode_section(), support_section(), load_section(),
+          spring_section(),    linkage_section(), drive_section()};
 }
 
 } // namespace dielast::cases

@@ -1,31 +1,80 @@
 #include "cases/parameter_keys.hpp"
 #include "materials/catalog.hpp"
 
+#include <fmt/format.h>
+
 namespace dielast::cases {
 namespace {
 
 constexpr double vacuum_permittivity = 8.8541878128e-12; // F/m, CODATA 2018
 
-/// The law and its parameters, for every alternative of the registry.
-template<std::size_t... I>
-void add_law_keys(std::vector<Key>& keys, std::index_sequence<I...>) {
-  using materials::ElasticLaw;
-  std::vector<Choice> laws{{std::string(std::variant_alternative_t<I, ElasticLaw>::name),
-                            std::string(std::variant_alternative_t<I, ElasticLaw>::formula)}...};
-  const Binding choose{
-      [](void* object, const Value& value) {
-        ElasticLaw& law = static_cast<Film*>(object)->material.law;
-        const auto wanted = static_cast<std::size_t>(value.at(0).number);
-        // a law that a named material has brought keeps its parameters
-        if (law.index() != wanted) ((I == wanted ? void(law.emplace<I>()) : void()), ...);
-      },
-      [](const void* object) { return value_of(static_cast<const Film*>(object)->material.law.index()); }};
-  const std::string usual = laws.front().word;
-  keys.push_back(
-      word("law", laws, choose, "equilibrium law (energy per undeformed volume)").otherwise(usual));
-  (add_parameter_keys<Film, std::variant_alternative_t<I, ElasticLaw>>(
-       keys, [](auto& film) { return std::get_if<I>(&film.material.law); }, {laws[I].word}),
-   ...);
+std::optional<Conflict> law_conflict(const materials::ElasticLaw& law) {
+  if (const auto* ogden = std::get_if<materials::Ogden>(&law))
+    if (const auto problem = ogden->problem()) return Conflict{"exponents", *problem};
+  if (materials::initial_shear_modulus(law) > 0) return std::nullopt;
+  return Conflict{"law", "its shear modulus at small strain is not positive"};
+}
+
+/// [[film.material.branch]]
+Section branch_section() {
+  using materials::Branch;
+  Section section = list_section(
+      "branch", "a Maxwell branch beside the equilibrium law: a spring in series with a dashpot", {});
+  section.access = {[](void* parent, const std::string&) -> void* {
+                      return &static_cast<Film*>(parent)->material.branches.emplace_back();
+                    },
+                    [](const void* parent) {
+                      std::vector<Access::Entry> entries;
+                      for (const Branch& branch : static_cast<const Film*>(parent)->material.branches)
+                        entries.push_back({"", &branch});
+                      return entries;
+                    },
+                    [](void* parent) { static_cast<Film*>(parent)->material.branches.clear(); }};
+  section.selector = "law";
+  add_law_keys<Branch>(
+      section.keys, [](auto& branch) -> auto& { return branch.law; }, "law of the spring");
+  const Binding relaxation_time{[](void* object, const Value& value) {
+                                  auto& branch = *static_cast<Branch*>(object);
+                                  branch.viscosity =
+                                      value.at(0).number * materials::initial_shear_modulus(branch.law);
+                                },
+                                [](const void*) { return std::optional<Value>(); }};
+  const Binding directions{[](void* object, const Value& value) {
+                             auto& flows = static_cast<Branch*>(object)->directions;
+                             flows = {};
+                             for (const Scalar& axis : value)
+                               flows.at(static_cast<std::size_t>(axis.number)) = true;
+                           },
+                           [](const void* object) -> std::optional<Value> {
+                             Value value;
+                             const auto& flows = static_cast<const Branch*>(object)->directions;
+                             for (std::size_t i = 0; i < flows.size(); ++i)
+                               if (flows[i]) value.push_back({static_cast<double>(i), ""});
+                             return value;
+                           }};
+  section.keys.push_back(measure("relaxation_time", "s", relaxation_time,
+                                 "viscosity over the spring's shear modulus at small strain")
+                             .above(0));
+  section.keys.push_back(measure("viscosity", "Pa s", to(&Branch::viscosity), "viscosity eta of the dashpot")
+                             .above(0)
+                             .replacing("relaxation_time"));
+  section.keys.push_back(
+      word("dashpot",
+           {{"log", "resists the rate of the logarithmic viscous strain (Reese & Govindjee 1998)"},
+            {"nominal", "resists the rate of the viscous stretches along x and y"}},
+           to(&Branch::dashpot), "what the dashpot resists")
+          .otherwise("log"));
+  section.keys.push_back(word("directions", {{"x", "along x"}, {"y", "along y"}}, directions,
+                              "directions in which a nominal dashpot flows")
+                             .values(1, 2)
+                             .otherwise("[\"x\", \"y\"]"));
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& branch = *static_cast<const Branch*>(object);
+    if (branch.dashpot == materials::Dashpot::log && !(branch.directions[0] && branch.directions[1]))
+      return Conflict{"directions", "only for dashpot = \"nominal\"; a log dashpot flows in all directions"};
+    return law_conflict(branch.law);
+  };
+  return section;
 }
 
 Section material_section() {
@@ -52,9 +101,11 @@ Section material_section() {
   };
   section.keys.push_back(
       text("name", to(&Film::material_name), "a named material to start from, or a label").optional());
-  add_law_keys(section.keys, std::make_index_sequence<std::variant_size_v<materials::ElasticLaw>>());
-  add_parameter_keys<Film, materials::IdealDielectric>(section.keys,
-                                                       [](auto& film) { return &film.material.dielectric; });
+  add_law_keys<Film>(
+      section.keys, [](auto& film) -> auto& { return film.material.law; },
+      "equilibrium law (energy per undeformed volume)");
+  add_parameter_keys<Film, materials::Dielectric>(section.keys,
+                                                  [](auto& film) { return &film.material.dielectric; });
   const Binding relative{[](void* object, const Value& value) {
                            static_cast<Film*>(object)->material.dielectric.permittivity =
                                value.at(0).number * vacuum_permittivity;
@@ -69,7 +120,41 @@ Section material_section() {
                                  "mass per volume")
                              .above(0)
                              .otherwise("960 kg/m^3"));
+  section.sections.push_back(branch_section());
+  section.check = [](const void* object) {
+    return law_conflict(static_cast<const Film*>(object)->material.law);
+  };
   return section;
+}
+
+/// I1 of a branch's spring in the relaxed film: what does not flow stays stretched.
+double relaxed_invariant(const materials::Branch& branch, const std::array<double, 2>& stretch) {
+  if (branch.directions[0] && branch.directions[1]) return 3;
+  const double held = stretch[branch.directions[0] ? 1 : 0];
+  return held * held + 2 / held; // the other stretches take the smallest energy
+}
+
+/// The prestretched film must be within the limits of its laws.
+std::optional<Conflict> prestretch_conflict(const void* object) {
+  const auto& film = *static_cast<const Film*>(object);
+  const double x = film.prestretch[0], y = film.prestretch[1];
+  const auto beyond = [](const std::string& whose, const materials::ElasticLaw& law,
+                         double invariant) -> std::optional<Conflict> {
+    if (materials::admits(law, invariant)) return std::nullopt;
+    const auto name = std::visit([](const auto& one) { return one.name; }, law);
+    return Conflict{"prestretch",
+                    fmt::format("stretch limit below the prestretch: {} law \"{}\" does not reach "
+                                "I1 - 3 = {:.4g}",
+                                whose, name, invariant - 3)};
+  };
+  if (const auto found = beyond("the", film.material.law, x * x + y * y + 1 / (x * x * y * y))) return found;
+  for (std::size_t b = 0; b < film.material.branches.size(); ++b) {
+    const materials::Branch& branch = film.material.branches[b];
+    if (const auto found =
+            beyond(fmt::format("branch {}'s", b + 1), branch.law, relaxed_invariant(branch, film.prestretch)))
+      return found;
+  }
+  return std::nullopt;
 }
 
 } // namespace
@@ -91,8 +176,14 @@ Section film_section() {
           .above(0)
           .at_most(100)
           .otherwise("1"),
+      word("wrinkling",
+           {{"compression", "it carries the compression"},
+            {"tension field", "it wrinkles and carries tension only"}},
+           to(&Film::tension_field), "what the film does where it would be compressed")
+          .otherwise("compression"),
   };
   section.sections.push_back(material_section());
+  section.check = prestretch_conflict;
   return section;
 }
 

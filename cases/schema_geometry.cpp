@@ -141,6 +141,60 @@ Section annulus_section() {
   return section;
 }
 
+/// What contradicts a patch's mode or another of its keys.
+std::optional<Conflict> patch_conflict(const void* object) {
+  const auto& patch = *static_cast<const Patch*>(object);
+  const char* const y = patch.stretch_y ? "stretch_y" : "stress_y";
+  const bool y_is_given = patch.stretch_y || patch.stress_y;
+  if (patch.stretch_x && patch.stress_x)
+    return Conflict{"stress_x", "given twice: write either stretch_x or stress_x"};
+  if (patch.stretch_y && patch.stress_y)
+    return Conflict{"stress_y", "given twice: write either stretch_y or stress_y"};
+  if (y_is_given && patch.mode == PatchMode::pure_shear) return Conflict{y, "in pure shear y is held"};
+  if (y_is_given && patch.mode == PatchMode::equal_biaxial)
+    return Conflict{y, "in equal-biaxial tension y does as x does: write stretch_x or stress_x"};
+  if (patch.mode == PatchMode::equal_biaxial && patch.width != patch.length)
+    return Conflict{"width", "in equal-biaxial tension the patch is a square: leave width out"};
+  return std::nullopt;
+}
+
+Section patch_section() {
+  const auto stretch = [](std::string name, std::optional<Waveform> Patch::*part, std::string meaning) {
+    return wave(std::move(name), "1", to(part), std::move(meaning)).above(0).at_most(100).optional();
+  };
+  const auto stress = [](std::string name, std::optional<Waveform> Patch::*part, std::string meaning) {
+    return wave(std::move(name), "Pa", to(part), std::move(meaning)).optional();
+  };
+  Section section;
+  section.name = "patch";
+  section.meaning = "homogeneous block of film whose sides are pulled; a direction without stretch or stress "
+                    "is free of stress";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Patch>();
+  section.keys = {
+      measure("length", "m", to(&Patch::length), "length along x, before the prestretch")
+          .above(0)
+          .at_most(1)
+          .otherwise("10 mm"),
+      measure("width", "m", to(&Patch::width), "width along y, before the prestretch")
+          .above(0)
+          .at_most(1)
+          .otherwise_as("length"),
+      word("mode",
+           {{"biaxial", "x and y move independently"},
+            {"equal-biaxial", "x and y are stretched alike"},
+            {"pure-shear", "y is held at the prestretch"}},
+           to(&Patch::mode), "how the sides move")
+          .otherwise("biaxial"),
+      stretch("stretch_x", &Patch::stretch_x, "stretch along x of the unstretched film"),
+      stretch("stretch_y", &Patch::stretch_y, "stretch along y of the unstretched film"),
+      stress("stress_x", &Patch::stress_x, "nominal stress along x: force over undeformed section"),
+      stress("stress_y", &Patch::stress_y, "nominal stress along y: force over undeformed section"),
+  };
+  section.check = patch_conflict;
+  return section;
+}
+
 Binding mesh_file() {
   return {[](void* object, const Value& value) {
             static_cast<Case*>(object)->geometry = MeshFile{value.at(0).text};
@@ -158,7 +212,9 @@ Binding mesh_option(M MeshOptions::*option) {
 
 } // namespace
 
-std::vector<Section> geometry_sections() { return {honeycomb_section(), disc_section(), annulus_section()}; }
+std::vector<Section> geometry_sections() {
+  return {honeycomb_section(), disc_section(), annulus_section(), patch_section()};
+}
 
 Section mesh_section() {
   const auto points = [] {

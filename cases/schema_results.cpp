@@ -8,19 +8,9 @@ namespace dielast::cases {
 namespace {
 
 Section quantity_section() {
-  Section section;
-  section.name = "quantity";
-  section.meaning = "a number of the state, in every row of history.csv and in summary.json";
-  section.shape = Section::Shape::list;
-  section.presence = Section::Presence::list;
-  section.access = each(&Case::quantities);
-  // the standard ones come back with the template: they are not written again
-  section.access.entries = [](const void* parent) {
-    std::vector<Access::Entry> entries;
-    for (const Quantity& quantity : static_cast<const Case*>(parent)->quantities)
-      if (!quantity.standard) entries.push_back({"", &quantity});
-    return entries;
-  };
+  Section section =
+      list_section("quantity", "a number of the state, in every row of history.csv and in summary.json",
+                   each(&Case::quantities));
   section.selector = "kind";
   std::vector<Choice> fields;
   for (const post::Scalar& field : post::scalars())
@@ -34,23 +24,41 @@ Section quantity_section() {
       word("kind",
            {{"distance", "between the centroids of two places (m)"},
             {"elongation", "relative change of the distance between two places (-)"},
+            {"stretch", "distance between two places over that of the unstretched film (-)"},
             {"size", "of the box around a place (m)"},
             {"growth", "relative change of the size of a place (-)"},
             {"displacement", "of the centroid of a place (m)"},
             {"radius", "mean distance of a place's nodes from their centroid (m)"},
             {"force", "reaction at a support (N)"},
+            {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
             {"capacitance", "of an electrode (F)"},
             {"charge", "of an electrode (C)"},
+            {"energy", "part of the energy balance (J)"},
             {"extreme", "smallest or largest value of a field"}},
            to(&Quantity::kind), "what is measured"),
       text("between", to(&Quantity::between), "the two places")
           .values(2, 2)
-          .only({"distance", "elongation"})
+          .only({"distance", "elongation", "stretch"})
           .refers_to(Reference::place),
-      of("the place").only({"size", "growth", "displacement", "radius"}).refers_to(Reference::place),
+      of("the place")
+          .only({"size", "growth", "displacement", "radius", "nominal stress"})
+          .refers_to(Reference::place),
       of("the place of a support").only({"force"}).refers_to(Reference::supported_place),
       of("the electrode").only({"capacitance", "charge"}).refers_to(Reference::electrode),
       word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
+      word("of",
+           {{"electrical_work", "done by the sources: sum of int Phi dQ"},
+            {"mechanical_work", "done by loads and moved supports"},
+            {"stored", "elastic, branches and electric together"},
+            {"elastic", "stored by the equilibrium law, walls and springs"},
+            {"branches", "stored by the springs of the branches"},
+            {"electric", "stored by the field"},
+            {"dissipated", "turned into heat by the dashpots"},
+            {"released", "set free when the device is cut free or jumps to another state"},
+            {"wrinkle_regularisation", "part of `elastic` that only keeps wrinkled film from being singular"},
+            {"error", "work - change of stored - dissipated - released: 0 if all were resolved"}},
+           to(&Quantity::of), "the part")
+          .only({"energy"}),
       word("extreme", {{"minimum", "smallest value"}, {"maximum", "largest value"}}, to(&Quantity::extreme),
            "which extreme")
           .only({"extreme"}),
@@ -58,6 +66,8 @@ Section quantity_section() {
            "component; without it the magnitude")
           .optional()
           .only({"distance", "elongation", "size", "growth", "displacement", "force"}),
+      word("along", {{"x", ""}, {"y", ""}}, to(&Quantity::along), "direction in the film's plane")
+          .only({"stretch", "nominal stress"}),
       text("since", to(&Quantity::since), "step at whose end it is zero; without it the mesh as drawn")
           .optional()
           .only({"elongation", "growth"})
@@ -70,12 +80,8 @@ Section quantity_section() {
 }
 
 Section check_section() {
-  Section section;
-  section.name = "check";
-  section.meaning = "an expected result; a run that misses it ends with exit code 5";
-  section.shape = Section::Shape::list;
-  section.presence = Section::Presence::list;
-  section.access = each(&Case::checks);
+  Section section = list_section("check", "an expected result; a run that misses it ends with exit code 5",
+                                 each(&Case::checks));
   Binding tolerance = to(&Check::tolerance);
   tolerance.set = [](void* object, const Value& value) {
     Check& check = *static_cast<Check*>(object);
@@ -119,6 +125,11 @@ Section solver_section() {
           .above(0)
           .at_most(1)
           .otherwise("1e-3"),
+      number("time_tolerance", to(&SolverOptions::time_tolerance),
+             "relative error of the branches that a time step may add")
+          .above(0)
+          .at_most(0.1)
+          .otherwise("1e-6"),
   };
   return section;
 }
@@ -143,12 +154,7 @@ Section study_section() {
   vary.meaning =
       "keys to vary, as \"section.key\" = [values] or { from, to, step }; the study is their full grid";
   vary.presence = Section::Presence::separate;
-  Section plot;
-  plot.name = "plot";
-  plot.meaning = "a plot in the study's report";
-  plot.shape = Section::Shape::list;
-  plot.presence = Section::Presence::list;
-  plot.access = each(&Study::plots);
+  Section plot = list_section("plot", "a plot in the study's report", each(&Study::plots));
   plot.keys = {
       text("x", to(&StudyPlot::x), "a varied key, or a quantity"),
       text("y", to(&StudyPlot::y), "quantities").values(1, 20),

@@ -1,5 +1,7 @@
 #include "cases/section_reader.hpp"
 
+#include "cases/wave_file.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,7 +68,8 @@ void SectionReader::read_table(const Section& section, const Node& node, void* o
 
   for (const Key& key : section.keys)
     if (key.applies_to(selected))
-      read_key(section, key, node, object, path, started && (key.only_for.empty() || brought == selected));
+      read_key(section, key, selected, node, object, path,
+               started && (key.only_for.empty() || brought == selected));
   for (const Section& inner : section.sections)
     if (inner.presence != Section::Presence::separate) read_section(inner, node, object, path);
   report_unknown(section, node, selected, path);
@@ -79,12 +82,13 @@ void SectionReader::read_table(const Section& section, const Node& node, void* o
     }
 }
 
-void SectionReader::read_key(const Section& section, const Key& key, const Node& table, void* object,
-                             const std::string& path, bool kept) {
+void SectionReader::read_key(const Section& section, const Key& key, const std::string& selected,
+                             const Node& table, void* object, const std::string& path, bool kept) {
   const std::string full = joined(path, key.name);
   const Node* node = table.find(key.name);
-  const auto other = std::find_if(section.keys.begin(), section.keys.end(),
-                                  [&](const Key& one) { return one.instead_of == key.name; });
+  const auto other = std::find_if(section.keys.begin(), section.keys.end(), [&](const Key& one) {
+    return one.instead_of == key.name && one.applies_to(selected);
+  });
   const bool replaced = other != section.keys.end() && table.find(other->name);
   if (node && replaced) {
     report(node->key_source, full, fmt::format("given twice: write either {} or {}", key.name, other->name));
@@ -95,7 +99,11 @@ void SectionReader::read_key(const Section& section, const Key& key, const Node&
   } else if (key.fallback) {
     set(key, parse_value(*key.fallback, table.source), table, object, full);
   } else if (!key.fallback_key.empty()) {
-    if (const Node* same = table.find(key.fallback_key)) set(key, *same, table, object, full);
+    const Key* same = section.find_key(key.fallback_key, "");
+    if (const Node* other_value = table.find(key.fallback_key))
+      set(key, *other_value, table, object, full);
+    else if (same && same->fallback)
+      set(key, parse_value(*same->fallback, table.source), table, object, full);
   } else if (key.required) {
     report(table.source, full,
            fmt::format("missing; give {}{}", expectation(key, unit_of(key, table).value_or("")),
@@ -118,13 +126,24 @@ void SectionReader::set(const Key& key, const Node& node, const Node& table, voi
     return;
   }
   try {
-    const Value value = convert(key, node, *unit);
+    const Value value =
+        convert(key, node, *unit, [&](const Node& inner) { return read_wave(key, inner, path); });
     key.binding.set(object, value);
     for (const Scalar& scalar : value)
       if (key.refers != Reference::none) mentions_[key.refers].push_back({scalar.text, path, node.source});
   } catch (const Mismatch& wrong) {
     report(wrong.source, path, wrong.message);
   }
+}
+
+Waveform SectionReader::read_wave(const Key& key, const Node& table, const std::string& path) {
+  Waveform wave;
+  const std::size_t errors_before = diagnostics_.size();
+  read_table(wave_section(key.unit), table, &wave, path);
+  if (wave.kind == Waveform::Kind::file && diagnostics_.size() == errors_before)
+    load_samples(wave, key.unit, surroundings_.folder, table, path, diagnostics_);
+  if (!wave.constant()) waves_.push_back({wave, path, table.source});
+  return wave;
 }
 
 void SectionReader::read_section(const Section& section, const Node& outer, void* parent,
@@ -182,6 +201,7 @@ void SectionReader::read_list(const Section& section, const Node& node, void* pa
   }
   if (node.items.empty())
     report(node.source, path, fmt::format("is empty; add a [[{}]] or leave it out", path));
+  if (section.access.clear) section.access.clear(parent);
   std::map<std::string, std::set<std::string>> taken;
   int written = 0; // a user counts the items of the file, not those that the template brings
   for (const Node& item : node.items) {

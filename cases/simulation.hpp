@@ -1,8 +1,9 @@
 #pragma once
 
 #include "cases/measurement.hpp"
+#include "cases/step_run.hpp"
 #include "cases/watch.hpp"
-#include "fem/ramp.hpp"
+#include "fem/energy_balance.hpp"
 
 #include <functional>
 
@@ -12,7 +13,8 @@ namespace dielast::cases {
 struct SimulationProgress {
   int step = 0;    ///< number of the current step, from 0
   int records = 0; ///< accepted states so far, the drawn one included
-  fem::RampProgress ramp;
+  StepProgress in_step;
+  fem::EnergyBalance::Record energy;
   std::map<std::string, double> rest_lengths;
   std::set<std::string> active_events;
 };
@@ -31,16 +33,11 @@ struct SimulationObserver {
   std::function<void(double load_factor)> on_try;
   std::function<void(const fem::Iteration&)> on_iteration;
   std::function<void(double load_factor, const fem::NewtonResult&)> on_cutback;
+  std::function<void(const fem::CriticalPoint&, const post::Event&)> on_critical;
   /// Returns false to stop here (interrupt).
   std::function<bool(const Frame&)> on_accept;
-};
-
-enum class Ending { complete, gave_up, interrupted };
-
-struct Outcome {
-  Ending ending = Ending::complete;
-  std::string kind{};    ///< gave_up: "limit point", "singular tangent", "no equilibrium"
-  std::string message{}; ///< gave_up: what happened and what to do
+  /// The same, at an accepted state that is not recorded.
+  std::function<bool()> on_pass;
 };
 
 /// Takes a case through its steps.
@@ -62,12 +59,10 @@ class Simulation {
   void set_results(std::vector<double> results) { results_ = std::move(results); }
 
  private:
-  fem::RampTarget target(int step, const fem::RampTarget& start) const;
-  fem::RampOptions options(const Step& step) const;
   Eigen::VectorXd frame_force();
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
-              double load_factor, const fem::NewtonResult& newton);
-  Outcome failure(const Step& step, const fem::RampResult& result, const fem::RampTarget& target) const;
+              const fem::Increment& increment, Reached reached);
+  void account(const fem::State& state, const fem::Increment& increment, Reached reached);
 
   const Case& case_;
   Device device_;
@@ -75,11 +70,12 @@ class Simulation {
   Measurement measurement_;
   Watch watch_;
   std::vector<Step> steps_;
-  Eigen::VectorXd
-      frame_force_; ///< dead forces by which a frame holds the free nodes as drawn, until the release
+  std::optional<StepLoads> loads_;
   std::vector<double> results_;
   int step_ = 0, records_ = 0;
-  fem::RampProgress ramp_;
+  StepProgress in_step_;
+  std::vector<post::Event> news_; ///< for the next record
+  fem::EnergyBalance energy_;
 };
 
 } // namespace dielast::cases

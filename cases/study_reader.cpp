@@ -1,6 +1,7 @@
 #include "cases/study_reader.hpp"
 
 #include "cases/case_tree.hpp"
+#include "cases/fit_reader.hpp"
 #include "cases/overrides.hpp"
 #include "cases/section_reader.hpp"
 #include "cases/units.hpp"
@@ -163,6 +164,7 @@ void require_only_study(SectionReader& reader, const Node& tree) {
 
 Study read_study(const std::filesystem::path& path) {
   const Node tree = read_tree(path);
+  refuse_fit(tree);
   Study study;
   study.source = study.base = path;
   study.title = path.stem().string();

@@ -27,6 +27,26 @@ name = "min_principal_stress"
 kind = "extreme"
 of = "min_principal_stress"
 extreme = "minimum"
+[[quantity]]
+name = "electrical_work"
+kind = "energy"
+of = "electrical_work"
+[[quantity]]
+name = "mechanical_work"
+kind = "energy"
+of = "mechanical_work"
+[[quantity]]
+name = "stored_energy"
+kind = "energy"
+of = "stored"
+[[quantity]]
+name = "dissipated_energy"
+kind = "energy"
+of = "dissipated"
+[[quantity]]
+name = "energy_error"
+kind = "energy"
+of = "error"
 )";
 
 constexpr std::string_view honeycomb_quantities = R"(
@@ -63,6 +83,34 @@ kind = "radius"
 of = "electrode_edge"
 )";
 
+constexpr std::string_view patch_quantities = R"(
+[[quantity]]
+name = "stretch_x"
+kind = "stretch"
+between = ["left", "right"]
+along = "x"
+[[quantity]]
+name = "stretch_y"
+kind = "stretch"
+between = ["bottom", "top"]
+along = "y"
+[[quantity]]
+name = "stress_x"
+kind = "nominal stress"
+of = "film"
+along = "x"
+[[quantity]]
+name = "stress_y"
+kind = "nominal stress"
+of = "film"
+along = "y"
+[[quantity]]
+name = "thickness_stretch"
+kind = "extreme"
+of = "principal_stretches.lambda3"
+extreme = "maximum"
+)";
+
 constexpr std::string_view honeycomb_defaults = R"(
 electrode = [{ name = "film", place = "film" }]
 step = [{ kind = "release" }, { kind = "voltage" }]
@@ -79,6 +127,10 @@ electrode = [{ name = "film", place = "film" }]
 support = [{ place = "inner", fix = ["x", "y", "z"] }, { place = "outer", fix = ["x", "y", "z"] }]
 step = [{ kind = "voltage" }]
 )";
+
+constexpr std::string_view patch_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+)"; // and patch_steps()
 
 constexpr std::string_view file_defaults = R"(
 electrode = [{ name = "film", place = "film" }]
@@ -124,8 +176,8 @@ std::string name_of_release(const Node& tree) {
   return "";
 }
 
-/// The capacitance of the electrode, or one for each of several.
-std::vector<Node> capacitances(const Node& tree, const Source& source) {
+/// A quantity of the electrode, or one for each of several: "charge", or "charge_<electrode>".
+std::vector<Node> of_each_electrode(const Node& tree, const std::string& kind, const Source& source) {
   std::vector<Node> quantities;
   std::set<std::string> seen; // a second electrode of the same name is reported elsewhere
   const auto electrodes = items_of(tree, "electrode");
@@ -133,12 +185,51 @@ std::vector<Node> capacitances(const Node& tree, const Source& source) {
     const std::string name = text_at(electrode, "name");
     Node quantity;
     quantity.source = source;
-    quantity.add("name", text_node(electrodes.size() > 1 ? "capacitance_" + name : "capacitance", source));
-    quantity.add("kind", text_node("capacitance", source));
+    quantity.add("name", text_node(electrodes.size() > 1 ? kind + "_" + name : kind, source));
+    quantity.add("kind", text_node(kind, source));
     quantity.add("of", text_node(name, source));
     if (!name.empty() && seen.insert(name).second) quantities.push_back(std::move(quantity));
   }
   return quantities;
+}
+
+bool is_wave(const Node& node) { return node.find("wave") || std::ranges::any_of(node.items, is_wave); }
+
+/// Kinds of the steps that a patch takes: one for whatever is given, in this order.
+std::vector<std::string> patch_steps(const Node& tree) {
+  const Node none;
+  const Node* const patch = tree.find("patch") ? tree.find("patch") : &none;
+  const Node* const drive = tree.find("drive") ? tree.find("drive") : &none;
+  if (is_wave(*patch) || is_wave(*drive)) return {"transient"};
+  std::vector<std::string> kinds;
+  if (patch->find("stretch_x") || patch->find("stretch_y")) kinds.emplace_back("move");
+  if (patch->find("stress_x") || patch->find("stress_y")) kinds.emplace_back("force");
+  if (drive->find("charge")) kinds.emplace_back("charge");
+  if (drive->find("voltage") || kinds.empty()) kinds.emplace_back("voltage");
+  return kinds;
+}
+
+/// Adds the default steps of a patch; to default steps those that an override has made necessary.
+void add_patch_steps(Node& tree) {
+  const Source source{tree.source.file, 0, 0};
+  Node* steps = tree.find("step");
+  if (!steps) {
+    Node list;
+    list.kind = Node::Kind::list;
+    list.source = source;
+    steps = &tree.add("step", list);
+  }
+  const bool written = steps->source.line > 0 || steps->source.file != source.file;
+  if (written) return;
+  for (const std::string& kind : patch_steps(tree)) {
+    const bool known =
+        std::ranges::any_of(steps->items, [&](const Node& s) { return text_at(s, "kind") == kind; });
+    if (known) continue;
+    Node step;
+    step.source = source;
+    step.add("kind", text_node(kind, source));
+    steps->items.push_back(std::move(step));
+  }
 }
 
 } // namespace
@@ -173,6 +264,19 @@ std::span<const Template> templates() {
                {{"film", "the film"}, {"inner", "the inner edge"}, {"outer", "the outer edge"}},
                annulus_defaults,
                ""},
+      Template{
+          "patch",
+          "one homogeneous block of film under stretches, nominal stresses, voltage or charge: a material "
+          "test; without [[step]] it takes one for each that is given, or one of kind \"transient\" for "
+          "waves",
+          {{"film", "the film"},
+           {"left", "the side x = 0, held along x"},
+           {"right", "the side that moves along x"},
+           {"bottom", "the side y = 0, held along y"},
+           {"top", "the side that moves along y"},
+           {"centre", "the middle"}},
+          patch_defaults,
+          patch_quantities},
       Template{"file", "your own gmsh mesh: [mesh] file = \"...\"", {}, file_defaults, ""},
   };
   return table;
@@ -199,6 +303,7 @@ void add_defaults(Node& tree, const Template& device) {
   const Node defaults = parse_default(device.defaults, tree);
   for (std::size_t i = 0; i < defaults.items.size(); ++i)
     if (!tree.find(defaults.keys[i])) tree.add(defaults.keys[i], defaults.items[i]);
+  if (device.name == "patch") add_patch_steps(tree);
 }
 
 int add_standard_quantities(Node& tree, const Template& device) {
@@ -214,7 +319,10 @@ int add_standard_quantities(Node& tree, const Template& device) {
     if (release.empty()) remove(quantity, "since");
     standard.push_back(std::move(quantity));
   }
-  for (Node& quantity : capacitances(tree, source)) standard.push_back(std::move(quantity));
+  for (Node& quantity : of_each_electrode(tree, "capacitance", source))
+    standard.push_back(std::move(quantity));
+  if (device.name == "patch")
+    for (Node& quantity : of_each_electrode(tree, "charge", source)) standard.push_back(std::move(quantity));
 
   Node* quantities = tree.find("quantity");
   if (!quantities) {

@@ -49,7 +49,7 @@ std::string Watch::cell_of(int line, int other) const {
 }
 
 std::vector<post::Event> Watch::check(const fem::State& state, const post::Extremes& extremes,
-                                      int negative_pivots) {
+                                      int unstable_modes) {
   std::vector<post::Event> events;
   const auto begins = [&](bool holds, const std::string& kind) {
     if (!holds) active.erase(kind);
@@ -83,12 +83,12 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
                        post::engineering(*device_.wall_width, "m"))});
     }
   }
-  if (begins(negative_pivots > 0, "instability"))
+  if (begins(unstable_modes > 0, "instability"))
     events.push_back(
         {"instability", "",
-         fmt::format("the equilibrium is unstable ({} negative pivot{}): the flat or symmetric shape "
+         fmt::format("the equilibrium is unstable ({} unstable mode{}): the flat or symmetric shape "
                      "would buckle",
-                     negative_pivots, negative_pivots == 1 ? "" : "s")});
+                     unstable_modes, unstable_modes == 1 ? "" : "s")});
   return events;
 }
 

@@ -18,8 +18,7 @@ class Watch {
   /// The device must outlive this.
   explicit Watch(const Device& device);
 
-  std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes,
-                                 int negative_pivots);
+  std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes);
 
   /// Kinds of the conditions that hold now; stored with a checkpoint.
   std::set<std::string> active;

@@ -15,7 +15,9 @@ void DofMap::hold(int node, int component) {
   if (mark != absent) mark = held_mark;
 }
 
-void DofMap::share(int node, int other, int component) { shared_.push_back({node, other, component}); }
+void DofMap::share(int node, int component, int other, int other_component) {
+  shared_.push_back({node, component, other, other_component});
+}
 
 void DofMap::number() {
   // Union-find over (node, component): the smallest index of a group stands for it.
@@ -29,8 +31,8 @@ void DofMap::number() {
     return i;
   };
   const auto mark = [&](std::size_t i) -> int& { return equation_[i / components][i % components]; };
-  for (const auto& [node, other, component] : shared_) {
-    const std::size_t a = find(index(node, component)), b = find(index(other, component));
+  for (const auto& [node, component, other, other_component] : shared_) {
+    const std::size_t a = find(index(node, component)), b = find(index(other, other_component));
     const std::size_t low = std::min(a, b), high = std::max(a, b);
     leader[high] = low;
     if (mark(high) == held_mark) mark(low) = held_mark;

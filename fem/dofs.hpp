@@ -22,7 +22,9 @@ class DofMap {
   /// Holds the unknown at its value; ignored where the node does not have it.
   void hold(int node, int component);
   /// Gives two nodes one common unknown, as for a rigid body that only translates; held if either is held.
-  void share(int node, int other, int component);
+  void share(int node, int other, int component) { share(node, component, other, component); }
+  /// Gives two displacements one common unknown, as for a square that stays a square.
+  void share(int node, int component, int other, int other_component);
   /// Numbers everything; to be called once, after the last of the calls above.
   void number();
 
@@ -41,7 +43,7 @@ class DofMap {
   }
 
   std::vector<std::array<int, components>> equation_;
-  std::vector<std::array<int, 3>> shared_; ///< node, other, component
+  std::vector<std::array<int, 4>> shared_; ///< node, component, other node, its component
   int free_count_ = 0;
   int count_ = 0;
 };

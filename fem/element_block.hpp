@@ -45,6 +45,22 @@ struct Evaluation {
   bool feasible = true; ///< false: some element cannot be in this state (inverted, beyond a limit)
 };
 
+/// What the electrodes hold at a state: Q_e = -dE/dPhi_e of the energy E(u, Phi) that the blocks give.
+struct Charges {
+  std::vector<double> charge;            ///< per electrode, C
+  std::vector<double> capacitance;       ///< dQ_e/dPhi_e at fixed u, F
+  std::vector<Eigen::VectorXd> coupling; ///< dQ_e/du per electrode, count() entries; left out when not wanted
+};
+
+/// Where the energy of a state is.
+struct EnergyParts {
+  double elastic = 0;     ///< stored by the equilibrium laws and the walls, J
+  double branches = 0;    ///< stored by the springs of the branches, J
+  double electric = 0;    ///< of the field: sum of Q Phi / 2, J
+  double regularised = 0; ///< part of `elastic` that only keeps wrinkled film from being singular, J
+  double dissipation = 0; ///< power that the dashpots turn into heat, W
+};
+
 /// Elements of one type in contiguous arrays. Pure functions of the state: energy, residual = dE/du, tangent
 /// = d2E/du2 (u: displacements and spins about the current rotation). One virtual call for a range of
 /// elements, never per element.
@@ -64,6 +80,20 @@ class ElementBlock {
   virtual Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const = 0;
   /// Appends this block's integration points.
   virtual void sample(const State& state, Samples& samples) const = 0;
+
+  /// Adds this block's share of the electrodes' charges; `dofs` asks for dQ/du as well.
+  virtual void add_charges(const State& /*state*/, const DofMap* /*dofs*/, Charges& /*charges*/) const {}
+  virtual void add_energies(const State& state, EnergyParts& parts) const {
+    parts.elastic += evaluate(state, 0, element_count(), {}).energy;
+  }
+  /// Number of internal variables of this block.
+  virtual int history_size() const { return 0; }
+  /// Tells where the block's variables start in the model's.
+  virtual void place_history(int /*first*/) {}
+  /// Internal variables of the undeformed, relaxed block.
+  virtual void start_history(std::vector<double>& /*all*/) const {}
+  /// Writes the internal variables at a converged state, reached by state.scheme, to their places in `all`.
+  virtual void advance_history(const State& /*state*/, std::vector<double>& /*all*/) const {}
 };
 
 } // namespace dielast::fem

@@ -9,16 +9,22 @@ namespace dielast::fem {
 
 namespace {
 
-/// Adds the CPU time of its own life to a counter.
+/// Below this many unknowns reading the clock takes longer than the work.
+constexpr int worth_timing = 200;
+
+/// Adds the CPU time of its own life to a counter, in models that are large enough.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& total) : total_(total), start_(std::clock()) {}
-  ~Stopwatch() { total_ += static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+  Stopwatch(double& total, const Model& model)
+      : total_(model.dofs.count() < worth_timing ? nullptr : &total), start_(total_ ? std::clock() : 0) {}
+  ~Stopwatch() {
+    if (total_) *total_ += static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
+  }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
-  double& total_;
+  double* total_;
   std::clock_t start_;
 };
 
@@ -26,6 +32,12 @@ constexpr double sufficient_decrease = 1e-4;
 constexpr int most_halvings = 12;
 /// Relative residual below which one more step leaves the tangent's inertia as it is.
 constexpr double near = 1e-3;
+/// Weights of unknowns that have no stiffness as drawn (a slack film's, across it), over the stiffest's.
+constexpr double least_stiffness = 1e-6;
+constexpr double negligible = 1e-3;    ///< strain to which the tolerance of steps refers
+constexpr double rounded_step = 1e-10; ///< over the extent; smaller ones may know no descent
+constexpr int most_voltage_corrections = 20;
+constexpr double charge_tolerance = 1e-13;
 constexpr int patience = 10; ///< iterations after which the residual must be smaller than at the start
 constexpr int most_indefinite =
     6; ///< tangents in a row: by then the iteration wanders between unstable states
@@ -33,127 +45,164 @@ constexpr int most_indefinite =
 } // namespace
 
 Equilibrium::Equilibrium(const Model& model, int threads)
-    : model_(model), assembler_(model, threads), solver_(assembler_.matrix()) {
+    : model_(model), assembler_(model, threads), tangent_(model, assembler_, stiffness_) {
   weight_ = Eigen::VectorXd::Ones(model.dofs.count());
   for (int n = 0; n < model.dofs.node_count(); ++n)
     for (int c = 3; c < DofMap::components; ++c)
       if (const int e = model.dofs.equation(n, c); e != DofMap::absent) weight_[e] = 1 / model.length_scale;
-  // Positions are known to a rounding of the extent; the stiffest unknowns turn it into force.
   assembler_.tangent(model.initial_state());
   const SparseSymmetric& K = assembler_.matrix();
-  double stiffest = 0;
+  const auto squared = weight_.head(K.size).array().square();
+  stiffness_.resize(K.size);
   for (int c = 0; c < K.size; ++c) {
     const auto diagonal = static_cast<std::size_t>(K.column_start[static_cast<std::size_t>(c)]);
-    stiffest = std::max(stiffest, std::abs(K.values[diagonal]) * weight_[c] * weight_[c]);
+    stiffness_[c] = std::abs(K.values[diagonal]);
   }
+  const double stiffest = K.size > 0 ? (stiffness_.array() * squared).maxCoeff() : 0.0;
+  // Positions are known to a rounding of the extent; the stiffest unknowns turn it into force.
   round_off_ = std::numeric_limits<double>::epsilon() * stiffest * model.extent *
                std::sqrt(static_cast<double>(K.size));
+  stiffness_ = stiffness_.array().max(least_stiffness * stiffest / squared);
+  energy_scale_ = (squared == 1).select(stiffness_.array(), 0).sum() * model.extent * model.extent;
 }
 
 double Equilibrium::weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const {
   return force.head(count).cwiseProduct(weight_.head(count)).norm();
 }
 
-double Equilibrium::force_scale(const State& state) const {
-  double scale = weighted_norm(state.dead_force, state.dead_force.size());
-  for (const auto& block : assembler_.block_residuals())
-    scale = std::max(scale, weighted_norm(block, block.size()));
-  return scale;
+/// Phi with Q(u, Phi) = Q. One correction is enough where charges are proportional to voltages; the natural
+/// width of wrinkled film makes them a little more.
+bool Equilibrium::follow_charges(State& state) const {
+  for (int correction = 0; correction <= most_voltage_corrections; ++correction) {
+    const Charges held = model_.charges(state, false);
+    double worst = 0;
+    for (std::size_t e = 0; e < state.isolated.size(); ++e) {
+      if (!state.isolated[e]) continue;
+      const double missing = state.charge[e] - held.charge[e];
+      state.voltage[e] += missing / held.capacitance[e];
+      if (!std::isfinite(state.voltage[e])) return false;
+      const double size = std::max(std::abs(state.charge[e]), std::abs(held.charge[e]));
+      if (size > 0) worst = std::max(worst, std::abs(missing) / size);
+    }
+    if (worst <= charge_tolerance) return true;
+  }
+  return false;
 }
 
-bool Equilibrium::factor_tangent(const State& state) {
+void Equilibrium::balance(State& state, Balance& balance) {
+  const Stopwatch watch(timings_.residual, model_);
+  const bool isolated = any_isolated(state);
+  if (isolated && !follow_charges(state)) {
+    balance.feasible = false;
+    return;
+  }
+  const Evaluation evaluation = assembler_.residual(state, balance.force);
+  balance.energy = evaluation.energy;
+  if (isolated)
+    for (std::size_t e = 0; e < state.isolated.size(); ++e)
+      if (state.isolated[e]) balance.energy += state.charge[e] * state.voltage[e];
+  balance.force -= state.dead_force;
+  balance.norm = weighted_norm(balance.force, model_.dofs.free_count());
+  balance.scale = weighted_norm(state.dead_force, state.dead_force.size());
+  for (const auto& block : assembler_.block_residuals())
+    balance.scale = std::max(balance.scale, weighted_norm(block, block.size()));
+  balance.feasible = evaluation.feasible && std::isfinite(balance.norm) && std::isfinite(balance.energy);
+}
+
+/// A film whose field carries its stress has no nodal forces to compare the residual with: there, what the
+/// next step would change must be negligible, as told by the last one and the residual's decrease.
+bool Equilibrium::balanced(const Balance& balance, double tolerance, double previous_norm,
+                           double step) const {
+  const bool stagnates = balance.norm <= round_off_ && balance.norm > 0.3 * previous_norm;
+  return balance.norm <= tolerance * balance.scale || stagnates ||
+         (std::isfinite(step) && step * balance.norm <= negligible * tolerance * previous_norm);
+}
+
+double Equilibrium::step_size(const Eigen::VectorXd& step) const {
+  return step.cwiseQuotient(weight_.head(step.size())).lpNorm<Eigen::Infinity>() / model_.extent;
+}
+
+bool Equilibrium::factor(const State& state, const PathBorder* path, const Eigen::VectorXd* added) {
   {
-    const Stopwatch watch(timings_.tangent);
+    const Stopwatch watch(timings_.tangent, model_);
     assembler_.tangent(state);
   }
-  const Stopwatch watch(timings_.factor);
-  return solver_.factor();
+  const Stopwatch watch(timings_.factor, model_);
+  return tangent_.factor(state, path, added);
 }
 
-bool Equilibrium::refresh_inertia(const State& state, NewtonResult& result) {
-  const bool regular = factor_tangent(state);
-  if (regular) result.negative_pivots = solver_.negative_pivots();
-  return regular;
+/// Goes along the Newton step, shorter while that leads nowhere; returns the fraction taken, 0 if none will
+/// do.
+double Equilibrium::backtrack(State& state, Balance& current, const Eigen::VectorXd& step) {
+  const Eigen::Index free = model_.dofs.free_count();
+  const bool definite = tangent_.unstable_modes() == 0;
+  const double slope = current.force.head(free).dot(step);
+  const double dead_work = state.dead_force.head(free).dot(step);
+  Balance there;
+  double length = 1;
+  for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
+    State trial = state;
+    model_.dofs.advance(trial, step, length);
+    balance(trial, there);
+    if (!there.feasible) continue;
+    const double energy_change = there.energy - current.energy - length * dead_work;
+    const bool descends = definite && energy_change <= sufficient_decrease * length * slope;
+    if (!descends && !(there.norm < current.norm)) continue;
+    state = std::move(trial);
+    std::swap(current, there);
+    return length;
+  }
+  return 0;
 }
 
 NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
                                 const std::function<void(const Iteration&)>& log) {
-  const Eigen::Index free = model_.dofs.free_count();
   NewtonResult result;
-  Eigen::VectorXd force, trial_force, step;
-  const auto evaluate = [&](const State& at, Eigen::VectorXd& unbalanced) {
-    const Stopwatch watch(timings_.residual);
-    const Evaluation evaluation = assembler_.residual(at, unbalanced);
-    unbalanced -= at.dead_force;
-    return evaluation;
+  const auto end = [&result](Outcome outcome) {
+    result.outcome = outcome;
+    return result;
   };
-  Evaluation current = evaluate(state, force);
-  double norm = weighted_norm(force, free);
-  double scale = force_scale(state);
-  const double first_norm = norm;
-  double previous_norm = std::numeric_limits<double>::infinity();
+  const auto factor_and_count = [&] {
+    const bool regular = factor(state);
+    if (regular) {
+      result.negative_pivots = tangent_.negative_pivots();
+      result.unstable_modes = tangent_.unstable_modes();
+    }
+    return regular;
+  };
+  Balance current;
+  Eigen::VectorXd step;
+  balance(state, current);
+  const double first_norm = current.norm;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double previous_norm = infinity;
+  double stale_tangent = infinity; // residual at which the last tangent was taken
   double step_length = 0;
   int indefinite = 0;
-  double stale_tangent =
-      std::numeric_limits<double>::infinity(); // residual at which the last tangent was taken
   for (result.iterations = 0;; ++result.iterations) {
-    if (!current.feasible || !std::isfinite(norm)) {
-      result.outcome = Outcome::infeasible;
-      return result;
-    }
-    result.residual = scale > 0 ? norm / scale : 0;
+    if (!current.feasible) return end(Outcome::infeasible);
+    result.residual = current.scale > 0 ? current.norm / current.scale : 0;
     if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
-    const bool stagnates = norm <= round_off_ && norm > 0.3 * previous_norm;
-    if (norm <= options.tolerance * scale || stagnates) {
-      result.outcome = Outcome::converged;
-      if (stale_tangent > near && !refresh_inertia(state, result)) result.outcome = Outcome::singular;
-      return result;
+    if (balanced(current, options.tolerance, previous_norm, step_length == 1 ? step_size(step) : infinity)) {
+      const bool known = stale_tangent <= near || factor_and_count();
+      return end(known ? Outcome::converged : Outcome::singular);
     }
-    if (result.iterations >= options.max_iterations || (result.iterations >= patience && norm > first_norm) ||
-        indefinite >= most_indefinite) {
-      result.outcome = Outcome::not_converged;
-      return result;
-    }
-    previous_norm = norm;
-    ++timings_.iterations;
+    if (result.iterations >= options.max_iterations ||
+        (result.iterations >= patience && current.norm > first_norm) || indefinite >= most_indefinite)
+      return end(Outcome::not_converged);
+    previous_norm = current.norm;
     stale_tangent = result.residual;
-    const bool regular = factor_tangent(state);
-    if (!regular) {
-      result.outcome = Outcome::singular;
-      return result;
-    }
-    result.negative_pivots = solver_.negative_pivots();
-    indefinite = result.negative_pivots > 0 ? indefinite + 1 : 0;
+    ++timings_.iterations;
+    if (!factor_and_count()) return end(Outcome::singular);
+    indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
     {
-      const Stopwatch watch(timings_.solve);
-      solver_.solve(-force.head(free), step);
+      const Stopwatch watch(timings_.solve, model_);
+      tangent_.solve(-current.force.head(model_.dofs.free_count()), step);
     }
-    const double slope = force.head(free).dot(step);
-    const double dead_work = state.dead_force.head(free).dot(step);
-    bool accepted = false;
-    step_length = 1;
-    for (int halving = 0; halving <= most_halvings && !accepted;
-         ++halving, step_length *= accepted ? 1 : 0.5) {
-      State trial = state;
-      model_.dofs.advance(trial, step, step_length);
-      const Evaluation there = evaluate(trial, trial_force);
-      const double trial_norm = weighted_norm(trial_force, free);
-      if (!there.feasible || !std::isfinite(trial_norm)) continue;
-      const double energy_change = there.energy - current.energy - step_length * dead_work;
-      const bool descends =
-          result.negative_pivots == 0 && energy_change <= sufficient_decrease * step_length * slope;
-      accepted = descends || trial_norm < norm;
-      if (accepted) {
-        state = std::move(trial);
-        force.swap(trial_force);
-        current = there;
-        norm = trial_norm;
-        scale = force_scale(state);
-      }
-    }
-    if (!accepted) { // round-off knows no descent
-      result.outcome = norm <= round_off_ ? Outcome::converged : Outcome::not_converged;
-      return result;
+    step_length = backtrack(state, current, step);
+    if (step_length == 0) {
+      const bool rounded = current.norm <= round_off_ || step_size(step) <= rounded_step;
+      return end(rounded ? Outcome::converged : Outcome::not_converged);
     }
   }
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem/assembler.hpp"
-#include "fem/symmetric_solver.hpp"
+#include "fem/bordered_tangent.hpp"
 
 #include <functional>
 
@@ -12,7 +12,7 @@ struct Iteration {
   int number = 0;
   double residual = 0;     ///< relative
   double step_length = 0;  ///< fraction of the Newton step taken to get here
-  int negative_pivots = 0; ///< of the tangent whose step led here
+  int negative_pivots = 0; ///< of the tangent at fixed voltages whose step led here
 };
 
 struct NewtonOptions {
@@ -27,17 +27,33 @@ struct NewtonResult {
   Outcome outcome{};
   int iterations = 0;
   double residual = 0;     ///< relative norm at the end
-  int negative_pivots = 0; ///< of the tangent at the end, or at most one small step before it
+  int negative_pivots = 0; ///< unstable directions at fixed voltages, of the tangent at the end, or at most
+                           ///< one small step before it
+  int unstable_modes = 0;  ///< the same under the actual control: isolated electrodes keep their charges
 };
 
-/// CPU seconds of this process, by task.
+/// How well the forces of a state balance.
+struct Balance {
+  double energy = 0; ///< J, under the control: with Q Phi of the isolated electrodes
+  bool feasible = false;
+  Eigen::VectorXd force; ///< internal minus dead ones, per equation
+  double norm = 0;       ///< of the free ones, moments over the model's length scale, N
+  double scale = 0;      ///< largest norm of a block's forces, N
+};
+
+/// CPU seconds of this process, by task; not read in models of a few unknowns.
 struct Timings {
   double residual = 0, tangent = 0, factor = 0, solve = 0;
   int iterations = 0;
 };
 
 /// Finds states in which the internal forces balance the dead ones: Newton's method with backtracking on the
-/// potential energy where the tangent is positive definite, on the residual where it is not.
+/// potential energy where the tangent is positive definite under the control, on the residual where it is
+/// not.
+///
+/// Isolated electrodes: E(u, Phi) + sum Q Phi is stationary in Phi where the film holds the charges Q; this
+/// is solved for Phi at every u, so that Newton's method sees the energy at fixed charges, a function of u
+/// with the tangent K + B C^-1 B^T (see BorderedTangent).
 class Equilibrium {
  public:
   /// `threads`: 0 uses every core. The model must outlive this.
@@ -52,6 +68,23 @@ class Equilibrium {
     return assembler_.residual(state, force);
   }
 
+  /// Sets the voltages of isolated electrodes to what their charges need and evaluates the forces.
+  void balance(State& state, Balance& balance);
+  /// Whether a balance is an equilibrium. `previous_norm` is that of the iteration before, from which a full
+  /// Newton step of size `step` (see step_size()) led here; infinity at the start.
+  bool balanced(const Balance& balance, double tolerance, double previous_norm, double step) const;
+  /// Largest displacement in a step, rotations times the model's length scale, over its extent.
+  double step_size(const Eigen::VectorXd& step) const;
+  /// Tangent at `state`, factored; see BorderedTangent::factor.
+  [[nodiscard]] bool factor(const State& state, const PathBorder* path = nullptr,
+                            const Eigen::VectorXd* added = nullptr);
+  BorderedTangent& tangent() { return tangent_; }
+  /// A positive weight per free equation that makes displacements comparable: the diagonal of the tangent as
+  /// drawn (N/m, N m for rotations), not less than a small part of the largest.
+  const Eigen::VectorXd& stiffness() const { return stiffness_; }
+  /// Energy that goes with displacements as large as the model in the norm of stiffness(), J.
+  double energy_scale() const { return energy_scale_; }
+
   /// Norm of residuals that are only rounding of the positions, N.
   double round_off() const { return round_off_; }
   const Model& model() const { return model_; }
@@ -60,14 +93,15 @@ class Equilibrium {
 
  private:
   double weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const;
-  double force_scale(const State& state) const;
-  bool factor_tangent(const State& state);
-  bool refresh_inertia(const State& state, NewtonResult& result);
+  bool follow_charges(State& state) const;
+  double backtrack(State& state, Balance& current, const Eigen::VectorXd& step);
 
   const Model& model_;
   Assembler assembler_;
-  SymmetricSolver solver_;
   Eigen::VectorXd weight_; ///< 1 for forces, 1/length_scale for moments
+  Eigen::VectorXd stiffness_;
+  BorderedTangent tangent_;
+  double energy_scale_ = 0;
   double round_off_ = 0;
   Timings timings_;
 };

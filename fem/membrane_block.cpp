@@ -1,8 +1,9 @@
 #include "fem/membrane_block.hpp"
 
+#include "fem/film_response.hpp"
 #include "fem/triangle.hpp"
-#include "materials/plane_stress.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace dielast::fem {
@@ -10,8 +11,27 @@ namespace dielast::fem {
 namespace {
 
 /// Elements are computed `lanes` at a time, one per lane of a vector register.
-constexpr int lanes = 4;
-using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+using Lanes = materials::Pack;
+constexpr int lanes = static_cast<int>(sizeof(Lanes) / sizeof(double));
+using Potential = materials::MembranePotential<Lanes>;
+using LanePotential = materials::MembranePotential<double>;
+
+materials::InPlaneC<double> lane_of(const materials::InPlaneC<Lanes>& C, int l) {
+  return {C.C11[l], C.C22[l], C.C12[l]};
+}
+
+LanePotential lane_of(const Potential& p, int l) {
+  LanePotential q{p.value[l], {}, {}};
+  for (std::size_t i = 0; i < q.first.size(); ++i) q.first[i] = p.first[i][l];
+  for (std::size_t i = 0; i < q.second.size(); ++i) q.second[i] = p.second[i][l];
+  return q;
+}
+
+void set_lane(Potential& p, int l, const LanePotential& q) {
+  p.value[l] = q.value;
+  for (std::size_t i = 0; i < q.first.size(); ++i) p.first[i][l] = q.first[i];
+  for (std::size_t i = 0; i < q.second.size(); ++i) p.second[i][l] = q.second[i];
+}
 
 template<int Nodes, int Dim, class Law>
 class MembraneBlock final : public ElementBlock {
@@ -26,6 +46,12 @@ class MembraneBlock final : public ElementBlock {
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
   void sample(const State& state, Samples& samples) const override;
+  void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
+  void add_energies(const State& state, EnergyParts& parts) const override;
+  int history_size() const override { return film_.history_size(count_ * points_); }
+  void place_history(int first) override { film_.place_history(first); }
+  void start_history(std::vector<double>& all) const override { film_.start_history(count_ * points_, all); }
+  void advance_history(const State& state, std::vector<double>& all) const override;
 
  private:
   static constexpr int dofs = Nodes * Dim;
@@ -46,6 +72,21 @@ class MembraneBlock final : public ElementBlock {
   void gather(const State& state, int pack, Lanes (&x)[Nodes][Dim]) const;
   Lanes electric_modulus(const State& state, int pack) const;
   static Deformation deformation(const Lanes (&x)[Nodes][Dim], const Point& point);
+  /// Psi over the elements of a pack; `lost`: a wrinkled film that the field pulls wider without limit.
+  Potential potential(const State& state, int pack, int point, const materials::InPlaneC<Lanes>& C,
+                      const Lanes& k, bool& lost) const;
+  /// One integration point of one element, as everything but the assembly sees it.
+  struct Visit {
+    int element;
+    int point; ///< number in the film, see FilmResponse
+    const Point& geometry;
+    const Deformation& deformation;
+    int lane;
+    materials::InPlaneC<double> C;
+    double k;
+  };
+  template<class Visitor>
+  void for_each_point(const State& state, const Visitor& visit) const;
   template<bool with_tangent>
   static void accumulate(const Point& point, const Deformation& d,
                          const materials::MembranePotential<Lanes>& potential, Lanes (&residual)[dofs],
@@ -53,8 +94,8 @@ class MembraneBlock final : public ElementBlock {
   template<bool with_tangent>
   Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const;
 
-  Law law_;
-  MembraneSection section_;
+  FilmResponse<Law> film_;
+  double thickness_; ///< undeformed, m
   int count_ = 0;
   int points_ = 0;
   std::vector<int> nodes_;      ///< padded to whole packs by repeating the last element
@@ -67,8 +108,9 @@ template<int Nodes, int Dim, class Law>
 MembraneBlock<Nodes, Dim, Law>::MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& triangles,
                                               const MembraneSection& section, Law law,
                                               std::vector<int> electrodes, int integration_points)
-    : law_(law), section_(section), count_(triangles.size()), points_(integration_points),
-      nodes_(triangles.nodes), electrodes_(std::move(electrodes)), reference_(mesh.nodes) {
+    : film_(std::move(law), section), thickness_(section.thickness), count_(triangles.size()),
+      points_(integration_points), nodes_(triangles.nodes), electrodes_(std::move(electrodes)),
+      reference_(mesh.nodes) {
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e) {
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
@@ -126,8 +168,8 @@ Lanes MembraneBlock<Nodes, Dim, Law>::electric_modulus(const State& state, int p
   for (int l = 0; l < lanes; ++l) {
     const int electrode = electrodes_[static_cast<std::size_t>(pack * lanes + l)];
     if (electrode == passive) continue;
-    const double nominal_field = state.voltage[static_cast<std::size_t>(electrode)] / section_.thickness;
-    k[l] = section_.material.dielectric.permittivity * nominal_field * nominal_field;
+    const double nominal_field = state.voltage[static_cast<std::size_t>(electrode)] / thickness_;
+    k[l] = film_.dielectric().permittivity * nominal_field * nominal_field;
   }
   return k;
 }
@@ -145,6 +187,38 @@ MembraneBlock<Nodes, Dim, Law>::deformation(const Lanes (&x)[Nodes][Dim], const 
     d.C.C12 += d.F[0][c] * d.F[1][c];
   }
   return d;
+}
+
+template<int Nodes, int Dim, class Law>
+Potential MembraneBlock<Nodes, Dim, Law>::potential(const State& state, int pack, int point,
+                                                    const materials::InPlaneC<Lanes>& C, const Lanes& k,
+                                                    bool& lost) const {
+  Potential psi = film_.simple(C, k);
+  if (film_.is_simple()) return psi;
+  for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
+    const materials::TensionField field =
+        film_.resolve(state, (pack * lanes + l) * points_ + point, lane_of(C, l), k[l], lane_of(psi, l));
+    lost |= field.tension == materials::Tension::lost;
+    set_lane(psi, l, field.potential);
+  }
+  return psi;
+}
+
+template<int Nodes, int Dim, class Law>
+template<class Visitor>
+void MembraneBlock<Nodes, Dim, Law>::for_each_point(const State& state, const Visitor& visit) const {
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    Lanes x[Nodes][Dim];
+    gather(state, pack, x);
+    const Lanes k = electric_modulus(state, pack);
+    for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
+      for (int p = 0; p < points_; ++p) {
+        const Point& geometry = geometry_[static_cast<std::size_t>(pack * points_ + p)];
+        const Deformation d = deformation(x, geometry);
+        const int element = pack * lanes + l, point = element * points_ + p;
+        visit(Visit{element, point, geometry, d, l, lane_of(d.C, l), k[l]});
+      }
+  }
 }
 
 /// residual_a += V F S grad N_a;  tangent_ab += V [(grad N_a . S grad N_b) 1 + B_a^T (d2Psi/dC2) B_b] with B
@@ -215,9 +289,11 @@ Evaluation MembraneBlock<Nodes, Dim, Law>::evaluate_packs(const State& state, in
       if constexpr (Dim == 2) area = d.F[0][0] * d.F[1][1] - d.F[0][1] * d.F[1][0];
       for (int l = 0; l < lanes; ++l)
         if (!(area[l] > 0)) result.feasible = false;
-      const auto potential = materials::membrane_potential(law_, d.C, k);
-      energy += point.volume * potential.value;
-      accumulate<with_tangent>(point, d, potential, residual, tangent);
+      bool lost = false;
+      const Potential stored = potential(state, pack, p, d.C, k, lost);
+      if (lost) result.feasible = false;
+      energy += point.volume * stored.value;
+      accumulate<with_tangent>(point, d, stored, residual, tangent);
     }
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
       const int element = pack * lanes + l;
@@ -234,6 +310,7 @@ Evaluation MembraneBlock<Nodes, Dim, Law>::evaluate_packs(const State& state, in
     }
   }
   for (int l = 0; l < lanes; ++l) result.energy += energy[l];
+  if (!std::isfinite(result.energy)) result.feasible = false; // beyond a stretch limit
   return result;
 }
 
@@ -247,32 +324,74 @@ Evaluation MembraneBlock<Nodes, Dim, Law>::evaluate(const State& state, int firs
 template<int Nodes, int Dim, class Law>
 void MembraneBlock<Nodes, Dim, Law>::sample(const State& state, Samples& samples) const {
   samples.film.reserve(samples.film.size() + static_cast<std::size_t>(count_ * points_));
-  for (int e = 0; e < count_; ++e) {
-    const int pack = e / lanes, l = e % lanes;
-    Lanes x[Nodes][Dim];
-    gather(state, pack, x);
-    const Lanes k = electric_modulus(state, pack);
-    const int electrode = electrodes_[static_cast<std::size_t>(e)];
-    for (int p = 0; p < points_; ++p) {
-      const Point& point = geometry_[static_cast<std::size_t>(pack * points_ + p)];
-      const Deformation d = deformation(x, point);
-      const auto potential = materials::membrane_potential(law_, d.C, k);
-      MembraneSample s;
-      s.cell = e;
-      s.volume = point.volume[l];
-      s.F.setZero();
-      for (int i = 0; i < 2; ++i)
-        for (int c = 0; c < Dim; ++c) s.F(c, i) = d.F[i][c][l];
-      s.S << 2 * potential.first[0][l], potential.first[2][l], potential.first[2][l],
-          2 * potential.first[1][l];
-      s.thickness = section_.thickness;
-      s.voltage = electrode == passive ? 0.0 : state.voltage[static_cast<std::size_t>(electrode)];
-      s.electrode = electrode;
-      s.permittivity = section_.material.dielectric.permittivity;
-      s.breakdown_field = section_.material.dielectric.breakdown_field;
-      samples.film.push_back(s);
+  for_each_point(state, [&](const Visit& at) {
+    const int electrode = electrodes_[static_cast<std::size_t>(at.element)];
+    const materials::TensionField field = film_.resolve(state, at.point, at.C, at.k);
+    const materials::InPlaneC<double>& natural = field.natural;
+    MembraneSample s;
+    s.cell = at.element;
+    s.volume = at.geometry.volume[at.lane];
+    s.F.setZero();
+    for (int i = 0; i < 2; ++i)
+      for (int c = 0; c < Dim; ++c) s.F(c, i) = at.deformation.F[i][c][at.lane];
+    s.S = materials::tension_field::stress(field.potential);
+    s.widening = std::sqrt(natural.det() / at.C.det());
+    s.tension = field.tension;
+    s.thickness = thickness_;
+    s.voltage = electrode == passive ? 0.0 : state.voltage[static_cast<std::size_t>(electrode)];
+    s.electrode = electrode;
+    s.breakdown_field = film_.dielectric().breakdown_field_at(natural.det());
+    samples.film.push_back(s);
+  });
+}
+
+template<int Nodes, int Dim, class Law>
+void MembraneBlock<Nodes, Dim, Law>::add_charges(const State& state, const DofMap* dof_map,
+                                                 Charges& charges) const {
+  for_each_point(state, [&](const Visit& at) {
+    const int electrode = electrodes_[static_cast<std::size_t>(at.element)];
+    if (electrode == passive) return;
+    const auto e = static_cast<std::size_t>(electrode);
+    const auto density = film_.charge_density(film_.shape(state, at.point, at.C, at.k), at.C);
+    const double voltage = state.voltage[e];
+    const double per_volt =
+        film_.dielectric().permittivity * at.geometry.volume[at.lane] / (thickness_ * thickness_);
+    charges.capacitance[e] += per_volt * density.value;
+    charges.charge[e] += per_volt * voltage * density.value;
+    if (!dof_map) return;
+    const auto& q = density.slope;
+    for (int a = 0; a < Nodes; ++a) {
+      const double G1 = at.geometry.gradient[a][0][at.lane], G2 = at.geometry.gradient[a][1][at.lane];
+      for (int c = 0; c < Dim; ++c) {
+        const int equation = dof_map->equation(node(at.element, a), c);
+        if (equation < 0) continue;
+        const double F1 = at.deformation.F[0][c][at.lane], F2 = at.deformation.F[1][c][at.lane];
+        charges.coupling[e][equation] +=
+            per_volt * voltage * (2 * q[0] * F1 * G1 + 2 * q[1] * F2 * G2 + q[2] * (F1 * G2 + F2 * G1));
+      }
     }
-  }
+  });
+}
+
+template<int Nodes, int Dim, class Law>
+void MembraneBlock<Nodes, Dim, Law>::add_energies(const State& state, EnergyParts& parts) const {
+  for_each_point(state, [&](const Visit& at) {
+    const EnergyParts density =
+        film_.energies(state, at.point, film_.shape(state, at.point, at.C, at.k), at.C);
+    const double volume = at.geometry.volume[at.lane];
+    parts.elastic += volume * density.elastic;
+    parts.branches += volume * density.branches;
+    parts.regularised += volume * density.regularised;
+    parts.dissipation += volume * density.dissipation;
+  });
+}
+
+template<int Nodes, int Dim, class Law>
+void MembraneBlock<Nodes, Dim, Law>::advance_history(const State& state, std::vector<double>& all) const {
+  if (film_.history_size(1) == 0) return;
+  for_each_point(state, [&](const Visit& at) {
+    film_.advance_history(state, at.point, film_.shape(state, at.point, at.C, at.k), all);
+  });
 }
 
 template<int Nodes, class Law>

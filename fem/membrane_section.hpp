@@ -13,6 +13,7 @@ struct MembraneSection {
   materials::Material material;
   double thickness = 0;                       ///< undeformed H, m
   std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing
+  bool tension_field = false;                 ///< wrinkles carry no compression (materials/tension_field.hpp)
 };
 
 } // namespace dielast::fem

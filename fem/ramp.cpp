@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace dielast::fem {
 
@@ -10,100 +9,213 @@ namespace {
 
 constexpr std::size_t most_points = 4; ///< of the predictor
 constexpr double round_off = 1e-9;     ///< in load factors
+constexpr double left_side = 1e-13;    ///< before a break, in load factors: the loads that hold until it
+constexpr double most_growth = 2;      ///< of a time step: BDF2 is stable below 2.41
+constexpr double safety = 0.9;
+constexpr double jump_part = 1.0 / 8;      ///< of loads that jump
+constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
+constexpr double tiny = 1e-300;
 
-/// A ramp's loads at a load factor.
-class Path {
+/// One step under load control.
+class Ramp {
  public:
-  Path(const RampTarget& from, const RampTarget& to) : from_(from), to_(to) {
-    double largest = 0;
-    for (std::size_t i = 0; i < from.voltage.size(); ++i)
-      if (const double change = std::abs(to.voltage[i] - from.voltage[i]); change > largest) {
-        largest = change;
-        leading_ = i;
-      }
-  }
+  Ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options, RampProgress& progress,
+       const RampObserver& observer)
+      : equilibrium_(equilibrium), path_(path), options_(options), progress_(progress), observer_(observer),
+        largest_(1.0 / options.increments), landing_(options.landing > 0 ? options.landing : largest_),
+        smallest_(options.duration > 0 ? smallest_in_time : options.smallest_increment) {}
 
-  void apply(State& state, double s) const {
-    for (std::size_t i = 0; i < state.voltage.size(); ++i) state.voltage[i] = voltage(i, s);
-    state.dead_force = (1 - s) * from_.dead_force + s * to_.dead_force;
-  }
-  /// Monotonic in s: Phi^2 of the electrode whose voltage changes most, s where none does.
-  double parameter(double s) const {
-    if (!leading_) return s;
-    const double phi = voltage(*leading_, s);
-    return phi * phi;
-  }
+  RampResult run();
 
  private:
-  double voltage(std::size_t i, double s) const { return (1 - s) * from_.voltage[i] + s * to_.voltage[i]; }
+  bool timed() const { return options_.duration > 0; }
+  const State& last() const { return progress_.points.back().state; }
+  double parameter(double s) const { return timed() ? s : path_.parameter(s); }
+  double next_break() const;
+  double next_load_factor() const;
+  materials::TimeScheme scheme(double dt) const;
+  State solve(State state, double s);
+  bool less_stable() const;
+  bool pass_break();
+  static double time_error(const History& past, const History& next);
+  bool accept(State state, std::shared_ptr<const History> history, double s);
+  bool notify(bool lands, double length);
 
-  const RampTarget& from_;
-  const RampTarget& to_;
-  std::optional<std::size_t> leading_;
+  Equilibrium& equilibrium_;
+  const LoadPath& path_;
+  const RampOptions& options_;
+  RampProgress& progress_;
+  const RampObserver& observer_;
+  double largest_, landing_, smallest_;
+  NewtonResult newton_;
+  bool jumped_ = false;  ///< at the last break
+  double last_part_ = 0; ///< of that jump
 };
 
-/// The next load factor to try: never past a multiple of the nominal increment, where the user expects a
-/// result.
-double next_load_factor(const RampProgress& progress, double nominal) {
-  const double output = std::min(1.0, (std::floor(progress.load_factor / nominal + round_off) + 1) * nominal);
-  const double s = progress.load_factor + progress.increment;
-  return s > output - round_off ? output : s;
+double Ramp::next_break() const {
+  for (const double at : path_.breaks)
+    if (at > progress_.load_factor + round_off) return std::min(at, 1.0);
+  return 1;
+}
+
+/// Steps end where results are wanted and at breaks; equal parts lead there, so that no sliver is left.
+double Ramp::next_load_factor() const {
+  const double s = progress_.load_factor;
+  const double landing = (std::floor(s / landing_ + round_off) + 1) * landing_;
+  const double goal = std::min(landing > 1 - round_off ? 1.0 : landing, next_break());
+  const double parts = std::ceil((goal - s) / progress_.increment - round_off);
+  return parts <= 1 ? goal : s + (goal - s) / parts;
+}
+
+materials::TimeScheme Ramp::scheme(double dt) const {
+  if (!timed())
+    return options_.instantaneous ? materials::TimeScheme::frozen() : materials::TimeScheme::relaxed();
+  const double before = last().history ? last().history->step : 0;
+  return before > 0 ? materials::TimeScheme::bdf2(dt, before) : materials::TimeScheme::backward_euler(dt);
+}
+
+State Ramp::solve(State state, double s) {
+  const bool ends_at_break = std::abs(s - next_break()) < round_off && s < 1;
+  path_.apply(state, ends_at_break || (timed() && s >= 1) ? s - left_side : s);
+  const double dt = (s - progress_.load_factor) * options_.duration;
+  state.history = last().history;
+  state.time = last().time + dt;
+  state.scheme = scheme(dt);
+  newton_ = equilibrium_.solve(state, options_.newton, observer_.on_iteration);
+  return state;
+}
+
+bool Ramp::less_stable() const {
+  return newton_.outcome == Outcome::converged && progress_.negative_pivots >= 0 &&
+         newton_.unstable_modes > progress_.negative_pivots;
+}
+
+/// Forgets the past, in which the loads went elsewhere, and lets loads that jump here act at once, in parts.
+/// False where even the smallest part does not converge.
+bool Ramp::pass_break() {
+  progress_.at_break = false;
+  progress_.turns = true;
+  State state = last();
+  if (state.history && state.history->step > 0)
+    state.history = std::make_shared<const History>(History{state.history->now, {}, {}});
+  if (options_.first_time_step > 0)
+    progress_.increment = std::min(largest_, options_.first_time_step / options_.duration);
+  const DofMap& dofs = equilibrium_.model().dofs;
+  const Loads before = Loads::of(state, dofs);
+  State goal = state;
+  path_.apply(goal, progress_.load_factor);
+  const Loads after = Loads::of(goal, dofs);
+  state.scheme = materials::TimeScheme::frozen();
+  const double at = parameter(progress_.load_factor);
+  progress_.points = {{at, std::move(state)}};
+  jumped_ = before != after;
+  if (!jumped_) return true;
+  const LoadPath jump = linear_path(dofs, before, after);
+  double part = jump_part;
+  for (double done = 0; done < 1;) {
+    const double next = done + part > 1 - round_off ? 1.0 : done + part;
+    State trial = last();
+    jump.apply(trial, next);
+    newton_ = equilibrium_.solve(trial, options_.newton, observer_.on_iteration);
+    if (newton_.outcome != Outcome::converged) {
+      if ((part /= 2) < options_.smallest_increment) return false;
+      continue;
+    }
+    progress_.points = {{at, std::move(trial)}};
+    progress_.negative_pivots = newton_.unstable_modes;
+    if (next < 1) notify(false, next - done);
+    last_part_ = next - done;
+    done = next;
+  }
+  return true;
+}
+
+/// Largest local error of the internal variables, relative; 0 where the past is too short to tell.
+double Ramp::time_error(const History& past, const History& next) {
+  if (past.step_before == 0) return 0;
+  const double h = next.step, h1 = past.step, h2 = past.step_before;
+  // Newton's polynomial through now, before, older at h after now
+  const double scheme_error = h * h * (h + h1) * (h + h1) / (6 * (2 * h + h1));
+  const double predictor_error = h * (h + h1) * (h + h1 + h2) / 6;
+  const double share = scheme_error / (scheme_error + predictor_error);
+  double largest = 0;
+  for (std::size_t i = 0; i < next.now.size(); ++i) {
+    const double slope = (past.now[i] - past.before[i]) / h1;
+    const double slope_before = (past.before[i] - past.older[i]) / h2;
+    const double curvature = (slope - slope_before) / (h1 + h2);
+    const double predicted = past.now[i] + h * slope + h * (h + h1) * curvature;
+    largest = std::max(largest, std::abs(next.now[i] - predicted) / std::max(1.0, std::abs(next.now[i])));
+  }
+  return share * largest;
+}
+
+bool Ramp::accept(State state, std::shared_ptr<const History> history, double s) {
+  progress_.at_break = timed() && s < 1 && std::abs(s - next_break()) < round_off;
+  const bool lands = std::abs(s / landing_ - std::round(s / landing_)) < round_off || s >= 1;
+  state.history = std::move(history);
+  state.scheme = materials::TimeScheme::frozen(); // from here on the dashpots are where the history says
+  const double length = s - progress_.load_factor;
+  progress_.load_factor = s;
+  progress_.negative_pivots = newton_.unstable_modes;
+  progress_.points.push_back({parameter(s), std::move(state)});
+  if (progress_.points.size() > most_points) progress_.points.erase(progress_.points.begin());
+  return notify(lands, length);
+}
+
+/// Tells the observer; false when it wants to stop.
+bool Ramp::notify(bool lands, double length) {
+  const Increment increment{progress_.load_factor, newton_, lands, length, progress_.turns};
+  progress_.turns = false;
+  return !observer_.on_accept || observer_.on_accept(progress_, increment);
+}
+
+RampResult Ramp::run() {
+  progress_.points.back().parameter = parameter(progress_.load_factor);
+  while (progress_.load_factor < 1) {
+    if (timed() && progress_.at_break) {
+      if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
+      if (jumped_) {
+        const bool goes_on = notify(true, last_part_);
+        progress_.turns = true;
+        if (!goes_on) return {RampEnd::stopped};
+      }
+    }
+    const double s = next_load_factor();
+    const double tried = s - progress_.load_factor;
+    if (observer_.on_try) observer_.on_try(s);
+    State trial = solve(extrapolate(progress_.points, parameter(s)), s);
+    if ((newton_.outcome != Outcome::converged || less_stable()) && progress_.points.size() > 1)
+      trial = solve(last(), s); // the predictor may have led astray
+    if (newton_.outcome != Outcome::converged || (less_stable() && tried >= 2 * smallest_)) {
+      if (observer_.on_cutback) observer_.on_cutback(s, newton_);
+      progress_.increment = tried / 2;
+      if (progress_.increment < smallest_) return {RampEnd::gave_up, s, newton_};
+      continue;
+    }
+    auto history = equilibrium_.model().advanced_history(trial);
+    if (!timed()) {
+      progress_.increment = std::min(largest_, 2 * std::max(progress_.increment, tried));
+    } else {
+      const double error = history ? time_error(*trial.history, *history) : 0;
+      const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, tiny));
+      progress_.increment = std::min(largest_, tried * std::clamp(growth, 0.2, most_growth));
+      if (error > options_.time_tolerance && tried > smallest_) continue;
+    }
+    if (!accept(std::move(trial), std::move(history), s)) return {RampEnd::stopped};
+  }
+  return {RampEnd::complete};
 }
 
 } // namespace
 
-RampProgress RampProgress::begin(const State& state, const RampOptions& options) {
-  return {.start = {state.voltage, state.dead_force},
-          .increment = 1.0 / options.increments,
-          .points = {{0, state}}};
+RampProgress RampProgress::begin(const State& state, const DofMap& dofs, const RampOptions& options) {
+  const double largest = 1.0 / options.increments;
+  return {.start = Loads::of(state, dofs), .increment = largest, .points = {{0, state}}};
 }
 
-RampResult ramp(Equilibrium& equilibrium, const RampTarget& target, const RampOptions& options,
+RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,
                 RampProgress& progress, const RampObserver& observer) {
-  const Path path(progress.start, target);
-  const double nominal = 1.0 / options.increments;
-  progress.points.back().parameter = path.parameter(progress.load_factor);
-  RampResult result;
-  NewtonResult newton;
-  const auto less_stable = [&] {
-    return newton.outcome == Outcome::converged && progress.negative_pivots >= 0 &&
-           newton.negative_pivots > progress.negative_pivots;
-  };
-  while (progress.load_factor < 1) {
-    const double s = next_load_factor(progress, nominal);
-    const double tried = s - progress.load_factor;
-    if (observer.on_try) observer.on_try(s);
-    const auto solve_from = [&](State state) {
-      path.apply(state, s);
-      newton = equilibrium.solve(state, options.newton, observer.on_iteration);
-      return state;
-    };
-    State trial = solve_from(extrapolate(progress.points, path.parameter(s)));
-    if ((newton.outcome != Outcome::converged || less_stable()) && progress.points.size() > 1)
-      trial = solve_from(progress.points.back().state); // the predictor may have led astray
-    if (newton.outcome != Outcome::converged || (less_stable() && tried >= 2 * options.smallest_increment)) {
-      if (observer.on_cutback) observer.on_cutback(s, newton);
-      result.failed_at = s;
-      result.failure = newton;
-      progress.increment = tried / 2;
-      if (progress.increment < options.smallest_increment) {
-        result.end = RampEnd::gave_up;
-        return result;
-      }
-      continue;
-    }
-    progress.load_factor = s;
-    progress.increment = std::min(nominal, 2 * std::max(progress.increment, tried));
-    progress.negative_pivots = newton.negative_pivots;
-    progress.points.push_back({path.parameter(s), std::move(trial)});
-    if (progress.points.size() > most_points) progress.points.erase(progress.points.begin());
-    if (observer.on_accept && !observer.on_accept(progress, {s, newton})) {
-      result.end = RampEnd::stopped;
-      return result;
-    }
-  }
-  result.end = RampEnd::complete;
-  return result;
+  return Ramp(equilibrium, path, options, progress, observer).run();
 }
 
 } // namespace dielast::fem

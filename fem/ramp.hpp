@@ -1,38 +1,43 @@
 #pragma once
 
 #include "fem/equilibrium.hpp"
+#include "fem/load_path.hpp"
 
 namespace dielast::fem {
 
-/// What a step ramps: from the state's own voltages and dead forces to these.
-struct RampTarget {
-  std::vector<double> voltage; ///< V, per electrode
-  Eigen::VectorXd dead_force;  ///< per equation
-};
-
 struct RampOptions {
   NewtonOptions newton;
-  int increments = 1;
+  int increments = 1;               ///< the largest increment is this part of the step
   double smallest_increment = 1e-3; ///< of the load factor; a step that needs less gives up
+  double landing = 0;  ///< load factors at whose multiples a result is wanted; 0: at every 1/increments
+  double duration = 0; ///< s; 0: no time passes
+  bool instantaneous = false;   ///< no time passes: dashpots stay as they are; otherwise they flow to the end
+  double time_tolerance = 1e-6; ///< local error of the internal variables per increment, relative
+  double first_time_step = 0;   ///< s, after every break; 0: the largest increment
 };
 
 /// What an accepted increment was like.
 struct Increment {
   double load_factor = 0;
   NewtonResult newton;
+  bool lands = true;  ///< a result was wanted here
+  double length = 1;  ///< of the path from the last accepted state, in a parameter in which it is smooth
+  bool turns = false; ///< the path had a corner at the last accepted state
 };
 
 /// Where a ramp stands between two increments. A value: stored with the state it lets a run go on bit for
 /// bit.
 struct RampProgress {
-  RampTarget start;              ///< loads at load factor 0
+  Loads start;                   ///< at load factor 0
   double load_factor = 0;        ///< of the last accepted increment
   double increment = 0;          ///< next to be tried, of the load factor
+  bool at_break = true;          ///< loads may jump now: dashpots stay, the time scheme starts again
+  bool turns = true;             ///< the path has a corner at the last accepted state
   int negative_pivots = -1;      ///< of the branch being followed; -1 before the first increment
   std::vector<PathPoint> points; ///< last accepted states, oldest first, for the predictor
 
   /// Nothing done yet: the ramp starts from the loads that `state` carries.
-  static RampProgress begin(const State& state, const RampOptions& options);
+  static RampProgress begin(const State& state, const DofMap& dofs, const RampOptions& options);
 };
 
 /// Watches a ramp. Every method may be left out.
@@ -52,13 +57,21 @@ struct RampResult {
   NewtonResult failure{}; ///< how it failed
 };
 
-/// Load control: voltages and dead forces grow linearly with the load factor s in 0..1 in equal increments.
-/// Each solve starts from a polynomial in the largest Phi^2 (the parameter in which the film's energy is
-/// linear) through up to four earlier states. An increment that fails, or that lands on a less stable branch,
-/// is halved; after successes it grows back. A branch that is less stable even after the smallest increment
-/// is followed: the change of inertia is then a bifurcation, not a limit point.
+/// Load control: the loads follow `path` while the load factor s grows from 0 to 1 and, if the step has a
+/// duration, time passes with it.
+///
+/// Each solve starts from a polynomial in the path's parameter through up to four earlier states. An
+/// increment that fails, or that lands on a less stable branch, is halved; after successes it grows back. A
+/// branch that is less stable even after the smallest increment is followed: the change of inertia is then a
+/// bifurcation, not a limit point.
+///
+/// In time the dashpots go by BDF2, after a break by one backward Euler step. The local error is estimated
+/// from the distance to the polynomial through the last three accepted internal variables (Milne's device);
+/// steps grow at most by two. Loads that jump at a break act at once, with the dashpots as they are: in
+/// parts, so that their work can be told.
+///
 /// `progress.points.back().state` is the last accepted state.
-RampResult ramp(Equilibrium& equilibrium, const RampTarget& target, const RampOptions& options,
+RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,
                 RampProgress& progress, const RampObserver& observer);
 
 } // namespace dielast::fem

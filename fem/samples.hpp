@@ -1,5 +1,7 @@
 #pragma once
 
+#include "materials/tension_field.hpp"
+
 #include <Eigen/Core>
 
 #include <vector>
@@ -13,11 +15,12 @@ struct MembraneSample {
   Eigen::Matrix<double, 3, 2> F; ///< dx/dX, from the UNSTRETCHED film to the current surface
   Eigen::Matrix2d
       S; ///< second Piola-Kirchhoff stress, elastic + electrostatic, Pa, w.r.t. the unstretched film
-  double thickness = 0;       ///< undeformed thickness H, m
-  double voltage = 0;         ///< Phi across the film here, V; 0 outside every electrode
-  int electrode = -1;         ///< number of the electrode that covers it; -1: none
-  double permittivity = 0;    ///< eps, F/m
-  double breakdown_field = 0; ///< true field at which this film breaks down, V/m
+  double widening = 1;          ///< area of the film itself over that of F: more than 1 where it is wrinkled
+  materials::Tension tension{}; ///< by the principal stresses, or as the relaxed film found it
+  double thickness = 0;         ///< undeformed thickness H, m
+  double voltage = 0;           ///< Phi across the film here, V; 0 outside every electrode
+  int electrode = -1;           ///< number of the electrode that covers it; -1: none
+  double breakdown_field = 0;   ///< true field at which this film breaks down, V/m
 };
 
 /// A wall at one integration point. Components: 1 along the wall, 2 across it in the film's plane, 3 normal

@@ -1,12 +1,23 @@
 #pragma once
 
+#include "materials/time_scheme.hpp"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace dielast::fem {
+
+/// What the material remembers: the internal variables of all blocks (see ElementBlock::history_size) at the
+/// last accepted times, newest first. Never changed once made, so that states share it.
+struct History {
+  std::vector<double> now, before, older;
+  double step = 0, step_before = 0; ///< s, between now and before, before and older; 0: there is no such past
+};
 
 /// All that changes while a model is loaded. A value: a copy is a cutback, a serialised one is a restart.
 struct State {
@@ -14,6 +25,11 @@ struct State {
   std::vector<Eigen::Quaterniond> rotation; ///< per node, from the mesh as drawn; the sign is kept continuous
   std::vector<double> voltage;              ///< per electrode, V
   Eigen::VectorXd dead_force;               ///< per equation (see DofMap): N, or N m for rotations
+  std::vector<std::uint8_t> isolated; ///< per electrode: 1 where the charge is given and the voltage follows
+  std::vector<double> charge;         ///< per electrode, C: the given charge of an isolated one
+  double time = 0;                    ///< s
+  materials::TimeScheme scheme;       ///< how the branches get here from `history`; frozen in accepted states
+  std::shared_ptr<const History> history; ///< null: no block has internal variables
 };
 
 /// Rotation by the vector `spin` (rad).

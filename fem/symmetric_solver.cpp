@@ -75,29 +75,33 @@ struct SymmetricSolver::Cholesky {
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  bool factor(const SparseSymmetric& matrix) {
+  bool factor(const std::vector<double>& values) {
     const OneThread one_thread;
-    A.x = const_cast<double*>(matrix.values.data());
+    A.x = const_cast<double*>(values.data());
     cholmod_factorize(&A, L, &common);
     if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     return common.status == CHOLMOD_OK && L->minor == A.nrow;
   }
-  /// Smallest pivot over the diagonal entry that it came from: round-off when the matrix is singular,
-  /// whatever the units.
-  double smallest_relative_pivot(const SparseSymmetric& matrix) const {
+  struct Pivot {
+    double relative = 1; ///< over the diagonal entry that it came from: no units
+    int equation = -1;
+  };
+  /// Round-off when the matrix is singular.
+  Pivot smallest_pivot(const std::vector<double>& entries) const {
     const auto* super = static_cast<const int*>(L->super);
     const auto* row_start = static_cast<const int*>(L->pi);
     const auto* value_start = static_cast<const int*>(L->px);
     const auto* permutation = static_cast<const int*>(L->Perm);
     const auto* values = static_cast<const double*>(L->x);
-    double smallest = 1;
+    const auto* column_start = static_cast<const int*>(A.p);
+    Pivot smallest;
     for (std::size_t s = 0; s < L->nsuper; ++s)
       for (int k = super[s]; k < super[s + 1]; ++k) {
         const int column = k - super[s], height = row_start[s + 1] - row_start[s];
         const double root = values[value_start[s] + column + column * height];
-        const auto diagonal =
-            static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(permutation[k])]);
-        smallest = std::min(smallest, root * root / matrix.values[diagonal]);
+        const int equation = permutation[k];
+        const double relative = root * root / entries[static_cast<std::size_t>(column_start[equation])];
+        if (relative < smallest.relative) smallest = {relative, equation};
       }
     return smallest;
   }
@@ -155,14 +159,17 @@ struct SymmetricSolver::Indefinite {
     mumps.job = job;
     dmumps_c(&mumps);
   }
-  bool factor(const SparseSymmetric& matrix) {
+  bool factor(const std::vector<double>& values) {
     constexpr int workspace_too_small = -9;
-    mumps.a = const_cast<double*>(matrix.values.data());
+    mumps.a = const_cast<double*>(values.data());
     for (call(2); mumps.infog[0] == workspace_too_small && mumps.icntl[13] < 1000; call(2))
       mumps.icntl[13] *= 2;
     return mumps.infog[0] >= 0 && mumps.infog[27] == 0;
   }
   int negative_pivots() const { return mumps.infog[11]; }
+  int singular_equation() const {
+    return mumps.infog[0] >= 0 && mumps.infog[27] > 0 ? mumps.pivnul_list[0] - 1 : -1;
+  }
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
     x = b;
     mumps.rhs = x.data();
@@ -174,20 +181,35 @@ struct SymmetricSolver::Indefinite {
 };
 
 SymmetricSolver::SymmetricSolver(const SparseSymmetric& matrix)
-    : matrix_(matrix), cholesky_(std::make_unique<Cholesky>(matrix)) {}
+    : matrix_(matrix), cholesky_(matrix.size > 0 ? std::make_unique<Cholesky>(matrix) : nullptr) {}
 SymmetricSolver::~SymmetricSolver() = default;
 
-bool SymmetricSolver::factor() {
-  definite_ = cholesky_->factor(matrix_);
-  if (definite_) return cholesky_->smallest_relative_pivot(matrix_) > singular_pivot;
+bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
+  if (!cholesky_) return true; // no unknowns
+  if (added) {
+    shifted_ = matrix_.values;
+    for (int c = 0; c < matrix_.size; ++c)
+      shifted_[static_cast<std::size_t>(matrix_.column_start[static_cast<std::size_t>(c)])] += (*added)[c];
+  }
+  const std::vector<double>& values = added ? shifted_ : matrix_.values;
+  definite_ = cholesky_->factor(values);
+  if (definite_) {
+    const auto [relative, equation] = cholesky_->smallest_pivot(values);
+    singular_equation_ = equation;
+    return relative > singular_pivot;
+  }
   if (!indefinite_) indefinite_ = std::make_unique<Indefinite>(matrix_);
-  return indefinite_->factor(matrix_);
+  const bool regular = indefinite_->factor(values);
+  singular_equation_ = indefinite_->singular_equation();
+  return regular;
 }
 
 int SymmetricSolver::negative_pivots() const { return definite_ ? 0 : indefinite_->negative_pivots(); }
 
 void SymmetricSolver::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  if (definite_)
+  if (!cholesky_)
+    x.resize(0);
+  else if (definite_)
     cholesky_->solve(b, x);
   else
     indefinite_->solve(b, x);

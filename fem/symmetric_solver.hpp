@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <vector>
 
 namespace dielast::fem {
 
@@ -20,8 +21,11 @@ class SymmetricSolver {
   SymmetricSolver(const SymmetricSolver&) = delete;
   SymmetricSolver& operator=(const SymmetricSolver&) = delete;
 
-  /// Factors the current values. False: singular to working precision, no solve possible.
-  [[nodiscard]] bool factor();
+  /// Factors the current values, with `added` on the diagonal where it is given. False: singular to working
+  /// precision, no solve possible.
+  [[nodiscard]] bool factor(const Eigen::VectorXd* added = nullptr);
+  /// After a factor() that failed: the equation whose pivot vanished, -1 where that is not known.
+  int singular_equation() const { return singular_equation_; }
   /// Number of negative eigenvalues of the matrix last factored; 0 means positive definite.
   int negative_pivots() const;
   /// x with A x = b, size entries each. Requires a successful factor().
@@ -33,7 +37,9 @@ class SymmetricSolver {
   const SparseSymmetric& matrix_;
   std::unique_ptr<Cholesky> cholesky_;
   std::unique_ptr<Indefinite> indefinite_; ///< made when first needed
+  std::vector<double> shifted_;            ///< values with something on the diagonal
   bool definite_ = true;
+  int singular_equation_ = -1;
 };
 
 } // namespace dielast::fem

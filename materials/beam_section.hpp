@@ -8,19 +8,23 @@ namespace dielast::materials {
 
 /// Isotropic linear elastic solid, for frames and printed walls.
 struct ElasticSolid {
-  static constexpr std::array parameters{
-      Parameter{.name = "youngs_modulus", .unit = "Pa", .meaning = "Young's modulus E"},
-      Parameter{.name = "poisson_ratio",
-                .unit = "1",
-                .meaning = "Poisson's ratio nu",
-                .above = -1,
-                .below = 0.5000001},
-      Parameter{.name = "yield_strain", .unit = "1", .meaning = "strain at yield", .fallback = 0.55},
-  };
-
   double youngs_modulus = 0;  ///< E, Pa
   double poisson_ratio = 0;   ///< nu
   double yield_strain = 0.55; ///< TPU: 55 %
+
+  static constexpr std::array parameters{
+      ParameterOf<ElasticSolid>{{.name = "youngs_modulus", .unit = "Pa", .meaning = "Young's modulus E"},
+                                &ElasticSolid::youngs_modulus},
+      ParameterOf<ElasticSolid>{{.name = "poisson_ratio",
+                                 .unit = "1",
+                                 .meaning = "Poisson's ratio nu",
+                                 .above = -1,
+                                 .below = 0.5000001},
+                                &ElasticSolid::poisson_ratio},
+      ParameterOf<ElasticSolid>{
+          {.name = "yield_strain", .unit = "1", .meaning = "strain at yield", .fallback = 0.55},
+          &ElasticSolid::yield_strain},
+  };
 };
 
 /// Stiffnesses of a beam's cross-section. Axis 1 is the beam's tangent, 2 lies across it in the film's plane,

@@ -57,6 +57,11 @@ struct Dual {
     return a.chain(root, 0.5 / root, -0.25 / (root * a.value));
   }
   friend Dual log(const Dual& a) { return a.chain(std::log(a.value), 1 / a.value, -1 / (a.value * a.value)); }
+  friend Dual pow(const Dual& a, double exponent) {
+    const double power = std::pow(a.value, exponent);
+    return a.chain(power, exponent * power / a.value,
+                   exponent * (exponent - 1) * power / (a.value * a.value));
+  }
   friend Dual sin(const Dual& a) { return a.chain(std::sin(a.value), std::cos(a.value), -std::sin(a.value)); }
   friend Dual cos(const Dual& a) {
     return a.chain(std::cos(a.value), -std::sin(a.value), -std::cos(a.value));

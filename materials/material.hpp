@@ -1,21 +1,20 @@
 #pragma once
 
-#include "materials/ideal_dielectric.hpp"
-#include "materials/neo_hookean.hpp"
+#include "materials/branch.hpp"
+#include "materials/dielectric.hpp"
+#include "materials/elastic_law.hpp"
 
-#include <variant>
+#include <vector>
 
 namespace dielast::materials {
 
-/// The registry of equilibrium laws: a new law is one more alternative.
-using ElasticLaw = std::variant<NeoHookean>;
-
-/// What a film is made of: an equilibrium law and a dielectric, composed into one potential (see
-/// plane_stress.hpp).
+/// What a film is made of: an equilibrium law, a dielectric, and Maxwell branches beside the law, composed
+/// into one potential (see plane_stress.hpp and branch.hpp).
 struct Material {
   ElasticLaw law;
-  IdealDielectric dielectric;
+  Dielectric dielectric;
   double density = 960; ///< kg/m^3
+  std::vector<Branch> branches;
 };
 
 } // namespace dielast::materials

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace dielast::materials {
 
@@ -16,5 +17,15 @@ struct Parameter {
   double below = std::numeric_limits<double>::infinity(); ///< and smaller than this
   std::optional<double> fallback{};                       ///< default in SI; none: the user must give it
 };
+
+/// A parameter and the member of S that holds it: one number, or a list of them (the other is null).
+template<class S>
+struct ParameterOf : Parameter {
+  double S::*number = nullptr;
+  std::vector<double> S::*list = nullptr;
+};
+
+/// `above` of a parameter that may be negative.
+constexpr double any_sign = -std::numeric_limits<double>::infinity();
 
 } // namespace dielast::materials

@@ -1,5 +1,6 @@
 #include "post/checkpoint.hpp"
 
+#include <array>
 #include <cstring>
 #include <stdexcept>
 
@@ -13,21 +14,50 @@ namespace {
   throw std::runtime_error("the checkpoint belongs to another case or version");
 }
 
+json pack(const Eigen::VectorXd& values) {
+  return post::pack({values.data(), static_cast<std::size_t>(values.size())});
+}
+
+Eigen::VectorXd vector(const json& packed) {
+  const std::vector<double> values = unpack(packed);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+Eigen::VectorXd vector(const json& packed, std::size_t size) {
+  Eigen::VectorXd values = vector(packed);
+  if (values.size() != static_cast<Eigen::Index>(size)) mismatch();
+  return values;
+}
+
+json archive(const fem::History& history) {
+  return {{"now", post::pack(history.now)},
+          {"before", post::pack(history.before)},
+          {"older", post::pack(history.older)},
+          {"steps", {history.step, history.step_before}}};
+}
+
 json archive(const fem::State& state) {
   std::vector<double> rotations;
   rotations.reserve(4 * state.rotation.size());
   for (const auto& q : state.rotation)
     rotations.insert(rotations.end(), q.coeffs().begin(), q.coeffs().end());
-  return {{"displacement", pack({state.displacement.front().data(), 3 * state.displacement.size()})},
-          {"rotation", pack(rotations)},
-          {"voltage", pack(state.voltage)},
-          {"dead_force", pack({state.dead_force.data(), static_cast<std::size_t>(state.dead_force.size())})}};
+  const auto& scheme = state.scheme;
+  return {{"displacement", post::pack({state.displacement.front().data(), 3 * state.displacement.size()})},
+          {"rotation", post::pack(rotations)},
+          {"voltage", post::pack(state.voltage)},
+          {"isolated", state.isolated},
+          {"charge", post::pack(state.charge)},
+          {"dead_force", pack(state.dead_force)},
+          {"time", state.time},
+          {"scheme", post::pack(std::array{scheme.dt, scheme.a0, scheme.h1, scheme.h2})},
+          {"history", state.history ? archive(*state.history) : json(nullptr)}};
 }
 
-Eigen::VectorXd vector(const json& packed, std::size_t size) {
-  const std::vector<double> values = unpack(packed);
-  if (values.size() != size) mismatch();
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(size));
+std::shared_ptr<const fem::History> restore_history(const json& archived) {
+  if (archived.is_null()) return nullptr;
+  return std::make_shared<const fem::History>(
+      fem::History{unpack(archived.at("now")), unpack(archived.at("before")), unpack(archived.at("older")),
+                   archived.at("steps").at(0), archived.at("steps").at(1)});
 }
 
 fem::State restore_state(const json& archived, std::size_t nodes, std::size_t equations) {
@@ -40,8 +70,38 @@ fem::State restore_state(const json& archived, std::size_t nodes, std::size_t eq
     state.rotation.emplace_back(&rotation[4 * n]);
   }
   state.voltage = unpack(archived.at("voltage"));
+  state.isolated = archived.at("isolated").get<std::vector<std::uint8_t>>();
+  state.charge = unpack(archived.at("charge"));
   state.dead_force = vector(archived.at("dead_force"), equations);
+  state.time = archived.at("time");
+  const std::vector<double> scheme = unpack(archived.at("scheme"));
+  if (scheme.size() != 4) mismatch();
+  state.scheme = {scheme[0], scheme[1], scheme[2], scheme[3]};
+  state.history = restore_history(archived.at("history"));
   return state;
+}
+
+json archive(const fem::EnergyPoint& point) {
+  const fem::EnergyParts& e = point.energy;
+  return {
+      {"place", post::pack(std::array{point.parameter, point.time})},
+      {"force", pack(point.force)},
+      {"position", pack(point.position)},
+      {"voltage", post::pack(point.voltage)},
+      {"charge", post::pack(point.charge)},
+      {"energy", post::pack(std::array{e.elastic, e.branches, e.electric, e.regularised, e.dissipation})}};
+}
+
+fem::EnergyPoint restore_point(const json& archived) {
+  const std::vector<double> place = unpack(archived.at("place")), energy = unpack(archived.at("energy"));
+  if (place.size() != 2 || energy.size() != 5) mismatch();
+  return {place[0],
+          place[1],
+          vector(archived.at("force")),
+          vector(archived.at("position")),
+          unpack(archived.at("voltage")),
+          unpack(archived.at("charge")),
+          {energy[0], energy[1], energy[2], energy[3], energy[4]}};
 }
 
 } // namespace
@@ -63,26 +123,90 @@ json archive(const fem::RampProgress& progress) {
   json points = json::array();
   for (const auto& point : progress.points)
     points.push_back({{"parameter", point.parameter}, {"state", archive(point.state)}});
-  const auto& force = progress.start.dead_force;
-  return {{"start_voltage", pack(progress.start.voltage)},
-          {"start_force", pack({force.data(), static_cast<std::size_t>(force.size())})},
+  return {{"start",
+           {post::pack(progress.start.voltage), post::pack(progress.start.charge),
+            pack(progress.start.dead_force), pack(progress.start.held)}},
           {"load_factor", progress.load_factor},
           {"increment", progress.increment},
+          {"at_break", progress.at_break},
+          {"turns", progress.turns},
           {"negative_pivots", progress.negative_pivots},
           {"points", std::move(points)}};
 }
 
-fem::RampProgress restore(const json& archived, std::size_t nodes, std::size_t equations) {
+fem::RampProgress restore_ramp(const json& archived, std::size_t nodes, std::size_t equations) {
   try {
     fem::RampProgress progress;
-    progress.start = {unpack(archived.at("start_voltage")), vector(archived.at("start_force"), equations)};
+    const json& start = archived.at("start");
+    progress.start = {unpack(start.at(0)), unpack(start.at(1)), vector(start.at(2)), vector(start.at(3))};
     progress.load_factor = archived.at("load_factor");
     progress.increment = archived.at("increment");
+    progress.at_break = archived.at("at_break");
+    progress.turns = archived.at("turns");
     progress.negative_pivots = archived.at("negative_pivots");
     for (const json& point : archived.at("points"))
       progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), nodes, equations)});
     if (progress.points.empty()) mismatch();
     return progress;
+  } catch (const json::exception&) {
+    mismatch();
+  }
+}
+
+json archive(const fem::ContinuationProgress& progress) {
+  return {{"state", archive(progress.state)},
+          {"direction", pack(progress.direction)},
+          {"numbers", post::pack(std::array{progress.load_factor, progress.load_direction, progress.arc,
+                                            progress.last_arc, progress.newton.residual})},
+          {"counts",
+           {progress.steps, progress.newton.iterations, progress.newton.negative_pivots,
+            progress.newton.unstable_modes}}};
+}
+
+fem::ContinuationProgress restore_continuation(const json& archived, std::size_t nodes,
+                                               std::size_t equations) {
+  try {
+    const std::vector<double> numbers = unpack(archived.at("numbers"));
+    const json& counts = archived.at("counts");
+    if (numbers.size() != 5) mismatch();
+    fem::ContinuationProgress progress{restore_state(archived.at("state"), nodes, equations),
+                                       numbers[0],
+                                       vector(archived.at("direction")),
+                                       numbers[1],
+                                       numbers[2],
+                                       numbers[3],
+                                       counts.at(0),
+                                       {}};
+    progress.newton.residual = numbers[4];
+    progress.newton.iterations = counts.at(1);
+    progress.newton.negative_pivots = counts.at(2);
+    progress.newton.unstable_modes = counts.at(3);
+    return progress;
+  } catch (const json::exception&) {
+    mismatch();
+  }
+}
+
+json archive(const fem::EnergyBalance::Record& record) {
+  const fem::Work& w = record.settled;
+  json window = json::array();
+  for (const fem::EnergyPoint& point : record.window) window.push_back(archive(point));
+  return {{"settled", post::pack(std::array{w.electrical, w.mechanical, w.dissipated, w.released})},
+          {"stored_at_start", record.stored_at_start},
+          {"first_settled", record.first_settled},
+          {"window", std::move(window)}};
+}
+
+fem::EnergyBalance::Record restore_energy(const json& archived) {
+  try {
+    const std::vector<double> settled = unpack(archived.at("settled"));
+    if (settled.size() != 4) mismatch();
+    fem::EnergyBalance::Record record{{settled[0], settled[1], settled[2], settled[3]},
+                                      archived.at("stored_at_start"),
+                                      archived.at("first_settled"),
+                                      {}};
+    for (const json& point : archived.at("window")) record.window.push_back(restore_point(point));
+    return record;
   } catch (const json::exception&) {
     mismatch();
   }

@@ -10,19 +10,19 @@ FilmPoint::FilmPoint(const fem::MembraneSample& sample) : sample(sample) {
   const auto& F = sample.F;
   C.noalias() = F.transpose() * F;
   const Eigen::Vector3d area = F.col(0).cross(F.col(1));
-  const double area_stretch = area.norm();
+  const double given_stretch = area.norm(), area_stretch = given_stretch * sample.widening;
 
   const double half_difference = (C(0, 0) - C(1, 1)) / 2;
   const double radius = std::hypot(half_difference, C(0, 1));
   stretch(0) = std::sqrt((C(0, 0) + C(1, 1)) / 2 + radius);
-  stretch(1) = area_stretch / stretch(0); // not the other root: it cancels when the stretches differ much
+  stretch(1) = given_stretch / stretch(0); // not the other root: it cancels when the stretches differ much
   stretch(2) = 1 / area_stretch;
 
   const double angle = std::atan2(C(0, 1), half_difference) / 2;
   Eigen::Matrix2d material; // columns: principal directions in the unstretched film
   material << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   direction.col(0) = (F * material.col(0)).normalized();
-  direction.col(2) = area / area_stretch;
+  direction.col(2) = area / given_stretch;
   direction.col(1) = direction.col(2).cross(direction.col(0));
 
   cauchy = F * sample.S * F.transpose();
@@ -102,9 +102,7 @@ const std::vector<FilmField> film_table{
      "1",
      {},
      "number of compressive principal stresses: 0 taut, 1 wrinkled, 2 slack",
-     [](const FilmPoint& p, double* v) {
-       *v = static_cast<double>((p.principal_stress.array() < 0).count());
-     }},
+     [](const FilmPoint& p, double* v) { *v = static_cast<double>(p.sample.tension); }},
     {"voltage",
      "V",
      {},

@@ -51,13 +51,33 @@ bool has_points(const Series& series) {
   return false;
 }
 
+/// Of long series every bunch of neighbours is drawn by its first, lowest and highest point: no more can be
+/// seen.
+std::vector<std::size_t> drawn_points(const Series& series) {
+  constexpr std::size_t bunches = 400;
+  const std::size_t count = std::min(series.x.size(), series.y.size());
+  const std::size_t bunch = std::max<std::size_t>(1, count / bunches);
+  std::vector<std::size_t> drawn;
+  for (std::size_t first = 0; first < count; first += bunch) {
+    const auto begin = series.y.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = series.y.begin() + static_cast<std::ptrdiff_t>(std::min(first + bunch, count));
+    const auto [low, high] = std::minmax_element(begin, end);
+    for (const auto at : {begin, std::min(low, high), std::max(low, high)}) {
+      const auto k = static_cast<std::size_t>(at - series.y.begin());
+      if (drawn.empty() || k > drawn.back()) drawn.push_back(k);
+    }
+  }
+  if (count > 0 && drawn.back() != count - 1) drawn.push_back(count - 1);
+  return drawn;
+}
+
 std::string script(const Plot& plot) {
   std::string data, curves;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& series = plot.series[i];
     if (!has_points(series)) continue;
     data += fmt::format("$series{} << END\n", i);
-    for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k)
+    for (const std::size_t k : drawn_points(series))
       data += number(series.x[k]) + " " + number(series.y[k]) + "\n";
     data += "END\n";
     const char* with = series.style == Series::Style::line     ? "lines"

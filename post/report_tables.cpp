@@ -80,9 +80,9 @@ Table increment_table(std::span<const StepRecord> records) {
     table.rows.push_back({fmt::to_string(record.index), record.step, load_text(record),
                           engineering(voltage, "V"), fmt::to_string(record.iterations),
                           fmt::format("{:.1e}", record.residual),
-                          record.negative_pivots == 0
+                          record.unstable_modes == 0
                               ? Cell{"stable"}
-                              : Cell{fmt::format("unstable ({})", record.negative_pivots), Tone::warning}});
+                              : Cell{fmt::format("unstable ({})", record.unstable_modes), Tone::warning}});
   }
   return table;
 }

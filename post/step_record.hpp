@@ -19,10 +19,11 @@ struct StepRecord {
   int index = 0;                ///< 0 is the state in which the mesh was drawn
   std::string step;             ///< name of the step, e.g. "release"
   double load_factor = 0;       ///< 0..1 within the step
+  double time = 0;              ///< s
   std::vector<double> voltages; ///< V, one per electrode
   int iterations = 0;           ///< Newton iterations that this increment took
   double residual = 0;          ///< relative norm on acceptance
-  int negative_pivots = 0;      ///< of the tangent; 0 is a stable state
+  int unstable_modes = 0;       ///< under the control of the electrodes; 0 is a stable state
   std::vector<Event> events;
 
   double largest_voltage() const {

@@ -81,11 +81,9 @@ class VtkSeries::PartFile {
     }
     grid_->SetCells(vtk_type(block.type), cells);
 
-    displacement_->SetName("displacement [m]");
-    displacement_->SetNumberOfComponents(3);
-    displacement_->SetNumberOfTuples(static_cast<vtkIdType>(nodes_.size()));
-    for (const int i : {0, 1, 2}) displacement_->SetComponentName(i, std::string(1, "xyz"[i]).c_str());
+    prepare(displacement_, "displacement [m]");
     grid_->GetPointData()->SetVectors(displacement_);
+    prepare(mode_, "mode");
 
     time_->SetName("TimeValue");
     time_->SetNumberOfTuples(1);
@@ -106,11 +104,12 @@ class VtkSeries::PartFile {
   std::string_view name() const { return part_ == Part::film ? "film" : "walls"; }
 
   std::string content(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
-                      const fem::Samples& samples) {
-    double* values = displacement_->GetPointer(0);
-    for (const int node : nodes_)
-      values = std::copy_n(displacement[static_cast<std::size_t>(node)].data(), 3, values);
-    displacement_->Modified();
+                      const fem::Samples& samples, std::span<const Eigen::Vector3d> mode) {
+    fill(displacement_, displacement);
+    if (!mode.empty()) {
+      fill(mode_, mode);
+      grid_->GetPointData()->AddArray(mode_);
+    }
     time_->SetValue(0, time);
     step_->SetValue(0, std::string(step));
     if (part_ == Part::film)
@@ -123,13 +122,26 @@ class VtkSeries::PartFile {
     step_->Modified();
     for (vtkAbstractArray* kept :
          {static_cast<vtkAbstractArray*>(grid_->GetPoints()->GetData()),
-          static_cast<vtkAbstractArray*>(displacement_), static_cast<vtkAbstractArray*>(time_)})
+          static_cast<vtkAbstractArray*>(displacement_), static_cast<vtkAbstractArray*>(mode_),
+          static_cast<vtkAbstractArray*>(time_)})
       kept->GetInformation()->Clear();
     if (writer_->Write() == 0) throw std::runtime_error("VTK could not encode a step");
     return writer_->GetOutputString();
   }
 
  private:
+  void prepare(vtkDoubleArray* array, const char* name) const {
+    array->SetName(name);
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(nodes_.size()));
+    for (const int i : {0, 1, 2}) array->SetComponentName(i, std::string(1, "xyz"[i]).c_str());
+  }
+  void fill(vtkDoubleArray* array, std::span<const Eigen::Vector3d> vectors) const {
+    double* values = array->GetPointer(0);
+    for (const int node : nodes_)
+      values = std::copy_n(vectors[static_cast<std::size_t>(node)].data(), 3, values);
+    array->Modified();
+  }
   template<class Sample, class Point>
   void set_cell_data(const std::vector<Sample>& samples, std::span<const Field<Point>> fields) {
     const auto averages = average(samples, fields, cell_count_);
@@ -142,7 +154,7 @@ class VtkSeries::PartFile {
   int cell_count_;
   std::vector<int> nodes_; ///< the mesh's nodes that the part uses; a mesh node per point of the grid
   vtkNew<vtkUnstructuredGrid> grid_;
-  vtkNew<vtkDoubleArray> displacement_;
+  vtkNew<vtkDoubleArray> displacement_, mode_;
   vtkNew<vtkDoubleArray> time_;
   vtkNew<vtkStringArray> step_;
   vtkNew<vtkXMLUnstructuredGridWriter> writer_;
@@ -179,12 +191,12 @@ std::string VtkSeries::file_name(std::string_view part, int step) const {
 }
 
 void VtkSeries::write(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
-                      const fem::Samples& samples) {
+                      const fem::Samples& samples, std::span<const Eigen::Vector3d> mode) {
   const int index = static_cast<int>(entries_.size() / std::max<std::size_t>(parts_.size(), 1));
   std::vector<std::string> entries;
   for (const auto& part : parts_) {
     const std::string file = file_name(part->name(), index);
-    replace_file(directory_ / file, part->content(time, step, displacement, samples));
+    replace_file(directory_ / file, part->content(time, step, displacement, samples, mode));
     entries.push_back(fmt::format(R"(    <DataSet timestep="{}" part="{}" name="{}" file="{}"/>)", time,
                                   entries.size(), part->name(), escape_markup(file)));
   }

@@ -32,9 +32,9 @@ class VtkSeries {
   VtkSeries(VtkSeries&&) noexcept;
 
   /// Adds a step. `time` in s, or a pseudo-time that grows with the steps; `displacement` per mesh node, m.
-  /// Throws WriteError.
+  /// `mode`, if any: a vector per mesh node, written as point data "mode". Throws WriteError.
   void write(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
-             const fem::Samples& samples);
+             const fem::Samples& samples, std::span<const Eigen::Vector3d> mode = {});
 
  private:
   class PartFile;

@@ -12,7 +12,7 @@ namespace {
 constexpr int order = 2, integration_points = 6;
 constexpr bool curved = false;
 
-const materials::Material film{materials::NeoHookean{45e3}, materials::IdealDielectric{4e-11, 100e6}, 960};
+const materials::Material film{materials::NeoHookean{45e3}, materials::Dielectric{4e-11, 100e6}, 960};
 
 int node_on_x_axis(const meshing::Mesh& mesh, const std::string& place) {
   for (const int n : mesh.node_sets.at(place)) {
@@ -50,7 +50,9 @@ Task partial_electrode_disc(int rings) {
   hold(task, "rim", {0, 1});
   task.model.dofs.number();
   task.node = node_on_x_axis(task.mesh, "electrode_edge");
-  task.steps = {{{{5e3}, Eigen::VectorXd::Zero(task.model.dofs.count())}, 10}};
+  fem::Loads voltage = fem::Loads::of(task.model.initial_state(), task.model.dofs);
+  voltage.voltage = {5e3};
+  task.steps = {{voltage, 10}};
   return task;
 }
 
@@ -65,9 +67,9 @@ Task plate_diaphragm(int k) {
   task.model.dofs.number();
   task.node = inner.front();
   task.component = 2;
-  fem::RampTarget weight{{0}, Eigen::VectorXd::Zero(task.model.dofs.count())};
+  fem::Loads weight = fem::Loads::of(task.model.initial_state(), task.model.dofs);
   weight.dead_force[task.model.dofs.equation(inner.front(), 2)] = 0.981;
-  fem::RampTarget voltage = weight;
+  fem::Loads voltage = weight;
   voltage.voltage = {5e3};
   task.steps = {{weight, 5}, {voltage, 10}};
   return task;

@@ -10,7 +10,7 @@ namespace dielast::bench {
 struct Task {
   meshing::Mesh mesh; ///< drawn after the prestretch, m
   fem::Model model;
-  std::vector<std::pair<fem::RampTarget, int>> steps; ///< target and increments
+  std::vector<std::pair<fem::Loads, int>> steps; ///< target and increments
   int node = 0;                                       ///< where the result is read
   int component = 0;                                  ///< displacement component of the result
 };

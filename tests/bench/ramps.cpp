@@ -25,8 +25,9 @@ void run(benchmark::State& bench, Task (*make_task)(int)) {
     fem::State state = task.model.initial_state();
     for (const auto& [target, increments] : task.steps) {
       const fem::RampOptions options{.increments = increments};
-      fem::RampProgress progress = fem::RampProgress::begin(state, options);
-      const auto result = fem::ramp(equilibrium, target, options, progress, {});
+      fem::RampProgress progress = fem::RampProgress::begin(state, task.model.dofs, options);
+      const auto path = fem::linear_path(task.model.dofs, progress.start, target);
+      const auto result = fem::ramp(equilibrium, path, options, progress, {});
       if (result.end != fem::RampEnd::complete) return bench.SkipWithError("the ramp did not converge");
       state = progress.points.back().state;
     }

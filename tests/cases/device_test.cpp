@@ -2,9 +2,12 @@
 
 #include "cases/reader.hpp"
 #include "cases/simulation.hpp"
+#include "cases/step_loads.hpp"
 #include "meshing/mesh_error.hpp"
 
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 namespace dielast::cases {
 namespace {
@@ -80,16 +83,72 @@ TEST(FreeBody, ItsPinsExertNoForce) {
   }
 }
 
+/// The state at the end of the first step, a ramp.
+fem::State led_to(const Case& one, const Device& device) {
+  fem::State state = device.model.initial_state();
+  const StepLoads loads(one, device, one.steps, state.dead_force);
+  loads.path(0, fem::Loads::of(state, device.model.dofs)).apply(state, 1);
+  return state;
+}
+
 TEST(Loads, AreSpreadEvenlyOverTheirPlace) {
   const Case one =
       read_case(valid / "disc.toml",
                 {"load=[{place='electrode_edge', force=['6 mN', '0 N', '0 N']}]", "step=[{kind='force'}]"});
   const Device device = build_device(one);
-  EXPECT_NEAR(device.loads.sum(), 6e-3, 1e-15);
+  const Eigen::VectorXd forces = led_to(one, device).dead_force;
+  EXPECT_NEAR(forces.sum(), 6e-3, 1e-15);
   const auto& nodes = device.mesh.node_sets.at("electrode_edge");
   for (const int n : nodes)
-    EXPECT_NEAR(device.loads[device.model.dofs.equation(n, 0)], 6e-3 / static_cast<double>(nodes.size()),
-                1e-15);
+    EXPECT_NEAR(forces[device.model.dofs.equation(n, 0)], 6e-3 / static_cast<double>(nodes.size()), 1e-15);
+}
+
+TEST(Loads, OfAFreeBodyMustBalanceAtAllTimes) {
+  const auto loads = [](const std::string& right) {
+    return honeycomb({"load=[{place='left_apex', force=['-1 mN', 0, 0]}, {place='right_apex', force=[" +
+                          right + ", 0, 0]}]",
+                      "step=[{kind='release'}, {kind='transient', duration='1 s'}]"});
+  };
+  EXPECT_NO_THROW(build_device(loads("'1 mN'")));
+  EXPECT_THROW(build_device(loads("{wave='ramp', from='1 mN', to='2 mN', duration='1 s'}")), CaseError);
+}
+
+Case patch(const std::string& lines) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "patch_device.toml";
+  std::ofstream(path) << "[film]\nthickness = \"0.5 mm\"\nprestretch = 2\n[film.material]\n"
+                         "shear_modulus = \"30 kPa\"\nrelative_permittivity = 4\n[patch]\n"
+                      << lines;
+  return read_case(path);
+}
+
+TEST(Patch, HasOneUnknownForEachStretch) {
+  const Device free = build_device(patch(""));
+  EXPECT_EQ(free.model.dofs.free_count(), 2);
+  EXPECT_FALSE(free.free_body);
+  EXPECT_EQ(free.mesh.nodes[2], Eigen::Vector3d(0.02, 0.02, 0)); // drawn prestretched
+  EXPECT_EQ(build_device(patch("mode = \"equal-biaxial\"")).model.dofs.free_count(), 1);
+  EXPECT_EQ(build_device(patch("mode = \"pure-shear\"")).model.dofs.free_count(), 1);
+  EXPECT_EQ(build_device(patch("stretch_x = 3")).model.dofs.free_count(), 1);
+  EXPECT_EQ(build_device(patch("stretch_x = 3\nstretch_y = 1")).model.dofs.free_count(), 0);
+}
+
+TEST(Patch, StretchesAndStressesBecomeDisplacementsAndForces) {
+  const Case pulled = patch("length = \"20 mm\"\nwidth = \"10 mm\"\nstress_x = \"10 kPa\"");
+  const Device device = build_device(pulled);
+  EXPECT_NEAR(led_to(pulled, device).dead_force[device.model.dofs.equation(1, 0)], 10e3 * 0.5e-3 * 10e-3,
+              1e-15);
+  const Case stretched = patch("length = \"20 mm\"\nwidth = \"10 mm\"\nstretch_x = 3");
+  const fem::State state = led_to(stretched, build_device(stretched));
+  for (const int n : {1, 2})
+    EXPECT_DOUBLE_EQ(state.displacement[static_cast<std::size_t>(n)].x(), (3 - 2) * 20e-3);
+}
+
+TEST(Patch, InEqualBiaxialTensionBothSidesCarryTheStress) {
+  const Case one = patch("mode = \"equal-biaxial\"\nstress_x = \"10 kPa\"");
+  const Device device = build_device(one);
+  EXPECT_EQ(device.model.dofs.equation(1, 0), device.model.dofs.equation(2, 1));
+  EXPECT_NEAR(led_to(one, device).dead_force[device.model.dofs.equation(1, 0)], 2 * 10e3 * 0.5e-3 * 10e-3,
+              1e-15);
 }
 
 } // namespace

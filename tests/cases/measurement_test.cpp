@@ -60,11 +60,10 @@ extreme = "minimum"
   }
   double value(const std::string& name) {
     fem::Equilibrium equilibrium(device->model, 1);
-    Eigen::VectorXd force;
-    equilibrium.internal_force(state, force);
-    const fem::Samples samples = device->model.sample(state);
+    fem::EnergyBalance energy;
+    energy.add(fem::energy_point(equilibrium, state, 0));
     const std::vector<double> all =
-        Measurement(one, *device).all({state, samples, post::Extremes(samples), force});
+        Measurement(one, *device).all(Measured(*device, equilibrium, state, energy));
     for (std::size_t q = 0; q < all.size(); ++q)
       if (one.quantities[q].name == name) return all[q];
     ADD_FAILURE() << name;
@@ -139,15 +138,16 @@ TEST_F(DiscMeasurement, ElongationsStartWhereTheirStepEnds) {
   const Device built = build_device(lattice);
   Measurement measurement(lattice, built);
   fem::State at = built.model.initial_state();
-  const fem::Samples samples = built.model.sample(at);
-  const Eigen::VectorXd force = Eigen::VectorXd::Zero(built.model.dofs.count());
-  EXPECT_TRUE(std::isnan(
-      measurement.all({at, samples, post::Extremes(samples), force})[0])); // eps_x, since the release
-  measurement.step_ended("release", {at, samples, post::Extremes(samples), force});
-  EXPECT_EQ(measurement.all({at, samples, post::Extremes(samples), force})[0], 0);
+  fem::Equilibrium equilibrium(built.model, 1);
+  fem::EnergyBalance energy;
+  energy.add(fem::energy_point(equilibrium, at, 0));
+  const auto measured = [&] { return Measured(built, equilibrium, at, energy); };
+  EXPECT_TRUE(std::isnan(measurement.all(measured())[0])); // eps_x, since the release
+  measurement.step_ended("release", measured());
+  EXPECT_EQ(measurement.all(measured())[0], 0);
   for (std::size_t n = 0; n < built.mesh.nodes.size(); ++n) at.displacement[n] = 0.25 * built.mesh.nodes[n];
-  EXPECT_NEAR(measurement.all({at, samples, post::Extremes(samples), force})[0], 0.25, 1e-12);
-  EXPECT_NEAR(measurement.all({at, samples, post::Extremes(samples), force})[1], 0.25, 1e-12);
+  EXPECT_NEAR(measurement.all(measured())[0], 0.25, 1e-12);
+  EXPECT_NEAR(measurement.all(measured())[1], 0.25, 1e-12);
 }
 
 } // namespace

@@ -44,7 +44,7 @@ TEST_F(Outputs, OfAHoneycomb) {
   for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
   EXPECT_EQ(rows.back()[0], "voltage");
   EXPECT_EQ(std::stod(rows.back()[1]), 1);
-  EXPECT_EQ(std::stod(rows.back()[2]), 6000);
+  EXPECT_EQ(std::stod(rows.back()[3]), 6000);
 }
 
 TEST_F(Outputs, SeriesHasAStepForEveryRow) {

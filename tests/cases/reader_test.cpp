@@ -43,7 +43,7 @@ TEST(Reader, HoneycombInSI) {
   const auto& lattice = std::get<Honeycomb>(one.geometry);
   EXPECT_DOUBLE_EQ(lattice.angle, 150 * std::numbers::pi / 180);
   EXPECT_EQ(lattice.wall_width, 0.0008);
-  EXPECT_EQ(one.drives, (std::map<std::string, double>{{"film", 7500.0}}));
+  EXPECT_EQ(one.drives, (std::map<std::string, Drive>{{"film", {Waveform::constant_at(7500), {}}}}));
 }
 
 TEST(Reader, HoneycombDefaults) {
@@ -69,7 +69,9 @@ TEST(Reader, HoneycombDefaults) {
   EXPECT_TRUE(one.error_estimate && one.fields);
   EXPECT_EQ(quantity_names(one),
             (std::vector<std::string>{"eps_x", "eps_y", "released_length_x", "released_length_y", "max_field",
-                                      "breakdown_ratio", "min_principal_stress", "capacitance"}));
+                                      "breakdown_ratio", "min_principal_stress", "electrical_work",
+                                      "mechanical_work", "stored_energy", "dissipated_energy", "energy_error",
+                                      "capacitance"}));
   EXPECT_EQ(one.quantities[0].since, "release");
   EXPECT_EQ(one.quantities[0].along, 0);
   EXPECT_TRUE(one.quantities[0].standard);
@@ -86,7 +88,7 @@ TEST(Reader, DiscDefaults) {
   EXPECT_EQ(one.supports.at(0).fixed, (std::array{true, true, true}));
   EXPECT_EQ(one.mesh.rings, 24);
   EXPECT_EQ(one.mesh.quadrature, 6);
-  EXPECT_EQ(one.drives.at("film"), 0.0);
+  EXPECT_EQ(one.drives.at("film"), Drive{}); // not driven
   EXPECT_EQ(one.quantities.at(0).name, "electrode_radius");
 }
 
@@ -94,9 +96,11 @@ TEST(Reader, SeveralElectrodesOfAnAnnulus) {
   const Case one = read_case(valid / "annulus.toml");
   EXPECT_TRUE(one.three_dimensional);
   EXPECT_DOUBLE_EQ(one.film.material.dielectric.permittivity, 4.7 * 8.8541878128e-12);
-  EXPECT_EQ(one.drives, (std::map<std::string, double>{{"left", 5000.0}, {"right", 0.0}}));
+  EXPECT_EQ(one.drives,
+            (std::map<std::string, Drive>{{"left", {Waveform::constant_at(5000), {}}}, {"right", {}}}));
   EXPECT_EQ(one.supports.size(), 2u);
-  EXPECT_EQ(one.loads.at(0).force, (std::array{1e-3, 0.0, -2.5e-3}));
+  EXPECT_EQ(one.loads.at(0).force, (std::array{Waveform::constant_at(1e-3), Waveform::constant_at(0),
+                                               Waveform::constant_at(-2.5e-3)}));
   EXPECT_EQ(one.steps.at(1).name, "pull");
   EXPECT_EQ(one.checks.at(0).value, 0.05588);
   EXPECT_EQ(one.checks.at(0).tolerance, 1e-4);
@@ -107,7 +111,7 @@ TEST(Reader, SeveralElectrodesOfAnAnnulus) {
 TEST(Reader, OwnMeshIsFoundBesideTheCase) {
   const Case one = read_case(valid / "own_mesh.toml");
   EXPECT_EQ(std::get<MeshFile>(one.geometry).path, valid / "own.msh");
-  EXPECT_EQ(one.drives.at("film"), 3000.0);
+  EXPECT_EQ(one.drives.at("film").voltage, Waveform::constant_at(3000));
 }
 
 TEST(Reader, WithoutAReleaseElongationsStartAtTheMesh) {
@@ -136,6 +140,103 @@ TEST(Reader, NamedMaterialCanBeChangedInPart) {
   EXPECT_EQ(one.film.material.dielectric.permittivity, 4e-11);
 }
 
+TEST(Reader, PatchWithBranchesWavesSpringsAndTimedSteps) {
+  const Case one = read_case(valid / "patch.toml");
+  EXPECT_TRUE(one.film.tension_field);
+  const materials::Material& material = one.film.material;
+  EXPECT_EQ(std::get<materials::Ogden>(material.law).moduli, (std::vector{20e3, -1e3}));
+  EXPECT_EQ(std::get<materials::Ogden>(material.law).exponents, (std::vector{2.0, -2.0}));
+  EXPECT_EQ(material.dielectric.electrostriction, -0.05);
+  EXPECT_EQ(material.dielectric.breakdown_exponent, 1.1);
+  ASSERT_EQ(material.branches.size(), 2u);
+  EXPECT_EQ(std::get<materials::Gent>(material.branches[0].law).stretch_limit, 100);
+  EXPECT_DOUBLE_EQ(material.branches[0].viscosity, 3 * 10e3);
+  EXPECT_EQ(material.branches[1].dashpot, materials::Dashpot::nominal);
+  EXPECT_EQ(material.branches[1].directions, (std::array{true, false}));
+
+  const Waveform& voltage = *one.drives.at("film").voltage;
+  EXPECT_DOUBLE_EQ(voltage.at(5), 2000);
+  EXPECT_EQ(voltage.kinks(0, 100), (std::vector{10.0, 20.0}));
+  EXPECT_EQ(one.drives.at("film").charge, Waveform::constant_at(1e-9));
+  ASSERT_EQ(one.springs.size(), 1u);
+  EXPECT_EQ(one.springs[0].between, (std::array<std::string, 2>{"left", "right"}));
+  EXPECT_EQ(one.springs[0].stiffness, 180);
+  ASSERT_EQ(one.linkages.size(), 1u);
+  EXPECT_DOUBLE_EQ(one.linkages[0].offset, 0.0473);
+
+  ASSERT_EQ(one.steps.size(), 3u);
+  EXPECT_EQ(one.steps[0].kind, StepKind::charge);
+  EXPECT_EQ(one.steps[0].response, Response::instantaneous);
+  EXPECT_EQ(one.steps[0].on_instability, OnInstability::follow);
+  EXPECT_EQ(one.steps[0].on_bifurcation, OnBifurcation::switch_branch);
+  EXPECT_FALSE(one.steps[0].duration);
+  EXPECT_EQ(one.steps[1].record, 0.5);
+  EXPECT_EQ(one.steps[1].on_instability, OnInstability::jump);
+  EXPECT_EQ(one.steps[2].duration, 60);
+  EXPECT_EQ(one.steps[2].control, Control::charge);
+  EXPECT_EQ(one.solver.time_tolerance, 1e-6);
+  EXPECT_EQ(quantity_names(one),
+            (std::vector<std::string>{"stretch_x", "stretch_y", "stress_x", "stress_y", "thickness_stretch",
+                                      "max_field", "breakdown_ratio", "min_principal_stress",
+                                      "electrical_work", "mechanical_work", "stored_energy",
+                                      "dissipated_energy", "energy_error", "capacitance", "charge"}));
+}
+
+TEST(Reader, SidesOfAPatchBecomeSupportsAndLoads) {
+  const Case one = read_case(valid / "patch.toml");
+  ASSERT_EQ(one.supports.size(), 3u);
+  EXPECT_EQ(one.supports[0].place, "left");
+  EXPECT_EQ(one.supports[1].fixed, (std::array{false, true, false}));
+  EXPECT_EQ(one.supports[2].place, "right");
+  EXPECT_NEAR(one.supports[2].motion[0]->at(0), 0, 1e-17);         // drawn at the stretch 1.5
+  EXPECT_DOUBLE_EQ(one.supports[2].motion[0]->at(2), 0.5 * 20e-3); // held at the stretch 2
+  ASSERT_EQ(one.loads.size(), 1u);
+  EXPECT_EQ(one.loads[0].place, "top");
+  EXPECT_DOUBLE_EQ(one.loads[0].force[1].at(0), 10e3 * 0.5e-3 * 20e-3);
+}
+
+/// Kinds of the steps of a patch that has none of its own.
+std::vector<StepKind> patch_steps(const std::string& patch, const std::string& drive,
+                                  const std::vector<std::string>& overrides = {}) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "patch_steps.toml";
+  std::ofstream(path) << "[film]\nmaterial = \"VHB 4910 (diaphragm)\"\nthickness = \"1 mm\"\n[patch]\n"
+                      << patch << "\n[drive]\n"
+                      << drive;
+  std::vector<StepKind> kinds;
+  for (const Step& step : read_case(path, overrides).steps) kinds.push_back(step.kind);
+  return kinds;
+}
+
+TEST(Reader, APatchTakesOneStepForEachThatIsGiven) {
+  using enum StepKind;
+  using Kinds = std::vector<StepKind>;
+  EXPECT_EQ(patch_steps("", ""), Kinds{voltage});
+  EXPECT_EQ(patch_steps("stretch_x = 2\nstress_y = \"1 kPa\"", "voltage = \"1 kV\""),
+            (Kinds{move, force, voltage}));
+  EXPECT_EQ(patch_steps("mode = \"equal-biaxial\"", "charge = \"1 nC\""), Kinds{charge});
+  EXPECT_EQ(patch_steps("", "voltage = \"1 kV\"", {"patch.stress_x=1 kPa"}), (Kinds{voltage, force}));
+  EXPECT_EQ(patch_steps("", "",
+                        {"drive.voltage={wave=\"sine\", amplitude=\"1 kV\", frequency=\"1 Hz\"}",
+                         "step=[{kind=\"transient\", duration=\"1 s\"}]"}),
+            Kinds{transient});
+}
+
+TEST(Reader, WavesOfMotionsAndForces) {
+  const Case one = read_case(valid / "moved.toml");
+  EXPECT_EQ(one.supports.at(1).fixed, (std::array{true, true, false})); // what is moved is held
+  EXPECT_DOUBLE_EQ(one.supports.at(1).motion[0]->at(0.25), 2e-3);
+  EXPECT_FALSE(one.supports.at(1).motion[1]);
+  EXPECT_EQ(one.loads.at(0).force[1], Waveform::constant_at(1e-3));
+  EXPECT_DOUBLE_EQ(one.loads.at(0).force[2].at(0.5), 0.5e-3);
+}
+
+TEST(Reader, WrittenBranchesReplaceThoseOfTheNamedMaterial) {
+  const Case one = honeycomb({"film.material={name='VHB 4910 (honeycomb)', branch=[{shear_modulus='1 kPa', "
+                              "relaxation_time='2 s'}]}"});
+  ASSERT_EQ(one.film.material.branches.size(), 1u);
+  EXPECT_DOUBLE_EQ(one.film.material.branches[0].viscosity, 2e3);
+}
+
 TEST(Overrides, ReachEverything) {
   const Case one = honeycomb({"honeycomb.angle=140 deg", "honeycomb.wall_height=\"4 mm\"",
                               "film.prestretch=[3, 3]", "drive.voltage=5 kV", "mesh.wall_elements=5",
@@ -144,7 +245,7 @@ TEST(Overrides, ReachEverything) {
   EXPECT_DOUBLE_EQ(std::get<Honeycomb>(one.geometry).angle, 140 * std::numbers::pi / 180);
   EXPECT_EQ(std::get<Honeycomb>(one.geometry).wall_height, 0.004);
   EXPECT_EQ(one.film.prestretch, (std::array{3.0, 3.0}));
-  EXPECT_EQ(one.drives.at("film"), 5000.0);
+  EXPECT_EQ(one.drives.at("film").voltage, Waveform::constant_at(5000));
   EXPECT_EQ(one.mesh.wall_elements, 5);
   EXPECT_EQ(one.mesh.order, 1);
   EXPECT_EQ(one.steps[0].increments, 2);
@@ -164,7 +265,8 @@ TEST(Overrides, OddTextsAreErrorsNotAccidents) {
 }
 
 TEST(Resolved, ReadingItGivesTheSameCase) {
-  for (const char* name : {"honeycomb.toml", "disc.toml", "annulus.toml", "own_mesh.toml"}) {
+  for (const char* name :
+       {"honeycomb.toml", "disc.toml", "annulus.toml", "own_mesh.toml", "patch.toml", "moved.toml"}) {
     const Case one = read_case(valid / name);
     const auto path = std::filesystem::path(testing::TempDir()) / (std::string("resolved_") + name);
     std::ofstream(path) << resolved(one);
@@ -174,6 +276,8 @@ TEST(Resolved, ReadingItGivesTheSameCase) {
     EXPECT_EQ(again.geometry.index(), one.geometry.index());
     EXPECT_EQ(again.drives, one.drives);
     EXPECT_EQ(again.film.prestretch, one.film.prestretch);
+    EXPECT_EQ(again.supports.size(), one.supports.size());
+    EXPECT_EQ(again.loads.size(), one.loads.size());
     if (const auto* lattice = std::get_if<Honeycomb>(&one.geometry)) {
       EXPECT_EQ(std::get<Honeycomb>(again.geometry).angle, lattice->angle);
     }

@@ -14,21 +14,27 @@
 namespace dielast::cases {
 namespace {
 
-void for_each_section(const Section& section, const std::string& path,
-                      const std::function<void(const Section&, const std::string&)>& visit) {
+void visit_sections(const Section& section, const std::string& path,
+                    const std::function<void(const Section&, const std::string&)>& visit) {
   visit(section, path);
-  for (const Section& inner : section.sections) for_each_section(inner, path + "." + inner.name, visit);
+  for (const Section& inner : section.sections) visit_sections(inner, path + "." + inner.name, visit);
+}
+
+/// The sections of a case and of its waves.
+void for_each_section(const std::function<void(const Section&, const std::string&)>& visit) {
+  visit_sections(case_schema(), "", visit);
+  for (const char* unit : {"V", "C", "N", "m", "1", "Pa"}) visit_sections(wave_section(unit), "wave", visit);
 }
 
 TEST(Schema, EverySectionAndKeyHasAMeaning) {
-  for_each_section(case_schema(), "", [](const Section& section, const std::string& path) {
+  for_each_section([](const Section& section, const std::string& path) {
     EXPECT_FALSE(section.meaning.empty()) << path;
     for (const Key& key : section.keys) EXPECT_FALSE(key.meaning.empty()) << path << "." << key.name;
   });
 }
 
 TEST(Schema, EveryNumberHasAUnitAndAnUpperBound) {
-  for_each_section(case_schema(), "", [](const Section& section, const std::string& path) {
+  for_each_section([](const Section& section, const std::string& path) {
     for (const Key& key : section.keys) {
       const std::string name = path + "." + key.name;
       if (key.type == Type::integer) {
@@ -42,7 +48,7 @@ TEST(Schema, EveryNumberHasAUnitAndAnUpperBound) {
 }
 
 TEST(Schema, EveryDefaultIsValid) {
-  for_each_section(case_schema(), "", [](const Section& section, const std::string& path) {
+  for_each_section([](const Section& section, const std::string& path) {
     for (const Key& key : section.keys)
       if (key.fallback) {
         EXPECT_NO_THROW(convert(key, parse_value(*key.fallback, {}), key.unit)) << path << "." << key.name;
@@ -51,7 +57,7 @@ TEST(Schema, EveryDefaultIsValid) {
 }
 
 TEST(Schema, EveryWordOfASelectorIsOneOfItsChoices) {
-  for_each_section(case_schema(), "", [](const Section& section, const std::string& path) {
+  for_each_section([](const Section& section, const std::string& path) {
     if (section.selector.empty() || section.selector == "geometry") return;
     const Key* selector = section.find_key(section.selector, "");
     ASSERT_NE(selector, nullptr) << path;
@@ -87,6 +93,32 @@ TEST(Schema, JsonSchemaIsJsonWithEveryKey) {
   EXPECT_EQ(honeycomb["required"], nlohmann::json({"angle", "wall_length", "wall_width", "wall_height"}));
 }
 
+TEST(Schema, JsonSchemaDescribesWavesAndBranches) {
+  const auto schema = nlohmann::json::parse(json_schema());
+  const auto& voltage = schema["properties"]["drive"]["properties"]["voltage"]["anyOf"];
+  ASSERT_EQ(voltage.size(), 3u); // a number, a text, a wave
+  EXPECT_EQ(voltage[2]["required"], nlohmann::json({"wave"}));
+  EXPECT_TRUE(voltage[2]["properties"].contains("end_frequency"));
+  const auto& material = schema["properties"]["film"]["properties"]["material"]["anyOf"][1]["properties"];
+  EXPECT_TRUE(material["branch"]["items"]["properties"].contains("relaxation_time"));
+  EXPECT_EQ(material["moduli"]["type"], "array");
+}
+
+TEST(Convert, AWaveIsWrittenAsItIsRead) {
+  Drive drive;
+  drive.voltage = {.kind = Waveform::Kind::sine, .amplitude = 4000, .frequency = 0.5};
+  const Key& key = *case_schema().find_section("drive")->find_key("voltage", "");
+  EXPECT_EQ(toml_text(key, *key.binding.get(&drive)), "{ wave = \"sine\", mean = \"0 V\", amplitude = \"4000 "
+                                                      "V\", frequency = \"0.5 Hz\", phase = \"0 deg\" }");
+}
+
+TEST(Describe, WavesHaveATopicWithAllTheirKeys) {
+  const std::string waves = describe("waves");
+  for (const Key& key : wave_section("V").keys)
+    EXPECT_NE(waves.find(key.type == Type::word ? "unipolar sine: " : "  " + key.name), std::string::npos)
+        << key.name;
+}
+
 TEST(Describe, EveryTopicHasAText) {
   for (const std::string& topic : topics()) EXPECT_GT(describe(topic).size(), 100u) << topic;
   EXPECT_THROW(describe("laaws"), std::invalid_argument);
@@ -99,7 +131,7 @@ TEST(Describe, TellsEveryMaterialPlaceAndKey) {
     EXPECT_NE(materials.find(solid.name), std::string::npos);
   for (const Template& device : templates())
     for (const PlaceName& place : device.places) EXPECT_NE(devices.find(place.name), std::string::npos);
-  for_each_section(case_schema(), "", [&](const Section& section, const std::string&) {
+  visit_sections(case_schema(), "", [&](const Section& section, const std::string&) {
     for (const Key& key : section.keys) EXPECT_NE(keys.find("  " + key.name), std::string::npos) << key.name;
   });
 }

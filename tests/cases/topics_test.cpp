@@ -20,7 +20,9 @@ TEST_F(Topics, HelpAndVersion) {
 TEST_F(Topics, InfoExplainsWhatACaseMaySay) {
   const std::vector<std::pair<const char*, const char*>> words{
       {"overview", "materials"},    {"materials", "VHB 4910 (honeycomb)"},
-      {"laws", "neo-hookean"},      {"devices", "corner_top"},
+      {"laws", "arruda-boyce"},     {"laws", "dashpot"},
+      {"devices", "patch"},         {"steps", "transient"},
+      {"waves", "unipolar sine"},   {"devices", "corner_top"},
       {"quantities", "elongation"}, {"steps", "release"},
       {"keys", "prestretch"},       {"units", "voltage"}};
   for (const auto& [topic, word] : words) {
@@ -37,7 +39,8 @@ TEST_F(Topics, SchemaIsJson) {
   const nlohmann::json schema = nlohmann::json::parse(ended.out, nullptr, false);
   ASSERT_TRUE(schema.is_object());
   EXPECT_TRUE(schema.contains("$schema"));
-  for (const char* section : {"film", "honeycomb", "disc", "mesh", "drive", "step", "check"})
+  for (const char* section :
+       {"film", "honeycomb", "disc", "patch", "mesh", "drive", "spring", "step", "check"})
     EXPECT_TRUE(schema["properties"].contains(section)) << section;
 }
 

@@ -46,6 +46,18 @@ TEST(DofMap, shared_unknowns_are_one_equation_and_held_together) {
   EXPECT_EQ(dofs.equation(2, 1), 4);
 }
 
+TEST(DofMap, displacements_along_different_axes_can_be_one_unknown) {
+  DofMap dofs(3);
+  for (int node = 0; node < 3; ++node)
+    for (const int c : {0, 1}) dofs.add(node, c);
+  dofs.share(1, 0, 2, 1);
+  dofs.hold(0, 0);
+  dofs.number();
+  EXPECT_EQ(dofs.count(), 5);
+  EXPECT_EQ(dofs.equation(1, 0), dofs.equation(2, 1));
+  EXPECT_NE(dofs.equation(1, 0), dofs.equation(2, 0));
+}
+
 TEST(DofMap, advance_adds_displacements_and_turns_in_space) {
   DofMap dofs(2);
   for (int c = 0; c < DofMap::components; ++c) dofs.add(1, c);

@@ -113,14 +113,10 @@ materials::Dual<Nodes * Dim> triangle_energy(const meshing::Mesh& mesh, const Me
     const std::array<Unknowns, 3> normal{F[0][1] * F[1][2] - F[0][2] * F[1][1],
                                          F[0][2] * F[1][0] - F[0][0] * F[1][2],
                                          F[0][0] * F[1][1] - F[0][1] * F[1][0]};
-    const Unknowns area_square = dot(normal, normal), C33 = 1.0 / area_square;
-    const Unknowns I1 = dot(F[0], F[0]) + dot(F[1], F[1]) + C33;
-    const Unknowns C12 = dot(F[0], F[1]);
-    const Unknowns C_square =
-        dot(F[0], F[0]) * dot(F[0], F[0]) + dot(F[1], F[1]) * dot(F[1], F[1]) + 2.0 * C12 * C12 + C33 * C33;
-    const Unknowns I2 = 0.5 * (I1 * I1 - C_square);
+    const Unknowns area_square = dot(normal, normal), trace = dot(F[0], F[0]) + dot(F[1], F[1]);
     const Unknowns elastic =
-        std::visit([&](const auto& law) { return law.energy(I1, I2); }, section.material.law);
+        std::visit([&](const auto& law) { return materials::planar_energy(law, trace, area_square); },
+                   section.material.law);
     const double field = voltage / section.thickness;
     const double volume =
         at.weight * dX.determinant() * section.thickness / (section.prestretch[0] * section.prestretch[1]);

@@ -32,13 +32,15 @@ class FreeFilm : public ::testing::Test {
 
   RampResult run(double volts, const RampOptions& options, RampProgress& progress,
                  const RampObserver& observer = {}) {
+    Loads target = progress.start;
+    target.voltage = {volts};
     const RampResult result =
-        ramp(equilibrium, {{volts}, Eigen::VectorXd::Zero(model->dofs.count())}, options, progress, observer);
+        ramp(equilibrium, linear_path(model->dofs, progress.start, target), options, progress, observer);
     state = progress.points.back().state;
     return result;
   }
   RampResult run(double volts, const RampOptions& options, const RampObserver& observer = {}) {
-    RampProgress progress = RampProgress::begin(state, options);
+    RampProgress progress = RampProgress::begin(state, model->dofs, options);
     return run(volts, options, progress, observer);
   }
   double stretch(const State& at) const { return 1 + at.displacement[3].x() / side; }
@@ -74,7 +76,7 @@ TEST_F(FreeFilm, gives_up_at_the_limit_point_and_keeps_the_last_accepted_state) 
   };
   observer.on_cutback = [&](double, const NewtonResult&) { ++cutbacks; };
   const RampOptions options{.newton = {}, .increments = 6, .smallest_increment = 1e-3};
-  RampProgress progress = RampProgress::begin(state, options);
+  RampProgress progress = RampProgress::begin(state, model->dofs, options);
   const RampResult result = run(target, options, progress, observer);
   EXPECT_EQ(result.end, RampEnd::gave_up);
   EXPECT_GT(cutbacks, 3);
@@ -97,7 +99,7 @@ TEST_F(FreeFilm, stopped_by_its_observer_and_resumed_it_ends_in_the_same_bits) {
   const State straight_through = state;
 
   state = at_rest;
-  RampProgress progress = RampProgress::begin(state, options);
+  RampProgress progress = RampProgress::begin(state, model->dofs, options);
   RampObserver observer;
   observer.on_accept = [](const RampProgress& at, const Increment&) { return at.load_factor < 0.49; };
   ASSERT_EQ(run(22e3, options, progress, observer).end, RampEnd::stopped);
@@ -148,7 +150,7 @@ TEST(Ramp, closes_in_on_a_bifurcation) {
   for (int c = 0; c < DofMap::components; ++c) model->dofs.hold(0, c);
   model->dofs.number();
   Equilibrium equilibrium(*model, 1);
-  RampTarget target{{0.0}, Eigen::VectorXd::Zero(model->dofs.count())};
+  Loads target = Loads::of(model->initial_state(), model->dofs);
   const double euler = std::numbers::pi * std::numbers::pi / 4, load = 1.7 * euler;
   target.dead_force[model->dofs.equation(mesh.node_count() - 1, 0)] = -load;
   double last_stable = 0, first_unstable = 2;
@@ -161,8 +163,10 @@ TEST(Ramp, closes_in_on_a_bifurcation) {
     return true;
   };
   const RampOptions options{.newton = {}, .increments = 5, .smallest_increment = 1e-3};
-  RampProgress progress = RampProgress::begin(model->initial_state(), options);
-  EXPECT_EQ(ramp(equilibrium, target, options, progress, observer).end, RampEnd::complete);
+  RampProgress progress = RampProgress::begin(model->initial_state(), model->dofs, options);
+  EXPECT_EQ(
+      ramp(equilibrium, linear_path(model->dofs, progress.start, target), options, progress, observer).end,
+      RampEnd::complete);
   EXPECT_NEAR(last_stable, euler / load, 2e-3);
   EXPECT_NEAR(first_unstable, euler / load, 2e-3);
   EXPECT_LT(last_stable, first_unstable);

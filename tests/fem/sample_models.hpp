@@ -22,6 +22,16 @@ inline MembraneSection vhb(double prestretch_1 = 1, double prestretch_2 = 1) {
           .prestretch = {prestretch_1, prestretch_2}};
 }
 
+/// The same film with branches: neo-Hookean, Gent, and a nominal dashpot along x.
+inline MembraneSection viscoelastic_vhb() {
+  MembraneSection section = vhb();
+  section.material.branches = {
+      {materials::NeoHookean{30e3}, materials::Dashpot::log, 30e3 * 0.5},
+      {materials::Gent{20e3, 80}, materials::Dashpot::log, 20e3 * 7},
+      {materials::NeoHookean{10e3}, materials::Dashpot::nominal, 10e3 * 2, {true, false}}};
+  return section;
+}
+
 /// A section whose six stiffnesses differ, of order one on elements of unit length.
 inline materials::BeamSection uneven_section() {
   return {.EA = 5, .GA2 = 2, .GA3 = 3, .GJ = 0.7, .EI2 = 1.1, .EI3 = 0.4};
@@ -34,6 +44,7 @@ std::unique_ptr<Model> unnumbered_model(int nodes, bool planar, Blocks&&... bloc
       std::make_unique<Model>(Model{.dofs = DofMap(nodes), .blocks = {}, .electrodes = {"electrode"}});
   (model->blocks.push_back(std::forward<Blocks>(blocks)), ...);
   for (const auto& block : model->blocks) block->claim_dofs(model->dofs, planar);
+  model->place_histories();
   return model;
 }
 

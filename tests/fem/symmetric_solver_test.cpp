@@ -96,5 +96,31 @@ TEST(SymmetricSolver, refuses_singular_matrices) {
   EXPECT_FALSE(solver.factor());
 }
 
+// A bar of springs whose last node hangs on nothing, or that has no support: one spring more makes it
+// regular.
+TEST(SymmetricSolver, tells_where_a_pivot_vanished_and_takes_a_stiffness_there) {
+  Eigen::MatrixXd loose = free_chain(5, 1);
+  loose(0, 0) += 1;
+  loose.row(4).setZero();
+  loose.col(4).setZero();
+  loose(3, 3) = 1;
+  for (const Eigen::MatrixXd& full : {free_chain(50, 0.1), loose, Eigen::MatrixXd(-free_chain(9, 2))}) {
+    const SparseSymmetric matrix = sparse(full);
+    SymmetricSolver solver(matrix);
+    ASSERT_FALSE(solver.factor());
+    const int weakest = solver.singular_equation();
+    ASSERT_GE(weakest, 0);
+    ASSERT_LT(weakest, matrix.size);
+    const Eigen::VectorXd spring = 3 * Eigen::VectorXd::Unit(matrix.size, weakest);
+    ASSERT_TRUE(solver.factor(&spring));
+    std::mt19937 random(63);
+    const Eigen::VectorXd expected = test::random_vector(random, matrix.size);
+    Eigen::VectorXd x;
+    solver.solve(full * expected + spring.cwiseProduct(expected), x);
+    EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
+    EXPECT_FALSE(solver.factor()) << "the spring is gone again";
+  }
+}
+
 } // namespace
 } // namespace dielast::fem

@@ -17,7 +17,8 @@ const NeoHookean law{1.0};
 /// Second Piola-Kirchhoff stress along both axes under the stretches along them.
 Eigen::Vector2d stress(double lambda_1, double lambda_2, double k) {
   const auto first =
-      membrane_potential(law, InPlaneC<double>{lambda_1 * lambda_1, lambda_2 * lambda_2, 0}, k).first;
+      membrane_potential(law, Dielectric{}, InPlaneC<double>{lambda_1 * lambda_1, lambda_2 * lambda_2, 0}, k)
+          .first;
   return {2 * first[0], 2 * first[1]};
 }
 
@@ -33,7 +34,8 @@ TEST(PullIn, limit_stretch_is_the_cube_root_of_two) {
   // The stiffness against a further equal-biaxial stretch falls to zero there.
   const auto stiffness = [](double lambda) {
     const auto s =
-        membrane_potential(law, InPlaneC<double>{lambda * lambda, lambda * lambda, 0}, free_film(lambda))
+        membrane_potential(law, Dielectric{}, InPlaneC<double>{lambda * lambda, lambda * lambda, 0},
+                           free_film(lambda))
             .second;
     return s[0] + s[1] + 2 * s[3];
   };

@@ -22,10 +22,11 @@ fem::RampProgress sample_progress(int points = 3) {
     return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [&] { return uniform(random); })
         .eval();
   };
-  fem::RampProgress progress{.start = {{uniform(random), 1e3}, vector(equations)},
-                             .load_factor = 1.0 / 3,
-                             .increment = 0.1,
-                             .negative_pivots = 2};
+  fem::RampProgress progress{
+      .start = {{uniform(random), 1e3}, {uniform(random), 0}, vector(equations), vector(3)},
+      .load_factor = 1.0 / 3,
+      .increment = 0.1,
+      .negative_pivots = 2};
   for (int p = 0; p < points; ++p) {
     fem::State state;
     for (std::size_t n = 0; n < nodes; ++n) {
@@ -33,6 +34,13 @@ fem::RampProgress sample_progress(int points = 3) {
       state.rotation.emplace_back(uniform(random), uniform(random), uniform(random), uniform(random));
     }
     state.voltage = {uniform(random), 7500};
+    state.isolated = {0, 1};
+    state.charge = {0, uniform(random)};
+    state.time = uniform(random);
+    state.scheme = materials::TimeScheme::bdf2(0.3, uniform(random));
+    if (p > 0)
+      state.history = std::make_shared<const fem::History>(
+          fem::History{{uniform(random), 1}, {uniform(random), 2}, {}, uniform(random), 0});
     state.dead_force = vector(equations);
     progress.points.push_back({uniform(random), state});
   }
@@ -42,6 +50,8 @@ fem::RampProgress sample_progress(int points = 3) {
 void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
   EXPECT_EQ(one.start.voltage, other.start.voltage);
   EXPECT_EQ(one.start.dead_force, other.start.dead_force);
+  EXPECT_EQ(one.start.charge, other.start.charge);
+  EXPECT_EQ(one.start.held, other.start.held);
   EXPECT_EQ(bits(one.load_factor), bits(other.load_factor));
   EXPECT_EQ(bits(one.increment), bits(other.increment));
   EXPECT_EQ(one.negative_pivots, other.negative_pivots);
@@ -50,6 +60,16 @@ void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
     const fem::State &a = one.points[p].state, &b = other.points[p].state;
     EXPECT_EQ(bits(one.points[p].parameter), bits(other.points[p].parameter));
     EXPECT_EQ(a.voltage, b.voltage);
+    EXPECT_EQ(a.isolated, b.isolated);
+    EXPECT_EQ(a.charge, b.charge);
+    EXPECT_EQ(bits(a.time), bits(b.time));
+    EXPECT_EQ(bits(a.scheme.h2), bits(b.scheme.h2));
+    ASSERT_EQ(a.history != nullptr, b.history != nullptr);
+    if (a.history) {
+      EXPECT_EQ(a.history->now, b.history->now);
+      EXPECT_EQ(a.history->before, b.history->before);
+      EXPECT_EQ(bits(a.history->step), bits(b.history->step));
+    }
     EXPECT_EQ(a.dead_force, b.dead_force);
     ASSERT_EQ(a.displacement.size(), b.displacement.size());
     for (std::size_t n = 0; n < nodes; ++n) {
@@ -64,7 +84,7 @@ json through_file(const json& archived) { return json::from_cbor(json::to_cbor(a
 TEST(Checkpoint, RestoresEveryBit) {
   for (const int points : {1, 4}) {
     const fem::RampProgress progress = sample_progress(points);
-    expect_same(restore(through_file(archive(progress)), nodes, equations), progress);
+    expect_same(restore_ramp(through_file(archive(progress)), nodes, equations), progress);
   }
 }
 
@@ -88,10 +108,10 @@ TEST(Checkpoint, OnlyPacksAreUnpacked) {
 
 TEST(Checkpoint, OfAnotherModelIsRefused) {
   const json archived = archive(sample_progress());
-  EXPECT_NO_THROW(restore(archived, nodes, equations));
-  EXPECT_THROW(restore(archived, nodes + 1, equations), std::runtime_error);
-  EXPECT_THROW(restore(archived, nodes, equations - 1), std::runtime_error);
-  EXPECT_THROW(restore(archived, 0, 0), std::runtime_error);
+  EXPECT_NO_THROW(restore_ramp(archived, nodes, equations));
+  EXPECT_THROW(restore_ramp(archived, nodes + 1, equations), std::runtime_error);
+  EXPECT_THROW(restore_ramp(archived, nodes, equations - 1), std::runtime_error);
+  EXPECT_THROW(restore_ramp(archived, 0, 0), std::runtime_error);
 }
 
 TEST(Checkpoint, DamageIsRefused) {
@@ -99,14 +119,14 @@ TEST(Checkpoint, DamageIsRefused) {
   for (const auto& [key, value] : archived.items()) {
     json without = archived, other = archived;
     without.erase(key);
-    EXPECT_THROW(restore(without, nodes, equations), std::runtime_error) << key;
+    EXPECT_THROW(restore_ramp(without, nodes, equations), std::runtime_error) << key;
     other[key] = "text";
-    EXPECT_THROW(restore(other, nodes, equations), std::runtime_error) << key;
+    EXPECT_THROW(restore_ramp(other, nodes, equations), std::runtime_error) << key;
   }
   json empty = archived;
   empty["points"] = json::array();
-  EXPECT_THROW(restore(empty, nodes, equations), std::runtime_error);
-  EXPECT_THROW(restore(json(), nodes, equations), std::runtime_error);
+  EXPECT_THROW(restore_ramp(empty, nodes, equations), std::runtime_error);
+  EXPECT_THROW(restore_ramp(json(), nodes, equations), std::runtime_error);
 }
 
 } // namespace

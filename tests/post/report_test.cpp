@@ -108,7 +108,7 @@ TEST(ReportTables, EventsAndIncrements) {
   calm.step = "release";
   StepRecord tense = calm;
   tense.voltages = {-5000, 1000};
-  tense.negative_pivots = 1;
+  tense.unstable_modes = 1;
   tense.events = {{"wall contact", "cell[2,3]", "the apexes touch"}};
   const std::vector records{calm, tense};
   ASSERT_EQ(event_table(records).rows.size(), 1u);

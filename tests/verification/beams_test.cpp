@@ -27,11 +27,13 @@ class Cantilever {
 
   void load(int component, double value, int increments) {
     Equilibrium equilibrium(*model_, 1);
-    RampTarget target{state_.voltage, Eigen::VectorXd::Zero(model_->dofs.count())};
+    Loads target = Loads::of(state_, model_->dofs);
+    target.dead_force.setZero();
     target.dead_force[model_->dofs.equation(mesh_.node_count() - 1, component)] = value;
     const RampOptions options{.newton = {.tolerance = 1e-10, .max_iterations = 25}, .increments = increments};
-    RampProgress progress = RampProgress::begin(state_, options);
-    ASSERT_EQ(ramp(equilibrium, target, options, progress, {}).end, RampEnd::complete);
+    RampProgress progress = RampProgress::begin(state_, model_->dofs, options);
+    ASSERT_EQ(ramp(equilibrium, linear_path(model_->dofs, progress.start, target), options, progress, {}).end,
+              RampEnd::complete);
     state_ = progress.points.back().state;
   }
   const Eigen::Vector3d& tip_displacement() const { return state_.displacement.back(); }

@@ -32,9 +32,13 @@ class CircularActuator {
 
   void charge(double volts, int increments) {
     const RampOptions options{.newton = {.tolerance = 1e-11, .max_iterations = 25}, .increments = increments};
-    RampProgress progress = RampProgress::begin(state_, options);
-    const RampTarget target{{volts}, Eigen::VectorXd::Zero(model_->dofs.count())};
-    ASSERT_EQ(ramp(*equilibrium_, target, options, progress, {}).end, RampEnd::complete);
+    RampProgress progress = RampProgress::begin(state_, model_->dofs, options);
+    Loads target = progress.start;
+    target.voltage = {volts};
+    target.dead_force.setZero();
+    ASSERT_EQ(
+        ramp(*equilibrium_, linear_path(model_->dofs, progress.start, target), options, progress, {}).end,
+        RampEnd::complete);
     state_ = progress.points.back().state;
   }
   /// Current radius of the electrode's edge where it crosses the x axis, m.

@@ -38,14 +38,19 @@ class Honeycomb {
   /// Lets the frame go, or charges: ramps to these volts without dead forces.
   void ramp_to(double volts) {
     const RampOptions options{.newton = {.tolerance = 1e-10, .max_iterations = 25}, .increments = 1};
-    RampProgress progress = RampProgress::begin(state_, options);
-    const RampTarget target{{volts}, Eigen::VectorXd::Zero(model_->dofs.count())};
+    RampProgress progress = RampProgress::begin(state_, model_->dofs, options);
+    Loads target = progress.start;
+    target.voltage = {volts};
+    target.dead_force.setZero();
     RampObserver observer;
     observer.on_accept = [](const RampProgress&, const Increment& increment) {
       EXPECT_EQ(increment.newton.negative_pivots, 0);
       return true;
     };
-    ASSERT_EQ(ramp(*equilibrium_, target, options, progress, observer).end, RampEnd::complete);
+    ASSERT_EQ(
+        ramp(*equilibrium_, linear_path(model_->dofs, progress.start, target), options, progress, observer)
+            .end,
+        RampEnd::complete);
     state_ = progress.points.back().state;
   }
   /// The gauges: between the outer apexes, and between the corner columns' top and bottom walls, m.

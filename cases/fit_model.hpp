@@ -1,0 +1,31 @@
+#pragma once
+
+#include "materials/line.hpp"
+#include "materials/material.hpp"
+
+#include <vector>
+
+namespace dielast::cases {
+
+/// A homogeneous test as it was done: rows of a stretch that goes straight from one to the next. The film is
+/// undeformed and relaxed until t = 0, or until the first row when that is earlier.
+struct StretchHistory {
+  materials::Mode mode{};
+  std::vector<double> time; ///< s, growing; empty: infinitely slow, the branches carry nothing
+  std::vector<double> stretch;
+};
+
+/// Nominal stress at every row, Pa:
+///   P = (dW/dl + sum_b dW_b/dl at the viscous stretch xi_b) / (axes that are pulled),
+/// with xi_b from the flow rule (materials/line.hpp) in `steps` equal steps of time between two rows: BDF2,
+/// or backward Euler where a step is more than twice the one before. Not finite from where the law cannot be
+/// on.
+std::vector<double> nominal_stress(const materials::Material& material, const StretchHistory& history,
+                                   int steps);
+
+/// Smallest power of two of steps between rows, not below `at_least`, that is fine enough: twice as many
+/// change no row by more than `tolerance` times the largest stress. At most 1024.
+int steps_needed(const materials::Material& material, const StretchHistory& history, double tolerance,
+                 int at_least = 1);
+
+} // namespace dielast::cases

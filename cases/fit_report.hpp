@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cases/fit_results.hpp"
+#include "post/report.hpp"
+
+namespace dielast::cases {
+
+/// Parameters and errors of the tests as lines of text.
+std::string fit_summary(const FitResults& results);
+
+/// The fit's report: parameters, correlations, errors, and each test as measured and as modelled.
+post::Report fit_report(const FitResults& results);
+
+} // namespace dielast::cases

@@ -1,0 +1,130 @@
+#include "cases/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+/// Reports at a section of the tree, or at the file as a whole for what a template has brought.
+void report_at(SectionReader& reader, const Node& tree, const std::string& section,
+               const std::string& message) {
+  const Node* node = tree.find(section);
+  reader.report(node ? node->source : tree.source, section, message);
+}
+
+/// How messages name a step, and where it stands.
+struct Place {
+  std::string key;
+  Source source;
+};
+
+Place place_of_step(const Node& tree, std::size_t number) {
+  const Node& item = tree.find("step")->items.at(number);
+  return {item.source.line > 0 ? fmt::format("step[{}]", number + 1) : "step", item.source};
+}
+
+bool has_step(const Case& one, std::initializer_list<StepKind> kinds) {
+  return std::ranges::any_of(
+      one.steps, [&](const Step& step) { return std::ranges::find(kinds, step.kind) != kinds.end(); });
+}
+
+void check_loads(SectionReader& reader, const Node& tree, const Case& one) {
+  if (has_step(one, {StepKind::force}) && one.loads.empty())
+    report_at(reader, tree, "step", "a step of kind \"force\" has nothing to apply; add a [[load]]");
+  if (one.loads.empty() || has_step(one, {StepKind::force, StepKind::transient})) return;
+  report_at(reader, tree, one.loads.front().standard ? "patch" : "load",
+            "no step applies it; add a [[step]] with kind = \"force\"");
+}
+
+void check_motions(SectionReader& reader, const Node& tree, const Case& one) {
+  const auto moved = std::ranges::find_if(one.supports, &Support::moves);
+  if (moved == one.supports.end()) {
+    if (has_step(one, {StepKind::move}))
+      report_at(reader, tree, "step",
+                "a step of kind \"move\" has nothing to move; give a [[support]] a displacement");
+  } else if (!has_step(one, {StepKind::move, StepKind::transient})) {
+    report_at(reader, tree, moved->standard ? "patch" : "support",
+              "no step moves it; add a [[step]] with kind = \"move\"");
+  }
+}
+
+void check_drives(SectionReader& reader, const Node& tree, const Case& one) {
+  const bool voltage =
+      std::ranges::any_of(one.drives, [](const auto& d) { return d.second.voltage.has_value(); });
+  const bool charge =
+      std::ranges::any_of(one.drives, [](const auto& d) { return d.second.charge.has_value(); });
+  if (!charge && has_step(one, {StepKind::charge}))
+    report_at(reader, tree, "step",
+              "a step of kind \"charge\" has no charge to reach; give [drive] a charge");
+  if (charge && !voltage && has_step(one, {StepKind::voltage}))
+    report_at(reader, tree, "step",
+              "a step of kind \"voltage\" has no voltage to reach; give [drive] a voltage");
+  const bool follows_charge = std::ranges::any_of(one.steps, [](const Step& step) {
+    return step.kind == StepKind::charge ||
+           (step.kind == StepKind::transient && step.control == Control::charge);
+  });
+  if (charge && !follows_charge)
+    report_at(reader, tree, "drive", "no step applies its charge; add a [[step]] with kind = \"charge\"");
+}
+
+bool drives_charge(const WrittenWave& written) {
+  return written.key.starts_with("drive") && written.key.ends_with(".charge");
+}
+
+/// Whether the step is a transient that follows the wave: of voltage and charge only the one that it
+/// controls.
+bool follows(const Step& step, const WrittenWave& written) {
+  if (step.kind != StepKind::transient) return false;
+  return !written.key.starts_with("drive") || drives_charge(written) == (step.control == Control::charge);
+}
+
+void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
+  for (const WrittenWave& written : reader.waves())
+    if (std::ranges::none_of(one.steps, [&](const Step& step) { return follows(step, written); }))
+      reader.report(
+          written.source, written.key,
+          fmt::format("no step follows this wave; add a [[step]] with kind = \"transient\"{} and its "
+                      "duration",
+                      drives_charge(written) ? ", control = \"charge\"" : ""));
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    for (const WrittenWave& written : reader.waves()) {
+      if (!follows(step, written)) continue;
+      const double longest = written.wave.period() / 4, dt = *step.duration / step.increments;
+      if (dt <= longest * (1 + 1e-9)) continue;
+      const Place at = place_of_step(tree, s);
+      reader.report(
+          at.source, at.key + ".increments",
+          fmt::format("time steps of {:.6g} s are longer than a quarter of the period {:.6g} s of {}; "
+                      "allowed at least {:.0f} increments",
+                      dt, written.wave.period(), written.key,
+                      std::ceil(*step.duration / longest * (1 - 1e-9))));
+    }
+  }
+}
+
+void check_patch(SectionReader& reader, const Node& tree, const Case& one) {
+  const auto* patch = std::get_if<Patch>(&one.geometry);
+  if (!patch || patch->mode != PatchMode::equal_biaxial || one.film.prestretch[0] == one.film.prestretch[1])
+    return;
+  const Node* written = tree.find("film")->find("prestretch");
+  reader.report(
+      written->source, "film.prestretch",
+      fmt::format("found {}: in equal-biaxial tension x and y are stretched alike", text_of(*written)));
+}
+
+} // namespace
+
+void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
+  if (!reader.diagnostics().empty()) return; // these would complain of what is only misspelt
+  check_loads(reader, tree, one);
+  check_motions(reader, tree, one);
+  check_drives(reader, tree, one);
+  check_waves(reader, tree, one);
+  check_patch(reader, tree, one);
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "cases/section_reader.hpp"
+
+namespace dielast::cases {
+
+/// Rules between sections: every load, drive, motion and wave has a step that applies it, every step has
+/// something to apply, time steps resolve the waves, a patch can do what it is asked.
+void check_rules(SectionReader& reader, const Node& tree, const Case& one);
+
+} // namespace dielast::cases

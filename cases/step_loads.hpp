@@ -1,0 +1,37 @@
+#pragma once
+
+#include "cases/device.hpp"
+#include "fem/ramp.hpp"
+
+namespace dielast::cases {
+
+/// What the steps of a case do to the loads of its device.
+class StepLoads {
+ public:
+  /// `frame_force`: dead forces by which a frame holds the free nodes as drawn, until a step releases them.
+  StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps,
+            Eigen::VectorXd frame_force);
+
+  /// Connects and isolates electrodes as the step wants; what becomes isolated keeps its charge.
+  void begin(int step, fem::State& state) const;
+  /// From the loads `start` on: straight to the goals of a ramp, along the waves of a transient.
+  fem::LoadPath path(int step, const fem::Loads& start) const;
+  fem::RampOptions options(int step) const;
+
+ private:
+  bool isolates(const Step& step, std::size_t electrode) const;
+  const Drive* drive(std::size_t electrode) const;
+  /// Kinds of the steps up to this one.
+  bool happened(int step, StepKind kind) const;
+  Eigen::VectorXd dead_force(int step, double t) const;
+  void move(Eigen::VectorXd& held, double t) const;
+  fem::Loads at(int step, const fem::Loads& start, double t) const;
+  std::vector<double> kinks(const Step& step) const;
+
+  const Case& case_;
+  const Device& device_;
+  const std::vector<Step>& steps_;
+  Eigen::VectorXd frame_force_;
+};
+
+} // namespace dielast::cases

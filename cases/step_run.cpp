@@ -1,0 +1,244 @@
+#include "cases/step_run.hpp"
+
+#include "fem/jump.hpp"
+#include "post/engineering.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+
+namespace {
+
+constexpr int most_jumps = 100;
+/// Loads beyond a limit point at which the device jumps, as a part of the step.
+constexpr double beyond = 1e-6;
+/// Displacement along a mode at which another branch is looked for, over the model's extent.
+constexpr double branch_amplitude = 1e-3;
+
+const char* word(fem::Instability kind) {
+  return kind == fem::Instability::limit_point ? "limit point" : "bifurcation";
+}
+
+} // namespace
+
+/// Loads of s, and dashpots that do what they do in this step.
+fem::State StepRun::loaded(fem::State state, double s) const {
+  path_.apply(state, s);
+  state.scheme =
+      timed() || options_.instantaneous ? materials::TimeScheme::frozen() : materials::TimeScheme::relaxed();
+  return state;
+}
+
+/// An equilibrium as the next increment starts from it.
+fem::State StepRun::settled(fem::State state) const {
+  state.history = equilibrium_.model().advanced_history(state);
+  state.scheme = materials::TimeScheme::frozen();
+  return state;
+}
+
+/// The loads at s, as a person would name them.
+std::string StepRun::load_text(double s) const {
+  fem::State at = last(), begin = at;
+  path_.apply(at, s);
+  path_.apply(begin, 0);
+  std::string text;
+  double largest = 0;
+  for (std::size_t e = 0; e < at.voltage.size(); ++e) {
+    const bool isolated = at.isolated[e] != 0;
+    const double from = isolated ? begin.charge[e] : begin.voltage[e];
+    const double to = isolated ? at.charge[e] : at.voltage[e];
+    if (std::abs(to - from) <= largest) continue;
+    largest = std::abs(to - from);
+    text = post::engineering(to, isolated ? "C" : "V", post::Ratio::plain, 5);
+  }
+  return text.empty() ? fmt::format("load factor {:.5g}", s) : text;
+}
+
+void StepRun::announce(const fem::CriticalPoint& critical) {
+  if (!observer_.on_critical) return;
+  observer_.on_critical(critical,
+                        {word(critical.kind), "",
+                         fmt::format("{} at {}", word(critical.kind), load_text(critical.load_factor))});
+}
+
+bool StepRun::accept(const fem::State& state, const fem::Increment& increment, Reached reached) {
+  progress_.unstable_modes = increment.newton.unstable_modes;
+  return !observer_.on_accept || observer_.on_accept(state, increment, reached);
+}
+
+/// A state under load control. Where stability was lost on the way, the critical point is located; a step
+/// that leaves its path there does not accept the unstable state.
+bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increment) {
+  const bool lost = increment.newton.unstable_modes > progress_.unstable_modes;
+  if (!timed() && lost && now.points.size() > 1) {
+    const fem::State& before = now.points[now.points.size() - 2].state;
+    const double s_before = increment.load_factor - increment.length;
+    auto critical = fem::locate_by_load_control(equilibrium_, path_, loaded(before, s_before), s_before,
+                                                increment.load_factor, options_.newton);
+    if (critical) announce(*critical);
+    const bool leaves =
+        step_.on_bifurcation == OnBifurcation::switch_branch || step_.on_instability == OnInstability::jump;
+    if (critical && leaves) {
+      leaving_ = std::move(critical);
+      return false;
+    }
+  }
+  return accept(now.points.back().state, increment, Reached::along_path);
+}
+
+Outcome StepRun::run() {
+  fem::RampObserver watcher{observer_.on_try, observer_.on_iteration, observer_.on_cutback,
+                            [this](const fem::RampProgress& now, const fem::Increment& increment) {
+                              return on_ramp(now, increment);
+                            }};
+  while (progress_.followed || progress_.ramp.load_factor < 1) {
+    if (progress_.followed) {
+      if (const auto outcome = follow()) return *outcome;
+      continue;
+    }
+    Trouble trouble{fem::ramp(equilibrium_, path_, options_, progress_.ramp, watcher), {}};
+    if (trouble.ramp.end == fem::RampEnd::complete) break;
+    if (trouble.ramp.end == fem::RampEnd::stopped) {
+      if (!leaving_) return {Ending::interrupted};
+      // back to the last stable state
+      auto& points = progress_.ramp.points;
+      trouble.ramp.failed_at = progress_.ramp.load_factor;
+      progress_.ramp.load_factor = leaving_->load_factor;
+      points.pop_back();
+      trouble.critical = std::exchange(leaving_, std::nullopt);
+    } else if (!timed() && trouble.ramp.failure.outcome != fem::Outcome::singular) {
+      const double s = progress_.ramp.load_factor;
+      trouble.critical = fem::locate_by_load_control(equilibrium_, path_, loaded(last(), s), s,
+                                                     trouble.ramp.failed_at, options_.newton);
+      if (trouble.critical) announce(*trouble.critical);
+    }
+    if (const auto outcome = leave(trouble)) return *outcome;
+  }
+  return {};
+}
+
+/// Load control has ended; nothing where the step goes on.
+std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
+  const bool branches_off = trouble.critical && trouble.critical->kind == fem::Instability::bifurcation;
+  const fem::ContinuationOptions arcs{.newton = options_.newton};
+  if (branches_off && step_.on_bifurcation == OnBifurcation::switch_branch) {
+    progress_.followed = fem::switch_branch(equilibrium_, path_, *trouble.critical,
+                                            branch_amplitude * equilibrium_.model().extent, arcs);
+    if (!progress_.followed) return failure(trouble);
+    return std::nullopt;
+  }
+  if (step_.on_instability == OnInstability::jump) return jump(trouble);
+  if (step_.on_instability == OnInstability::stop || timed()) return failure(trouble);
+  const double s = progress_.ramp.load_factor;
+  progress_.followed = fem::begin_continuation(equilibrium_, path_, loaded(last(), s), s, 1, arcs);
+  if (!progress_.followed) return failure(trouble);
+  return std::nullopt;
+}
+
+std::optional<Outcome> StepRun::follow() {
+  fem::ContinuationProgress before = *progress_.followed;
+  bool interrupted = false;
+  fem::ContinuationObserver watcher;
+  watcher.on_accept = [&](const fem::ContinuationProgress& now) {
+    if (now.newton.unstable_modes != before.newton.unstable_modes)
+      if (const auto critical = fem::locate(equilibrium_, path_, before, now, options_.newton))
+        announce(*critical);
+    before = now;
+    fem::State state = settled(now.state);
+    progress_.followed = now;
+    progress_.ramp.points = {{0, state}};
+    progress_.ramp.load_factor = std::min(now.load_factor, std::nextafter(1.0, 0.0)); // until the end
+    interrupted = !accept(state, {now.load_factor, now.newton, true, now.last_arc}, Reached::along_path);
+    return !interrupted;
+  };
+  watcher.on_cutback = [this](double) {
+    if (observer_.on_cutback) observer_.on_cutback(progress_.followed->load_factor, {});
+  };
+  const fem::ContinuationOptions arcs{.newton = options_.newton};
+  fem::ContinuationProgress progress = before;
+  const fem::ContinuationEnd end = fem::continuation(equilibrium_, path_, arcs, progress, watcher);
+  if (interrupted) return Outcome{Ending::interrupted};
+  const double s = progress.load_factor;
+  progress_.followed.reset();
+  if (end == fem::ContinuationEnd::reached_load && s >= 1) {
+    progress_.ramp.load_factor = 1;
+    return std::nullopt;
+  }
+  return Outcome{
+      Ending::gave_up, "no equilibrium",
+      end == fem::ContinuationEnd::reached_load
+          ? fmt::format("step \"{}\": the path led back to the loads at the step's beginning", step_.name)
+          : fmt::format("step \"{}\": the path was followed through {} states, to {}; there it {}",
+                        step_.name, progress.steps, load_text(s),
+                        end == fem::ContinuationEnd::gave_up ? "could not be followed any further"
+                                                             : "was left: that is the most")};
+}
+
+std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
+  if (++progress_.jumps > most_jumps) return failure(trouble);
+  fem::RampProgress& ramp = progress_.ramp;
+  fem::State state = last();
+  double s = trouble.ramp.failed_at;
+  Eigen::VectorXd direction;
+  if (trouble.critical) {
+    state = trouble.critical->state;
+    s = std::min(1.0, trouble.critical->load_factor + beyond);
+    direction = trouble.critical->mode.direction;
+    const double length = trouble.critical->load_factor - ramp.load_factor;
+    if (length > beyond &&
+        !accept(settled(state), {trouble.critical->load_factor, {}, true, length}, Reached::along_path))
+      return Outcome{Ending::interrupted};
+  } else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(state, ramp.load_factor))) {
+    direction = mode->direction;
+  } else {
+    return failure(trouble);
+  }
+  state = loaded(std::move(state), s);
+  const fem::JumpResult result = fem::jump(equilibrium_, state, direction, {.newton = options_.newton});
+  if (result.end != fem::JumpEnd::landed) {
+    Outcome outcome = failure(trouble);
+    outcome.message += fmt::format(". No stable state was found to jump to: the device {}",
+                                   result.end == fem::JumpEnd::ran_away ? "runs away" : "is stuck");
+    return outcome;
+  }
+  state = settled(std::move(state));
+  ramp.load_factor = s;
+  ramp.increment = 1.0 / options_.increments;
+  ramp.at_break = ramp.turns = true;
+  ramp.negative_pivots = result.newton.unstable_modes;
+  ramp.points = {{0, state}};
+  if (!accept(state, {s, result.newton}, Reached::by_jump)) return Outcome{Ending::interrupted};
+  return std::nullopt;
+}
+
+Outcome StepRun::failure(const Trouble& trouble) const {
+  const double reached = progress_.ramp.load_factor;
+  if (trouble.ramp.failure.outcome == fem::Outcome::singular)
+    return {Ending::gave_up, "singular tangent",
+            fmt::format(
+                "step \"{}\" stopped at load factor {:.4g}: the tangent is singular. Part of the device can "
+                "move freely: hold it with [[support]]; an unstretched film in space has no stiffness normal "
+                "to itself: stretch it or use model = \"planar\"",
+                step_.name, reached)};
+  if (trouble.critical) {
+    const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
+    return {
+        Ending::gave_up, "limit point",
+        fmt::format(
+            "limit point near {}: equilibrium found up to {}, none at {}{}. Lower the drive, or stiffen the "
+            "device or stretch the film more, to stay below it; or let the step go on with "
+            "on_instability = \"follow\" or \"jump\"",
+            load_text(trouble.critical->load_factor), load_text(reached), load_text(trouble.ramp.failed_at),
+            branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable" : "")};
+  }
+  return {Ending::gave_up, "no equilibrium",
+          fmt::format(
+              "step \"{}\" stopped at load factor {:.4g}: no equilibrium found at {:.4g} with smaller and "
+              "smaller increments. Try more increments, a finer mesh, or a smaller prestretch{}",
+              step_.name, reached, trouble.ramp.failed_at,
+              timed() ? "; or let the step go on with on_instability = \"jump\"" : "")};
+}
+
+} // namespace dielast::cases

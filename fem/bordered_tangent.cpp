@@ -1,0 +1,134 @@
+#include "fem/bordered_tangent.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::fem {
+
+namespace {
+
+/// Compliance over that of the diagonal as drawn, from which on elimination loses too many digits.
+constexpr double nearly_singular = 1e10;
+/// Eigenvalues of Schur complements (scaled to 1) below this are round-off.
+constexpr double round_off = 1e-12;
+
+int negative_eigenvalues(const Eigen::MatrixXd& symmetric) {
+  if (symmetric.size() == 0) return 0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, Eigen::EigenvaluesOnly);
+  return static_cast<int>((solver.eigenvalues().array() < -round_off).count());
+}
+
+} // namespace
+
+bool any_isolated(const State& state) { return std::ranges::find(state.isolated, 1) != state.isolated.end(); }
+
+BorderedTangent::BorderedTangent(const Model& model, const Assembler& assembler,
+                                 const Eigen::VectorXd& stiffness)
+    : model_(model), matrix_(assembler.matrix()), stiffness_(stiffness), solver_(matrix_) {}
+
+void BorderedTangent::append_border(const Eigen::VectorXd& column, const Eigen::VectorXd& row,
+                                    double corner) {
+  const Eigen::Index last = columns_.cols();
+  columns_.conservativeResize(matrix_.size, last + 1);
+  rows_.conservativeResize(matrix_.size, last + 1);
+  corner_.conservativeResize(last + 1);
+  columns_.col(last) = column;
+  rows_.col(last) = row;
+  corner_[last] = corner;
+}
+
+void BorderedTangent::set_borders(const State& state, const PathBorder* path) {
+  columns_.resize(matrix_.size, 0);
+  rows_.resize(matrix_.size, 0);
+  corner_.resize(0);
+  electrodes_ = 0;
+  paths_ = path ? 1 : 0;
+  if (path) append_border(path->column, path->row, path->corner);
+  if (!any_isolated(state)) return;
+  const Charges charges = model_.charges(state, true);
+  for (std::size_t e = 0; e < state.isolated.size(); ++e) {
+    if (!state.isolated[e]) continue;
+    const Eigen::VectorXd column =
+        -charges.coupling[e].head(matrix_.size) / std::sqrt(charges.capacitance[e]);
+    append_border(column, column, -1);
+    ++electrodes_;
+  }
+}
+
+void BorderedTangent::eliminate() {
+  solved_.resize(matrix_.size, columns_.cols());
+  Eigen::VectorXd x;
+  for (Eigen::Index i = 0; i < columns_.cols(); ++i) {
+    solver_.solve(columns_.col(i), x);
+    solved_.col(i) = x;
+  }
+  schur_ = -rows_.transpose() * solved_;
+  schur_.diagonal() += corner_;
+}
+
+/// Where the borders find K almost without stiffness.
+std::optional<int> BorderedTangent::weakest_equation() const {
+  for (Eigen::Index i = 0; i < columns_.cols(); ++i) {
+    const Eigen::ArrayXd energy = stiffness_.array() * solved_.col(i).array().square();
+    const double stiff = (columns_.col(i).array().square() / stiffness_.array()).sum();
+    Eigen::Index weakest = 0;
+    energy.maxCoeff(&weakest);
+    if (!(energy.sum() <= nearly_singular * nearly_singular * stiff)) return static_cast<int>(weakest);
+  }
+  return std::nullopt;
+}
+
+bool BorderedTangent::shift(int equation, const Eigen::VectorXd* added) {
+  const double sigma = stiffness_[equation];
+  Eigen::VectorXd stiffer = added ? *added : Eigen::VectorXd::Zero(matrix_.size);
+  stiffer[equation] += sigma;
+  if (!solver_.factor(&stiffer)) return false;
+  const Eigen::VectorXd column = -std::sqrt(sigma) * Eigen::VectorXd::Unit(matrix_.size, equation);
+  append_border(column, column, 1);
+  eliminate();
+  return true;
+}
+
+void BorderedTangent::count_modes(bool shifted) {
+  const Eigen::Index symmetric = columns_.cols() - paths_;
+  negative_pivots_ = solver_.negative_pivots();
+  unstable_modes_ =
+      negative_pivots_ + negative_eigenvalues(schur_.bottomRightCorner(symmetric, symmetric)) - electrodes_;
+  if (shifted) negative_pivots_ += negative_eigenvalues(schur_.bottomRightCorner(1, 1));
+}
+
+bool BorderedTangent::factor(const State& state, const PathBorder* path, const Eigen::VectorXd* added) {
+  set_borders(state, path);
+  const bool regular = solver_.factor(added);
+  if (columns_.cols() == 0) {
+    if (regular) negative_pivots_ = unstable_modes_ = solver_.negative_pivots();
+    return regular;
+  }
+  if (!columns_.allFinite()) return false;
+  std::optional<int> weakest;
+  if (regular) {
+    eliminate();
+    weakest = weakest_equation();
+  } else {
+    weakest = solver_.singular_equation();
+    if (*weakest < 0) return false;
+  }
+  if (weakest && !shift(*weakest, added)) return false;
+  count_modes(weakest.has_value());
+  lu_.compute(schur_);
+  return lu_.isInvertible();
+}
+
+double BorderedTangent::solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g) {
+  solver_.solve(f, du);
+  if (columns_.cols() == 0) return 0;
+  Eigen::VectorXd right = -rows_.transpose() * du;
+  if (paths_) right[0] += g;
+  const Eigen::VectorXd y = lu_.solve(right);
+  du -= solved_ * y;
+  return paths_ ? y[0] : 0.0;
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,149 @@
+#include "fem/jump.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr double first_damping = 1e-2; ///< c/dt, over the stiffness as drawn
+constexpr double least_damping = 1e-8, most_damping = 1e8;
+constexpr double quicker = 3, slower = 9; ///< factors of the time step after success and failure
+constexpr double settled = 1e-2;          ///< size of a step from which on Newton's method may finish
+constexpr double returned = 0.5; ///< part of the energy released that would be taken back: the start again
+
+double farthest_node(const State& state) {
+  double farthest = 0;
+  for (const Eigen::Vector3d& u : state.displacement) farthest = std::max(farthest, u.norm());
+  return farthest;
+}
+
+/// One way down at fixed loads.
+class Descent {
+ public:
+  Descent(Equilibrium& equilibrium, State& state, const JumpOptions& options)
+      : equilibrium_(equilibrium), model_(equilibrium.model()), state_(state), options_(options) {
+    take(state);
+    start_ = energy_;
+  }
+
+  bool push(const Eigen::VectorXd& direction);
+  JumpResult fall();
+
+ private:
+  double potential(const State& state, const Balance& at) const;
+  void take(State state);
+  bool step(double damping);
+  std::optional<NewtonResult> land();
+
+  Equilibrium& equilibrium_;
+  const Model& model_;
+  State& state_;
+  const JumpOptions& options_;
+  Balance current_, trial_;
+  double energy_ = 0, start_ = 0;
+  double step_size_ = 0; ///< of the last step
+};
+
+/// Energy under the control less the work of the dead forces.
+double Descent::potential(const State& state, const Balance& at) const {
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(model_.dofs.count());
+  for (int n = 0; n < model_.dofs.node_count(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = model_.dofs.equation(n, c); e != DofMap::absent)
+        u[e] = state.displacement[static_cast<std::size_t>(n)][c];
+  return at.energy - state.dead_force.dot(u);
+}
+
+void Descent::take(State state) {
+  equilibrium_.balance(state, current_);
+  energy_ = potential(state, current_);
+  state_ = std::move(state);
+}
+
+/// To the side of `direction` where the energy is lower; false if neither is feasible.
+bool Descent::push(const Eigen::VectorXd& direction) {
+  const double length = options_.push * model_.extent / direction.cwiseAbs().maxCoeff();
+  std::optional<State> lower;
+  double lowest = 0;
+  for (const double side : {length, -length}) {
+    State there = state_;
+    model_.dofs.advance(there, direction, side);
+    equilibrium_.balance(there, trial_);
+    if (!trial_.feasible) continue;
+    const double energy = potential(there, trial_);
+    if (lower && energy >= lowest) continue;
+    lowest = energy;
+    lower = std::move(there);
+  }
+  if (lower) take(std::move(*lower));
+  return lower.has_value();
+}
+
+bool Descent::step(double damping) {
+  const Eigen::VectorXd added = damping * equilibrium_.stiffness();
+  if (!equilibrium_.factor(state_, nullptr, &added) || equilibrium_.tangent().unstable_modes() > 0)
+    return false;
+  Eigen::VectorXd du;
+  equilibrium_.tangent().solve(-current_.force.head(added.size()), du);
+  State there = state_;
+  model_.dofs.advance(there, du, 1);
+  equilibrium_.balance(there, trial_);
+  if (!trial_.feasible || potential(there, trial_) >= energy_) return false;
+  energy_ = potential(there, trial_);
+  std::swap(current_, trial_);
+  step_size_ = equilibrium_.step_size(du);
+  state_ = std::move(there);
+  return true;
+}
+
+/// The stable equilibrium close by and below, if there is one.
+std::optional<NewtonResult> Descent::land() {
+  if (step_size_ > settled || !equilibrium_.factor(state_) || equilibrium_.tangent().unstable_modes() > 0)
+    return std::nullopt;
+  State there = state_;
+  const NewtonResult newton = equilibrium_.solve(there, options_.newton);
+  if (newton.outcome != Outcome::converged || newton.unstable_modes > 0) return std::nullopt;
+  equilibrium_.balance(there, trial_);
+  if (potential(there, trial_) - energy_ > returned * (start_ - energy_)) return std::nullopt;
+  take(std::move(there));
+  return newton;
+}
+
+JumpResult Descent::fall() {
+  JumpResult result;
+  double damping = first_damping;
+  for (; result.steps < options_.most_steps && damping < most_damping; ++result.steps) {
+    if (!step(damping)) {
+      damping *= slower;
+      continue;
+    }
+    damping = std::max(least_damping, damping / quicker);
+    result.energy_released = start_ - energy_;
+    if (farthest_node(state_) > options_.farthest * model_.extent) {
+      result.end = JumpEnd::ran_away;
+      return result;
+    }
+    if (const auto newton = land()) {
+      result.end = JumpEnd::landed;
+      result.newton = *newton;
+      result.energy_released = start_ - energy_;
+      return result;
+    }
+  }
+  result.end = JumpEnd::stuck;
+  return result;
+}
+
+} // namespace
+
+JumpResult jump(Equilibrium& equilibrium, State& state, const Eigen::VectorXd& direction,
+                const JumpOptions& options) {
+  Descent descent(equilibrium, state, options);
+  if (!descent.push(direction)) return {.end = JumpEnd::stuck};
+  return descent.fall();
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,66 @@
+#include "fem/load_path.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace dielast::fem {
+
+Loads Loads::of(const State& state, const DofMap& dofs) {
+  Loads loads{state.voltage, state.charge, state.dead_force,
+              Eigen::VectorXd::Zero(dofs.count() - dofs.free_count())};
+  for (int n = 0; n < dofs.node_count(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(n, c); e >= dofs.free_count())
+        loads.held[e - dofs.free_count()] = state.displacement[static_cast<std::size_t>(n)][c];
+  return loads;
+}
+
+void Loads::apply(State& state, const DofMap& dofs) const {
+  for (std::size_t e = 0; e < voltage.size(); ++e)
+    (state.isolated[e] ? state.charge : state.voltage)[e] = (state.isolated[e] ? charge : voltage)[e];
+  state.dead_force = dead_force;
+  for (int n = 0; n < dofs.node_count(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(n, c); e >= dofs.free_count())
+        state.displacement[static_cast<std::size_t>(n)][c] = held[e - dofs.free_count()];
+}
+
+namespace {
+
+std::vector<double> mix(const std::vector<double>& from, const std::vector<double>& to, double s) {
+  std::vector<double> between(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) between[i] = (1 - s) * from[i] + s * to[i];
+  return between;
+}
+
+/// The electrode whose voltage changes most; none where it changes its sign or nothing changes.
+std::optional<std::size_t> leading_electrode(const Loads& from, const Loads& to) {
+  std::optional<std::size_t> leading;
+  double largest = 0;
+  for (std::size_t e = 0; e < from.voltage.size(); ++e)
+    if (const double change = std::abs(to.voltage[e] - from.voltage[e]); change > largest) {
+      largest = change;
+      leading = e;
+    }
+  if (leading && from.voltage[*leading] * to.voltage[*leading] < 0) return std::nullopt;
+  return leading;
+}
+
+} // namespace
+
+LoadPath linear_path(const DofMap& dofs, Loads from, Loads to) {
+  LoadPath path;
+  if (const auto e = leading_electrode(from, to))
+    path.parameter = [a = from.voltage[*e], b = to.voltage[*e]](double s) {
+      const double phi = (1 - s) * a + s * b;
+      return phi * phi;
+    };
+  path.apply = [&dofs, from = std::move(from), to = std::move(to)](State& state, double s) {
+    Loads{mix(from.voltage, to.voltage, s), mix(from.charge, to.charge, s),
+          (1 - s) * from.dead_force + s * to.dead_force, (1 - s) * from.held + s * to.held}
+        .apply(state, dofs);
+  };
+  return path;
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "fem/dofs.hpp"
+#include "fem/state.hpp"
+
+#include <functional>
+
+namespace dielast::fem {
+
+/// Everything that is prescribed to a state.
+struct Loads {
+  std::vector<double> voltage; ///< V, per electrode; of isolated ones it has no effect
+  std::vector<double> charge;  ///< C, per electrode; of driven ones it has no effect
+  Eigen::VectorXd dead_force;  ///< per equation, N
+  Eigen::VectorXd held;        ///< displacements of the held equations, m (rad for rotations: 0)
+
+  static Loads of(const State& state, const DofMap& dofs);
+  bool operator==(const Loads&) const = default;
+  void apply(State& state, const DofMap& dofs) const;
+};
+
+/// The loads of one step as functions of its load factor s in 0..1.
+struct LoadPath {
+  /// Sets everything that is prescribed at s.
+  std::function<void(State&, double s)> apply;
+  /// Monotonic in s: the parameter in which states are extrapolated.
+  std::function<double(double s)> parameter = [](double s) { return s; };
+  /// Load factors at which a load jumps or turns; just before them the loads of the left side hold.
+  std::vector<double> breaks;
+};
+
+/// Loads that grow linearly with s. The parameter is the largest Phi^2, in which the film's energy is linear,
+/// where one voltage leads without changing its sign. `dofs` must outlive the path.
+LoadPath linear_path(const DofMap& dofs, Loads from, Loads to);
+
+} // namespace dielast::fem

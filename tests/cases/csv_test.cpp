@@ -1,0 +1,67 @@
+#include "cases/csv.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dielast::cases {
+namespace {
+
+const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "table.csv";
+
+CsvTable read(const std::string& content, std::vector<Diagnostic>& wrong, int least_rows = 1) {
+  std::ofstream(file, std::ios::binary) << content;
+  return read_csv(file, least_rows, wrong);
+}
+
+std::vector<std::string> texts(const std::vector<Diagnostic>& wrong) {
+  std::vector<std::string> all;
+  for (const Diagnostic& one : wrong) all.push_back(one.text().substr(file.string().size()));
+  return all;
+}
+
+TEST(Csv, ReadsColumnsByNameWithTheirUnits) {
+  std::vector<Diagnostic> wrong;
+  const CsvTable table = read(
+      "\xEF\xBB\xBF# measured\r\ntime_s, \"voltage_kV\" ,note_taken\r\n\r\n0,1.5,7\r\n# later\n+2e0,-3,8",
+      wrong);
+  EXPECT_TRUE(wrong.empty()) << wrong.front().text();
+  EXPECT_EQ(table.names, (std::vector<std::string>{"time_s", "voltage_kV", "note_taken"}));
+  EXPECT_EQ(table.lines, (std::vector{4, 6}));
+  EXPECT_EQ(table.find("note_taken"), 2);
+  EXPECT_EQ(table.find("voltage"), -1);
+  EXPECT_EQ(si_column(table, 1, "V"), (std::vector{1500.0, -3000.0}));
+  EXPECT_EQ(si_column(table, 2, "V"), (std::vector{7.0, 8.0})); // "taken" is no unit
+}
+
+TEST(Csv, SaysEverythingThatIsWrongWithLineAndColumn) {
+  std::vector<Diagnostic> wrong;
+  read("time_s,force_N\n0,abc\n1,\n 2 , 3x,\n3,nan\n4,1e999\n", wrong, 9);
+  EXPECT_EQ(texts(wrong),
+            (std::vector<std::string>{":2:3: error: force_N: found \"abc\", allowed a number",
+                                      ":3:3: error: force_N: the cell is empty, allowed a number",
+                                      ":4:1: error: found 3 cells, allowed 2: one for each name in line 1",
+                                      ":5:3: error: force_N: found \"nan\", allowed a number",
+                                      ":6:3: error: force_N: found \"1e999\", allowed a number",
+                                      ": error: found 5 rows of numbers, allowed at least 9"}));
+}
+
+TEST(Csv, RowsMustGrow) {
+  std::vector<Diagnostic> wrong;
+  const CsvTable table = read("time_s\n0\n2\n2\n1\n3\n", wrong);
+  require_growing(table, 0, wrong);
+  EXPECT_EQ(texts(wrong),
+            (std::vector<std::string>{
+                ":4:1: error: time_s: found 2 after 2, allowed values that grow from row to row",
+                ":5:1: error: time_s: found 1 after 2, allowed values that grow from row to row"}));
+}
+
+TEST(Csv, AnEmptyFileHasNoRowsAndAMissingOneIsAnError) {
+  std::vector<Diagnostic> wrong;
+  EXPECT_EQ(read("# nothing\n", wrong, 2).rows(), 0);
+  EXPECT_EQ(texts(wrong), std::vector<std::string>{": error: found 0 rows of numbers, allowed at least 2"});
+  EXPECT_THROW(read_csv(file.parent_path() / "nowhere.csv", 1, wrong), FileError);
+  EXPECT_THROW(read_csv(file.parent_path(), 1, wrong), FileError);
+}
+
+} // namespace
+} // namespace dielast::cases

@@ -1,0 +1,105 @@
+#include "tests/cases/command.hpp"
+
+namespace dielast::test {
+namespace {
+
+class FitCommand : public CommandTest {
+ protected:
+  /// A softening pull, and its file with these keys of [fit].
+  void write_fit(const std::string& keys) const {
+    write("pull.csv", "stretch,P_kPa\n1.2,7.7\n1.5,16.2\n2,26.1\n3,43.1\n4,58.4\n5,74.9\n6,90.1\n");
+    write("fit.toml", "title = \"Soft film\"\n[film.material]\nlaw = \"gent\"\nshear_modulus = \"20 kPa\"\n"
+                      "stretch_limit = 100\nrelative_permittivity = 3\n"
+                      "[[film.material.branch]]\nshear_modulus = \"1 kPa\"\nrelaxation_time = \"2 s\"\n"
+                      "[fit]\n" +
+                          keys +
+                          "\n[[test]]\nfile = \"pull.csv\"\nkind = \"uniaxial\"\nequilibrium = true\n"
+                          "[[test]]\nfile = \"pull.csv\"\nkind = \"pure shear\"\nequilibrium = true\n"
+                          "use = \"predict\"\n");
+  }
+  static constexpr const char* law_only = "parameters = [\"shear_modulus\", \"stretch_limit\"]";
+};
+
+TEST_F(FitCommand, WritesParametersTableMaterialAndReport) {
+  write_fit(law_only);
+  const Ended ended = dielast({"fit", "fit.toml", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  const nlohmann::json fit = json_of("out/fit.json");
+  EXPECT_EQ(fit["status"], "converged");
+  ASSERT_EQ(fit["parameters"].size(), 2u);
+  const nlohmann::json& modulus = fit["parameters"][0];
+  EXPECT_EQ(modulus["name"], "shear_modulus");
+  EXPECT_LT(modulus["low_95"], modulus["value"]);
+  EXPECT_LT(modulus["value"], modulus["high_95"]);
+  EXPECT_LT(fit["tests"][0]["rms_error"], 0.02);
+  EXPECT_GT(fit["tests"][1]["rms_error"], fit["tests"][0]["rms_error"]);
+  EXPECT_EQ(table_of(directory / "out/fit.csv").size(), 15u);
+  EXPECT_EQ(table_of(directory / "out/fit.csv")[1][4], "7700");
+  const std::string report = content("out/report.html");
+  for (const char* part : {"</html>", "data:image/svg+xml", "95 % interval", "prediction"})
+    EXPECT_NE(report.find(part), std::string::npos) << part;
+  EXPECT_NE(ended.out.find("prediction"), std::string::npos);
+}
+
+TEST_F(FitCommand, TheMaterialCanBePastedIntoACase) {
+  write_fit(law_only);
+  ASSERT_EQ(dielast({"fit", "fit.toml", "-o", "out"}).exit_code, 0);
+  std::string device = small_disc;
+  const std::string named = "material = \"VHB 4910 (honeycomb)\"\n";
+  device.replace(device.find(named), named.size(), "");
+  write("device.toml", device + content("out/material.toml"));
+  const Ended ended = dielast({"check", "device.toml"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(content("out/material.toml").find("relaxation_time = \"2 s\""), std::string::npos);
+}
+
+TEST_F(FitCommand, WhatTheTestsDoNotTellIsAWarning) {
+  write_fit("");
+  const Ended ended = dielast({"fit", "fit.toml", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("warning: branch[1].relaxation_time is not identifiable"), std::string::npos)
+      << ended.out;
+  EXPECT_TRUE(json_of("out/fit.json")["parameters"][3]["low_95"].is_null());
+}
+
+TEST_F(FitCommand, AFitThatGivesUpKeepsWhatItHas) {
+  write_fit("max_iterations = 1\n" + std::string(law_only));
+  const Ended ended = dielast({"fit", "fit.toml", "-o", "out"});
+  EXPECT_EQ(ended.exit_code, 4);
+  EXPECT_EQ(ended.err, "error: not converged after 2 iterations: the best parameters so far\n");
+  EXPECT_EQ(json_of("out/fit.json")["status"], "not converged");
+  EXPECT_NE(content("out/material.toml").find("not converged after 2 iterations"), std::string::npos);
+  EXPECT_NE(content("out/report.html").find("not converged after 2 iterations"), std::string::npos);
+}
+
+TEST_F(FitCommand, WrongInputAndFilesHaveTheirExitCodes) {
+  write_fit("parameters = [\"shear_modulus\", \"strech_limit\"]");
+  EXPECT_EQ(dielast({"fit", "fit.toml", "-o", "out"}).exit_code, 2);
+  EXPECT_FALSE(exists("out"));
+  EXPECT_EQ(dielast({"fit", "nowhere.toml"}).exit_code, 1);
+  write_fit(law_only);
+  EXPECT_EQ(dielast({"fit", "fit.toml", "-o", "pull.csv"}).exit_code, 1);
+  EXPECT_EQ(dielast({"run", "fit.toml"}).exit_code, 2);
+}
+
+TEST_F(FitCommand, HelpInfoAndSchemaKnowIt) {
+  EXPECT_NE(dielast({"--help"}).out.find("fit a material to measured tests"), std::string::npos);
+  const std::string info = dielast({"info", "fit"}).out;
+  for (const char* word : {"[[test]]", "equal-biaxial", "parameters", "equilibrium", "predict"})
+    EXPECT_NE(info.find(word), std::string::npos) << word;
+  const auto schema = nlohmann::json::parse(dielast({"schema"}).out);
+  EXPECT_TRUE(schema["properties"].contains("fit"));
+  EXPECT_TRUE(schema["properties"]["test"]["items"]["properties"].contains("rate"));
+}
+
+TEST_F(FitCommand, TheGalleryFitConverges) {
+  const Ended ended = dielast({"fit", source_folder / "cases/gallery/fit/ecoflex.toml", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const nlohmann::json fit = json_of("out/fit.json");
+  EXPECT_LT(fit["tests"][0]["rms_error"], 0.01);
+  for (const auto& parameter : fit["parameters"]) EXPECT_TRUE(parameter["low_95"].is_number()) << parameter;
+}
+
+} // namespace
+} // namespace dielast::test

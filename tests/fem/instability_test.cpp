@@ -1,0 +1,218 @@
+#include "fem/instability.hpp"
+
+#include "tests/fem/material_point_block.hpp"
+#include "tests/fem/sample_meshes.hpp"
+#include "tests/fem/sample_models.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace dielast::fem {
+namespace {
+
+LoadPath voltage_path(const Model& model, double volts) {
+  const Loads rest = Loads::of(model.initial_state(), model.dofs);
+  Loads full = rest;
+  full.voltage[0] = volts;
+  return linear_path(model.dofs, rest, full);
+}
+
+/// First change of the number of unstable modes on a path from rest, located.
+std::vector<CriticalPoint> critical_points(Equilibrium& equilibrium, const LoadPath& path, int most,
+                                           const ContinuationOptions& options = {}) {
+  std::vector<CriticalPoint> found;
+  auto progress = begin_continuation(equilibrium, path, equilibrium.model().initial_state(), 0, 1, options);
+  if (!progress) return found;
+  ContinuationProgress before = *progress;
+  ContinuationObserver observer;
+  observer.on_accept = [&](const ContinuationProgress& at) {
+    if (at.newton.unstable_modes != before.newton.unstable_modes)
+      if (auto point = locate(equilibrium, path, before, at, options.newton)) found.push_back(*point);
+    before = at;
+    return static_cast<int>(found.size()) < most;
+  };
+  continuation(equilibrium, path, options, *progress, observer);
+  return found;
+}
+
+TEST(Instability, limit_points_of_a_gent_film) {
+  const auto model = test::material_point(100);
+  Equilibrium equilibrium(*model, 1);
+  const auto found = critical_points(equilibrium, voltage_path(*model, 1), 9);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].load_factor, 0.6893632220278523, 1e-12);
+  EXPECT_NEAR(1 + found[0].state.displacement[0].x(), 1.2638044443828862, 1e-8);
+  EXPECT_NEAR(found[1].load_factor, 0.27460055, 1e-8);
+  EXPECT_NEAR(1 + found[1].state.displacement[0].x(), 5.07426, 1e-5);
+  for (const CriticalPoint& point : found) EXPECT_EQ(point.kind, Instability::limit_point);
+}
+
+TEST(Instability, load_control_finds_the_limit_point_that_the_arc_length_finds) {
+  for (const double J : {std::numeric_limits<double>::infinity(), 100.0}) {
+    const auto model = test::material_point(J);
+    Equilibrium equilibrium(*model, 1);
+    const double exact = J == 100 ? 0.6893632220278523 : 0.6873648184993013;
+    const LoadPath path = voltage_path(*model, 1);
+    State state = model->initial_state();
+    path.apply(state, 0.6);
+    ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
+    const auto point = locate_by_load_control(equilibrium, path, state, 0.6, 0.75, {});
+    ASSERT_TRUE(point);
+    EXPECT_EQ(point->kind, Instability::limit_point);
+    EXPECT_NEAR(point->load_factor, exact, 1e-6 * exact);
+    const auto along = critical_points(equilibrium, path, 1);
+    ASSERT_EQ(along.size(), 1U);
+    EXPECT_NEAR(along[0].load_factor, exact, 1e-10);
+  }
+}
+
+class PullIn : public ::testing::Test {
+ protected:
+  static constexpr double side = 0.01;
+  const meshing::Mesh mesh = test::distorted_square(4, 2, side);
+  std::unique_ptr<Model> model = [this] {
+    auto m = test::unnumbered_model(
+        mesh.node_count(), true,
+        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(32, 0), true, 3));
+    for (const int c : {0, 1}) m->dofs.hold(0, c);
+    m->dofs.hold(4, 1);
+    m->dofs.number();
+    m->length_scale = m->extent = side;
+    return m;
+  }();
+  Equilibrium equilibrium{*model, 1};
+  LoadPath path = voltage_path(*model, 30e3);
+  /// Closed form (Zhao & Suo 2007).
+  const double pull_in = 0.6873648184993013 * 1e-3 * std::sqrt(45e3 / 4e-11) / 30e3;
+};
+
+TEST_F(PullIn, is_at_the_closed_form_by_arc_length_and_by_load_control) {
+  const auto along = critical_points(equilibrium, path, 1);
+  ASSERT_EQ(along.size(), 1U);
+  EXPECT_NEAR(along[0].load_factor, pull_in, 1e-9);
+  EXPECT_EQ(along[0].kind, Instability::limit_point);
+
+  State state = model->initial_state();
+  path.apply(state, 0.7);
+  ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
+  const auto by_load = locate_by_load_control(equilibrium, path, state, 0.7, 0.8, {});
+  ASSERT_TRUE(by_load);
+  EXPECT_NEAR(by_load->load_factor, pull_in, 1e-6 * pull_in);
+  EXPECT_EQ(by_load->kind, Instability::limit_point);
+}
+
+/// Free film with an electrode in its middle: the rim holds it back.
+class PartialElectrode : public ::testing::Test {
+ protected:
+  static constexpr double side = 0.01;
+  const meshing::Mesh mesh = test::distorted_square(6, 2, side);
+  std::unique_ptr<Model> model = [this] {
+    std::vector<int> electrodes(72, passive);
+    for (std::size_t e = 0; e < electrodes.size(); ++e) {
+      const std::size_t row = e / 12, column = e / 2 % 6;
+      if (row >= 1 && row < 5 && column >= 1 && column < 5) electrodes[e] = 0;
+    }
+    auto m = test::unnumbered_model(
+        mesh.node_count(), true, make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, true, 3));
+    for (const int c : {0, 1}) m->dofs.hold(0, c);
+    m->dofs.hold(6, 1);
+    m->dofs.number();
+    m->length_scale = side / 6;
+    m->extent = side;
+    return m;
+  }();
+  Equilibrium equilibrium{*model, 1};
+  LoadPath path = voltage_path(*model, 40e3);
+};
+
+TEST_F(PartialElectrode, arc_length_and_load_control_find_the_same_critical_voltage) {
+  const auto along = critical_points(equilibrium, path, 1);
+  ASSERT_EQ(along.size(), 1U);
+  EXPECT_LT(std::abs(along[0].mode.eigenvalue), 1e-8);
+  State state = model->initial_state();
+  ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
+  const auto by_load = locate_by_load_control(equilibrium, path, state, 0, along[0].load_factor * 1.1, {});
+  ASSERT_TRUE(by_load);
+  EXPECT_EQ(by_load->kind, along[0].kind);
+  EXPECT_NEAR(by_load->load_factor, along[0].load_factor, 1e-6 * along[0].load_factor);
+  EXPECT_EQ(along[0].kind, Instability::limit_point);
+  EXPECT_GT(along[0].load_factor * 40e3, 0.6873648184993013 * 1e-3 * std::sqrt(45e3 / 4e-11)); // stiffer
+}
+
+/// Clamped and free column, unit length, EI = 1, under a dead force: Euler's load pi^2/4, raised by a little
+/// shortening.
+class EulerColumn : public ::testing::Test {
+ protected:
+  const meshing::Mesh mesh = test::line(8, 2, [](double s) { return Eigen::Vector3d(s, 0, 0); });
+  std::unique_ptr<Model> model = [this] {
+    auto m = test::unnumbered_model(
+        mesh.node_count(), true,
+        make_beam_block(mesh, mesh.blocks[0],
+                        {.EA = 1e6, .GA2 = 1e6, .GA3 = 1e6, .GJ = 1, .EI2 = 1, .EI3 = 1}));
+    for (int c = 0; c < DofMap::components; ++c) m->dofs.hold(0, c);
+    m->dofs.number();
+    return m;
+  }();
+  Equilibrium equilibrium{*model, 1};
+  const double euler = std::numbers::pi * std::numbers::pi / 4;
+  const int tip = mesh.node_count() - 1;
+  LoadPath path = [this] {
+    const Loads rest = Loads::of(model->initial_state(), model->dofs);
+    Loads full = rest;
+    full.dead_force[model->dofs.equation(tip, 0)] = -2 * euler;
+    return linear_path(model->dofs, rest, full);
+  }();
+};
+
+TEST_F(EulerColumn, buckles_at_eulers_load_in_a_bifurcation) {
+  const auto along = critical_points(equilibrium, path, 1);
+  ASSERT_EQ(along.size(), 1U);
+  EXPECT_EQ(along[0].kind, Instability::bifurcation);
+  EXPECT_NEAR(along[0].load_factor, 0.5, 1e-4);
+  const auto mode = displacements(model->dofs, along[0].mode.direction);
+  for (int a = 0; a <= tip; ++a) // 1 - cos(pi x / 2)
+    EXPECT_NEAR(std::abs(mode[a].y()), 1 - std::cos(std::numbers::pi / 2 * mesh.nodes[a].x()), 1e-3);
+
+  State state = model->initial_state();
+  const auto by_load = locate_by_load_control(equilibrium, path, state, 0, 0.7, {});
+  ASSERT_TRUE(by_load);
+  EXPECT_EQ(by_load->kind, Instability::bifurcation);
+  EXPECT_NEAR(by_load->load_factor, along[0].load_factor, 1e-6);
+}
+
+// Elastica: the tip of a clamped column, slopes to 20 degrees at 1.015 and 40 at 1.063 times Euler's load
+// (Timoshenko & Gere, art. 2.7); y of the tip 0.220 and 0.422 lengths.
+TEST_F(EulerColumn, its_bent_branch_is_the_elastica) {
+  const auto along = critical_points(equilibrium, path, 1);
+  ASSERT_EQ(along.size(), 1U);
+  for (const double side : {1.0, -1.0}) {
+    auto branch = switch_branch(equilibrium, path, along[0], 0.05 * side, {});
+    ASSERT_TRUE(branch);
+    EXPECT_NEAR(branch->state.displacement[tip].y() * side, 0.05, 1e-3);
+    EXPECT_GT(branch->load_factor, along[0].load_factor);
+    EXPECT_EQ(branch->newton.unstable_modes, 0);
+    const ContinuationOptions options{.highest = 1.063 / 2};
+    EXPECT_EQ(continuation(equilibrium, path, options, *branch, {}), ContinuationEnd::reached_load);
+    EXPECT_NEAR(side * branch->state.displacement[tip].y(), 0.422, 2e-3);
+    EXPECT_EQ(branch->newton.unstable_modes, 0);
+  }
+}
+
+TEST_F(EulerColumn, lowest_mode_is_that_of_the_dense_eigenproblem) {
+  State state = model->initial_state();
+  path.apply(state, 0.3);
+  ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
+  const auto mode = lowest_mode(equilibrium, state);
+  ASSERT_TRUE(mode);
+  equilibrium.assembler().tangent(state);
+  const Eigen::MatrixXd K = test::dense(equilibrium.assembler().matrix());
+  const Eigen::MatrixXd D = equilibrium.stiffness().asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(K, D);
+  EXPECT_NEAR(mode->eigenvalue, dense.eigenvalues()[0], 1e-6 * dense.eigenvalues()[0]);
+  const Eigen::VectorXd& x = mode->direction;
+  EXPECT_LT((K * x - mode->eigenvalue * D * x).norm(), 1e-4 * mode->eigenvalue * (D * x).norm());
+}
+
+} // namespace
+} // namespace dielast::fem

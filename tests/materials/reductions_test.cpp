@@ -1,0 +1,104 @@
+#include "materials/axisymmetric.hpp"
+#include "materials/line.hpp"
+#include "materials/solid.hpp"
+#include "tests/materials/law_examples.hpp"
+
+namespace dielast::materials::test {
+namespace {
+
+template<class Law>
+class Reductions : public LawTest<Law> {
+ protected:
+  static constexpr double bulk = 1e6;
+
+  Eigen::Matrix3d rotation_in_space() {
+    return Eigen::Quaterniond(this->uniform(-1, 1), this->uniform(-1, 1), this->uniform(-1, 1),
+                              this->uniform(-1, 1))
+        .normalized()
+        .toRotationMatrix();
+  }
+};
+
+TYPED_TEST_SUITE(Reductions, AlternativesOf<ElasticLaw>::Types, LawName);
+
+TYPED_TEST(Reductions, axisymmetric_stresses_are_equal_where_the_stretches_are) {
+  for (const double l : {0.6, 1.0, 2.3}) {
+    const auto p = axisymmetric_potential(this->law, Dielectric{}, l, l, 0.1 * this->modulus());
+    EXPECT_DOUBLE_EQ(p.first[0], p.first[1]);
+    EXPECT_DOUBLE_EQ(p.second[0], p.second[1]);
+  }
+}
+
+TYPED_TEST(Reductions, line_stress_is_that_of_the_film) {
+  for (int n = 0; n < states; ++n) {
+    const double l = this->uniform(0.5, 3);
+    for (const Mode mode : {Mode::uniaxial, Mode::pure_shear, Mode::equal_biaxial}) {
+      const auto at = [&](double x) { return line_potential(this->law, mode, x); };
+      // In plane stress a film without lateral load: W does not change with the lateral stretch.
+      double across = mode == Mode::uniaxial ? 1 / std::sqrt(l) : mode == Mode::pure_shear ? 1 : l;
+      if constexpr (std::same_as<TypeParam, StVenantKirchhoff>)
+        if (mode == Mode::uniaxial) across = std::sqrt(1 - this->law.poisson_ratio * (l * l - 1));
+      if (!(across > 0)) continue; // St. Venant-Kirchhoff: thinner than nothing
+      const auto film = axisymmetric_potential(this->law, Dielectric{}, l, across, 0);
+      const double scale = this->modulus() + std::abs(film.first[0]);
+      EXPECT_NEAR(at(l).value, film.value, 1e-12 * (this->modulus() + film.value));
+      EXPECT_NEAR(at(l).first, (mode == Mode::equal_biaxial ? 2 : 1) * film.first[0], 1e-11 * scale);
+      EXPECT_NEAR(mode == Mode::uniaxial ? film.first[1] : 0, 0, 1e-10 * scale);
+    }
+  }
+}
+
+TYPED_TEST(Reductions, undeformed_line_tangents_are_the_moduli_of_the_sheet) {
+  const double mu = this->modulus();
+  double nu = 0.5;
+  if constexpr (std::same_as<TypeParam, StVenantKirchhoff>) nu = this->law.poisson_ratio;
+  EXPECT_NEAR(line_potential(this->law, Mode::uniaxial, 1).second, 2 * (1 + nu) * mu, 1e-12 * mu);
+  EXPECT_NEAR(line_potential(this->law, Mode::pure_shear, 1).second, 2 * mu / (1 - nu), 1e-12 * mu);
+  EXPECT_NEAR(line_potential(this->law, Mode::equal_biaxial, 1).second, 4 * mu * (1 + nu) / (1 - nu),
+              1e-12 * mu);
+}
+
+TYPED_TEST(Reductions, undeformed_solid_has_no_stress_and_the_elastic_constants) {
+  const auto at = solid_potential(this->law, Eigen::Matrix3d::Identity(), this->bulk);
+  const double mu = this->modulus();
+  double lambda = this->bulk - 2 * mu / 3;
+  if constexpr (std::same_as<TypeParam, StVenantKirchhoff>) lambda = this->law.first_lame();
+  EXPECT_NEAR(at.value, 0, 1e-14 * mu);
+  EXPECT_LT(at.first.norm(), 1e-14 * this->bulk);
+  Eigen::Matrix<double, 6, 6> expected = Eigen::Matrix<double, 6, 6>::Zero(); // d2W/dC2 = C_el/4, shear once
+  expected.topLeftCorner<3, 3>().setConstant(lambda / 4);
+  expected.diagonal().head<3>().array() += mu / 2;
+  expected.diagonal().tail<3>().setConstant(mu);
+  EXPECT_LT((at.second - expected).norm(), 1e-12 * this->bulk);
+}
+
+TYPED_TEST(Reductions, rotating_the_undeformed_solid_turns_the_stress_with_it) {
+  for (int n = 0; n < states; ++n) {
+    const Eigen::Vector3d c =
+        Eigen::Vector3d(this->uniform(0.5, 3), this->uniform(0.5, 3), this->uniform(0.5, 3));
+    const Eigen::Matrix3d Q = this->rotation_in_space();
+    const auto straight = solid_potential(this->law, c.asDiagonal(), this->bulk);
+    const auto turned = solid_potential(this->law, Q * c.asDiagonal() * Q.transpose(), this->bulk);
+    EXPECT_NEAR(turned.value, straight.value, 1e-11 * (this->bulk + straight.value));
+    const Eigen::Matrix3d S = 2 * straight.first.template head<3>().asDiagonal();
+    const auto& f = turned.first;
+    const Eigen::Matrix3d S_turned{{2 * f[0], f[3], f[5]}, {f[3], 2 * f[1], f[4]}, {f[5], f[4], 2 * f[2]}};
+    EXPECT_LT((S_turned - Q * S * Q.transpose()).norm(), 1e-11 * (this->bulk + S.norm()));
+  }
+}
+
+// A solid that keeps its volume stores what the film does whose thickness follows from its area.
+TYPED_TEST(Reductions, solid_of_constant_volume_stores_what_the_film_does) {
+  if (std::same_as<TypeParam, StVenantKirchhoff>) GTEST_SKIP() << "compressible";
+  for (int n = 0; n < states; ++n) {
+    const Eigen::Matrix2d C = this->random_C();
+    Eigen::Matrix3d solid = Eigen::Matrix3d::Zero();
+    solid.topLeftCorner<2, 2>() = C;
+    solid(2, 2) = 1 / C.determinant();
+    const double film = membrane_potential(this->law, Dielectric{}, this->in_plane(C), 0.0).value;
+    EXPECT_NEAR(solid_potential(this->law, solid, this->bulk).value, film, 1e-11 * (this->modulus() + film));
+  }
+}
+
+} // namespace
+} // namespace dielast::materials::test
