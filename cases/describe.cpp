@@ -1,6 +1,7 @@
 #include "cases/describe.hpp"
 
 #include "cases/convert.hpp"
+#include "cases/materials_page.hpp"
 #include "cases/quantities.hpp"
 #include "cases/templates.hpp"
 #include "cases/units.hpp"
@@ -194,16 +195,10 @@ struct Topic {
 };
 
 constexpr std::array all_topics{
-    Topic{"overview", overview},
-    Topic{"materials", materials_text},
-    Topic{"laws", laws_text},
-    Topic{"devices", devices_text},
-    Topic{"quantities", quantities_text},
-    Topic{"steps", steps_text},
-    Topic{"waves", waves_text},
-    Topic{"fit", fit_text},
-    Topic{"keys", keys_text},
-    Topic{"units", units_text},
+    Topic{"overview", overview}, Topic{"materials", materials_text}, Topic{"materials.md", materials_page},
+    Topic{"laws", laws_text},    Topic{"devices", devices_text},     Topic{"quantities", quantities_text},
+    Topic{"steps", steps_text},  Topic{"waves", waves_text},         Topic{"fit", fit_text},
+    Topic{"keys", keys_text},    Topic{"units", units_text},
 };
 
 } // namespace

@@ -226,6 +226,7 @@ Device build_device(const Case& one) {
 
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
   require_loads_that_act(one, device);
+  device.tension_field = one.film.tension_field;
   if (lattice) device.wall_width = lattice->wall_width;
   return device;
 }

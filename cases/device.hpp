@@ -13,6 +13,7 @@ struct Device {
   meshing::Mesh mesh;
   fem::Model model;
   std::optional<double> wall_width; ///< m, of a lattice
+  bool tension_field = false;       ///< the film wrinkles where it would be compressed
   bool free_body = false;           ///< no support: pinned against rigid motion only, without reactions
 };
 

@@ -187,9 +187,11 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
     s = std::min(1.0, trouble.critical->load_factor + beyond);
     direction = trouble.critical->mode.direction;
     const double length = trouble.critical->load_factor - ramp.load_factor;
-    if (length > beyond &&
-        !accept(settled(state), {trouble.critical->load_factor, {}, true, length}, Reached::along_path))
-      return Outcome{Ending::interrupted};
+    if (length > beyond) { // an interrupt waits until the device has landed
+      ramp.load_factor = trouble.critical->load_factor;
+      ramp.points = {{0, settled(state)}};
+      accept(ramp.points.back().state, {ramp.load_factor, {}, true, length}, Reached::along_path);
+    }
   } else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(state, ramp.load_factor))) {
     direction = mode->direction;
   } else {
@@ -213,6 +215,16 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   return std::nullopt;
 }
 
+/// Integration points at which wrinkled film has no width that balances the field of these loads, and how
+/// many there are; empty where there is none.
+std::vector<std::size_t> StepRun::lost_film(double s) const {
+  const auto film = equilibrium_.model().sample(loaded(last(), s)).film;
+  const auto lost = static_cast<std::size_t>(std::ranges::count_if(
+      film, [](const fem::MembraneSample& sample) { return sample.tension == materials::Tension::lost; }));
+  if (lost == 0) return {};
+  return {lost, film.size()};
+}
+
 Outcome StepRun::failure(const Trouble& trouble) const {
   const double reached = progress_.ramp.load_factor;
   if (trouble.ramp.failure.outcome == fem::Outcome::singular)
@@ -222,6 +234,14 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                 "move freely: hold it with [[support]]; an unstretched film in space has no stiffness normal "
                 "to itself: stretch it or use model = \"planar\"",
                 step_.name, reached)};
+  if (const auto lost = lost_film(trouble.ramp.failed_at); !lost.empty())
+    return {Ending::gave_up, "electromechanical loss",
+            fmt::format(
+                "step \"{}\" stopped at {}: beyond it the field pulls wrinkled film wider without limit (in "
+                "{} of "
+                "{} integration points at {}), whatever its wrinkles take up. Lower the drive or stretch the "
+                "film more",
+                step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
   if (trouble.critical) {
     const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
     return {

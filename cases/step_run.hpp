@@ -63,6 +63,7 @@ class StepRun {
   std::optional<Outcome> follow();
   std::optional<Outcome> jump(const Trouble& trouble);
   std::string load_text(double s) const;
+  std::vector<std::size_t> lost_film(double s) const;
   Outcome failure(const Trouble& trouble) const;
 
   fem::Equilibrium& equilibrium_;

@@ -55,8 +55,14 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
     if (!holds) active.erase(kind);
     return holds && active.insert(kind).second;
   };
+  if (const auto wrinkles = extremes.find("tension_state", post::Extreme::maximum);
+      device_.tension_field && wrinkles && begins(wrinkles->value > 0, "loss of tension"))
+    events.push_back({"loss of tension", place_of_triangle(wrinkles->cell),
+                      fmt::format("the film is {} here: it carries tension in {}",
+                                  wrinkles->value > 1 ? "slack" : "wrinkled",
+                                  wrinkles->value > 1 ? "no direction" : "one direction only")});
   if (const auto stress = extremes.find("min_principal_stress", post::Extreme::minimum);
-      stress && begins(stress->value < -smallest_stress, "loss of tension"))
+      !device_.tension_field && stress && begins(stress->value < -smallest_stress, "loss of tension"))
     events.push_back(
         {"loss of tension", place_of_triangle(stress->cell),
          fmt::format(

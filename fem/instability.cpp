@@ -50,6 +50,7 @@ std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const Eigen::Vect
 }
 
 std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {
+  if (equilibrium.model().dofs.free_count() == 0) return std::nullopt;
   const Eigen::VectorXd& D = equilibrium.stiffness();
   double shift = 0;
   if (!equilibrium.factor(state)) {

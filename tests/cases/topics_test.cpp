@@ -33,6 +33,11 @@ TEST_F(Topics, InfoExplainsWhatACaseMaySay) {
   EXPECT_EQ(dielast({"info"}).out, dielast({"info", "overview"}).out);
 }
 
+TEST_F(Topics, TheMaterialsPageIsWhatTheTablesSay) {
+  EXPECT_EQ(dielast({"info", "materials.md"}).out, text_of(source_folder / "docs/materials.md"))
+      << "make it again: dielast info materials.md > docs/materials.md";
+}
+
 TEST_F(Topics, SchemaIsJson) {
   const Ended ended = dielast({"schema"});
   EXPECT_EQ(ended.exit_code, 0);

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace dielast::cases {
+
+/// docs/materials.md, made from the parameter tables of the laws, the dielectric and the named materials.
+std::string materials_page();
+
+} // namespace dielast::cases

@@ -1,0 +1,135 @@
+#include "fem/membrane_block.hpp"
+#include "fem/ramp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+// Bending of a stretched strip whose compressed edge wrinkles (Stein & Hedgepeth 1961, NASA TN D-813): a
+// strip of height h and thickness t under the axial tension P and the in-plane moment M. Up to M/(Ph) = 1/6
+// it is a beam; beyond, a band of height b at the compressed edge carries nothing, b/h = 3M/(Ph) - 1/2, and
+// the strip gives way: E t h^2 kappa/(2P) = 4/(9 (1 - 2M/(Ph))^2).
+
+namespace dielast::fem {
+namespace {
+
+constexpr double height = 0.1, length = 0.2, thickness = 1e-4;
+constexpr double modulus = 1e6; // E; a small-strain law, nu = 0.3
+
+meshing::Mesh strip(int n) {
+  meshing::Mesh mesh;
+  const int columns = 2 * n, rows = n;
+  for (int j = 0; j <= 2 * rows; ++j)
+    for (int i = 0; i <= 2 * columns; ++i)
+      mesh.nodes.emplace_back(length * i / (2 * columns), height * j / (2 * rows), 0);
+  const auto node = [&](int i, int j) { return j * (2 * columns + 1) + i; };
+  meshing::CellBlock film{meshing::CellType::triangle6, {}};
+  for (int j = 0; j < 2 * rows; j += 2)
+    for (int i = 0; i < 2 * columns; i += 2) {
+      const auto add = [&](std::array<std::array<int, 2>, 3> corner) {
+        for (const auto& c : corner) film.nodes.push_back(node(i + c[0], j + c[1]));
+        for (int s = 0; s < 3; ++s) {
+          const auto &a = corner[static_cast<std::size_t>(s)],
+                     &b = corner[static_cast<std::size_t>((s + 1) % 3)];
+          film.nodes.push_back(node(i + (a[0] + b[0]) / 2, j + (a[1] + b[1]) / 2));
+        }
+      };
+      add({{{0, 0}, {2, 0}, {2, 2}}});
+      add({{{0, 0}, {2, 2}, {0, 2}}});
+    }
+  mesh.blocks.push_back(std::move(film));
+  return mesh;
+}
+
+struct Bending {
+  double tension, moment; ///< P in N, M in N m about mid height
+};
+
+/// Holds the left end and turns the right one by kappa * length, so that the strain is kappa (y - b) at
+/// height y.
+Bending bend(int n, double curvature, double b) {
+  const meshing::Mesh mesh = strip(n);
+  MembraneSection section;
+  section.material.law = materials::StVenantKirchhoff{modulus, 0.3};
+  section.material.dielectric.permittivity = 1e-12;
+  section.thickness = thickness;
+  section.tension_field = true;
+  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {}};
+  model.blocks.push_back(make_membrane_block(
+      mesh, mesh.blocks[0], section,
+      std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), true, 3));
+  model.place_histories();
+  model.blocks[0]->claim_dofs(model.dofs, true);
+  const auto at_end = [&](int node) {
+    const double x = mesh.nodes[static_cast<std::size_t>(node)].x();
+    return x < 1e-12 || x > length - 1e-12;
+  };
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (at_end(node)) model.dofs.hold(node, 0);
+  const int top_left = mesh.node_count() - (4 * n + 1);
+  model.dofs.hold(top_left, 1);
+  model.dofs.number();
+  model.extent = length;
+  model.length_scale = height / n;
+
+  Equilibrium equilibrium(model, 1);
+  const State rest = model.initial_state();
+  const RampOptions options{.newton = {.tolerance = 1e-8, .max_iterations = 60}, .increments = 4};
+  RampProgress progress = RampProgress::begin(rest, model.dofs, options);
+  // tension first, then the bending
+  Loads taut = progress.start, bent = progress.start;
+  const auto pull = [&](Loads& loads, double strain, double kappa) {
+    for (int node = 0; node < mesh.node_count(); ++node) {
+      const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(node)];
+      if (x.x() > length - 1e-12)
+        loads.held[model.dofs.equation(node, 0) - model.dofs.free_count()] =
+            length * (strain + kappa * (x.y() - height / 2));
+    }
+  };
+  const double mean = curvature * (height / 2 - b);
+  pull(taut, mean, 0);
+  pull(bent, mean, curvature);
+  EXPECT_EQ(ramp(equilibrium, linear_path(model.dofs, progress.start, taut), options, progress, {}).end,
+            RampEnd::complete);
+  State state = progress.points.back().state;
+  progress = RampProgress::begin(state, model.dofs, options);
+  EXPECT_EQ(ramp(equilibrium, linear_path(model.dofs, progress.start, bent), options, progress, {}).end,
+            RampEnd::complete);
+  state = progress.points.back().state;
+  Eigen::VectorXd force;
+  equilibrium.internal_force(state, force);
+  Bending result{};
+  for (int node = 0; node < mesh.node_count(); ++node) {
+    const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(node)];
+    if (x.x() <= length - 1e-12) continue;
+    const double f = force[model.dofs.equation(node, 0)];
+    result.tension += f;
+    result.moment += f * (x.y() - height / 2);
+  }
+  return result;
+}
+
+TEST(SteinHedgepeth, a_strip_with_a_wrinkled_edge_bends_as_the_tension_field_says) {
+  for (const double wrinkled : {0.1, 0.4, 0.7}) {
+    const double curvature = 1e-4 / height, b = wrinkled * height;
+    const Bending found = bend(8, curvature, b);
+    const double tension = modulus * thickness * curvature * std::pow(height - b, 2) / 2;
+    const double moment_ratio = (wrinkled + 0.5) / 3; // M/(Ph)
+    EXPECT_NEAR(found.tension, tension, 0.005 * tension) << wrinkled;
+    EXPECT_NEAR(found.moment / (found.tension * height), moment_ratio, 0.005 * moment_ratio) << wrinkled;
+    const double flexibility = modulus * thickness * height * height * curvature / (2 * found.tension);
+    const double ratio = found.moment / (found.tension * height);
+    EXPECT_NEAR(flexibility, 4 / (9 * std::pow(1 - 2 * ratio, 2)), 0.02 * flexibility) << wrinkled;
+  }
+}
+
+TEST(SteinHedgepeth, a_taut_strip_bends_as_a_beam) {
+  const double curvature = 1e-5 / height;
+  const Bending found = bend(6, curvature, -0.2 * height);
+  EXPECT_NEAR(found.tension, modulus * thickness * curvature * height * 0.7 * height, 1e-3 * found.tension);
+  EXPECT_NEAR(found.moment, modulus * thickness * std::pow(height, 3) / 12 * curvature, 1e-3 * found.moment);
+}
+
+} // namespace
+} // namespace dielast::fem
