@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <fcntl.h>
+#include <set>
 #include <spawn.h>
 #include <string_view>
 #include <sys/mman.h>
@@ -51,23 +52,24 @@ bool has_points(const Series& series) {
   return false;
 }
 
-/// Of long series every bunch of neighbours is drawn by its first, lowest and highest point: no more can be
-/// seen.
+/// Of long series every bunch of neighbours is drawn by its first point and its extremes in x and y: no more
+/// can be seen.
 std::vector<std::size_t> drawn_points(const Series& series) {
-  constexpr std::size_t bunches = 400;
+  constexpr std::size_t bunches = 250;
   const std::size_t count = std::min(series.x.size(), series.y.size());
   const std::size_t bunch = std::max<std::size_t>(1, count / bunches);
   std::vector<std::size_t> drawn;
   for (std::size_t first = 0; first < count; first += bunch) {
-    const auto begin = series.y.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = series.y.begin() + static_cast<std::ptrdiff_t>(std::min(first + bunch, count));
-    const auto [low, high] = std::minmax_element(begin, end);
-    for (const auto at : {begin, std::min(low, high), std::max(low, high)}) {
-      const auto k = static_cast<std::size_t>(at - series.y.begin());
-      if (drawn.empty() || k > drawn.back()) drawn.push_back(k);
+    const std::size_t end = std::min(first + bunch, count);
+    std::set<std::size_t> shown{first, end - 1};
+    for (const auto* values : {&series.x, &series.y}) {
+      const auto at = [values](std::size_t k) { return values->begin() + static_cast<std::ptrdiff_t>(k); };
+      const auto [low, high] = std::minmax_element(at(first), at(end));
+      shown.insert({static_cast<std::size_t>(low - values->begin()),
+                    static_cast<std::size_t>(high - values->begin())});
     }
+    drawn.insert(drawn.end(), shown.begin(), shown.end());
   }
-  if (count > 0 && drawn.back() != count - 1) drawn.push_back(count - 1);
   return drawn;
 }
 

@@ -29,6 +29,8 @@ std::string value_text(const QuantityRow& row, const ScaledUnit& scaled) {
   return significant(row.value * scaled.factor, digits);
 }
 
+constexpr std::size_t most_rows = 500;
+
 std::string load_text(const StepRecord& record) { return significant(record.load_factor, 3); }
 
 } // namespace
@@ -73,7 +75,10 @@ Table event_table(std::span<const StepRecord> records) {
 
 Table increment_table(std::span<const StepRecord> records) {
   Table table{{"#", "Step", "Load", "Voltage", "Iterations", "Residual", "Tangent"}, {}};
-  for (const StepRecord& record : records) {
+  const std::size_t every = 1 + records.size() / most_rows; // history.csv has them all
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const StepRecord& record = records[r];
+    if (r % every != 0 && r + 1 != records.size()) continue;
     double voltage = 0;
     for (const double v : record.voltages)
       if (std::abs(v) > std::abs(voltage)) voltage = v;

@@ -40,7 +40,7 @@ Table check_table(std::span<const CheckRow> rows);
 Table event_table(std::span<const StepRecord> records);
 
 /// One row per accepted increment: step, load factor, largest voltage, iterations, residual, and whether the
-/// tangent is stable or how many negative pivots it has.
+/// tangent is stable or how many unstable modes it has.
 Table increment_table(std::span<const StepRecord> records);
 
 } // namespace dielast::post
