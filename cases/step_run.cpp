@@ -31,13 +31,6 @@ fem::State StepRun::loaded(fem::State state, double s) const {
   return state;
 }
 
-/// An equilibrium as the next increment starts from it.
-fem::State StepRun::settled(fem::State state) const {
-  state.history = equilibrium_.model().advanced_history(state);
-  state.scheme = materials::TimeScheme::frozen();
-  return state;
-}
-
 /// The loads at s, as a person would name them.
 std::string StepRun::load_text(double s) const {
   fem::State at = last(), begin = at;
@@ -124,8 +117,8 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   const bool branches_off = trouble.critical && trouble.critical->kind == fem::Instability::bifurcation;
   const fem::ContinuationOptions arcs{.newton = options_.newton};
   if (branches_off && step_.on_bifurcation == OnBifurcation::switch_branch) {
-    progress_.followed = fem::switch_branch(equilibrium_, path_, *trouble.critical,
-                                            branch_amplitude * equilibrium_.model().extent, arcs);
+    progress_.followed =
+        fem::switch_branch(equilibrium_, path_, *trouble.critical, branch_amplitude * model().extent, arcs);
     if (!progress_.followed) return failure(trouble);
     return std::nullopt;
   }
@@ -146,7 +139,7 @@ std::optional<Outcome> StepRun::follow() {
       if (const auto critical = fem::locate(equilibrium_, path_, before, now, options_.newton))
         announce(*critical);
     before = now;
-    fem::State state = settled(now.state);
+    fem::State state = model().settled(now.state);
     progress_.followed = now;
     progress_.ramp.points = {{0, state}};
     progress_.ramp.load_factor = std::min(now.load_factor, std::nextafter(1.0, 0.0)); // until the end
@@ -189,7 +182,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
     const double length = trouble.critical->load_factor - ramp.load_factor;
     if (length > beyond) { // an interrupt waits until the device has landed
       ramp.load_factor = trouble.critical->load_factor;
-      ramp.points = {{0, settled(state)}};
+      ramp.points = {{0, model().settled(state)}};
       accept(ramp.points.back().state, {ramp.load_factor, {}, true, length}, Reached::along_path);
     }
   } else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(state, ramp.load_factor))) {
@@ -205,11 +198,11 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
                                    result.end == fem::JumpEnd::ran_away ? "runs away" : "is stuck");
     return outcome;
   }
-  state = settled(std::move(state));
+  state = model().settled(std::move(state));
   ramp.load_factor = s;
   ramp.increment = 1.0 / options_.increments;
   ramp.at_break = ramp.turns = true;
-  ramp.negative_pivots = result.newton.unstable_modes;
+  ramp.unstable_modes = result.newton.unstable_modes;
   ramp.points = {{0, state}};
   if (!accept(state, {s, result.newton}, Reached::by_jump)) return Outcome{Ending::interrupted};
   return std::nullopt;
@@ -218,7 +211,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
 /// Integration points at which wrinkled film has no width that balances the field of these loads, and how
 /// many there are; empty where there is none.
 std::vector<std::size_t> StepRun::lost_film(double s) const {
-  const auto film = equilibrium_.model().sample(loaded(last(), s)).film;
+  const auto film = model().sample(loaded(last(), s)).film;
   const auto lost = static_cast<std::size_t>(std::ranges::count_if(
       film, [](const fem::MembraneSample& sample) { return sample.tension == materials::Tension::lost; }));
   if (lost == 0) return {};

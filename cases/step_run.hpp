@@ -53,9 +53,9 @@ class StepRun {
     std::optional<fem::CriticalPoint> critical; ///< where, if it could be located
   };
   bool timed() const { return options_.duration > 0; }
+  const fem::Model& model() const { return equilibrium_.model(); }
   const fem::State& last() const { return progress_.ramp.points.back().state; }
   fem::State loaded(fem::State state, double s) const;
-  fem::State settled(fem::State state) const;
   bool accept(const fem::State& state, const fem::Increment& increment, Reached reached);
   bool on_ramp(const fem::RampProgress& now, const fem::Increment& increment);
   void announce(const fem::CriticalPoint& critical);

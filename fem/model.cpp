@@ -18,8 +18,7 @@ State Model::initial_state() const {
     for (const auto& block : blocks) block->start_history(history.now);
     state.history = std::make_shared<const History>(std::move(history));
     state.scheme = materials::TimeScheme::relaxed();
-    state.history = advanced_history(state); // relaxed as drawn
-    state.scheme = materials::TimeScheme::frozen();
+    return settled(std::move(state)); // relaxed as drawn
   }
   return state;
 }
@@ -67,6 +66,12 @@ std::shared_ptr<const History> Model::advanced_history(const State& state) const
     }
   }
   return std::make_shared<const History>(std::move(next));
+}
+
+State Model::settled(State state) const {
+  state.history = advanced_history(state);
+  state.scheme = materials::TimeScheme::frozen();
+  return state;
 }
 
 } // namespace dielast::fem

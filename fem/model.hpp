@@ -26,6 +26,8 @@ struct Model {
   EnergyParts energies(const State& state) const;
   /// The history after a converged state that state.scheme led to: the next increment starts from it.
   std::shared_ptr<const History> advanced_history(const State& state) const;
+  /// A converged state as the next increment starts from it: with that history, its dashpots frozen.
+  State settled(State state) const;
 };
 
 } // namespace dielast::fem

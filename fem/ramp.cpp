@@ -86,8 +86,8 @@ State Ramp::solve(State state, double s) {
 }
 
 bool Ramp::less_stable() const {
-  return newton_.outcome == Outcome::converged && progress_.negative_pivots >= 0 &&
-         newton_.unstable_modes > progress_.negative_pivots;
+  return newton_.outcome == Outcome::converged && progress_.unstable_modes >= 0 &&
+         newton_.unstable_modes > progress_.unstable_modes;
 }
 
 /// Forgets the past, in which the loads went elsewhere, and lets loads that jump here act at once, in parts.
@@ -122,7 +122,7 @@ bool Ramp::pass_break() {
       continue;
     }
     progress_.points = {{at, std::move(trial)}};
-    progress_.negative_pivots = newton_.unstable_modes;
+    progress_.unstable_modes = newton_.unstable_modes;
     if (next < 1) notify(false, next - done);
     last_part_ = next - done;
     done = next;
@@ -156,7 +156,7 @@ bool Ramp::accept(State state, std::shared_ptr<const History> history, double s)
   state.scheme = materials::TimeScheme::frozen(); // from here on the dashpots are where the history says
   const double length = s - progress_.load_factor;
   progress_.load_factor = s;
-  progress_.negative_pivots = newton_.unstable_modes;
+  progress_.unstable_modes = newton_.unstable_modes;
   progress_.points.push_back({parameter(s), std::move(state)});
   if (progress_.points.size() > most_points) progress_.points.erase(progress_.points.begin());
   return notify(lands, length);

@@ -33,7 +33,7 @@ struct RampProgress {
   double increment = 0;          ///< next to be tried, of the load factor
   bool at_break = true;          ///< loads may jump now: dashpots stay, the time scheme starts again
   bool turns = true;             ///< the path has a corner at the last accepted state
-  int negative_pivots = -1;      ///< of the branch being followed; -1 before the first increment
+  int unstable_modes = -1;       ///< of the branch being followed; -1 before the first increment
   std::vector<PathPoint> points; ///< last accepted states, oldest first, for the predictor
 
   /// Nothing done yet: the ramp starts from the loads that `state` carries.

@@ -130,7 +130,7 @@ json archive(const fem::RampProgress& progress) {
           {"increment", progress.increment},
           {"at_break", progress.at_break},
           {"turns", progress.turns},
-          {"negative_pivots", progress.negative_pivots},
+          {"unstable_modes", progress.unstable_modes},
           {"points", std::move(points)}};
 }
 
@@ -143,7 +143,7 @@ fem::RampProgress restore_ramp(const json& archived, std::size_t nodes, std::siz
     progress.increment = archived.at("increment");
     progress.at_break = archived.at("at_break");
     progress.turns = archived.at("turns");
-    progress.negative_pivots = archived.at("negative_pivots");
+    progress.unstable_modes = archived.at("unstable_modes");
     for (const json& point : archived.at("points"))
       progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), nodes, equations)});
     if (progress.points.empty()) mismatch();

@@ -26,7 +26,7 @@ fem::RampProgress sample_progress(int points = 3) {
       .start = {{uniform(random), 1e3}, {uniform(random), 0}, vector(equations), vector(3)},
       .load_factor = 1.0 / 3,
       .increment = 0.1,
-      .negative_pivots = 2};
+      .unstable_modes = 2};
   for (int p = 0; p < points; ++p) {
     fem::State state;
     for (std::size_t n = 0; n < nodes; ++n) {
@@ -54,7 +54,7 @@ void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
   EXPECT_EQ(one.start.held, other.start.held);
   EXPECT_EQ(bits(one.load_factor), bits(other.load_factor));
   EXPECT_EQ(bits(one.increment), bits(other.increment));
-  EXPECT_EQ(one.negative_pivots, other.negative_pivots);
+  EXPECT_EQ(one.unstable_modes, other.unstable_modes);
   ASSERT_EQ(one.points.size(), other.points.size());
   for (std::size_t p = 0; p < one.points.size(); ++p) {
     const fem::State &a = one.points[p].state, &b = other.points[p].state;
