@@ -2,6 +2,7 @@
 
 #include "cases/diagnostics.hpp"
 #include "cases/waveform.hpp"
+#include "fem/dofs.hpp"
 #include "materials/beam_section.hpp"
 #include "materials/material.hpp"
 #include "post/reductions.hpp"
@@ -65,15 +66,20 @@ struct MeshFile {
   std::filesystem::path path;
 };
 
-using Geometry = std::variant<Honeycomb, Disc, Annulus, Patch, MeshFile>;
+/// [balloon]: a sphere of film, as drawn
+struct Balloon {
+  double radius = 0; ///< m
+};
+
+using Geometry = std::variant<Honeycomb, Disc, Annulus, Balloon, Patch, MeshFile>;
 
 /// [mesh]
 struct MeshOptions {
   double unit = 1;       ///< m per unit of length of a user's own mesh
   int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
   int wall_elements = 8; ///< beams per wall (honeycomb)
-  double grading = 0;    ///< largest film element over the wall's elements; 1 is uniform (honeycomb)
-  int rings = 0;         ///< elements along a radius (disc, annulus)
+  double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
+  int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
   int quadrature = 0;    ///< integration points of a 6-node triangle: 3 or 6
 };
 
@@ -108,6 +114,42 @@ struct Drive {
   bool operator==(const Drive&) const = default;
 };
 
+/// [circuit]: what is between an electrode and its source while time passes
+struct Circuit {
+  double resistance = 0;                    ///< Ohm
+  std::optional<double> leakage_resistance; ///< through the film of the whole electrode, Ohm
+  std::optional<double> current_limit;      ///< of the source, A
+
+  bool operator==(const Circuit&) const = default;
+};
+
+/// [plate]: a rigid plate that closes a place of the film and moves along z only
+struct Plate {
+  std::string place;
+  double mass = 0;    ///< kg
+  double damping = 0; ///< between the plate and the ground, N s/m
+};
+
+/// [[point_mass]]: spread evenly over the nodes of a place, with a damper to the ground along each axis
+struct PointMass {
+  std::string place;
+  double mass = 0;    ///< kg
+  double damping = 0; ///< N s/m
+};
+
+/// [gravity], along -z
+struct Gravity {
+  double acceleration = 0; ///< m/s^2
+  bool film = false;       ///< whether the film's own weight counts
+};
+
+/// [chamber]: what is under the film and the plate, up to z = 0
+struct Chamber {
+  std::optional<Waveform> pressure; ///< Pa
+  std::optional<Waveform> volume;   ///< m^3
+  double bulk_modulus = 0;          ///< of the liquid in it, Pa
+};
+
 /// [[spring]]: a linear spring between the centroids of two places, tension stiffness (distance -
 /// free_length)
 struct Spring {
@@ -130,7 +172,21 @@ struct Linkage {
 
 /// A ramp leads from where the device is to the values that waves have at t = 0; `transient` follows the
 /// waves from t = 0 on; in `hold` time passes and everything stays.
-enum class StepKind { release, voltage, charge, force, move, transient, hold };
+/// `modes` and `harmonic` ask for small vibrations about where the device is, and leave it there.
+enum class StepKind {
+  release,
+  voltage,
+  charge,
+  force,
+  move,
+  weight,
+  pressure,
+  inflate,
+  transient,
+  hold,
+  modes,
+  harmonic
+};
 
 /// What the branches do during a ramp that takes no time.
 enum class Response {
@@ -149,6 +205,12 @@ enum class OnInstability {
 
 enum class OnBifurcation { follow, switch_branch };
 
+/// Frequencies at equal ratios
+struct Sweep {
+  double from = 0, to = 0; ///< Hz
+  int points = 0;
+};
+
 /// [[step]]
 struct Step {
   StepKind kind{};
@@ -157,9 +219,16 @@ struct Step {
   std::optional<double> duration{}; ///< s; absent: a ramp that takes no time
   Response response{};              ///< without a duration
   std::optional<double> record{};   ///< s: history has rows only at its multiples; absent: at every increment
-  Control control{};                ///< of force, move, transient and hold
+  Control control{};                ///< of steps that ramp neither voltage nor charge
+  bool inertia = false;             ///< of transient and hold: what has a mass resists acceleration
   OnInstability on_instability{};
   OnBifurcation on_bifurcation{};
+  int count = 0; ///< of modes
+  Sweep sweep{}; ///< of harmonic
+  std::string
+      response_of{}; ///< of harmonic: a quantity of kind displacement; empty: the first with a direction
+
+  bool is_analysis() const { return kind == StepKind::modes || kind == StepKind::harmonic; }
 };
 
 enum class QuantityKind {
@@ -174,9 +243,19 @@ enum class QuantityKind {
   nominal_stress,
   capacitance,
   charge,
+  current,
+  pressure,
+  volume,
+  stiffness,
+  natural_frequency,
+  radial_stretch,
   energy,
-  extreme
+  extreme,
+  peak
 };
+
+/// Where gravity pulls, as a direction of a quantity.
+constexpr int along_gravity = 3;
 
 /// Elongation is the relative change of a distance, growth that of a size.
 constexpr bool is_relative(QuantityKind kind) {
@@ -188,12 +267,15 @@ struct Quantity {
   std::string name;
   QuantityKind kind{};
   std::array<std::string, 2> between; ///< distance, elongation, stretch: two places (their centroids)
-  std::string of; ///< size, growth, displacement, radius, force, nominal_stress: a place; capacitance,
-                  ///< charge: an electrode; extreme: a field
-  std::optional<int> along; ///< 0, 1, 2 = x, y, z; absent: magnitude
+  std::string
+      of; ///< size, growth, displacement, radius, force, nominal_stress, stiffness, radial_stretch: a
+          ///< place; capacitance, charge, current: an electrode; extreme: a field; peak: another quantity
+  std::optional<int> along; ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
+  int mode = 1;             ///< natural_frequency: its number, from the lowest
   post::Extreme extreme{};
-  std::string at;        ///< the step at whose end summary.json reads it; empty: the last
-  std::string since;     ///< elongation, growth: the step at whose end it is zero; empty: the mesh as drawn
+  std::string at; ///< the step at whose end summary.json reads it; empty: the last
+  std::string
+      since; ///< elongation, growth, displacement: the step at whose end it is zero; empty: the mesh as drawn
   bool standard = false; ///< brought by the geometry's template, not written by the user
 };
 
@@ -214,19 +296,39 @@ struct SolverOptions {
   double time_tolerance = 0;     ///< relative local error of the branches in a time step
 };
 
+/// [[linearise.compare]]: a transfer function to compare with, numerator / denominator in powers of s, the
+/// highest first, from V to the unit of the output
+struct TransferFunction {
+  std::string name;
+  std::vector<double> numerator, denominator;
+};
+
+/// [linearise]: the linear model that `dielast linearise` makes about the state at the end of the steps
+struct Linearise {
+  int order = 0;
+  std::string output; ///< a quantity of kind displacement; empty: the first with a direction
+  Sweep sweep;        ///< over which it is compared with the full response
+  std::vector<TransferFunction> compare;
+};
+
 /// Everything the user asked for: validated, complete, in SI. No type of the file format gets past the
 /// reader.
 struct Case {
   std::string title;
   std::filesystem::path source; ///< the case file
-  bool three_dimensional = false;
+  fem::Dimension dimension{};
   Film film;
   Geometry geometry;
   MeshOptions mesh;
   std::vector<Electrode> electrodes;
   std::vector<Support> supports;
   std::vector<Load> loads;
-  std::map<std::string, Drive> drives; ///< by the electrode's name
+  std::map<std::string, Drive> drives;     ///< by the electrode's name
+  std::map<std::string, Circuit> circuits; ///< likewise
+  std::optional<Plate> plate;
+  std::vector<PointMass> point_masses;
+  Gravity gravity;
+  std::optional<Chamber> chamber;
   std::vector<Spring> springs;
   std::vector<Linkage> linkages;
   std::vector<Step> steps;
@@ -234,6 +336,7 @@ struct Case {
   std::vector<Check> checks;
   int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
   SolverOptions solver;
+  Linearise linearise;
   bool error_estimate = true;  ///< [output] error_estimate: solve once more on a coarser mesh
   bool fields = true;          ///< [output] fields: write the VTK series
   std::vector<Mention> places; ///< every place that the case names, for check_places

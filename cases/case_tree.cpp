@@ -86,7 +86,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
                         [&] { return names_of(one.electrodes, &Electrode::name); },
                         [&](const std::string& name) -> std::optional<std::string> {
                           for (const Quantity& quantity : one.quantities)
-                            if (quantity.name == name) return std::string(unit_of(quantity));
+                            if (quantity.name == name) return unit_of(quantity, one.quantities);
                           return std::nullopt;
                         }});
   require_one_geometry(reader, tree);
@@ -94,6 +94,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   for (int i = 0; i < std::min<int>(standard, static_cast<int>(one.quantities.size())); ++i)
     one.quantities[static_cast<std::size_t>(i)].standard = true;
   add_patch_sides(one);
+  if (one.mesh.rings == 0) one.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
 
   require_known(reader, Reference::electrode, "electrode", names_of(one.electrodes, &Electrode::name));
   require_known(reader, Reference::step, "step", names_of(one.steps, &Step::name));

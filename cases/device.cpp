@@ -2,15 +2,20 @@
 
 #include "cases/reader.hpp"
 #include "fem/beam_block.hpp"
+#include "fem/chamber_block.hpp"
 #include "fem/distance_block.hpp"
 #include "fem/membrane_block.hpp"
+#include "fem/point_mass_block.hpp"
 #include "meshing/gmsh_reader.hpp"
 #include "meshing/honeycomb_mesh.hpp"
+#include "meshing/meridian.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/patch.hpp"
 #include "meshing/rings.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace dielast::cases {
@@ -134,6 +139,79 @@ fem::Distance distance(const meshing::Mesh& mesh, const std::array<std::string, 
   return {{mesh.node_sets.at(between[0]), mesh.node_sets.at(between[1])}, axis};
 }
 
+void add_masses(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  if (one.plate)
+    model.blocks.push_back(fem::make_point_mass_block(
+        {mesh.node_sets.at(one.plate->place).front(), 2, one.plate->mass, one.plate->damping}));
+  for (const PointMass& point : one.point_masses) {
+    const auto& nodes = mesh.node_sets.at(point.place);
+    const auto share = 1 / static_cast<double>(nodes.size());
+    for (const int node : nodes)
+      for (int c = 0; c < 3; ++c)
+        if (fem::moves(one.dimension, c))
+          model.blocks.push_back(
+              fem::make_point_mass_block({node, c, point.mass * share, point.damping * share}));
+  }
+}
+
+/// The plate keeps its edge round and level: it moves along z only.
+void carry_plate(const Plate& plate, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  const auto& edge = mesh.node_sets.at(plate.place);
+  for (const int node : edge) {
+    dofs.hold(node, 0);
+    dofs.hold(node, 1);
+    dofs.share(edge.front(), node, 2);
+  }
+}
+
+void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  if (!one.chamber) return;
+  const std::size_t port = model.electrodes.size();
+  model.chambers = {"chamber"};
+  model.blocks.push_back(fem::make_pressure_block(mesh, *mesh.film(), port));
+  fem::Lid lid{mesh.film()->nodes.front(), 0};
+  if (const auto* annulus = std::get_if<Annulus>(&one.geometry); annulus && one.plate)
+    lid = {mesh.node_sets.at(one.plate->place).front(),
+           std::numbers::pi * annulus->inner_radius * annulus->inner_radius};
+  const double compliance = std::pow(model.extent, 3) / one.chamber->bulk_modulus;
+  model.blocks.push_back(fem::make_lid_block(mesh, lid, compliance, port));
+}
+
+void add_circuits(const Case& one, fem::Model& model) {
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    const auto found = one.circuits.find(one.electrodes[e].name);
+    if (found == one.circuits.end()) continue;
+    fem::Circuit circuit{.electrode = static_cast<int>(e), .resistance = found->second.resistance};
+    if (found->second.leakage_resistance) circuit.leakage = 1 / *found->second.leakage_resistance;
+    if (found->second.current_limit) circuit.current_limit = *found->second.current_limit;
+    constexpr double typical_voltage = 1000;
+    circuit.charge_scale = typical_voltage * model.charges(model.initial_state(), false).capacitance[e];
+    model.circuits.push_back(circuit);
+  }
+}
+
+/// Forces of gravity: on plate and masses, and on the film where its weight counts.
+Eigen::VectorXd weight_of(const Case& one, const meshing::Mesh& mesh, const fem::Model& model) {
+  const fem::DofMap& dofs = model.dofs;
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(dofs.count());
+  const auto add = [&](int node, double mass) {
+    if (const int e = dofs.equation(node, 2); e != fem::DofMap::absent)
+      weight[e] -= mass * one.gravity.acceleration;
+  };
+  if (one.gravity.film) {
+    Eigen::VectorXd falls = Eigen::VectorXd::Zero(dofs.count());
+    for (int n = 0; n < dofs.node_count(); ++n)
+      if (const int e = dofs.equation(n, 2); e != fem::DofMap::absent) falls[e] = 1;
+    return -one.gravity.acceleration * (model.inertia.mass * falls);
+  }
+  if (one.plate) add(mesh.node_sets.at(one.plate->place).front(), one.plate->mass);
+  for (const PointMass& point : one.point_masses) {
+    const auto& nodes = mesh.node_sets.at(point.place);
+    for (const int node : nodes) add(node, point.mass / static_cast<double>(nodes.size()));
+  }
+  return weight;
+}
+
 void add_springs(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   for (const Spring& spring : one.springs)
     model.blocks.push_back(fem::make_distance_block(mesh, distance(mesh, spring.between, spring.along),
@@ -148,6 +226,7 @@ void add_springs(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
 
 meshing::Mesh build_mesh(const Case& one) {
   const MeshOptions& options = one.mesh;
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
   try {
     return std::visit(
         Overloaded{
@@ -156,11 +235,19 @@ meshing::Mesh build_mesh(const Case& one) {
                                              {options.order, options.wall_elements, options.grading});
             },
             [&](const Disc& d) {
+              if (of_revolution)
+                return meshing::disc_meridian(d.radius, d.electrode_radius, options.rings, options.order);
               return meshing::disc_mesh(d.radius, d.electrode_radius, options.rings, options.order, true);
             },
             [&](const Annulus& a) {
+              if (of_revolution)
+                return meshing::annulus_meridian(a.inner_radius, a.outer_radius, options.rings, options.order,
+                                                 options.grading);
               return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order,
                                            true);
+            },
+            [&](const Balloon& b) {
+              return meshing::balloon_meridian(b.radius, options.rings, options.order);
             },
             [&](const Patch& p) {
               return meshing::patch_mesh(p.length * one.film.prestretch[0], p.width * one.film.prestretch[1]);
@@ -182,7 +269,7 @@ std::vector<std::string> places_of(const meshing::Mesh& mesh) {
 Device build_device(const Case& one) {
   meshing::Mesh mesh = build_mesh(one);
   check_places(one, places_of(mesh));
-  const bool planar = !one.three_dimensional;
+  const fem::Dimension dimension = one.dimension;
 
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
@@ -193,38 +280,53 @@ Device build_device(const Case& one) {
   }
   model.extent = (high - low).norm();
 
-  if (high.z() - low.z() > 1e-9 * model.extent)
+  const bool of_revolution = dimension == fem::Dimension::axisymmetric;
+  if (!of_revolution && high.z() - low.z() > 1e-9 * model.extent)
     throw meshing::MeshError("the film must lie in a plane of constant z");
 
-  const meshing::CellBlock* film = mesh.triangles();
+  const meshing::CellBlock* film = mesh.film();
   if (!film) throw meshing::MeshError("the mesh has no triangles: there is no film");
+  if (of_revolution && !meshing::is_meridian(film->type))
+    throw meshing::MeshError("model = \"axisymmetric\" is for discs, annuli and balloons");
   model.length_scale = model.extent / std::sqrt(static_cast<double>(film->size()));
-  const int points = film->type == meshing::CellType::triangle6 ? one.mesh.quadrature : 1;
+  // Two points of a 3-node meridian: there stretches are one order better than elsewhere.
+  const int points = film->type == meshing::CellType::triangle6   ? one.mesh.quadrature
+                     : film->type == meshing::CellType::meridian3 ? 2
+                                                                  : 1;
   try {
     model.blocks.push_back(fem::make_membrane_block(
         mesh, *film, {one.film.material, one.film.thickness, one.film.prestretch, one.film.tension_field},
-        electrode_map(one, mesh, *film), planar, points));
+        electrode_map(one, mesh, *film), dimension, points));
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
   const auto* lattice = std::get_if<Honeycomb>(&one.geometry);
-  if (const meshing::CellBlock* walls = mesh.lines(); walls && lattice)
+  if (const meshing::CellBlock* walls = mesh.walls(); walls && lattice)
     model.blocks.push_back(fem::make_beam_block(
         mesh, *walls,
         materials::rectangular_section(lattice->wall_material, lattice->wall_width, lattice->wall_height)));
 
   add_springs(one, mesh, model);
-  model.place_histories();
-  for (const auto& block : model.blocks) block->claim_dofs(model.dofs, planar);
+  add_masses(one, mesh, model);
+  add_chamber(one, mesh, model);
+  for (const auto& block : model.blocks) block->claim_dofs(model.dofs, dimension);
   for (const Support& support : one.supports)
     for (const int node : mesh.node_sets.at(support.place))
       for (int c = 0; c < 3; ++c)
         if (support.fixed[static_cast<std::size_t>(c)]) model.dofs.hold(node, c);
   if (one.supports.empty()) pin(mesh, model.dofs);
+  if (of_revolution)
+    for (int n = 0; n < mesh.node_count(); ++n)
+      if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);
+  if (one.plate) carry_plate(*one.plate, mesh, model.dofs);
   if (const auto* patch = std::get_if<Patch>(&one.geometry)) keep_homogeneous(*patch, mesh, model.dofs);
   model.dofs.number();
+  model.inertia = fem::Inertia::of(model.blocks, model.dofs);
+  add_circuits(one, model);
+  model.place_histories();
 
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
+  device.weight = weight_of(one, device.mesh, device.model);
   require_loads_that_act(one, device);
   device.tension_field = one.film.tension_field;
   if (lattice) device.wall_width = lattice->wall_width;
@@ -241,6 +343,7 @@ std::optional<Coarser> coarser(const Case& one) {
   };
   return std::visit(Overloaded{[&](const Honeycomb&) { return halve(&MeshOptions::wall_elements, 1); },
                                [](const Patch&) -> std::optional<Coarser> { return std::nullopt; },
+                               [&](const Balloon&) { return halve(&MeshOptions::rings, 4); },
                                [](const MeshFile&) -> std::optional<Coarser> { return std::nullopt; },
                                [&](const auto& /*rings*/) { return halve(&MeshOptions::rings, 2); }},
                     one.geometry);

@@ -15,6 +15,7 @@ struct Device {
   std::optional<double> wall_width; ///< m, of a lattice
   bool tension_field = false;       ///< the film wrinkles where it would be compressed
   bool free_body = false;           ///< no support: pinned against rigid motion only, without reactions
+  Eigen::VectorXd weight;           ///< dead forces of gravity, per equation, N
 };
 
 /// The mesh that the case asks for. Throws meshing::MeshError.

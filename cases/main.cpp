@@ -3,6 +3,7 @@
 #include "cases/fit.hpp"
 #include "cases/fit_reader.hpp"
 #include "cases/json_schema.hpp"
+#include "cases/linearise.hpp"
 #include "cases/reader.hpp"
 #include "cases/run.hpp"
 #include "cases/study.hpp"
@@ -92,6 +93,11 @@ ExitCode fit(const Arguments& arguments) {
   return run_fit(cases::read_fit(arguments.case_file), arguments.output("-fit"));
 }
 
+ExitCode linearise(const Arguments& arguments) {
+  return linearise_case(cases::read_case(arguments.case_file, arguments.overrides),
+                        {arguments.output("-linear"), arguments.threads});
+}
+
 ExitCode info(const Arguments& arguments) {
   fmt::print("{}", cases::describe(arguments.topic));
   return ExitCode::ok;
@@ -141,6 +147,7 @@ int main(int argc, char** argv) {
       "  dielast run case.toml --set drive.voltage=\"6 kV\" -o six\n"
       "  dielast study figure5.toml --resume\n"
       "  dielast fit tests.toml                              results in tests-fit/\n"
+      "  dielast linearise step.toml                         A, B, C, D in step-linear/\n"
       "  dielast info devices                                templates, their keys and places\n"
       "Exit codes: 0 ok, 1 usage or file, 2 invalid case, 3 mesh, 4 not converged (results kept), 5 a check\n"
       "failed, 130 interrupted (go on with --resume).");
@@ -169,7 +176,7 @@ int main(int argc, char** argv) {
   const auto takes_directory = [&](CLI::App* command) {
     command
         ->add_option("-o,--output", arguments.directory,
-                     "directory of the results [<case>-results, <case>-fit]")
+                     "directory of the results [<case>-results, <case>-fit, <case>-linear]")
         ->type_name("DIR");
   };
   const auto takes_threads = [&](CLI::App* command, const char* meaning) {
@@ -199,6 +206,12 @@ int main(int argc, char** argv) {
   takes_threads(study_command, "points at a time [every core]");
   study_command->add_flag("--resume", arguments.resume,
                           "keep the points that are done, go on with the others");
+
+  auto* linearise_command = takes_case(
+      add("linearise", "make a small linear model about the state at the end of a case's steps", linearise));
+  takes_overrides(linearise_command);
+  takes_directory(linearise_command);
+  takes_threads(linearise_command, "threads [every core]");
 
   takes_directory(
       takes_case(add("fit", "fit a material to measured tests: parameters, intervals, report", fit)));

@@ -1,17 +1,28 @@
 #include "cases/measurement.hpp"
 
-#include "post/reductions.hpp"
+#include "cases/radial_stretch.hpp"
+#include "fem/modal.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace dielast::cases {
 
 namespace {
 
+/// The same state as its branches let it move slowly.
+fem::State relaxed(fem::State state) {
+  if (state.history) state.scheme = materials::TimeScheme::relaxed();
+  for (fem::Supply& supply : state.supply)
+    if (supply == fem::Supply::circuit) supply = fem::Supply::voltage; // the source keeps it
+  return state;
+}
+
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double component(const Eigen::Vector3d& vector, const std::optional<int>& along) {
+  if (along == along_gravity) return -vector.z();
   return along ? vector[*along] : vector.norm();
 }
 
@@ -26,15 +37,16 @@ double energy(const std::string& part, const fem::EnergyBalance& balance, const 
   if (part == "elastic") return stored.elastic;
   if (part == "branches") return stored.branches;
   if (part == "electric") return stored.electric;
+  if (part == "kinetic") return stored.kinetic;
   if (part == "wrinkle_regularisation") return stored.regularised;
   return balance.error(work);
 }
 
 } // namespace
 
-Measured::Measured(const Device& device, fem::Equilibrium& equilibrium, const fem::State& at,
+Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::State& at,
                    const fem::EnergyBalance& balance)
-    : state(at), samples(device.model.sample(at)), extremes(samples),
+    : equilibrium(solver), state(at), samples(device.model.sample(at)), extremes(samples),
       charges(device.model.charges(at, false)), energy(balance), work(balance.work()) {
   equilibrium.internal_force(at, internal_force);
 }
@@ -42,7 +54,7 @@ Measured::Measured(const Device& device, fem::Equilibrium& equilibrium, const fe
 const std::vector<char>& Measurement::film_at(const std::string& place) const {
   const auto [entry, fresh] = film_at_.try_emplace(place);
   if (!fresh) return entry->second;
-  const meshing::CellBlock& film = *device_.mesh.triangles();
+  const meshing::CellBlock& film = *device_.mesh.film();
   std::vector<char>& near = entry->second;
   near.assign(static_cast<std::size_t>(film.size()), 0);
   const auto cells = device_.mesh.cell_sets.find(place);
@@ -84,6 +96,39 @@ double Measurement::length(const Quantity& quantity, const fem::State& state) co
   return component(high - low, quantity.along);
 }
 
+double Measurement::displacement(const Quantity& quantity, const fem::State& state) const {
+  return component(position(quantity.of, state) - position(quantity.of, device_.model.initial_state()),
+                   quantity.along);
+}
+
+/// The inverse of the mean displacement of a place under a unit force that is spread evenly over it.
+double Measurement::stiffness(const Quantity& quantity, const Measured& measured) const {
+  const fem::DofMap& dofs = device_.model.dofs;
+  const auto& nodes = device_.mesh.node_sets.at(quantity.of);
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(dofs.free_count()), flexibility;
+  for (const int node : nodes)
+    if (const int e = dofs.equation(node, *quantity.along); e >= 0 && e < dofs.free_count())
+      unit[e] += 1 / static_cast<double>(nodes.size());
+  if (unit.isZero() || !measured.at_rest || !measured.equilibrium.factor(relaxed(measured.state)))
+    return unknown;
+  measured.equilibrium.tangent().solve(unit, flexibility);
+  return 1 / unit.dot(flexibility);
+}
+
+/// NaN where nothing has a mass, or the state is unstable.
+double Measurement::natural_frequency(const Quantity& quantity, const Measured& measured) const {
+  if (!measured.at_rest) return unknown;
+  const auto modes = fem::vibration_modes(measured.equilibrium, measured.state, {.count = quantity.mode});
+  if (!modes || std::ssize(*modes) < quantity.mode) return unknown;
+  const fem::VibrationMode& mode = (*modes)[static_cast<std::size_t>(quantity.mode) - 1];
+  return mode.stiffness > 0 ? mode.frequency() : unknown;
+}
+
+std::size_t Measurement::electrode(const std::string& name) const {
+  const auto& names = device_.model.electrodes;
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+
 double Measurement::evaluate(const Quantity& quantity, const Measured& measured) const {
   const fem::State& state = measured.state;
   switch (quantity.kind) {
@@ -96,12 +141,14 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
       const double drawn = length(quantity, device_.model.initial_state());
       return length(quantity, state) / drawn - 1;
     }
-    const auto rest = rest_lengths.find(quantity.name);
-    return rest == rest_lengths.end() ? unknown : length(quantity, state) / rest->second - 1;
+    const auto rest = references.find(quantity.name);
+    return rest == references.end() ? unknown : length(quantity, state) / rest->second - 1;
   }
   case QuantityKind::displacement: {
-    const Eigen::Vector3d drawn = position(quantity.of, device_.model.initial_state());
-    return component(position(quantity.of, state) - drawn, quantity.along);
+    const double moved = displacement(quantity, state);
+    if (quantity.since.empty()) return moved;
+    const auto rest = references.find(quantity.name);
+    return rest == references.end() ? unknown : moved - rest->second;
   }
   case QuantityKind::radius: {
     const Eigen::Vector3d centre = position(quantity.of, state);
@@ -141,12 +188,29 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     return energy(quantity.of, measured.energy, measured.work);
   case QuantityKind::capacitance:
   case QuantityKind::charge: {
-    const auto& names = device_.model.electrodes;
-    const auto electrode =
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), quantity.of) - names.begin());
     return (quantity.kind == QuantityKind::charge ? measured.charges.charge
-                                                  : measured.charges.capacitance)[electrode];
+                                                  : measured.charges.capacitance)[electrode(quantity.of)];
   }
+  case QuantityKind::current:
+  case QuantityKind::pressure:
+  case QuantityKind::volume: {
+    const std::size_t electrodes = device_.model.electrodes.size();
+    if (quantity.kind == QuantityKind::pressure) return state.voltage[electrodes];
+    if (quantity.kind == QuantityKind::volume) return measured.charges.charge[electrodes];
+    const std::size_t e = electrode(quantity.of);
+    const fem::Circuit* circuit = device_.model.circuit_of(e);
+    return circuit && state.supply[e] == fem::Supply::circuit
+               ? circuit->current(state.source[e], state.voltage[e])
+               : unknown;
+  }
+  case QuantityKind::stiffness:
+    return stiffness(quantity, measured);
+  case QuantityKind::natural_frequency:
+    return natural_frequency(quantity, measured);
+  case QuantityKind::radial_stretch:
+    return radial_stretch(device_.mesh, measured.samples, quantity.of);
+  case QuantityKind::peak: // of the others, see all()
+    return unknown;
   case QuantityKind::extreme: {
     const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);
     return extremum ? extremum->value : unknown;
@@ -155,16 +219,28 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   return unknown;
 }
 
-std::vector<double> Measurement::all(const Measured& measured) const {
+std::vector<double> Measurement::all(const Measured& measured) {
   std::vector<double> values;
   for (const Quantity& quantity : case_.quantities) values.push_back(evaluate(quantity, measured));
+  for (std::size_t q = 0; q < values.size(); ++q) {
+    const Quantity& quantity = case_.quantities[q];
+    if (quantity.kind != QuantityKind::peak) continue;
+    const auto of = std::ranges::find(case_.quantities, quantity.of, &Quantity::name);
+    const double now = values[static_cast<std::size_t>(of - case_.quantities.begin())];
+    const auto [peak, first] = references.try_emplace(quantity.name, now);
+    const bool beyond = quantity.extreme == post::Extreme::minimum ? now < peak->second : now > peak->second;
+    if (beyond || std::isnan(peak->second)) peak->second = now;
+    values[q] = peak->second;
+  }
   return values;
 }
 
 void Measurement::step_ended(const std::string& step, const Measured& measured) {
   for (const Quantity& quantity : case_.quantities)
-    if (is_relative(quantity.kind) && quantity.since == step)
-      rest_lengths[quantity.name] = length(quantity, measured.state);
+    if (quantity.since == step && !step.empty())
+      references[quantity.name] = quantity.kind == QuantityKind::displacement
+                                      ? displacement(quantity, measured.state)
+                                      : length(quantity, measured.state);
 }
 
 } // namespace dielast::cases

@@ -14,6 +14,9 @@ struct Measured {
   Measured(const Device& device, fem::Equilibrium& equilibrium, const fem::State& state,
            const fem::EnergyBalance& energy);
 
+  fem::Equilibrium& equilibrium;
+  bool at_rest = true; ///< the device does not move: it can be asked for its stiffness and vibrations
+
   const fem::State& state;
   fem::Samples samples;
   post::Extremes extremes;        ///< of these samples
@@ -30,17 +33,22 @@ class Measurement {
 
   /// All quantities, in the case's order and in SI; NaN where one has no meaning yet (an elongation since a
   /// step that has not ended).
-  std::vector<double> all(const Measured& measured) const;
+  std::vector<double> all(const Measured& measured);
 
-  /// Says that a step ended in this state: elongations since it start here.
+  /// Says that a step ended in this state: elongations and displacements since it start here.
   void step_ended(const std::string& step, const Measured& measured);
 
-  /// Lengths that elongations are relative to, by quantity; stored with a checkpoint.
-  std::map<std::string, double> rest_lengths;
+  /// Lengths and displacements that quantities are relative to, and peaks so far, by quantity; stored with a
+  /// checkpoint.
+  std::map<std::string, double> references;
 
  private:
   double evaluate(const Quantity& quantity, const Measured& measured) const;
   double length(const Quantity& quantity, const fem::State& state) const;
+  double displacement(const Quantity& quantity, const fem::State& state) const;
+  double stiffness(const Quantity& quantity, const Measured& measured) const;
+  double natural_frequency(const Quantity& quantity, const Measured& measured) const;
+  std::size_t electrode(const std::string& name) const;
   Eigen::Vector3d position(const std::string& place, const fem::State& state) const;
   /// Which triangles belong to a place: its own, or those with a node there.
   const std::vector<char>& film_at(const std::string& place) const;

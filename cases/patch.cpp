@@ -29,7 +29,7 @@ void add_patch_sides(Case& one) {
   const bool alike = patch->mode == PatchMode::equal_biaxial;
   hold(one, "left", 0);
   hold(one, "bottom", 1);
-  if (one.three_dimensional) hold(one, "film", 2);
+  if (one.dimension == fem::Dimension::spatial) hold(one, "film", 2);
   if (patch->mode == PatchMode::pure_shear) hold(one, "top", 1);
   drive_side(one, "right", 0, patch->length, patch->width, patch->stretch_x, patch->stress_x);
   drive_side(one, "top", 1, patch->width, patch->length, alike ? patch->stretch_x : patch->stretch_y,

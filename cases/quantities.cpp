@@ -2,7 +2,7 @@
 
 namespace dielast::cases {
 
-std::string unit_of(const Quantity& quantity) {
+std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) {
   switch (quantity.kind) {
   case QuantityKind::distance:
   case QuantityKind::size:
@@ -12,7 +12,18 @@ std::string unit_of(const Quantity& quantity) {
   case QuantityKind::elongation:
   case QuantityKind::growth:
   case QuantityKind::stretch:
+  case QuantityKind::radial_stretch:
     return "1";
+  case QuantityKind::current:
+    return "A";
+  case QuantityKind::pressure:
+    return "Pa";
+  case QuantityKind::volume:
+    return "m^3";
+  case QuantityKind::stiffness:
+    return "N/m";
+  case QuantityKind::natural_frequency:
+    return "rad/s";
   case QuantityKind::force:
     return "N";
   case QuantityKind::nominal_stress:
@@ -23,6 +34,10 @@ std::string unit_of(const Quantity& quantity) {
     return "C";
   case QuantityKind::energy:
     return "J";
+  case QuantityKind::peak:
+    for (const Quantity& other : all)
+      if (other.name == quantity.of && other.kind != QuantityKind::peak) return unit_of(other, all);
+    return "1";
   case QuantityKind::extreme:
     break;
   }

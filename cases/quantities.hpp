@@ -7,6 +7,7 @@
 namespace dielast::cases {
 
 /// SI unit of a quantity's values; "1" for a pure number.
-std::string unit_of(const Quantity& quantity);
+/// `all`: the quantities of the case, of which a peak needs another.
+std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all);
 
 } // namespace dielast::cases

@@ -6,7 +6,11 @@
 #include "post/file_output.hpp"
 #include "post/reductions.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 
 namespace dielast::cases {
@@ -62,13 +66,37 @@ Snapshot restore_snapshot(const json& archived) {
   return snapshot;
 }
 
+json archive(const Analysis& analysis) {
+  json rows = json::array();
+  for (const auto& row : analysis.rows) rows.push_back(post::pack(row));
+  return {{"kind", analysis.kind},
+          {"step", analysis.step},
+          {"of", analysis.of},
+          {"columns", analysis.columns},
+          {"rows", std::move(rows)}};
+}
+
+Analysis restore_analysis(const json& archived) {
+  Analysis analysis{archived.at("kind"), archived.at("step"), archived.at("of"), archived.at("columns"), {}};
+  for (const json& row : archived.at("rows")) analysis.rows.push_back(post::unpack(row));
+  return analysis;
+}
+
+/// A step's name as that of a file.
+std::string file_name(std::string step) {
+  for (char& c : step)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  return step;
+}
+
 } // namespace
 
 std::vector<post::Column> history_columns(const Case& one) {
   std::vector<post::Column> columns{{"load_factor", "1"}, {"time", "s"}};
   for (const Electrode& electrode : one.electrodes)
     columns.push_back({one.electrodes.size() == 1 ? "voltage" : "voltage_" + electrode.name, "V"});
-  for (const Quantity& quantity : one.quantities) columns.push_back({quantity.name, unit_of(quantity)});
+  for (const Quantity& quantity : one.quantities)
+    columns.push_back({quantity.name, unit_of(quantity, one.quantities)});
   for (const char* solver : {"iterations", "residual", "unstable_modes"}) columns.push_back({solver, "1"});
   return columns;
 }
@@ -104,6 +132,23 @@ void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event
                 fem::displacements(device.model.dofs, critical.mode.direction));
 }
 
+void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
+  std::string table = fmt::format("{}\n", fmt::join(analysis.columns, ","));
+  for (const auto& row : analysis.rows) table += fmt::format("{}\n", fmt::join(row, ","));
+  post::replace_file(directory_ / (file_name(analysis.step) + ".csv"), table);
+  if (case_.fields) {
+    const Device& device = simulation_.device();
+    post::VtkSeries series(directory_, case_.source.stem().string() + "-" + file_name(analysis.step),
+                           device.mesh);
+    const fem::Samples samples = device.model.sample(state);
+    for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
+      series.write(static_cast<double>(i), analysis.shapes[i].name, state.displacement, samples,
+                   analysis.shapes[i].displacement);
+  }
+  analysis.shapes.clear();
+  journal_.analyses.push_back(std::move(analysis));
+}
+
 void Recorder::record(const Frame& frame) {
   const post::StepRecord& record = frame.record;
   std::vector<double> row{record.load_factor, record.time};
@@ -117,7 +162,7 @@ void Recorder::record(const Frame& frame) {
                    frame.measured.samples);
 
   const Device& device = simulation_.device();
-  const int triangles = device.mesh.triangles()->size();
+  const int triangles = device.mesh.film()->size();
   Snapshot snapshot{record.step, record.largest_voltage(), frame.measured.state.displacement,
                     post::average(frame.measured.samples, "thickness", triangles),
                     post::average(frame.measured.samples, "electric_field", triangles)};
@@ -135,7 +180,8 @@ void Recorder::record(const Frame& frame) {
 
 void Recorder::save_checkpoint() {
   const SimulationProgress progress = simulation_.progress();
-  json records = json::array(), values = json::array(), snapshots = json::array();
+  json records = json::array(), values = json::array(), snapshots = json::array(), analyses = json::array();
+  for (const auto& analysis : journal_.analyses) analyses.push_back(archive(analysis));
   for (const auto& record : journal_.records) records.push_back(archive(record));
   for (const auto& row : journal_.values) values.push_back(post::pack(row));
   for (const auto& snapshot : journal_.snapshots) snapshots.push_back(archive(snapshot));
@@ -148,12 +194,16 @@ void Recorder::save_checkpoint() {
        {"unstable_modes", progress.in_step.unstable_modes},
        {"jumps", progress.in_step.jumps},
        {"energy", post::archive(progress.energy)},
-       {"rest_lengths", progress.rest_lengths},
+       {"references", progress.references},
        {"active_events", progress.active_events},
        {"results", post::pack(simulation_.results())},
        {"steps_ended", steps_ended_},
        {"journal",
-        {{"records", records}, {"values", values}, {"snapshots", snapshots}, {"modes", journal_.modes}}}});
+        {{"records", records},
+         {"values", values},
+         {"snapshots", snapshots},
+         {"modes", journal_.modes},
+         {"analyses", analyses}}}});
   post::replace_file(checkpoint_path(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   saved_ = std::chrono::steady_clock::now();
 }
@@ -178,12 +228,14 @@ void Recorder::restore_checkpoint() {
     if (const json& followed = saved.at("followed"); !followed.is_null())
       in_step.followed = post::restore_continuation(followed, nodes, equations);
     simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
-                        post::restore_energy(saved.at("energy")), saved.at("rest_lengths"),
+                        post::restore_energy(saved.at("energy")), saved.at("references"),
                         saved.at("active_events")});
     simulation_.set_results(post::unpack(saved.at("results")));
     steps_ended_ = saved.at("steps_ended");
     const json& journal = saved.at("journal");
     journal_.modes = journal.at("modes");
+    for (const json& analysis : journal.at("analyses"))
+      journal_.analyses.push_back(restore_analysis(analysis));
     for (const json& record : journal.at("records")) journal_.records.push_back(restore_record(record));
     for (const json& row : journal.at("values")) journal_.values.push_back(post::unpack(row));
     for (const json& snapshot : journal.at("snapshots"))

@@ -24,7 +24,8 @@ struct Journal {
   std::vector<post::StepRecord> records;
   std::vector<std::vector<double>> values; ///< of the quantities, per record
   std::vector<Snapshot> snapshots;         ///< drawn, the end of each step, and the last accepted state
-  int modes = 0;                           ///< written so far
+  int modes = 0;                           ///< of critical points, written so far
+  std::vector<Analysis> analyses;
 };
 
 /// Writes history.csv, the ParaView series and the checkpoint of a run as it goes, and keeps its journal.
@@ -38,6 +39,8 @@ class Recorder {
   void record(const Frame& frame);
   /// Adds the mode of a critical point to the series `<case>-modes`.
   void record_mode(const fem::CriticalPoint& critical, const post::Event& event);
+  /// Writes `<step>.csv` and the shapes as the series `<case>-<step>`, about `state`.
+  void record_analysis(Analysis analysis, const fem::State& state);
   /// Writes the checkpoint now; the run can be resumed from it.
   void save_checkpoint();
   /// The run is complete: there is nothing to resume.

@@ -1,9 +1,11 @@
 #include "cases/results.hpp"
 
+#include "cases/analysis_report.hpp"
 #include "cases/quantities.hpp"
 #include "meshing/quality.hpp"
 #include "post/picture.hpp"
 #include "post/plot.hpp"
+#include "post/profile.hpp"
 
 #include <fmt/format.h>
 
@@ -34,7 +36,7 @@ post::Ratio ratio_of(const Quantity& quantity) {
 
 /// A quantity in words, for a person who did not write the case.
 std::string meaning(const Quantity& q) {
-  static constexpr const char* axes[] = {"x", "y", "z"};
+  static constexpr const char* axes[] = {"x", "y", "z", "gravity"};
   const std::string along = q.along ? fmt::format(" along {}", axes[*q.along]) : "";
   const std::string at = q.at.empty() ? "" : fmt::format(", at the end of \"{}\"", q.at);
   switch (q.kind) {
@@ -49,7 +51,8 @@ std::string meaning(const Quantity& q) {
     return fmt::format("growth of {}{}, since {}{}", q.of, along,
                        q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
   case QuantityKind::displacement:
-    return fmt::format("displacement of {}{}{}", q.of, along, at);
+    return fmt::format("displacement of {}{}{}{}", q.of, along,
+                       q.since.empty() ? "" : ", since \"" + q.since + "\"", at);
   case QuantityKind::radius:
     return fmt::format("mean radius of {}{}", q.of, at);
   case QuantityKind::force:
@@ -58,6 +61,21 @@ std::string meaning(const Quantity& q) {
     return fmt::format("capacitance of electrode {}{}", q.of, at);
   case QuantityKind::charge:
     return fmt::format("charge on electrode {}{}", q.of, at);
+  case QuantityKind::current:
+    return fmt::format("current from the source of electrode {}{}", q.of, at);
+  case QuantityKind::pressure:
+    return fmt::format("pressure in the chamber{}", at);
+  case QuantityKind::volume:
+    return fmt::format("volume of the chamber{}", at);
+  case QuantityKind::stiffness:
+    return fmt::format("force on {} per displacement{}{}", q.of, along, at);
+  case QuantityKind::natural_frequency:
+    return fmt::format("natural frequency number {}{}", q.mode, at);
+  case QuantityKind::radial_stretch:
+    return fmt::format("stretch along the radius at {}{}", q.of, at);
+  case QuantityKind::peak:
+    return fmt::format("{} {} so far{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
+                       at);
   case QuantityKind::stretch:
     return fmt::format("stretch between {} and {}{}{}", q.between[0], q.between[1], along, at);
   case QuantityKind::nominal_stress:
@@ -94,6 +112,13 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   if (all.size() > 1)
     shapes.panels.push_back(panel(device, all[all.size() - 2], all[all.size() - 2].thickness));
   shapes.panels.push_back(panel(device, last, last.thickness));
+  if (meshing::is_meridian(device.mesh.film()->type)) {
+    post::Section profile{"Shape", {}};
+    for (std::string& svg : post::render_svg({post::profile_plot(device.mesh, "Meridian", shapes.panels)}))
+      if (!svg.empty())
+        profile.blocks.push_back(post::Image{std::move(svg), "Before and after the last step."});
+    return {std::move(profile)};
+  }
   std::vector<post::Section> sections{{"Shape",
                                        {post::Image{post::render_png(device.mesh, shapes),
                                                     "Before and after the last step, to one scale."}}}};
@@ -132,7 +157,7 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
     double size = 0;
     for (const auto& row : journal.values)
       if (std::isfinite(row[q])) size = std::max(size, std::abs(row[q]));
-    const auto scaled = post::scaled_unit(size, unit_of(quantity), ratio_of(quantity));
+    const auto scaled = post::scaled_unit(size, unit_of(quantity, one.quantities), ratio_of(quantity));
     const bool strain = is_relative(quantity.kind);
     post::Series series{.label = quantity.name,
                         .style = records.size() > 100 ? post::Series::Style::line
@@ -166,7 +191,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,
                           .value = simulation.results()[q],
-                          .unit = unit_of(quantity),
+                          .unit = unit_of(quantity, one.quantities),
                           .ratio = ratio_of(quantity),
                           .meaning = meaning(quantity)};
     if (q < errors.size() && std::isfinite(errors[q])) row.error = errors[q];
@@ -224,6 +249,10 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                       {"message", results.outcome.message}});
   }
   summary["events"] = events;
+  json analyses = json::array();
+  for (const Analysis& analysis : journal.analyses)
+    analyses.push_back({{"step", analysis.step}, {"columns", analysis.columns}, {"rows", analysis.rows}});
+  summary["analyses"] = analyses;
   int iterations = 0;
   for (const auto& record : journal.records) iterations += record.iterations;
   summary["steps"] = {{"accepted", journal.records.size()}, {"newton_iterations", iterations}};
@@ -262,6 +291,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   if (plots.blocks.empty()) plots.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
   report.sections.push_back(std::move(plots));
 
+  for (const Analysis& analysis : journal.analyses) report.sections.push_back(analysis_section(analysis));
   report.sections.push_back(
       {"Quantities",
        {post::quantity_table(results.quantities),

@@ -1,5 +1,7 @@
 #include "cases/rules.hpp"
 
+#include "cases/analysis.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,6 +108,62 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
+bool has_mass(const Case& one) {
+  const auto heavy = [](const auto& body) { return body.mass > 0; };
+  return one.film.material.density > 0 || (one.plate && heavy(*one.plate)) ||
+         std::ranges::any_of(one.point_masses, heavy);
+}
+
+void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    const Place at = place_of_step(tree, s);
+    if (step.kind == StepKind::modes && !has_mass(one))
+      reader.report(at.source, at.key,
+                    "nothing vibrates: film, plate and point masses have no mass; give plate.mass or "
+                    "film.material.density");
+    if (step.kind == StepKind::weight && !one.plate && one.point_masses.empty() && !one.gravity.film)
+      reader.report(at.source, at.key,
+                    "nothing has a weight; add [plate], a [[point_mass]] or [gravity] with film = true");
+    if (step.kind != StepKind::harmonic) continue;
+    if (one.electrodes.empty())
+      reader.report(at.source, at.key, "there is no electrode whose source could swing");
+    if (!response_quantity(one, step.response_of))
+      reader.report(at.source, at.key + ".response_of",
+                    "needs a quantity of kind \"displacement\" with a direction (along)");
+  }
+}
+
+void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
+  const auto need = [&](StepKind kind, const char* word, bool given) {
+    for (std::size_t s = 0; s < one.steps.size(); ++s)
+      if (const Place at = place_of_step(tree, s); one.steps[s].kind == kind && !given)
+        reader.report(at.source, at.key, fmt::format("has nothing to reach; give [chamber] a {}", word));
+  };
+  need(StepKind::pressure, "pressure", one.chamber && one.chamber->pressure);
+  need(StepKind::inflate, "volume", one.chamber && one.chamber->volume);
+}
+
+/// What moves out of its plane, or has none.
+void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
+  const bool annulus = std::holds_alternative<Annulus>(one.geometry);
+  const bool round = annulus || std::holds_alternative<Disc>(one.geometry);
+  const bool balloon = std::holds_alternative<Balloon>(one.geometry);
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  if (balloon && !of_revolution)
+    report_at(reader, tree, "model", "a balloon is a film of revolution: model = \"axisymmetric\"");
+  if (of_revolution && !round && !balloon)
+    report_at(reader, tree, "model", "\"axisymmetric\" is for [disc], [annulus] and [balloon]");
+  if (of_revolution && one.film.prestretch[0] != one.film.prestretch[1])
+    report_at(reader, tree, "film", "a film of revolution has one prestretch in all directions");
+  if (one.dimension == fem::Dimension::planar)
+    for (const char* section : {"plate", "chamber"})
+      if (tree.find(section))
+        report_at(reader, tree, section,
+                  "a planar model does not move along z; use model = \"axisymmetric\" or \"3d\"");
+  if (balloon && !one.chamber) report_at(reader, tree, "balloon", "a balloon needs a [chamber]");
+}
+
 void check_patch(SectionReader& reader, const Node& tree, const Case& one) {
   const auto* patch = std::get_if<Patch>(&one.geometry);
   if (!patch || patch->mode != PatchMode::equal_biaxial || one.film.prestretch[0] == one.film.prestretch[1])
@@ -124,6 +182,9 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_motions(reader, tree, one);
   check_drives(reader, tree, one);
   check_waves(reader, tree, one);
+  check_masses(reader, tree, one);
+  check_chamber(reader, tree, one);
+  check_dimension(reader, tree, one);
   check_patch(reader, tree, one);
 }
 

@@ -56,6 +56,16 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
     log.warn("    {}", event.message);
     recorder.record_mode(critical, event);
   };
+  observer.on_analysis = [&recorder, &log](const Analysis& analysis, const fem::State& state) {
+    if (analysis.kind == StepKind::modes)
+      for (const auto& row : analysis.rows)
+        log.info("    mode {:.0f}  {:>10.6g} Hz  {:>10.6g} rad/s{}", row[0], row[1], row[2],
+                 row[3] < 0 ? "  unstable" : "");
+    else
+      log.info("    {} frequencies, {} per volt {:.5g} to {:.5g} m/V", analysis.rows.size(), analysis.of,
+               analysis.rows.front()[1], analysis.rows.back()[1]);
+    recorder.record_analysis(analysis, state);
+  };
   observer.on_pass = [] { return !interrupted(); };
   observer.on_accept = [&one, &recorder, &log](const Frame& frame) {
     std::string line =
@@ -150,9 +160,12 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   spdlog::logger log = make_logger(settings);
   const Device& device = simulation.device();
   log.info("dielast " DIELAST_VERSION "  {}", one.title);
-  log.info("{} triangles, {} beams, {} unknowns; smallest angle {:.1f} deg", device.mesh.triangles()->size(),
-           device.mesh.lines() ? device.mesh.lines()->size() : 0, device.model.dofs.free_count(),
-           meshing::quality(device.mesh).smallest_angle);
+  if (const int unknowns = device.model.dofs.free_count(); one.dimension == fem::Dimension::axisymmetric)
+    log.info("{} elements along the meridian, {} unknowns", device.mesh.film()->size(), unknowns);
+  else
+    log.info("{} triangles, {} beams, {} unknowns; smallest angle {:.1f} deg", device.mesh.film()->size(),
+             device.mesh.walls() ? device.mesh.walls()->size() : 0, unknowns,
+             meshing::quality(device.mesh).smallest_angle);
   if (!recorder.journal().records.empty())
     log.info("resumed behind {} accepted states", recorder.journal().records.size());
 

@@ -183,8 +183,13 @@ const Section& case_schema() {
     root.access = same_object();
     root.keys = {
         text("title", to(&Case::title), "title of the report").optional(),
-        word("model", {{"planar", "in-plane displacements"}, {"3d", "displacements in space"}},
-             to(&Case::three_dimensional), "freedom of motion")
+        word("model",
+             {{"planar", "in-plane displacements"},
+              {"3d", "displacements in space"},
+              {"axisymmetric", "a film of revolution about z, by its meridian"}},
+             to(&Case::dimension),
+             "how the device can move; with [plate], [chamber] or [balloon] the default is "
+             "\"axisymmetric\"")
             .otherwise("planar"),
         text("case", {}, "of a study file: the case file that it varies").optional().only({"study"}),
     };

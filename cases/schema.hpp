@@ -120,6 +120,7 @@ struct Section {
   enum class Presence {
     required,
     defaulted, ///< read as an empty table when it is absent
+    optional,  ///< left out when it is absent
     geometry,  ///< one of the geometries
     list,      ///< any number
     separate,  ///< read by another reader
@@ -261,7 +262,7 @@ std::vector<Section> geometry_sections();
 Section mesh_section();
 std::vector<Section> action_sections(); ///< electrode, support, load, spring, linkage, drive
 Section step_section();
-std::vector<Section> result_sections(); ///< quantity, check, solver, output, study
+std::vector<Section> result_sections(); ///< quantity, check, solver, output, linearise, study
 std::vector<Section> fit_sections();    ///< fit, test
 
 } // namespace dielast::cases

@@ -114,6 +114,112 @@ Section linkage_section() {
   return section;
 }
 
+Section circuit_section() {
+  Section section;
+  section.name = "circuit";
+  section.meaning = "what is between an electrode and its source while time passes; with several electrodes "
+                    "[circuit.<electrode>]";
+  section.presence = Section::Presence::optional;
+  section.shape = Section::Shape::by_electrode;
+  section.access = {[](void* parent, const std::string& electrode) -> void* {
+                      return &static_cast<Case*>(parent)->circuits[electrode];
+                    },
+                    [](const void* parent) {
+                      std::vector<Access::Entry> entries;
+                      for (const auto& [electrode, circuit] : static_cast<const Case*>(parent)->circuits)
+                        entries.push_back({electrode, &circuit});
+                      return entries;
+                    }};
+  section.keys = {
+      measure("resistance", "Ohm", to(&Circuit::resistance), "between the source and the electrode").above(0),
+      measure("leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
+              "through the film under the whole electrode; without it none leaks")
+          .above(0)
+          .optional(),
+      measure("current_limit", "A", to(&Circuit::current_limit),
+              "current that the source gives or takes at most")
+          .above(0)
+          .optional(),
+  };
+  return section;
+}
+
+/// Access to a section that is there or not.
+template<class T>
+Access present(std::optional<T> Case::*part) {
+  return {[part](void* parent, const std::string&) -> void* {
+            return &(static_cast<Case*>(parent)->*part).emplace();
+          },
+          [part](const void* parent) {
+            const auto& object = static_cast<const Case*>(parent)->*part;
+            return object ? std::vector<Access::Entry>{{"", &*object}} : std::vector<Access::Entry>{};
+          }};
+}
+
+template<class T>
+std::vector<Key> mass_keys() {
+  return {measure("mass", "kg", to(&T::mass), "its mass").at_least(0),
+          measure("damping", "N s/m", to(&T::damping), "of a damper between it and the ground")
+              .at_least(0)
+              .otherwise("0 N.s/m")};
+}
+
+Section plate_section() {
+  Section section;
+  section.name = "plate";
+  section.meaning = "a rigid plate that moves along z and carries the film's edge with it";
+  section.presence = Section::Presence::optional;
+  section.access = present(&Case::plate);
+  section.keys = mass_keys<Plate>();
+  section.keys.push_back(text("at", to(&Plate::place), "the place of the film that it carries")
+                             .refers_to(Reference::place)
+                             .otherwise("inner"));
+  return section;
+}
+
+Section point_mass_section() {
+  Section section = list_section("point_mass", "a mass on the film", each(&Case::point_masses));
+  section.keys = mass_keys<PointMass>();
+  section.keys.push_back(
+      text("place", to(&PointMass::place), "the place over whose nodes it is spread evenly")
+          .refers_to(Reference::place));
+  return section;
+}
+
+Section gravity_section() {
+  Section section;
+  section.name = "gravity";
+  section.meaning = "what the steps of kind \"weight\" apply, along -z";
+  section.access = member(&Case::gravity);
+  section.keys = {
+      measure("acceleration", "m/s^2", to(&Gravity::acceleration), "of free fall")
+          .at_least(0)
+          .otherwise("9.81 m/s^2"),
+      flag("film", to(&Gravity::film), "whether the film's own weight counts").otherwise("false")};
+  return section;
+}
+
+Section chamber_section() {
+  Section section;
+  section.name = "chamber";
+  section.meaning = "a chamber between the film, with its plate, and the plane z = 0; inside a balloon";
+  section.presence = Section::Presence::optional;
+  section.access = present(&Case::chamber);
+  section.keys = {
+      wave("pressure", "Pa", to(&Chamber::pressure),
+           "pressure that the steps of kind \"pressure\" reach, and \"transient\" follows")
+          .optional(),
+      wave("volume", "m^3", to(&Chamber::volume),
+           "volume that the steps of kind \"inflate\" reach: a pump sets it, the pressure follows")
+          .at_least(0)
+          .optional(),
+      measure("bulk_modulus", "Pa", to(&Chamber::bulk_modulus), "of the liquid that is pumped in")
+          .above(0)
+          .otherwise("2.2 GPa"),
+  };
+  return section;
+}
+
 Section drive_section() {
   Section section;
   section.name = "drive";
@@ -145,8 +251,9 @@ Section drive_section() {
 } // namespace
 
 std::vector<Section> action_sections() {
-  return {electrode_section(), support_section(), load_section(),
-          spring_section(),    linkage_section(), drive_section()};
+  return {electrode_section(),  support_section(), load_section(),    spring_section(),
+          linkage_section(),    drive_section(),   circuit_section(), plate_section(),
+          point_mass_section(), gravity_section(), chamber_section()};
 }
 
 } // namespace dielast::cases

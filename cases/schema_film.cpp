@@ -118,7 +118,7 @@ Section material_section() {
   section.keys.push_back(measure("density", "kg/m^3",
                                  to_part<Film>([](auto& film) -> auto& { return film.material.density; }),
                                  "mass per volume")
-                             .above(0)
+                             .at_least(0)
                              .otherwise("960 kg/m^3"));
   section.sections.push_back(branch_section());
   section.check = [](const void* object) {

@@ -117,10 +117,22 @@ Section disc_section() {
   return section;
 }
 
+Section balloon_section() {
+  Section section;
+  section.name = "balloon";
+  section.meaning = "a sphere of film around a chamber";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Balloon>();
+  section.keys = {measure("radius", "m", to(&Balloon::radius), "radius as drawn, after the prestretch")
+                      .above(0)
+                      .at_most(1)};
+  return section;
+}
+
 Section annulus_section() {
   Section section;
   section.name = "annulus";
-  section.meaning = "ring of film clamped at both edges, its electrode all over it";
+  section.meaning = "ring of film clamped at both edges, or at the outer edge with a [plate] in its hole";
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<Annulus>();
   section.keys = {
@@ -213,7 +225,7 @@ Binding mesh_option(M MeshOptions::*option) {
 } // namespace
 
 std::vector<Section> geometry_sections() {
-  return {honeycomb_section(), disc_section(), annulus_section(), patch_section()};
+  return {honeycomb_section(), disc_section(), annulus_section(), balloon_section(), patch_section()};
 }
 
 Section mesh_section() {
@@ -241,11 +253,11 @@ Section mesh_section() {
           .otherwise("1 m")
           .only({"file"}),
       integer("order", mesh_option(&MeshOptions::order),
-              "1: 3-node triangles, 2-node beams; 2: 6-node and 3-node")
+              "1: 3-node triangles, 2-node beams and meridians; 2: 6-node and 3-node")
           .at_least(1)
           .at_most(2)
           .otherwise("2")
-          .only({"honeycomb", "disc", "annulus"}),
+          .only({"honeycomb", "disc", "annulus", "balloon"}),
       integer("wall_elements", mesh_option(&MeshOptions::wall_elements), "beams per wall")
           .at_least(1)
           .at_most(200)
@@ -257,13 +269,21 @@ Section mesh_section() {
           .at_most(100)
           .otherwise("3")
           .only({"honeycomb"}),
-      integer("rings", mesh_option(&MeshOptions::rings), "elements along the radius")
+      number("grading", mesh_option(&MeshOptions::grading),
+             "element at the outer edge over that at the inner edge; 1 is uniform")
+          .at_least(1)
+          .at_most(100)
+          .otherwise("4")
+          .only({"annulus"}),
+      integer("rings", mesh_option(&MeshOptions::rings),
+              "elements along the radius, of a balloon from pole to pole; without it 24, of a film of "
+              "revolution 64")
           .at_least(2)
           .at_most(2000)
-          .otherwise("24")
-          .only({"disc", "annulus"}),
+          .optional()
+          .only({"disc", "annulus", "balloon"}),
       points().otherwise("3").only({"honeycomb", "annulus", "file"}),
-      points().otherwise("6").only({"disc"}),
+      points().otherwise("6").only({"disc", "balloon"}),
   };
   return section;
 }

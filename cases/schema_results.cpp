@@ -33,27 +33,35 @@ Section quantity_section() {
             {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
             {"capacitance", "of an electrode (F)"},
             {"charge", "of an electrode (C)"},
+            {"current", "that the source of an electrode's [circuit] gives (A)"},
+            {"pressure", "in the chamber (Pa)"},
+            {"volume", "of the chamber (m^3)"},
+            {"stiffness", "force on a place per displacement along an axis, branches relaxed (N/m)"},
+            {"natural frequency", "of small vibrations about the state, branches relaxed (rad/s)"},
+            {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
             {"energy", "part of the energy balance (J)"},
-            {"extreme", "smallest or largest value of a field"}},
+            {"extreme", "smallest or largest value of a field"},
+            {"peak", "smallest or largest value of another quantity so far"}},
            to(&Quantity::kind), "what is measured"),
       text("between", to(&Quantity::between), "the two places")
           .values(2, 2)
           .only({"distance", "elongation", "stretch"})
           .refers_to(Reference::place),
       of("the place")
-          .only({"size", "growth", "displacement", "radius", "nominal stress"})
+          .only({"size", "growth", "displacement", "radius", "nominal stress", "stiffness", "radial stretch"})
           .refers_to(Reference::place),
       of("the place of a support").only({"force"}).refers_to(Reference::supported_place),
-      of("the electrode").only({"capacitance", "charge"}).refers_to(Reference::electrode),
+      of("the electrode").only({"capacitance", "charge", "current"}).refers_to(Reference::electrode),
       word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
       word("of",
            {{"electrical_work", "done by the sources: sum of int Phi dQ"},
             {"mechanical_work", "done by loads and moved supports"},
-            {"stored", "elastic, branches and electric together"},
+            {"stored", "elastic, branches, electric and kinetic together"},
             {"elastic", "stored by the equilibrium law, walls and springs"},
             {"branches", "stored by the springs of the branches"},
             {"electric", "stored by the field"},
-            {"dissipated", "turned into heat by the dashpots"},
+            {"kinetic", "of everything that has a mass"},
+            {"dissipated", "turned into heat by dashpots and dampers"},
             {"released", "set free when the device is cut free or jumps to another state"},
             {"wrinkle_regularisation", "part of `elastic` that only keeps wrinkled film from being singular"},
             {"error", "work - change of stored - dissipated - released: 0 if all were resolved"}},
@@ -61,16 +69,27 @@ Section quantity_section() {
           .only({"energy"}),
       word("extreme", {{"minimum", "smallest value"}, {"maximum", "largest value"}}, to(&Quantity::extreme),
            "which extreme")
-          .only({"extreme"}),
+          .only({"extreme", "peak"}),
+      of("the quantity").only({"peak"}).refers_to(Reference::quantity),
       word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
-          .only({"distance", "elongation", "size", "growth", "displacement", "force"}),
+          .only({"distance", "elongation", "size", "growth", "force"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}, {"gravity", "-z"}}, to(&Quantity::along),
+           "component; without it the magnitude")
+          .optional()
+          .only({"displacement"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "direction").only({"stiffness"}),
+      integer("mode", to(&Quantity::mode), "its number, from the lowest frequency")
+          .at_least(1)
+          .at_most(100)
+          .otherwise("1")
+          .only({"natural frequency"}),
       word("along", {{"x", ""}, {"y", ""}}, to(&Quantity::along), "direction in the film's plane")
           .only({"stretch", "nominal stress"}),
       text("since", to(&Quantity::since), "step at whose end it is zero; without it the mesh as drawn")
           .optional()
-          .only({"elongation", "growth"})
+          .only({"elongation", "growth", "displacement"})
           .refers_to(Reference::step),
       text("at", to(&Quantity::at), "step at whose end summary.json reads it; without it the last")
           .optional()
@@ -148,6 +167,53 @@ Section output_section() {
   return section;
 }
 
+Section linearise_section() {
+  const auto frequency = [](std::string name, double Sweep::*part, std::string meaning,
+                            std::string fallback) {
+    return measure(std::move(name), "Hz",
+                   to_part<Linearise>([part](auto& one) -> auto& { return one.sweep.*part; }),
+                   std::move(meaning))
+        .above(0)
+        .otherwise(std::move(fallback));
+  };
+  Section compare = list_section("compare", "a transfer function to compare with", each(&Linearise::compare));
+  const auto powers = [](std::string name, std::vector<double> TransferFunction::*part, std::string meaning) {
+    return number(std::move(name), to(part), std::move(meaning)).values(1, 20);
+  };
+  compare.keys = {
+      text("name", to(&TransferFunction::name), "its name in the report"),
+      powers("numerator", &TransferFunction::numerator,
+             "coefficients of s, the highest power first; V give the output in its unit"),
+      powers("denominator", &TransferFunction::denominator, "likewise"),
+  };
+  Section section;
+  section.name = "linearise";
+  section.meaning = "the linear model that `dielast linearise` makes about the state at the end of the steps";
+  section.access = member(&Case::linearise);
+  section.keys = {
+      integer("order", to(&Linearise::order), "number of its states").at_least(1).at_most(100).otherwise("3"),
+      text("output", to(&Linearise::output),
+           "quantity of kind \"displacement\"; without it the first that has a direction")
+          .optional()
+          .refers_to(Reference::quantity),
+      frequency("from", &Sweep::from, "lowest frequency at which it is compared with the full response",
+                "0.01 Hz"),
+      frequency("to", &Sweep::to, "highest one", "50 Hz"),
+      integer("points", to_part<Linearise>([](auto& one) -> auto& { return one.sweep.points; }),
+              "number of frequencies, at equal ratios")
+          .at_least(2)
+          .at_most(10000)
+          .otherwise("121"),
+  };
+  section.sections = {compare};
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const Sweep& sweep = static_cast<const Linearise*>(object)->sweep;
+    if (sweep.from < sweep.to) return std::nullopt;
+    return Conflict{"from", "must be below the highest frequency"};
+  };
+  return section;
+}
+
 Section study_section() {
   Section vary;
   vary.name = "vary";
@@ -177,7 +243,8 @@ Section study_section() {
 } // namespace
 
 std::vector<Section> result_sections() {
-  return {quantity_section(), check_section(), solver_section(), output_section(), study_section()};
+  return {quantity_section(), check_section(),     solver_section(),
+          output_section(),   linearise_section(), study_section()};
 }
 
 } // namespace dielast::cases

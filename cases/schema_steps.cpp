@@ -3,11 +3,16 @@
 namespace dielast::cases {
 namespace {
 
-const std::vector<std::string> ramps{"release", "voltage", "charge", "force", "move"};
+const std::vector<std::string> ramps{"release", "voltage", "charge",   "force",
+                                     "move",    "weight",  "pressure", "inflate"};
 const std::vector<std::string> timed{"transient", "hold"};
+const std::vector<std::string> moving{"release", "voltage",  "charge",  "force",     "move",
+                                      "weight",  "pressure", "inflate", "transient", "hold"};
 
 std::optional<Conflict> conflict(const void* object) {
   const auto& step = *static_cast<const Step*>(object);
+  if (step.kind == StepKind::harmonic && step.sweep.from >= step.sweep.to)
+    return Conflict{"from", "must be below the highest frequency"};
   if (step.record && !step.duration) return Conflict{"record", "only for a step with a duration"};
   if (step.record && *step.record > *step.duration) return Conflict{"record", "is longer than the step"};
   if (step.duration && step.on_instability == OnInstability::follow)
@@ -29,6 +34,15 @@ Section step_section() {
   const auto duration = [](std::string meaning) {
     return measure("duration", "s", to(&Step::duration), std::move(meaning)).above(0);
   };
+  const auto frequency = [](std::string name, double Sweep::*part, std::string meaning,
+                            std::string fallback) {
+    return measure(std::move(name), "Hz",
+                   to_part<Step>([part](auto& step) -> auto& { return step.sweep.*part; }),
+                   std::move(meaning))
+        .above(0)
+        .otherwise(std::move(fallback))
+        .only({"harmonic"});
+  };
   Binding response = to(&Step::response);
   response.get = [](const void* object) -> std::optional<Value> {
     const auto& step = *static_cast<const Step*>(object);
@@ -45,12 +59,18 @@ Section step_section() {
             {"charge", "ramps every drive to its charge: the electrodes are isolated"},
             {"force", "ramps every load to its force"},
             {"move", "ramps every moved support to its displacement"},
+            {"weight", "lets gravity act"},
+            {"pressure", "ramps the chamber to its pressure"},
+            {"inflate", "pumps the chamber to its volume"},
             {"transient", "time passes: drives, loads and supports follow their waves"},
-            {"hold", "time passes: drives, loads and supports stay as they are"}},
+            {"hold", "time passes: drives, loads and supports stay as they are"},
+            {"modes", "small free vibrations about the state, branches relaxed"},
+            {"harmonic", "response to a small sine of the source, frequency by frequency, branches relaxed"}},
            to(&Step::kind), "what happens in this step"),
       text("name", to(&Step::name), "its name in results").otherwise_as("kind").distinct(),
       increments("1", equal).only({"release"}),
-      increments("10", equal).only({"voltage", "charge", "force", "move"}),
+      increments("10", equal).only({"voltage", "charge", "force", "move", "pressure", "inflate"}),
+      increments("5", equal).only({"weight"}),
       increments("100", "the longest time step is the duration over this").only({"transient"}),
       increments("20", "the longest time step is the duration over this").only({"hold"}),
       duration("time that it takes; without it no time passes").optional().only(ramps),
@@ -65,23 +85,48 @@ Section step_section() {
       measure("record", "s", to(&Step::record),
               "time between rows of the history; without it one for each increment")
           .above(0)
-          .optional(),
+          .optional()
+          .only(moving),
       word("control",
            {{"voltage", "the electrodes stay connected to their sources"},
             {"charge", "the electrodes are isolated, or follow their charges"}},
            to(&Step::control), "what the electrodes keep")
           .otherwise("voltage")
-          .only({"force", "move", "transient", "hold"}),
+          .only({"force", "move", "weight", "pressure", "inflate", "transient", "hold", "modes"}),
+      integer("count", to(&Step::count), "number of modes")
+          .at_least(1)
+          .at_most(200)
+          .otherwise("6")
+          .only({"modes"}),
+      frequency("from", &Sweep::from, "lowest frequency", "0.1 Hz"),
+      frequency("to", &Sweep::to, "highest frequency", "100 Hz"),
+      integer("points", to_part<Step>([](auto& step) -> auto& { return step.sweep.points; }),
+              "number of frequencies, at equal ratios")
+          .at_least(2)
+          .at_most(10000)
+          .otherwise("121")
+          .only({"harmonic"}),
+      text("response_of", to(&Step::response_of),
+           "quantity of kind \"displacement\"; without it the first that has a direction")
+          .optional()
+          .refers_to(Reference::quantity)
+          .only({"harmonic"}),
+      flag("inertia", to(&Step::inertia),
+           "what has a mass resists acceleration; with [plate] or [[point_mass]] the default is true")
+          .otherwise("false")
+          .only(timed),
       word("on_instability",
            {{"stop", "the step ends at a limit point"},
             {"follow", "along the unstable path, by arclength"},
             {"jump", "to the next stable state, by damped motion"}},
            to(&Step::on_instability), "what happens where the equilibrium ends or loses its stability")
-          .otherwise("stop"),
+          .otherwise("stop")
+          .only(moving),
       word("on_bifurcation",
            {{"follow", "along the path it is on"}, {"switch", "onto the branch that is stable"}},
            to(&Step::on_bifurcation), "what happens where another path branches off")
-          .otherwise("follow"),
+          .otherwise("follow")
+          .only(moving),
   };
   section.check = conflict;
   return section;

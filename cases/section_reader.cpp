@@ -154,7 +154,9 @@ void SectionReader::read_section(const Section& section, const Node& outer, void
   Node substitute;
   substitute.source = outer.source;
   if (!node) {
-    if (section.presence == Presence::geometry || section.presence == Presence::list) return;
+    if (section.presence == Presence::geometry || section.presence == Presence::list ||
+        section.presence == Presence::optional)
+      return;
     if (section.fallback) {
       substitute.kind = Node::Kind::text;
       substitute.text = *section.fallback;

@@ -42,7 +42,7 @@ Eigen::VectorXd Simulation::frame_force() {
 }
 
 SimulationProgress Simulation::progress() const {
-  return {step_, records_, in_step_, energy_.record(), measurement_.rest_lengths, watch_.active};
+  return {step_, records_, in_step_, energy_.record(), measurement_.references, watch_.active};
 }
 
 void Simulation::resume(const SimulationProgress& progress) {
@@ -50,7 +50,7 @@ void Simulation::resume(const SimulationProgress& progress) {
   records_ = progress.records;
   in_step_ = progress.in_step;
   energy_ = fem::EnergyBalance(progress.energy);
-  measurement_.rest_lengths = progress.rest_lengths;
+  measurement_.references = progress.references;
   watch_.active = progress.active_events;
 }
 
@@ -72,7 +72,8 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   if (!increment.lands) return !observer.on_pass || observer.on_pass();
   const bool is_drawn = records_ == 0;
   const bool ends = !is_drawn && increment.load_factor >= 1;
-  const Measured measured(device_, equilibrium_, state, energy_);
+  Measured measured(device_, equilibrium_, state, energy_);
+  measured.at_rest = ends || !step.duration;
   if (ends) measurement_.step_ended(step.name, measured);
   const std::vector<double> values = measurement_.all(measured);
   for (std::size_t q = 0; q < values.size(); ++q) {
@@ -87,15 +88,17 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
                                   post::engineering(measured.work.released, "J"))});
   for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes))
     events.push_back(std::move(event));
-  const post::StepRecord record{.index = records_++,
-                                .step = is_drawn ? drawn : step.name,
-                                .load_factor = increment.load_factor,
-                                .time = state.time,
-                                .voltages = state.voltage,
-                                .iterations = newton.iterations,
-                                .residual = newton.residual,
-                                .unstable_modes = newton.unstable_modes,
-                                .events = std::move(events)};
+  const post::StepRecord record{
+      .index = records_++,
+      .step = is_drawn ? drawn : step.name,
+      .load_factor = increment.load_factor,
+      .time = state.time,
+      .voltages = {state.voltage.begin(),
+                   state.voltage.begin() + static_cast<std::ptrdiff_t>(case_.electrodes.size())},
+      .iterations = newton.iterations,
+      .residual = newton.residual,
+      .unstable_modes = newton.unstable_modes,
+      .events = std::move(events)};
   return !observer.on_accept || observer.on_accept({record, measured, values, ends});
 }
 
@@ -106,6 +109,15 @@ Outcome Simulation::run(const SimulationObserver& observer) {
   for (; step_ < static_cast<int>(steps_.size()); ++step_) {
     const Step& step = steps_[static_cast<std::size_t>(step_)];
     if (observer.on_step) observer.on_step(step);
+    if (step.is_analysis()) {
+      if (!observer.on_analysis) continue;
+      try {
+        observer.on_analysis(analyse(case_, device_, equilibrium_, state(), step), state());
+      } catch (const AnalysisError& error) {
+        return {Ending::gave_up, "no vibration", fmt::format("step \"{}\": {}", step.name, error.what())};
+      }
+      continue;
+    }
     const fem::RampOptions options = loads_->options(step_);
     if (ramp.load_factor >= 1 || ramp.increment == 0) {
       fem::State state = std::move(ramp.points.back().state);

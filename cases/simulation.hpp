@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/analysis.hpp"
 #include "cases/measurement.hpp"
 #include "cases/step_run.hpp"
 #include "cases/watch.hpp"
@@ -15,7 +16,7 @@ struct SimulationProgress {
   int records = 0; ///< accepted states so far, the drawn one included
   StepProgress in_step;
   fem::EnergyBalance::Record energy;
-  std::map<std::string, double> rest_lengths;
+  std::map<std::string, double> references;
   std::set<std::string> active_events;
 };
 
@@ -36,7 +37,9 @@ struct SimulationObserver {
   std::function<void(const fem::CriticalPoint&, const post::Event&)> on_critical;
   /// Returns false to stop here (interrupt).
   std::function<bool(const Frame&)> on_accept;
-  /// The same, at an accepted state that is not recorded.
+  /// Left out where nobody wants the analyses: then they are not made.
+  std::function<void(const Analysis&, const fem::State&)> on_analysis;
+  /// The same as on_accept, at an accepted state that is not recorded.
   std::function<bool()> on_pass;
 };
 
@@ -51,6 +54,9 @@ class Simulation {
   Outcome run(const SimulationObserver& observer);
 
   const Device& device() const { return device_; }
+  fem::Equilibrium& equilibrium() { return equilibrium_; }
+  /// The last accepted state.
+  const fem::State& state() const { return in_step_.ramp.points.back().state; }
   const fem::Timings& timings() const { return equilibrium_.timings(); }
   SimulationProgress progress() const;
   void resume(const SimulationProgress& progress);

@@ -8,11 +8,15 @@ namespace dielast::cases {
 
 namespace {
 
-/// Shortest relaxation time of the film's branches, s; infinite without branches.
-double shortest_relaxation(const materials::Material& material) {
+/// Shortest relaxation time of the film's branches and of its circuits, s; infinite without.
+double shortest_relaxation(const materials::Material& material, const fem::Model& model) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const materials::Branch& branch : material.branches)
     shortest = std::min(shortest, branch.viscosity / materials::initial_shear_modulus(branch.law));
+  const fem::Charges drawn = model.charges(model.initial_state(), false);
+  for (const fem::Circuit& circuit : model.circuits)
+    shortest = std::min(shortest,
+                        circuit.resistance * drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
   return shortest;
 }
 
@@ -27,19 +31,42 @@ const Drive* StepLoads::drive(std::size_t electrode) const {
   return found == case_.drives.end() ? nullptr : &found->second;
 }
 
-bool StepLoads::isolates(const Step& step, std::size_t electrode) const {
-  if (step.kind == StepKind::charge) return drive(electrode) && drive(electrode)->charge;
-  return step.kind != StepKind::voltage && step.kind != StepKind::release && step.control == Control::charge;
+/// Circuits take time; without, an electrode is at its source's voltage.
+fem::Supply StepLoads::supply(const Step& step, std::size_t electrode) const {
+  const Drive* source = drive(electrode);
+  const bool is_ramp = step.kind == StepKind::voltage || step.kind == StepKind::release;
+  if (step.kind == StepKind::charge ? source && source->charge : !is_ramp && step.control == Control::charge)
+    return fem::Supply::charge;
+  return step.duration && device_.model.circuit_of(electrode) ? fem::Supply::circuit : fem::Supply::voltage;
+}
+
+/// A chamber stays open to its pressure or closed, as the last step that was about it has left it.
+void StepLoads::connect_chamber(const Step& step, const fem::Charges& held, fem::State& state) const {
+  if (!case_.chamber) return;
+  const std::size_t port = case_.electrodes.size();
+  if (step.kind == StepKind::pressure) state.supply[port] = fem::Supply::voltage;
+  if (step.kind != StepKind::inflate) return;
+  state.supply[port] = fem::Supply::charge;
+  state.charge[port] = held.charge[port];
 }
 
 void StepLoads::begin(int number, fem::State& state) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
-  const std::vector<double> held = device_.model.charges(state, false).charge;
+  const fem::Charges held = device_.model.charges(state, false);
+  bool connects = false;
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
-    const bool isolated = isolates(step, e);
-    if (isolated && !state.isolated[e]) state.charge[e] = held[e];
-    state.isolated[e] = isolated;
+    const fem::Supply next = supply(step, e);
+    if (next == state.supply[e]) continue;
+    state.charge[e] = held.charge[e];
+    if (next == fem::Supply::circuit) {
+      state.source[e] = state.voltage[e] / device_.model.circuit_of(e)->steady_share();
+      connects = true;
+    }
+    state.supply[e] = next;
   }
+  connect_chamber(step, held, state);
+  if (connects) device_.model.charge_circuits(state);
+  if (!step.inertia) state.motion.reset();
 }
 
 bool StepLoads::happened(int step, StepKind kind) const {
@@ -52,6 +79,7 @@ Eigen::VectorXd StepLoads::dead_force(int step, double t) const {
   const fem::DofMap& dofs = device_.model.dofs;
   Eigen::VectorXd force = frame_force_;
   if (happened(step, StepKind::release)) force.setZero();
+  if (happened(step, StepKind::weight)) force += device_.weight;
   if (!happened(step, StepKind::force) && !happened(step, StepKind::transient)) return force;
   for (const Load& load : case_.loads) {
     const auto& nodes = device_.mesh.node_sets.at(load.place);
@@ -78,15 +106,25 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, double t) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   fem::Loads loads = start;
   const auto does = [&step](StepKind kind) { return step.kind == kind || step.kind == StepKind::transient; };
-  if (does(StepKind::force) || step.kind == StepKind::release) loads.dead_force = dead_force(number, t);
+  if (does(StepKind::force) || step.kind == StepKind::release || step.kind == StepKind::weight)
+    loads.dead_force = dead_force(number, t);
   if (does(StepKind::move)) move(loads.held, t);
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
     const Drive* source = drive(e);
     if (!source) continue;
-    if (does(StepKind::voltage) && source->voltage && !isolates(step, e))
-      loads.voltage[e] = source->voltage->at(t);
-    if (does(StepKind::charge) && source->charge && isolates(step, e))
-      loads.charge[e] = source->charge->at(t);
+    const bool isolated = supply(step, e) == fem::Supply::charge;
+    if (does(StepKind::voltage) && source->voltage && !isolated) {
+      loads.source[e] = source->voltage->at(t);
+      const fem::Circuit* circuit = device_.model.circuit_of(e);
+      loads.voltage[e] = loads.source[e] * (circuit ? circuit->steady_share() : 1);
+    }
+    if (does(StepKind::charge) && source->charge && isolated) loads.charge[e] = source->charge->at(t);
+  }
+  if (case_.chamber) {
+    const std::size_t port = case_.electrodes.size();
+    if (does(StepKind::pressure) && case_.chamber->pressure)
+      loads.voltage[port] = case_.chamber->pressure->at(t);
+    if (does(StepKind::inflate) && case_.chamber->volume) loads.charge[port] = case_.chamber->volume->at(t);
   }
   return loads;
 }
@@ -103,6 +141,9 @@ std::vector<double> StepLoads::kinks(const Step& step) const {
     for (const Waveform& wave : load.force) add(wave);
   for (const Support& support : case_.supports)
     for (const auto& wave : support.motion)
+      if (wave) add(*wave);
+  if (case_.chamber)
+    for (const auto& wave : {case_.chamber->pressure, case_.chamber->volume})
       if (wave) add(*wave);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -130,9 +171,10 @@ fem::RampOptions StepLoads::options(int number) const {
                            .time_tolerance = case_.solver.time_tolerance};
   if (!step.duration) return options;
   options.duration = *step.duration;
+  options.inertia = step.inertia && device_.model.inertia.mass.nonZeros() > 0;
   if (step.record) options.landing = *step.record / *step.duration;
   // One backward Euler step of h errs by (h / tau)^2 / 2 of what is left to relax.
-  const double shortest = shortest_relaxation(case_.film.material);
+  const double shortest = shortest_relaxation(case_.film.material, device_.model);
   if (std::isfinite(shortest)) options.first_time_step = std::sqrt(2 * options.time_tolerance) * shortest;
   return options;
 }

@@ -12,14 +12,16 @@ class StepLoads {
   StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps,
             Eigen::VectorXd frame_force);
 
-  /// Connects and isolates electrodes as the step wants; what becomes isolated keeps its charge.
+  /// Connects and isolates electrodes as the step wants; what becomes isolated keeps its charge. Without
+  /// inertia the device comes to rest.
   void begin(int step, fem::State& state) const;
   /// From the loads `start` on: straight to the goals of a ramp, along the waves of a transient.
   fem::LoadPath path(int step, const fem::Loads& start) const;
   fem::RampOptions options(int step) const;
 
  private:
-  bool isolates(const Step& step, std::size_t electrode) const;
+  fem::Supply supply(const Step& step, std::size_t electrode) const;
+  void connect_chamber(const Step& step, const fem::Charges& held, fem::State& state) const;
   const Drive* drive(std::size_t electrode) const;
   /// Kinds of the steps up to this one.
   bool happened(int step, StepKind kind) const;

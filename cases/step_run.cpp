@@ -39,12 +39,14 @@ std::string StepRun::load_text(double s) const {
   std::string text;
   double largest = 0;
   for (std::size_t e = 0; e < at.voltage.size(); ++e) {
-    const bool isolated = at.isolated[e] != 0;
+    const bool isolated = at.supply[e] == fem::Supply::charge;
     const double from = isolated ? begin.charge[e] : begin.voltage[e];
     const double to = isolated ? at.charge[e] : at.voltage[e];
     if (std::abs(to - from) <= largest) continue;
     largest = std::abs(to - from);
-    text = post::engineering(to, isolated ? "C" : "V", post::Ratio::plain, 5);
+    const bool chamber = e >= model().electrodes.size();
+    const char* unit = chamber ? (isolated ? "m^3" : "Pa") : (isolated ? "C" : "V");
+    text = post::engineering(to, unit, post::Ratio::plain, 5);
   }
   return text.empty() ? fmt::format("load factor {:.5g}", s) : text;
 }

@@ -83,6 +83,45 @@ kind = "radius"
 of = "electrode_edge"
 )";
 
+constexpr std::string_view diaphragm_quantities = R"(
+[[quantity]]
+name = "drop"
+kind = "displacement"
+of = "inner"
+along = "gravity"
+[[quantity]]
+name = "stroke"
+kind = "displacement"
+of = "inner"
+along = "gravity"
+since = "weight"
+[[quantity]]
+name = "stiffness"
+kind = "stiffness"
+of = "inner"
+along = "z"
+[[quantity]]
+name = "natural_frequency"
+kind = "natural frequency"
+[[quantity]]
+name = "stretch_inner"
+kind = "radial stretch"
+of = "inner"
+[[quantity]]
+name = "stretch_outer"
+kind = "radial stretch"
+of = "outer"
+)";
+
+constexpr std::string_view chamber_quantities = R"(
+[[quantity]]
+name = "pressure"
+kind = "pressure"
+[[quantity]]
+name = "volume"
+kind = "volume"
+)";
+
 constexpr std::string_view patch_quantities = R"(
 [[quantity]]
 name = "stretch_x"
@@ -128,6 +167,17 @@ support = [{ place = "inner", fix = ["x", "y", "z"] }, { place = "outer", fix = 
 step = [{ kind = "voltage" }]
 )";
 
+constexpr std::string_view diaphragm_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+support = [{ place = "outer", fix = ["x", "y", "z"] }]
+step = [{ kind = "weight" }, { kind = "voltage" }]
+)";
+
+constexpr std::string_view balloon_defaults = R"(
+support = [{ place = "equator", fix = ["z"] }]
+step = [{ kind = "inflate" }]
+)";
+
 constexpr std::string_view patch_defaults = R"(
 electrode = [{ name = "film", place = "film" }]
 )"; // and patch_steps()
@@ -170,9 +220,10 @@ std::vector<Node> items_of(const Node& tree, std::string_view key) {
   return node && node->is(Node::Kind::list) ? node->items : std::vector<Node>{};
 }
 
-std::string name_of_release(const Node& tree) {
+/// Name of the first step of that kind; empty when there is none.
+std::string name_of_step(const Node& tree, const std::string& kind) {
   for (const Node& step : items_of(tree, "step"))
-    if (text_at(step, "kind") == "release") return step.find("name") ? text_at(step, "name") : "release";
+    if (text_at(step, "kind") == kind) return step.find("name") ? text_at(step, "name") : kind;
   return "";
 }
 
@@ -259,10 +310,19 @@ std::span<const Template> templates() {
                 {"centre", "the node in the middle"}},
                disc_defaults,
                disc_quantities},
-      Template{"annulus",
-               "a ring of film clamped at both edges",
-               {{"film", "the film"}, {"inner", "the inner edge"}, {"outer", "the outer edge"}},
-               annulus_defaults,
+      Template{
+          "annulus",
+          "a ring of film clamped at both edges; with [plate] a diaphragm that carries a plate in its hole",
+          {{"film", "the film"}, {"inner", "the inner edge"}, {"outer", "the outer edge"}},
+          annulus_defaults,
+          ""},
+      Template{"balloon",
+               "a sphere of film around a chamber",
+               {{"film", "the film"},
+                {"equator", "the widest circle, held along z"},
+                {"south", "the lower pole"},
+                {"north", "the upper pole"}},
+               balloon_defaults,
                ""},
       Template{
           "patch",
@@ -299,24 +359,51 @@ const Template* template_of(const Node& tree) {
   return mesh && mesh->find("file") ? &templates().back() : nullptr;
 }
 
+namespace {
+
+/// A film of revolution is what a plate, a chamber or a balloon asks for, and inertia what a mass does.
+void add_motion_defaults(Node& tree) {
+  const Source source{tree.source.file, 0, 0};
+  if (!tree.find("model") && (tree.find("plate") || tree.find("chamber") || tree.find("balloon")))
+    tree.add("model", text_node("axisymmetric", source));
+  Node* steps = tree.find("step");
+  if (!(tree.find("plate") || tree.find("point_mass")) || !steps || !steps->is(Node::Kind::list)) return;
+  for (Node& step : steps->items)
+    if (const std::string kind = text_at(step, "kind");
+        (kind == "transient" || kind == "hold") && !step.find("inertia"))
+      step.add("inertia", parse_value("true", source));
+}
+
+} // namespace
+
 void add_defaults(Node& tree, const Template& device) {
-  const Node defaults = parse_default(device.defaults, tree);
+  const bool diaphragm = device.name == "annulus" && tree.find("plate");
+  const Node defaults = parse_default(diaphragm ? diaphragm_defaults : device.defaults, tree);
   for (std::size_t i = 0; i < defaults.items.size(); ++i)
     if (!tree.find(defaults.keys[i])) tree.add(defaults.keys[i], defaults.items[i]);
   if (device.name == "patch") add_patch_steps(tree);
+  add_motion_defaults(tree);
 }
+
+namespace {
+
+std::string standard_text(const Node& tree, const Template& device) {
+  return fmt::format("{}{}{}{}", device.quantities,
+                     device.name == "annulus" && tree.find("plate") ? diaphragm_quantities : "",
+                     tree.find("chamber") ? chamber_quantities : "", quantities_of_all);
+}
+
+} // namespace
 
 int add_standard_quantities(Node& tree, const Template& device) {
   if (const Node* written = tree.find("quantity"); written && !written->is(Node::Kind::list)) return 0;
   const Source source{tree.source.file, 0, 0};
-  const std::string release = name_of_release(tree);
   std::vector<Node> standard;
-  for (Node quantity :
-       items_of(parse_default(fmt::format("{}{}", device.quantities, quantities_of_all), tree), "quantity")) {
-    if (quantity.find("at") && release.empty()) continue;
+  for (Node quantity : items_of(parse_default(standard_text(tree, device), tree), "quantity")) {
+    if (quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty()) continue;
     for (const char* key : {"at", "since"})
-      if (Node* step = quantity.find(key)) step->text = release;
-    if (release.empty()) remove(quantity, "since");
+      if (Node* step = quantity.find(key)) step->text = name_of_step(tree, step->text);
+    if (text_at(quantity, "since").empty()) remove(quantity, "since");
     standard.push_back(std::move(quantity));
   }
   for (Node& quantity : of_each_electrode(tree, "capacitance", source))

@@ -21,7 +21,8 @@ struct Template {
   std::string_view meaning;
   std::vector<PlaceName> places;
   std::string_view defaults;   ///< TOML: electrodes, supports, steps of a case that has none
-  std::string_view quantities; ///< TOML: standard quantities; "release" is the first step of that kind
+  std::string_view quantities; ///< TOML: standard quantities; steps are named by
+                               ///< their kind: the first of it is meant
 };
 
 std::span<const Template> templates();

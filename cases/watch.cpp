@@ -18,7 +18,7 @@ bool is_cell(const std::string& place) { return place.starts_with("cell["); }
 
 } // namespace
 
-Watch::Watch(const Device& device) : device_(device), lines_(device.mesh.lines()) {
+Watch::Watch(const Device& device) : device_(device), lines_(device.mesh.walls()) {
   if (device.wall_width && lines_) contacts_.emplace(device.mesh, *lines_, *device.wall_width);
 }
 

@@ -34,6 +34,8 @@ Assembler::Assembler(const Model& model, int threads)
   arena_.initialize(threads_);
   build_pattern();
   colour_chunks();
+  mass_ = on_pattern(model_.inertia.mass);
+  damping_ = on_pattern(model_.inertia.damping);
   block_residual_.assign(model_.blocks.size(), Eigen::VectorXd::Zero(model_.dofs.count()));
 }
 
@@ -108,6 +110,18 @@ void Assembler::build_pattern() {
   }
 }
 
+/// The lower triangle of its free part.
+std::vector<double> Assembler::on_pattern(const Eigen::SparseMatrix<double>& constant) const {
+  if (constant.nonZeros() == 0) return {};
+  std::vector<double> values(matrix_.values.size(), 0.0);
+  for (int column = 0; column < matrix_.size; ++column)
+    for (int at = matrix_.column_start[static_cast<std::size_t>(column)];
+         at < matrix_.column_start[static_cast<std::size_t>(column) + 1]; ++at)
+      values[static_cast<std::size_t>(at)] =
+          constant.coeff(matrix_.rows[static_cast<std::size_t>(at)], column);
+  return values;
+}
+
 void Assembler::colour_chunks() {
   constexpr int most_colours = 64;
   std::vector<Chunk> alone;
@@ -173,9 +187,23 @@ Evaluation Assembler::residual(const State& state, Eigen::VectorXd& residual) {
   return evaluation;
 }
 
+std::vector<double> Assembler::relaxation(const State& state, const RateWeight& weight) const {
+  std::vector<double> values(matrix_.values.size(), 0.0);
+  for (std::size_t b = 0; b < equations_.size(); ++b)
+    model_.blocks[b]->add_relaxation(state, weight,
+                                     {equations_[b].data(), slots_[b].data(), nullptr, values.data()});
+  return values;
+}
+
 void Assembler::tangent(const State& state) {
   std::fill(matrix_.values.begin(), matrix_.values.end(), 0.0);
   run(state, false, true);
+  if (state.motion_scheme.is_static()) return;
+  const auto add = [this](double factor, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) matrix_.values[i] += factor * values[i];
+  };
+  add(state.motion_scheme.mass_factor(), mass_);
+  add(state.motion_scheme.damping_factor(), damping_);
 }
 
 } // namespace dielast::fem

@@ -23,9 +23,15 @@ class Assembler {
   /// What each block contributed to the last residual: film and walls may balance, these show how large they
   /// are.
   const std::vector<Eigen::VectorXd>& block_residuals() const { return block_residual_; }
-  /// Computes the tangent of the free equations, read through matrix().
+  /// Computes the tangent of the free equations, that of inertia included, read through matrix().
   void tangent(const State& state);
 
+  /// What relaxed branches resist besides that, in the pattern of matrix(): see ElementBlock::add_relaxation.
+  std::vector<double> relaxation(const State& state, const RateWeight& weight) const;
+
+  /// Mass and damping in that pattern; empty where there is none.
+  const std::vector<double>& mass() const { return mass_; }
+  const std::vector<double>& damping() const { return damping_; }
   const SparseSymmetric& matrix() const { return matrix_; }
 
  private:
@@ -35,6 +41,7 @@ class Assembler {
 
   void build_pattern();
   void colour_chunks();
+  std::vector<double> on_pattern(const Eigen::SparseMatrix<double>& constant) const;
   Evaluation run(const State& state, bool want_residual, bool want_tangent);
 
   const Model& model_;
@@ -45,6 +52,7 @@ class Assembler {
   std::vector<std::vector<int>> slots_;
   std::vector<std::vector<Chunk>> colours_;
   std::vector<Eigen::VectorXd> block_residual_;
+  std::vector<double> mass_, damping_; ///< values in the pattern of matrix_; empty without
 };
 
 } // namespace dielast::fem

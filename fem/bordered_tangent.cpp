@@ -22,7 +22,9 @@ int negative_eigenvalues(const Eigen::MatrixXd& symmetric) {
 
 } // namespace
 
-bool any_isolated(const State& state) { return std::ranges::find(state.isolated, 1) != state.isolated.end(); }
+bool any_follows(const State& state) {
+  return std::ranges::any_of(state.supply, [](Supply s) { return s != Supply::voltage; });
+}
 
 BorderedTangent::BorderedTangent(const Model& model, const Assembler& assembler,
                                  const Eigen::VectorXd& stiffness)
@@ -46,10 +48,10 @@ void BorderedTangent::set_borders(const State& state, const PathBorder* path) {
   electrodes_ = 0;
   paths_ = path ? 1 : 0;
   if (path) append_border(path->column, path->row, path->corner);
-  if (!any_isolated(state)) return;
-  const Charges charges = model_.charges(state, true);
-  for (std::size_t e = 0; e < state.isolated.size(); ++e) {
-    if (!state.isolated[e]) continue;
+  if (!any_follows(state)) return;
+  const Charges charges = model_.surplus(state, true);
+  for (std::size_t e = 0; e < state.supply.size(); ++e) {
+    if (state.supply[e] == Supply::voltage) continue;
     const Eigen::VectorXd column =
         -charges.coupling[e].head(matrix_.size) / std::sqrt(charges.capacitance[e]);
     append_border(column, column, -1);

@@ -9,8 +9,8 @@
 
 namespace dielast::fem {
 
-/// Whether some electrode's charge is given instead of its voltage.
-bool any_isolated(const State& state);
+/// Whether some electrode's voltage is not given: it follows from its charge, or from its circuit.
+bool any_follows(const State& state);
 
 /// One more unknown s with an equation of its own.
 struct PathBorder {
@@ -20,7 +20,8 @@ struct PathBorder {
 };
 
 /// Tangent under the control that a state is in, factored. K at fixed voltages is bordered by the charges of
-/// isolated electrodes (B = dQ/du, capacitances C = dQ/dPhi) and, along a path, by s:
+/// electrodes whose voltages follow (B = dQ/du, capacitances C = dQ/dPhi, with their circuits') and, along a
+/// path, by s:
 ///   [ K     -B     column ] [du  ]   [f]
 ///   [-B^T   -C     0      ] [dPhi] = [0]
 ///   [ row^T  0     corner ] [ds  ]   [g]
@@ -58,7 +59,7 @@ class BorderedTangent {
   const SparseSymmetric& matrix_;
   const Eigen::VectorXd& stiffness_;
   SymmetricSolver solver_;
-  int electrodes_ = 0, paths_ = 0;       ///< borders: the path, the isolated electrodes, the shift
+  int electrodes_ = 0, paths_ = 0;       ///< borders: the path, the electrodes that follow, the shift
   Eigen::MatrixXd columns_, rows_;       ///< each scaled so that a symmetric border's corner is -1 or 1
   Eigen::VectorXd corner_;               ///< diagonal
   Eigen::MatrixXd solved_;               ///< K^-1 columns

@@ -44,9 +44,9 @@ class DistanceBlock final : public ElementBlock {
 
   int element_count() const override { return 1; }
   int dofs_per_element() const override { return static_cast<int>(nodes_.size()); }
-  void claim_dofs(DofMap& dofs, bool planar) const override {
+  void claim_dofs(DofMap& dofs, Dimension dimension) const override {
     for (const int node : nodes_)
-      if (axis_ < 2 || !planar) dofs.add(node, axis_);
+      if (moves(dimension, axis_)) dofs.add(node, axis_);
   }
   void element_equations(int /*element*/, const DofMap& dofs, std::span<int> equations) const override {
     for (std::size_t i = 0; i < nodes_.size(); ++i) equations[i] = dofs.equation(nodes_[i], axis_);

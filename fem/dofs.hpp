@@ -7,6 +7,26 @@
 
 namespace dielast::fem {
 
+/// How a model can move.
+enum class Dimension {
+  planar,       ///< x and y, spin about z
+  spatial,      ///< everything
+  axisymmetric, ///< x, the radius, and z, of every half plane through the z axis alike
+};
+
+/// Whether a model moves along x, y, z (0..2) or spins about them (3..5).
+constexpr bool moves(Dimension dimension, int component) {
+  switch (dimension) {
+  case Dimension::planar:
+    return component == 0 || component == 1 || component == 5;
+  case Dimension::spatial:
+    return true;
+  case Dimension::axisymmetric:
+    return component == 0 || component == 2;
+  }
+  return false;
+}
+
 /// Numbers the unknowns of a model. Each node may have six: displacement x, y, z (0..2) and spin about x, y,
 /// z (3..5), the spatial rotation increment. Free unknowns get equations 0..free_count()-1, held ones follow,
 /// so that a residual of count() entries carries the reactions at its end.

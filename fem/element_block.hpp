@@ -4,6 +4,7 @@
 #include "fem/samples.hpp"
 #include "fem/state.hpp"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -46,9 +47,10 @@ struct Evaluation {
 };
 
 /// What the electrodes hold at a state: Q_e = -dE/dPhi_e of the energy E(u, Phi) that the blocks give.
+/// Chambers likewise, behind them: the volume is minus the derivative with respect to the pressure.
 struct Charges {
-  std::vector<double> charge;            ///< per electrode, C
-  std::vector<double> capacitance;       ///< dQ_e/dPhi_e at fixed u, F
+  std::vector<double> charge;            ///< per electrode, C, then per chamber, m^3
+  std::vector<double> capacitance;       ///< dQ_e/dPhi_e at fixed u, F (m^3/Pa)
   std::vector<Eigen::VectorXd> coupling; ///< dQ_e/du per electrode, count() entries; left out when not wanted
 };
 
@@ -57,9 +59,13 @@ struct EnergyParts {
   double elastic = 0;     ///< stored by the equilibrium laws and the walls, J
   double branches = 0;    ///< stored by the springs of the branches, J
   double electric = 0;    ///< of the field: sum of Q Phi / 2, J
+  double kinetic = 0;     ///< of everything that has a mass, J
   double regularised = 0; ///< part of `elastic` that only keeps wrinkled film from being singular, J
-  double dissipation = 0; ///< power that the dashpots turn into heat, W
+  double dissipation = 0; ///< power that dashpots and dampers turn into heat, W
 };
+
+/// A factor for each rate of relaxation, 1/s.
+using RateWeight = std::function<double(double rate)>;
 
 /// Elements of one type in contiguous arrays. Pure functions of the state: energy, residual = dE/du, tangent
 /// = d2E/du2 (u: displacements and spins about the current rotation). One virtual call for a range of
@@ -72,8 +78,8 @@ class ElementBlock {
   virtual int dofs_per_element() const = 0;
   /// Elements are evaluated in multiples of this many.
   virtual int granularity() const { return 1; }
-  /// Adds the unknowns of this block's nodes; planar models have no z displacement and no spin about x and y.
-  virtual void claim_dofs(DofMap& dofs, bool planar) const = 0;
+  /// Adds the unknowns of this block's nodes, as far as the model can move.
+  virtual void claim_dofs(DofMap& dofs, Dimension dimension) const = 0;
   /// Equations of one element, DofMap::absent where an unknown does not exist.
   virtual void element_equations(int element, const DofMap& dofs, std::span<int> equations) const = 0;
   /// Evaluates elements first..last-1 and scatters what is wanted.
@@ -86,6 +92,15 @@ class ElementBlock {
   virtual void add_energies(const State& state, EnergyParts& parts) const {
     parts.elastic += evaluate(state, 0, element_count(), {}).energy;
   }
+  /// Adds the element's mass matrix, which does not change (kg, lower triangle row by row as in Scatter).
+  virtual void add_mass(int /*element*/, std::span<double> /*packed*/) const {}
+  /// Adds what it resists motion with, likewise (N s/m).
+  virtual void add_damping(int /*element*/, std::span<double> /*packed*/) const {}
+  /// Adds sum_j weight(rate_j) K_j to the tangent: what relaxed branches resist besides their equilibrium
+  /// tangent, taken apart by rates (see Relaxation). Throws std::domain_error where branches are not relaxed
+  /// or their film is wrinkled.
+  virtual void add_relaxation(const State& /*state*/, const RateWeight& /*weight*/,
+                              const Scatter& /*scatter*/) const {}
   /// Number of internal variables of this block.
   virtual int history_size() const { return 0; }
   /// Tells where the block's variables start in the model's.

@@ -8,7 +8,9 @@ namespace dielast::fem {
 
 namespace {
 
-double total(const EnergyParts& parts) { return parts.elastic + parts.branches + parts.electric; }
+double total(const EnergyParts& parts) {
+  return parts.elastic + parts.branches + parts.electric + parts.kinetic;
+}
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
@@ -187,15 +189,27 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double pa
   EnergyPoint point;
   point.parameter = parameter;
   point.time = state.time;
-  point.voltage = state.voltage;
   equilibrium.internal_force(state, point.force); // the reactions, at the end, are external too
   point.force.head(dofs.free_count()) = state.dead_force.head(dofs.free_count());
-  point.position = Eigen::VectorXd::Zero(dofs.count());
-  for (int n = 0; n < dofs.node_count(); ++n)
-    for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(n, c); e != DofMap::absent)
-        point.position[e] = state.displacement[static_cast<std::size_t>(n)][c];
+  if (state.motion) {
+    const Motion& motion = *state.motion;
+    point.force.tail(dofs.count() - dofs.free_count()) +=
+        (model.inertia.mass * motion.acceleration + model.inertia.damping * motion.velocity)
+            .tail(dofs.count() - dofs.free_count());
+  }
+  point.position = position(state, dofs);
+  point.voltage = state.voltage;
   point.charge = model.charges(state, false).charge;
+  // What pumps do is mechanical work.
+  const auto chambers = static_cast<Eigen::Index>(model.chambers.size());
+  point.force.conservativeResize(dofs.count() + chambers);
+  point.position.conservativeResize(dofs.count() + chambers);
+  for (Eigen::Index c = chambers; c > 0; --c) {
+    point.force[dofs.count() + c - 1] = point.voltage.back();
+    point.position[dofs.count() + c - 1] = point.charge.back();
+    point.voltage.pop_back();
+    point.charge.pop_back();
+  }
   point.energy = model.energies(state);
   return point;
 }

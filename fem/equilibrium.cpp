@@ -36,7 +36,7 @@ constexpr double near = 1e-3;
 constexpr double least_stiffness = 1e-6;
 constexpr double negligible = 1e-3;    ///< strain to which the tolerance of steps refers
 constexpr double rounded_step = 1e-10; ///< over the extent; smaller ones may know no descent
-constexpr int most_voltage_corrections = 20;
+constexpr int most_voltage_corrections = 30;
 constexpr double charge_tolerance = 1e-13;
 constexpr int patience = 10; ///< iterations after which the residual must be smaller than at the start
 constexpr int most_indefinite =
@@ -70,38 +70,40 @@ double Equilibrium::weighted_norm(const Eigen::VectorXd& force, Eigen::Index cou
   return force.head(count).cwiseProduct(weight_.head(count)).norm();
 }
 
-/// Phi with Q(u, Phi) = Q. One correction is enough where charges are proportional to voltages; the natural
-/// width of wrinkled film makes them a little more.
+/// Phi at which no electrode has a surplus of charge. One correction is enough where charges are proportional
+/// to voltages; the natural width of wrinkled film and sources at their limit take a little more.
 bool Equilibrium::follow_charges(State& state) const {
   for (int correction = 0; correction <= most_voltage_corrections; ++correction) {
-    const Charges held = model_.charges(state, false);
-    double worst = 0;
-    for (std::size_t e = 0; e < state.isolated.size(); ++e) {
-      if (!state.isolated[e]) continue;
-      const double missing = state.charge[e] - held.charge[e];
-      state.voltage[e] += missing / held.capacitance[e];
+    const Charges surplus = model_.surplus(state, false);
+    bool balanced = true;
+    for (std::size_t e = 0; e < state.supply.size(); ++e) {
+      if (state.supply[e] == Supply::voltage) continue;
+      const double change = -surplus.charge[e] / surplus.capacitance[e];
+      state.voltage[e] += change;
       if (!std::isfinite(state.voltage[e])) return false;
-      const double size = std::max(std::abs(state.charge[e]), std::abs(held.charge[e]));
-      if (size > 0) worst = std::max(worst, std::abs(missing) / size);
+      balanced = balanced && std::abs(change) <= charge_tolerance * std::abs(state.voltage[e]);
     }
-    if (worst <= charge_tolerance) return true;
+    if (balanced) return true;
   }
   return false;
 }
 
 void Equilibrium::balance(State& state, Balance& balance) {
   const Stopwatch watch(timings_.residual, model_);
-  const bool isolated = any_isolated(state);
-  if (isolated && !follow_charges(state)) {
+  const bool follows = any_follows(state);
+  if (follows && !follow_charges(state)) {
     balance.feasible = false;
     return;
   }
   const Evaluation evaluation = assembler_.residual(state, balance.force);
   balance.energy = evaluation.energy;
-  if (isolated)
-    for (std::size_t e = 0; e < state.isolated.size(); ++e)
-      if (state.isolated[e]) balance.energy += state.charge[e] * state.voltage[e];
+  if (follows) balance.energy += model_.supply_energy(state);
   balance.force -= state.dead_force;
+  if (!state.motion_scheme.is_static()) {
+    const InertialForce inertial(model_.inertia, model_.dofs, state);
+    balance.force += inertial.force();
+    balance.energy += inertial.energy();
+  }
   balance.norm = weighted_norm(balance.force, model_.dofs.free_count());
   balance.scale = weighted_norm(state.dead_force, state.dead_force.size());
   for (const auto& block : assembler_.block_residuals())
@@ -162,8 +164,8 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
     result.outcome = outcome;
     return result;
   };
-  const auto factor_and_count = [&] {
-    const bool regular = factor(state);
+  const auto factor_and_count = [&](const Eigen::VectorXd* added = nullptr) {
+    const bool regular = factor(state, nullptr, added);
     if (regular) {
       result.negative_pivots = tangent_.negative_pivots();
       result.unstable_modes = tangent_.unstable_modes();
@@ -193,7 +195,9 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
     previous_norm = current.norm;
     stale_tangent = result.residual;
     ++timings_.iterations;
-    if (!factor_and_count()) return end(Outcome::singular);
+    // A flat film without tension has no stiffness across itself until it is loaded: a part of the stiffness
+    // as drawn leads on.
+    if (!factor_and_count() && !factor_and_count(&stiffness_)) return end(Outcome::singular);
     indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
     {
       const Stopwatch watch(timings_.solve, model_);

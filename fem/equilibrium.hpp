@@ -29,12 +29,12 @@ struct NewtonResult {
   double residual = 0;     ///< relative norm at the end
   int negative_pivots = 0; ///< unstable directions at fixed voltages, of the tangent at the end, or at most
                            ///< one small step before it
-  int unstable_modes = 0;  ///< the same under the actual control: isolated electrodes keep their charges
+  int unstable_modes = 0;  ///< the same under the actual control: charges are kept where they are given
 };
 
 /// How well the forces of a state balance.
 struct Balance {
-  double energy = 0; ///< J, under the control: with Q Phi of the isolated electrodes
+  double energy = 0; ///< J, under the control: with Model::supply_energy
   bool feasible = false;
   Eigen::VectorXd force; ///< internal minus dead ones, per equation
   double norm = 0;       ///< of the free ones, moments over the model's length scale, N
@@ -51,9 +51,10 @@ struct Timings {
 /// potential energy where the tangent is positive definite under the control, on the residual where it is
 /// not.
 ///
-/// Isolated electrodes: E(u, Phi) + sum Q Phi is stationary in Phi where the film holds the charges Q; this
-/// is solved for Phi at every u, so that Newton's method sees the energy at fixed charges, a function of u
-/// with the tangent K + B C^-1 B^T (see BorderedTangent).
+/// Electrodes whose charge is given: E(u, Phi) + sum Q Phi is stationary in Phi where the film holds the
+/// charges Q; this is solved for Phi at every u, so that Newton's method sees the energy at fixed charges, a
+/// function of u with the tangent K + B C^-1 B^T (see BorderedTangent). Over a time step a circuit is the
+/// same with more capacitance (see Circuit), and inertia one more quadratic energy (see InertialForce).
 class Equilibrium {
  public:
   /// `threads`: 0 uses every core. The model must outlive this.
@@ -68,7 +69,7 @@ class Equilibrium {
     return assembler_.residual(state, force);
   }
 
-  /// Sets the voltages of isolated electrodes to what their charges need and evaluates the forces.
+  /// Sets the voltages that are not given to what their charges need and evaluates the forces.
   void balance(State& state, Balance& balance);
   /// Whether a balance is an equilibrium. `previous_norm` is that of the iteration before, from which a full
   /// Newton step of size `step` (see step_size()) led here; infinity at the start.

@@ -2,11 +2,13 @@
 
 #include "fem/element_block.hpp"
 #include "fem/membrane_section.hpp"
+#include "fem/relaxation.hpp"
 #include "materials/branch.hpp"
 #include "materials/plane_stress.hpp"
 #include "materials/tension_field.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 
 namespace dielast::fem {
@@ -88,6 +90,27 @@ class FilmResponse {
       parts.dissipation += power.dissipation;
     }
     return parts;
+  }
+
+  /// Second derivatives sum_j weight(rate_j) w_j w_j^T over the branches, see relaxation_spectrum().
+  Potential relaxation(const State& state, int point, const C& at, double k, const RateWeight& weight) const {
+    if (wrinkles(shape(state, point, at, k)))
+      throw std::domain_error("wrinkled film with branches cannot be linearised");
+    Potential psi{};
+    for (int b = 0; b < branches(); ++b) {
+      const auto& branch = material_.branches[static_cast<std::size_t>(b)];
+      const materials::Internal now = read(state.history->now, place(point, b));
+      if (!is_relaxed(branch, at, now))
+        throw std::domain_error("branches cannot be linearised while their dashpots flow");
+      const RelaxationSpectrum spectrum = relaxation_spectrum(branch, at, now);
+      for (int j = 0; j < spectrum.count; ++j) {
+        const auto& [w, rate] = spectrum.element[static_cast<std::size_t>(j)];
+        const double factor = weight(rate);
+        for (std::size_t p = 0; p < psi.second.size(); ++p)
+          psi.second[p] += factor * w[materials::component_pairs[p][0]] * w[materials::component_pairs[p][1]];
+      }
+    }
+    return psi;
   }
 
   const materials::Dielectric& dielectric() const { return material_.dielectric; }

@@ -6,7 +6,7 @@
 namespace dielast::fem {
 
 Loads Loads::of(const State& state, const DofMap& dofs) {
-  Loads loads{state.voltage, state.charge, state.dead_force,
+  Loads loads{state.voltage, state.charge, state.source, state.dead_force,
               Eigen::VectorXd::Zero(dofs.count() - dofs.free_count())};
   for (int n = 0; n < dofs.node_count(); ++n)
     for (int c = 0; c < 3; ++c)
@@ -16,8 +16,17 @@ Loads Loads::of(const State& state, const DofMap& dofs) {
 }
 
 void Loads::apply(State& state, const DofMap& dofs) const {
-  for (std::size_t e = 0; e < voltage.size(); ++e)
-    (state.isolated[e] ? state.charge : state.voltage)[e] = (state.isolated[e] ? charge : voltage)[e];
+  for (std::size_t e = 0; e < voltage.size(); ++e) switch (state.supply[e]) {
+    case Supply::voltage:
+      state.voltage[e] = voltage[e];
+      break;
+    case Supply::charge:
+      state.charge[e] = charge[e];
+      break;
+    case Supply::circuit:
+      state.source[e] = source[e];
+      break;
+    }
   state.dead_force = dead_force;
   for (int n = 0; n < dofs.node_count(); ++n)
     for (int c = 0; c < 3; ++c)
@@ -56,7 +65,7 @@ LoadPath linear_path(const DofMap& dofs, Loads from, Loads to) {
       return phi * phi;
     };
   path.apply = [&dofs, from = std::move(from), to = std::move(to)](State& state, double s) {
-    Loads{mix(from.voltage, to.voltage, s), mix(from.charge, to.charge, s),
+    Loads{mix(from.voltage, to.voltage, s), mix(from.charge, to.charge, s), mix(from.source, to.source, s),
           (1 - s) * from.dead_force + s * to.dead_force, (1 - s) * from.held + s * to.held}
         .apply(state, dofs);
   };

@@ -9,10 +9,12 @@ namespace dielast::fem {
 
 /// Everything that is prescribed to a state.
 struct Loads {
-  std::vector<double> voltage; ///< V, per electrode; of isolated ones it has no effect
-  std::vector<double> charge;  ///< C, per electrode; of driven ones it has no effect
-  Eigen::VectorXd dead_force;  ///< per equation, N
-  Eigen::VectorXd held;        ///< displacements of the held equations, m (rad for rotations: 0)
+  std::vector<double>
+      voltage; ///< V, per electrode, and Pa, per chamber; where the charge is given it has no effect
+  std::vector<double> charge; ///< C, per electrode; of driven ones it has no effect
+  std::vector<double> source; ///< V, per electrode, of the source of its circuit
+  Eigen::VectorXd dead_force; ///< per equation, N
+  Eigen::VectorXd held;       ///< displacements of the held equations, m (rad for rotations: 0)
 
   static Loads of(const State& state, const DofMap& dofs);
   bool operator==(const Loads&) const = default;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "fem/circuit.hpp"
 #include "fem/element_block.hpp"
+#include "fem/inertia.hpp"
 
 #include <memory>
 #include <string>
@@ -13,21 +15,38 @@ struct Model {
   DofMap dofs;
   std::vector<std::unique_ptr<ElementBlock>> blocks;
   std::vector<std::string> electrodes; ///< names; a state has one voltage for each
+  std::vector<std::string> chambers;   ///< names; a state has one pressure for each, behind the voltages
+  std::vector<Circuit> circuits;       ///< at most one per electrode
+  Inertia inertia;                     ///< Inertia::of(blocks, dofs), where something has a mass
   double length_scale = 1; ///< m, an element's size: makes moments comparable with forces in residual norms
   double extent = 1;       ///< m, the whole mesh's: tells which forces are round-off
 
+  std::size_t circuit_history = 0; ///< place of the first circuit's internal variable, by place_histories()
+
+  std::size_t port_count() const { return electrodes.size() + chambers.size(); }
   /// Tells every block where its internal variables are; to be called once, when all blocks are there.
   void place_histories();
   /// Everything at rest as drawn: no displacement, no voltage, no dead force; branches relaxed.
   State initial_state() const;
 
   Samples sample(const State& state) const;
+  /// Of the electrodes, C, and the volumes of the chambers, m^3.
   Charges charges(const State& state, bool with_coupling) const;
+  /// The same with what the circuits draw added, and less what there is given: `charge` is 0 in balance.
+  Charges surplus(const State& state, bool with_coupling) const;
+  /// Energy that goes with it: the sum of the integrals of given minus drawn charge over voltage, J.
+  double supply_energy(const State& state) const;
+  const Circuit* circuit_of(std::size_t electrode) const;
   EnergyParts energies(const State& state) const;
+  /// Puts the charges that the electrodes hold at `state` into the memory of the circuits.
+  void charge_circuits(State& state) const;
   /// The history after a converged state that state.scheme led to: the next increment starts from it.
   std::shared_ptr<const History> advanced_history(const State& state) const;
-  /// A converged state as the next increment starts from it: with that history, its dashpots frozen.
+  /// A converged state as the next increment starts from it: with that history, its dashpots frozen, and the
+  /// motion that it has arrived with.
   State settled(State state) const;
+  /// What an electrode or chamber must hold, with what its circuit has drawn, C or m^3.
+  double given_charge(const State& state, std::size_t port) const;
 };
 
 } // namespace dielast::fem

@@ -15,6 +15,7 @@ constexpr double safety = 0.9;
 constexpr double jump_part = 1.0 / 8;      ///< of loads that jump
 constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
 constexpr double tiny = 1e-300;
+constexpr double typical_motion = 1e-2; ///< of the extent, to which errors of the motion are compared
 
 /// One step under load control.
 class Ramp {
@@ -38,7 +39,8 @@ class Ramp {
   bool less_stable() const;
   bool pass_break();
   static double time_error(const History& past, const History& next);
-  bool accept(State state, std::shared_ptr<const History> history, double s);
+  double motion_error(const GeneralisedAlpha& scheme, const Motion& past, const Motion& next) const;
+  bool accept(State state, double s);
   bool notify(bool lands, double length);
 
   Equilibrium& equilibrium_;
@@ -81,6 +83,11 @@ State Ramp::solve(State state, double s) {
   state.history = last().history;
   state.time = last().time + dt;
   state.scheme = scheme(dt);
+  if (options_.inertia) {
+    state.motion = last().motion;
+    state.motion_scheme = state.motion->step > 0 ? GeneralisedAlpha::of(dt, options_.high_frequencies)
+                                                 : GeneralisedAlpha::backward_euler(dt);
+  }
   newton_ = equilibrium_.solve(state, options_.newton, observer_.on_iteration);
   return state;
 }
@@ -98,9 +105,16 @@ bool Ramp::pass_break() {
   State state = last();
   if (state.history && state.history->step > 0)
     state.history = std::make_shared<const History>(History{state.history->now, {}, {}});
+  const DofMap& dofs = equilibrium_.model().dofs;
+  if (options_.inertia) {
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs.count());
+    Motion motion = state.motion ? *state.motion : Motion{position(state, dofs), rest, rest, rest};
+    motion.acceleration = motion.unbalanced = rest;
+    motion.step = 0;
+    state.motion = std::make_shared<const Motion>(std::move(motion));
+  }
   if (options_.first_time_step > 0)
     progress_.increment = std::min(largest_, options_.first_time_step / options_.duration);
-  const DofMap& dofs = equilibrium_.model().dofs;
   const Loads before = Loads::of(state, dofs);
   State goal = state;
   path_.apply(goal, progress_.load_factor);
@@ -116,7 +130,10 @@ bool Ramp::pass_break() {
     const double next = done + part > 1 - round_off ? 1.0 : done + part;
     State trial = last();
     jump.apply(trial, next);
-    newton_ = equilibrium_.solve(trial, options_.newton, observer_.on_iteration);
+    if (options_.inertia)
+      newton_ = {};
+    else
+      newton_ = equilibrium_.solve(trial, options_.newton, observer_.on_iteration);
     if (newton_.outcome != Outcome::converged) {
       if ((part /= 2) < options_.smallest_increment) return false;
       continue;
@@ -149,11 +166,18 @@ double Ramp::time_error(const History& past, const History& next) {
   return share * largest;
 }
 
-bool Ramp::accept(State state, std::shared_ptr<const History> history, double s) {
+double Ramp::motion_error(const GeneralisedAlpha& scheme, const Motion& past, const Motion& next) const {
+  const Model& model = equilibrium_.model();
+  const auto heavy = model.inertia.mass.diagonal().array() > 0;
+  const bool starts = past.step == 0; // the whole acceleration is new to backward Euler
+  const double factor = starts ? scheme.dt * scheme.dt / 2 : scheme.error_factor();
+  const Eigen::VectorXd change = starts ? next.acceleration : next.acceleration - past.acceleration;
+  return factor * heavy.select(change.array().abs(), 0).maxCoeff() / (typical_motion * model.extent);
+}
+
+bool Ramp::accept(State state, double s) {
   progress_.at_break = timed() && s < 1 && std::abs(s - next_break()) < round_off;
   const bool lands = std::abs(s / landing_ - std::round(s / landing_)) < round_off || s >= 1;
-  state.history = std::move(history);
-  state.scheme = materials::TimeScheme::frozen(); // from here on the dashpots are where the history says
   const double length = s - progress_.load_factor;
   progress_.load_factor = s;
   progress_.unstable_modes = newton_.unstable_modes;
@@ -192,16 +216,18 @@ RampResult Ramp::run() {
       if (progress_.increment < smallest_) return {RampEnd::gave_up, s, newton_};
       continue;
     }
-    auto history = equilibrium_.model().advanced_history(trial);
+    State arrived = equilibrium_.model().settled(trial);
     if (!timed()) {
       progress_.increment = std::min(largest_, 2 * std::max(progress_.increment, tried));
     } else {
-      const double error = history ? time_error(*trial.history, *history) : 0;
+      double error = trial.history ? time_error(*trial.history, *arrived.history) : 0;
+      if (options_.inertia)
+        error = std::max(error, motion_error(trial.motion_scheme, *trial.motion, *arrived.motion));
       const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, tiny));
       progress_.increment = std::min(largest_, tried * std::clamp(growth, 0.2, most_growth));
       if (error > options_.time_tolerance && tried > smallest_) continue;
     }
-    if (!accept(std::move(trial), std::move(history), s)) return {RampEnd::stopped};
+    if (!accept(std::move(arrived), s)) return {RampEnd::stopped};
   }
   return {RampEnd::complete};
 }

@@ -12,8 +12,10 @@ struct RampOptions {
   double landing = 0;  ///< load factors at whose multiples a result is wanted; 0: at every 1/increments
   double duration = 0; ///< s; 0: no time passes
   bool instantaneous = false;   ///< no time passes: dashpots stay as they are; otherwise they flow to the end
-  double time_tolerance = 1e-6; ///< local error of the internal variables per increment, relative
+  double time_tolerance = 1e-6; ///< local error of internal variables and motion per increment, relative
   double first_time_step = 0;   ///< s, after every break; 0: the largest increment
+  bool inertia = false;         ///< what has a mass moves by generalised-alpha; otherwise without inertia
+  double high_frequencies = 0.8; ///< what generalised-alpha leaves of the highest ones after a step, 0..1
 };
 
 /// What an accepted increment was like.
@@ -67,8 +69,10 @@ struct RampResult {
 ///
 /// In time the dashpots go by BDF2, after a break by one backward Euler step. The local error is estimated
 /// from the distance to the polynomial through the last three accepted internal variables (Milne's device);
-/// steps grow at most by two. Loads that jump at a break act at once, with the dashpots as they are: in
-/// parts, so that their work can be told.
+/// steps grow at most by two. With inertia the step is generalised-alpha's (backward Euler after a break),
+/// and so is its error, relative to a hundredth of the model's extent. Loads that jump at a break act at
+/// once, with the dashpots as they are, and, with inertia, nothing moved: in parts, so that their work can be
+/// told.
 ///
 /// `progress.points.back().state` is the last accepted state.
 RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/generalised_alpha.hpp"
 #include "materials/time_scheme.hpp"
 
 #include <Eigen/Core>
@@ -12,24 +13,42 @@
 
 namespace dielast::fem {
 
-/// What the material remembers: the internal variables of all blocks (see ElementBlock::history_size) at the
-/// last accepted times, newest first. Never changed once made, so that states share it.
+/// What the material remembers: the internal variables of all blocks (see ElementBlock::history_size), then
+/// of the circuits (see Circuit), at the last accepted times, newest first. Never changed once made, so that
+/// states share it.
 struct History {
   std::vector<double> now, before, older;
   double step = 0, step_before = 0; ///< s, between now and before, before and older; 0: there is no such past
+};
+
+/// What inertia remembers: how the model moved at the last accepted time. Per equation (see DofMap).
+struct Motion {
+  Eigen::VectorXd position, velocity, acceleration; ///< m, m/s, m/s^2
+  Eigen::VectorXd unbalanced;                       ///< internal minus external forces, N
+  double step = 0;                                  ///< s, that led here; 0 at rest and after a break
+};
+
+/// What is given at an electrode or a chamber.
+enum class Supply : std::uint8_t {
+  voltage, ///< its voltage (pressure)
+  charge,  ///< its charge (volume): the voltage follows
+  circuit, ///< the voltage of the source of its circuit: voltage and charge follow
 };
 
 /// All that changes while a model is loaded. A value: a copy is a cutback, a serialised one is a restart.
 struct State {
   std::vector<Eigen::Vector3d> displacement; ///< per node, m, from the mesh as drawn
   std::vector<Eigen::Quaterniond> rotation; ///< per node, from the mesh as drawn; the sign is kept continuous
-  std::vector<double> voltage;              ///< per electrode, V
+  std::vector<double> voltage;              ///< per electrode, V; then per chamber, its pressure, Pa
   Eigen::VectorXd dead_force;               ///< per equation (see DofMap): N, or N m for rotations
-  std::vector<std::uint8_t> isolated; ///< per electrode: 1 where the charge is given and the voltage follows
-  std::vector<double> charge;         ///< per electrode, C: the given charge of an isolated one
-  double time = 0;                    ///< s
-  materials::TimeScheme scheme;       ///< how the branches get here from `history`; frozen in accepted states
-  std::shared_ptr<const History> history; ///< null: no block has internal variables
+  std::vector<Supply> supply;               ///< likewise: what is given
+  std::vector<double> charge;               ///< likewise: the given charge, C, or volume, m^3
+  std::vector<double> source;               ///< likewise: voltage of the circuit's source, V
+  double time = 0;                          ///< s
+  materials::TimeScheme scheme; ///< how the branches get here from `history`; frozen in accepted states
+  std::shared_ptr<const History> history; ///< null: nothing has internal variables
+  GeneralisedAlpha motion_scheme;         ///< how inertia gets here from `motion`; static in accepted states
+  std::shared_ptr<const Motion> motion;   ///< null: without inertia
 };
 
 /// Rotation by the vector `spin` (rad).

@@ -29,6 +29,19 @@ std::span<const TrianglePoint> triangle_rule(int points) {
 }
 
 template<>
+Eigen::Matrix<double, 3, 1> shape_values<3>(double xi, double eta) {
+  return {1 - xi - eta, xi, eta};
+}
+
+template<>
+Eigen::Matrix<double, 6, 1> shape_values<6>(double xi, double eta) {
+  const double zeta = 1 - xi - eta;
+  return (Eigen::Matrix<double, 6, 1>() << zeta * (2 * zeta - 1), xi * (2 * xi - 1), eta * (2 * eta - 1),
+          4 * zeta * xi, 4 * xi * eta, 4 * eta * zeta)
+      .finished();
+}
+
+template<>
 Eigen::Matrix<double, 3, 2> shape_gradients<3>(double, double) {
   return (Eigen::Matrix<double, 3, 2>() << -1, -1, 1, 0, 0, 1).finished();
 }

@@ -17,8 +17,11 @@ struct TrianglePoint {
 /// std::invalid_argument.
 std::span<const TrianglePoint> triangle_rule(int points);
 
-/// Gradients (d/dxi, d/deta) of the shape functions of a triangle with 3 or 6 nodes (corners, then middles
-/// 01, 12, 20).
+/// Shape functions of a triangle with 3 or 6 nodes (corners, then middles 01, 12, 20).
+template<int Nodes>
+Eigen::Matrix<double, Nodes, 1> shape_values(double xi, double eta);
+
+/// Gradients (d/dxi, d/deta) of these.
 template<int Nodes>
 Eigen::Matrix<double, Nodes, 2> shape_gradients(double xi, double eta);
 

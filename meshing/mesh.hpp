@@ -10,8 +10,10 @@
 namespace dielast::meshing {
 
 /// Cell types; the node order is VTK's: corners first, then the middles of the sides
-/// (triangle6: v0 v1 v2 m01 m12 m20; line3: v0 v1 middle). Triangles turn counter-clockwise about +z.
-enum class CellType { line2, line3, triangle3, triangle6 };
+/// (triangle6: v0 v1 v2 m01 m12 m20; line3, meridian3: v0 v1 middle). Triangles turn counter-clockwise about
+/// +z. Lines are walls. Meridians are pieces of a film of revolution: curves in the plane y = 0, x >= 0,
+/// revolved about the z axis.
+enum class CellType { line2, line3, triangle3, triangle6, meridian2, meridian3 };
 
 constexpr int nodes_per_cell(CellType type) {
   switch (type) {
@@ -23,11 +25,18 @@ constexpr int nodes_per_cell(CellType type) {
     return 3;
   case CellType::triangle6:
     return 6;
+  case CellType::meridian2:
+    return 2;
+  case CellType::meridian3:
+    return 3;
   }
   return 0;
 }
 
 constexpr bool is_line(CellType type) { return type == CellType::line2 || type == CellType::line3; }
+constexpr bool is_meridian(CellType type) {
+  return type == CellType::meridian2 || type == CellType::meridian3;
+}
 
 /// All cells of one type, node numbers one after another.
 struct CellBlock {
@@ -57,9 +66,9 @@ struct Mesh {
   std::map<std::string, CellSet> cell_sets;
 
   int node_count() const { return static_cast<int>(nodes.size()); }
-  /// The block of triangles, of lines; null when there is none.
-  const CellBlock* triangles() const { return find_block(false); }
-  const CellBlock* lines() const { return find_block(true); }
+  /// The block of triangles or meridians, of lines; null when there is none.
+  const CellBlock* film() const { return find_block(false); }
+  const CellBlock* walls() const { return find_block(true); }
 
  private:
   const CellBlock* find_block(bool of_lines) const {

@@ -54,8 +54,8 @@ QualityReport quality(const Mesh& mesh) {
                        .smallest_area = infinity,
                        .largest_area = -infinity};
   for (const CellBlock& block : mesh.blocks) {
-    if (is_line(block.type)) {
-      report.lines += block.size();
+    if (is_line(block.type) || is_meridian(block.type)) {
+      (is_line(block.type) ? report.lines : report.meridians) += block.size();
       continue;
     }
     for (int c = 0; c < block.size(); ++c) {
@@ -89,8 +89,10 @@ QualityReport quality(const Mesh& mesh) {
 }
 
 std::string format(const QualityReport& report) {
-  std::string text = fmt::format("nodes      {}\ntriangles  {}\nlines      {}\n", report.nodes,
-                                 report.triangles, report.lines);
+  const bool of_revolution = report.meridians > 0;
+  std::string text = fmt::format("nodes      {}\n{}  {}\nlines      {}\n", report.nodes,
+                                 of_revolution ? "meridians" : "triangles",
+                                 of_revolution ? report.meridians : report.triangles, report.lines);
   if (report.triangles == 0) return text;
   text += fmt::format("area       {:.6g} mm2 (triangles {:.4g} .. {:.4g} mm2)\n", report.area * 1e6,
                       report.smallest_area * 1e6, report.largest_area * 1e6);

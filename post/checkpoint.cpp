@@ -36,6 +36,14 @@ json archive(const fem::History& history) {
           {"steps", {history.step, history.step_before}}};
 }
 
+json archive(const fem::Motion& motion) {
+  return {{"position", pack(motion.position)},
+          {"velocity", pack(motion.velocity)},
+          {"acceleration", pack(motion.acceleration)},
+          {"unbalanced", pack(motion.unbalanced)},
+          {"step", motion.step}};
+}
+
 json archive(const fem::State& state) {
   std::vector<double> rotations;
   rotations.reserve(4 * state.rotation.size());
@@ -45,12 +53,14 @@ json archive(const fem::State& state) {
   return {{"displacement", post::pack({state.displacement.front().data(), 3 * state.displacement.size()})},
           {"rotation", post::pack(rotations)},
           {"voltage", post::pack(state.voltage)},
-          {"isolated", state.isolated},
+          {"supply", state.supply},
           {"charge", post::pack(state.charge)},
+          {"source", post::pack(state.source)},
           {"dead_force", pack(state.dead_force)},
           {"time", state.time},
           {"scheme", post::pack(std::array{scheme.dt, scheme.a0, scheme.h1, scheme.h2})},
-          {"history", state.history ? archive(*state.history) : json(nullptr)}};
+          {"history", state.history ? archive(*state.history) : json(nullptr)},
+          {"motion", state.motion ? archive(*state.motion) : json(nullptr)}};
 }
 
 std::shared_ptr<const fem::History> restore_history(const json& archived) {
@@ -58,6 +68,13 @@ std::shared_ptr<const fem::History> restore_history(const json& archived) {
   return std::make_shared<const fem::History>(
       fem::History{unpack(archived.at("now")), unpack(archived.at("before")), unpack(archived.at("older")),
                    archived.at("steps").at(0), archived.at("steps").at(1)});
+}
+
+std::shared_ptr<const fem::Motion> restore_motion(const json& archived, std::size_t equations) {
+  if (archived.is_null()) return nullptr;
+  const auto part = [&](const char* name) { return vector(archived.at(name), equations); };
+  return std::make_shared<const fem::Motion>(fem::Motion{
+      part("position"), part("velocity"), part("acceleration"), part("unbalanced"), archived.at("step")});
 }
 
 fem::State restore_state(const json& archived, std::size_t nodes, std::size_t equations) {
@@ -70,38 +87,40 @@ fem::State restore_state(const json& archived, std::size_t nodes, std::size_t eq
     state.rotation.emplace_back(&rotation[4 * n]);
   }
   state.voltage = unpack(archived.at("voltage"));
-  state.isolated = archived.at("isolated").get<std::vector<std::uint8_t>>();
+  state.supply = archived.at("supply").get<std::vector<fem::Supply>>();
   state.charge = unpack(archived.at("charge"));
+  state.source = unpack(archived.at("source"));
   state.dead_force = vector(archived.at("dead_force"), equations);
   state.time = archived.at("time");
   const std::vector<double> scheme = unpack(archived.at("scheme"));
   if (scheme.size() != 4) mismatch();
   state.scheme = {scheme[0], scheme[1], scheme[2], scheme[3]};
   state.history = restore_history(archived.at("history"));
+  state.motion = restore_motion(archived.at("motion"), equations);
   return state;
 }
 
 json archive(const fem::EnergyPoint& point) {
   const fem::EnergyParts& e = point.energy;
-  return {
-      {"place", post::pack(std::array{point.parameter, point.time})},
-      {"force", pack(point.force)},
-      {"position", pack(point.position)},
-      {"voltage", post::pack(point.voltage)},
-      {"charge", post::pack(point.charge)},
-      {"energy", post::pack(std::array{e.elastic, e.branches, e.electric, e.regularised, e.dissipation})}};
+  return {{"place", post::pack(std::array{point.parameter, point.time})},
+          {"force", pack(point.force)},
+          {"position", pack(point.position)},
+          {"voltage", post::pack(point.voltage)},
+          {"charge", post::pack(point.charge)},
+          {"energy", post::pack(std::array{e.elastic, e.branches, e.electric, e.kinetic, e.regularised,
+                                           e.dissipation})}};
 }
 
 fem::EnergyPoint restore_point(const json& archived) {
   const std::vector<double> place = unpack(archived.at("place")), energy = unpack(archived.at("energy"));
-  if (place.size() != 2 || energy.size() != 5) mismatch();
+  if (place.size() != 2 || energy.size() != 6) mismatch();
   return {place[0],
           place[1],
           vector(archived.at("force")),
           vector(archived.at("position")),
           unpack(archived.at("voltage")),
           unpack(archived.at("charge")),
-          {energy[0], energy[1], energy[2], energy[3], energy[4]}};
+          {energy[0], energy[1], energy[2], energy[3], energy[4], energy[5]}};
 }
 
 } // namespace
@@ -125,7 +144,7 @@ json archive(const fem::RampProgress& progress) {
     points.push_back({{"parameter", point.parameter}, {"state", archive(point.state)}});
   return {{"start",
            {post::pack(progress.start.voltage), post::pack(progress.start.charge),
-            pack(progress.start.dead_force), pack(progress.start.held)}},
+            post::pack(progress.start.source), pack(progress.start.dead_force), pack(progress.start.held)}},
           {"load_factor", progress.load_factor},
           {"increment", progress.increment},
           {"at_break", progress.at_break},
@@ -138,7 +157,8 @@ fem::RampProgress restore_ramp(const json& archived, std::size_t nodes, std::siz
   try {
     fem::RampProgress progress;
     const json& start = archived.at("start");
-    progress.start = {unpack(start.at(0)), unpack(start.at(1)), vector(start.at(2)), vector(start.at(3))};
+    progress.start = {unpack(start.at(0)), unpack(start.at(1)), unpack(start.at(2)), vector(start.at(3)),
+                      vector(start.at(4))};
     progress.load_factor = archived.at("load_factor");
     progress.increment = archived.at("increment");
     progress.at_break = archived.at("at_break");

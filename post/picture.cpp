@@ -44,6 +44,9 @@ std::array<int, 6> outline(CellType type, std::span<const int> n) {
     return {n[0], n[1], n[2]};
   case CellType::triangle6:
     return {n[0], n[3], n[1], n[4], n[2], n[5]};
+  case CellType::meridian2:
+  case CellType::meridian3:
+    break;
   }
   return {};
 }
@@ -145,7 +148,10 @@ std::pair<double, double> value_range(const Picture& picture) {
 void check(const meshing::Mesh& mesh, const Picture& picture) {
   std::size_t triangles = 0;
   for (const CellBlock& block : mesh.blocks)
-    if (!is_line(block.type)) triangles += static_cast<std::size_t>(block.size());
+    if (is_meridian(block.type))
+      throw std::invalid_argument("a film of revolution is drawn by its profile");
+    else if (!is_line(block.type))
+      triangles += static_cast<std::size_t>(block.size());
   if (picture.panels.empty()) throw std::invalid_argument("nothing to draw");
   for (const Panel& panel : picture.panels)
     if (panel.positions.size() != mesh.nodes.size() ||

@@ -73,10 +73,20 @@ std::vector<std::size_t> drawn_points(const Series& series) {
   return drawn;
 }
 
+/// NaN for what a logarithmic axis cannot show.
+std::vector<double> shown(std::vector<double> values, bool logarithmic) {
+  if (logarithmic)
+    std::ranges::replace_if(
+        values, [](double value) { return !(value > 0); }, NAN);
+  return values;
+}
+
 std::string script(const Plot& plot) {
   std::string data, curves;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    const Series& series = plot.series[i];
+    Series series = plot.series[i];
+    series.x = shown(std::move(series.x), plot.log_x);
+    series.y = shown(std::move(series.y), plot.log_y);
     if (!has_points(series)) continue;
     data += fmt::format("$series{} << END\n", i);
     for (const std::size_t k : drawn_points(series))
@@ -91,12 +101,13 @@ std::string script(const Plot& plot) {
                           series.label.empty() ? "notitle" : "title " + gnuplot_string(series.label));
   }
   // With nothing to draw gnuplot would stop: show the empty axes.
-  if (curves.empty()) curves = "[0:1] [0:1] NaN notitle";
+  if (curves.empty()) curves = "[1:2] [1:2] NaN notitle";
   return fmt::format("{}set title {} font ',16' textcolor '#1d242c'\nset xlabel {} textcolor '#3a434d'\nset "
                      "ylabel {} textcolor "
-                     "'#3a434d'\nplot {}\nunset output\n",
+                     "'#3a434d'\nunset logscale\n{}{}set size {}\nplot {}\nunset output\n",
                      data, gnuplot_string(plot.title), gnuplot_string(plot.x_label),
-                     gnuplot_string(plot.y_label), curves);
+                     gnuplot_string(plot.y_label), plot.log_x ? "set logscale x\n" : "",
+                     plot.log_y ? "set logscale y\n" : "", plot.equal_axes ? "ratio -1" : "noratio", curves);
 }
 
 /// What gnuplot prints for a script; empty when it cannot be run.

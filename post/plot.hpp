@@ -10,14 +10,16 @@ struct Series {
   enum class Style { line, points, line_and_points };
 
   std::string label; ///< empty: not in the key
-  std::vector<double> x, y;
+  std::vector<double> x{}, y{};
   Style style = Style::line;
 };
 
-/// A plot against two linear axes.
+/// On a logarithmic axis a point that is not positive leaves a gap.
 struct Plot {
   std::string title, x_label, y_label;
-  std::vector<Series> series;
+  std::vector<Series> series{};
+  bool log_x = false, log_y = false;
+  bool equal_axes = false; ///< a unit is as long on y as on x
 };
 
 /// The plots as SVG documents, by one call of gnuplot. Empty strings where gnuplot is missing or failed: a

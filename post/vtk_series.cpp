@@ -4,8 +4,8 @@
 #include "post/file_output.hpp"
 #include "post/markup.hpp"
 #include "post/reductions.hpp"
+#include "post/revolution.hpp"
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
@@ -39,20 +39,28 @@ int vtk_type(meshing::CellType type) {
     return VTK_TRIANGLE;
   case meshing::CellType::triangle6:
     return VTK_QUADRATIC_TRIANGLE;
+  case meshing::CellType::meridian2:
+  case meshing::CellType::meridian3:
+    break; // drawn as a surface
   }
   return VTK_EMPTY_CELL;
 }
 
 Part part_of(meshing::CellType type) { return meshing::is_line(type) ? Part::walls : Part::film; }
 
+/// `values`: of the mesh's cells; the array has a tuple per cell of the grid.
 template<class Point>
-vtkNew<vtkFloatArray> cell_array(const Field<Point>& field, const std::vector<double>& values) {
+vtkNew<vtkFloatArray> cell_array(const Field<Point>& field, const std::vector<double>& values,
+                                 const std::vector<int>& mesh_cells) {
   vtkNew<vtkFloatArray> array;
   array->SetName(fmt::format("{} [{}]", field.name, field.unit).c_str());
   array->SetNumberOfComponents(field.width());
   for (std::size_t c = 0; c < field.components.size(); ++c)
     array->SetComponentName(static_cast<vtkIdType>(c), std::string(field.components[c]).c_str());
-  std::copy(values.begin(), values.end(), array->WritePointer(0, static_cast<vtkIdType>(values.size())));
+  const auto width = static_cast<std::size_t>(field.width());
+  float* target = array->WritePointer(0, static_cast<vtkIdType>(mesh_cells.size() * width));
+  for (const int cell : mesh_cells)
+    target = std::copy_n(values.data() + static_cast<std::size_t>(cell) * width, width, target);
   return array;
 }
 
@@ -62,24 +70,15 @@ vtkNew<vtkFloatArray> cell_array(const Field<Point>& field, const std::vector<do
 class VtkSeries::PartFile {
  public:
   PartFile(const meshing::Mesh& mesh, const meshing::CellBlock& block)
-      : part_(part_of(block.type)), cell_count_(block.size()), nodes_(block.nodes) {
-    std::sort(nodes_.begin(), nodes_.end());
-    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
-    std::vector<vtkIdType> point_of_node(mesh.nodes.size());
+      : part_(part_of(block.type)), cell_count_(block.size()) {
+    if (meshing::is_meridian(block.type))
+      add_surface(Revolution(mesh, block));
+    else
+      add_cells(mesh, block);
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
-    for (const int node : nodes_)
-      point_of_node[static_cast<std::size_t>(node)] =
-          points->InsertNextPoint(mesh.nodes[static_cast<std::size_t>(node)].data());
+    for (const TurnedNode& point : points_) points->InsertNextPoint(point(mesh.nodes).data());
     grid_->SetPoints(points);
-
-    vtkNew<vtkCellArray> cells;
-    for (int i = 0; i < cell_count_; ++i) {
-      cells->InsertNextCell(meshing::nodes_per_cell(block.type));
-      for (const int node : block.cell(i))
-        cells->InsertCellPoint(point_of_node[static_cast<std::size_t>(node)]);
-    }
-    grid_->SetCells(vtk_type(block.type), cells);
 
     prepare(displacement_, "displacement [m]");
     grid_->GetPointData()->SetVectors(displacement_);
@@ -130,16 +129,40 @@ class VtkSeries::PartFile {
   }
 
  private:
+  void add_cells(const meshing::Mesh& mesh, const meshing::CellBlock& block) {
+    std::vector<int> nodes = block.nodes;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::vector<vtkIdType> point_of_node(mesh.nodes.size());
+    for (const int node : nodes) {
+      point_of_node[static_cast<std::size_t>(node)] = static_cast<vtkIdType>(points_.size());
+      points_.push_back({node});
+    }
+    for (int i = 0; i < cell_count_; ++i) {
+      std::vector<vtkIdType> corners;
+      for (const int node : block.cell(i)) corners.push_back(point_of_node[static_cast<std::size_t>(node)]);
+      add_cell(vtk_type(block.type), corners, i);
+    }
+  }
+  void add_surface(Revolution film) {
+    points_ = std::move(film.points);
+    for (const Revolution::Facet& facet : film.facets)
+      add_cell(facet.corners == 4 ? VTK_QUAD : VTK_TRIANGLE,
+               {facet.points.begin(), facet.points.begin() + facet.corners}, facet.cell);
+  }
+  void add_cell(int type, const std::vector<vtkIdType>& points, int mesh_cell) {
+    grid_->InsertNextCell(type, static_cast<vtkIdType>(points.size()), points.data());
+    mesh_cells_.push_back(mesh_cell);
+  }
   void prepare(vtkDoubleArray* array, const char* name) const {
     array->SetName(name);
     array->SetNumberOfComponents(3);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(nodes_.size()));
+    array->SetNumberOfTuples(static_cast<vtkIdType>(points_.size()));
     for (const int i : {0, 1, 2}) array->SetComponentName(i, std::string(1, "xyz"[i]).c_str());
   }
   void fill(vtkDoubleArray* array, std::span<const Eigen::Vector3d> vectors) const {
     double* values = array->GetPointer(0);
-    for (const int node : nodes_)
-      values = std::copy_n(vectors[static_cast<std::size_t>(node)].data(), 3, values);
+    for (const TurnedNode& point : points_) values = std::copy_n(point(vectors).data(), 3, values);
     array->Modified();
   }
   template<class Sample, class Point>
@@ -147,12 +170,13 @@ class VtkSeries::PartFile {
     const auto averages = average(samples, fields, cell_count_);
     for (std::size_t i = 0; i < fields.size(); ++i)
       grid_->GetCellData()->AddArray(
-          cell_array(fields[i], averages[i])); // replaces the last step's by its name
+          cell_array(fields[i], averages[i], mesh_cells_)); // replaces the last step's by its name
   }
 
   Part part_;
-  int cell_count_;
-  std::vector<int> nodes_; ///< the mesh's nodes that the part uses; a mesh node per point of the grid
+  int cell_count_;                 ///< of the mesh's block
+  std::vector<TurnedNode> points_; ///< of the grid
+  std::vector<int> mesh_cells_;    ///< per cell of the grid
   vtkNew<vtkUnstructuredGrid> grid_;
   vtkNew<vtkDoubleArray> displacement_, mode_;
   vtkNew<vtkDoubleArray> time_;

@@ -19,11 +19,13 @@ namespace dielast::post {
 /// and walls.
 ///
 /// Points are the mesh's nodes, point data "displacement [m]", cell data every output field averaged over its
-/// cell, in single precision, named "electric_field [V/m]". Every file appears whole or not at all, and the
+/// cell, in single precision, named "electric_field [V/m]". A film of revolution is written as the surface
+/// (post/revolution.hpp), vectors of points turned with them; tensors stay those of the meridian's plane, x
+/// along the radius and y around. Every file appears whole or not at all, and the
 /// list after the files it names, so a killed run leaves a readable series.
 class VtkSeries {
  public:
-  /// Precondition: at most one triangle and one line block, as samples number their cells within a block.
+  /// Precondition: at most one film and one line block, as samples number their cells within a block.
   /// To resume, `steps_to_keep` leading steps of an existing list are kept; files of later ones are removed.
   /// Throws WriteError; std::runtime_error when the list has too few steps.
   VtkSeries(std::filesystem::path directory, std::string name, const meshing::Mesh& mesh,

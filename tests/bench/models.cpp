@@ -22,7 +22,8 @@ int node_on_x_axis(const meshing::Mesh& mesh, const std::string& place) {
   return -1;
 }
 
-Task begin(meshing::Mesh mesh, double prestretch, std::vector<int> electrodes, bool planar, double extent) {
+Task begin(meshing::Mesh mesh, double prestretch, std::vector<int> electrodes, fem::Dimension dimension,
+           double extent) {
   Task task{.mesh = std::move(mesh), .model = {.dofs = fem::DofMap(0)}};
   fem::Model& model = task.model;
   model.dofs = fem::DofMap(task.mesh.node_count());
@@ -30,8 +31,8 @@ Task begin(meshing::Mesh mesh, double prestretch, std::vector<int> electrodes, b
   model.extent = model.length_scale = extent;
   model.blocks.push_back(fem::make_membrane_block(task.mesh, task.mesh.blocks.front(),
                                                   {film, 1e-3, {prestretch, prestretch}},
-                                                  std::move(electrodes), planar, integration_points));
-  model.blocks.front()->claim_dofs(model.dofs, planar);
+                                                  std::move(electrodes), dimension, integration_points));
+  model.blocks.front()->claim_dofs(model.dofs, dimension);
   return task;
 }
 
@@ -46,7 +47,7 @@ Task partial_electrode_disc(int rings) {
   auto mesh = meshing::disc_mesh(0.09, 0.03, rings, order, curved);
   std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), fem::passive);
   for (const int cell : mesh.cell_sets.at("electrode").cells) electrodes[static_cast<std::size_t>(cell)] = 0;
-  Task task = begin(std::move(mesh), 3, std::move(electrodes), true, 0.09);
+  Task task = begin(std::move(mesh), 3, std::move(electrodes), fem::Dimension::planar, 0.09);
   hold(task, "rim", {0, 1});
   task.model.dofs.number();
   task.node = node_on_x_axis(task.mesh, "electrode_edge");
@@ -59,7 +60,7 @@ Task partial_electrode_disc(int rings) {
 Task plate_diaphragm(int k) {
   auto mesh = meshing::annulus_mesh(12.7e-3, 68.58e-3, 22 * k, order, curved);
   const auto triangles = static_cast<std::size_t>(mesh.blocks.front().size());
-  Task task = begin(std::move(mesh), 2, std::vector<int>(triangles, 0), false, 0.06858);
+  Task task = begin(std::move(mesh), 2, std::vector<int>(triangles, 0), fem::Dimension::spatial, 0.06858);
   hold(task, "outer", {0, 1, 2});
   hold(task, "inner", {0, 1});
   const auto& inner = task.mesh.node_sets.at("inner");

@@ -11,8 +11,8 @@ struct Task {
   meshing::Mesh mesh; ///< drawn after the prestretch, m
   fem::Model model;
   std::vector<std::pair<fem::Loads, int>> steps; ///< target and increments
-  int node = 0;                                       ///< where the result is read
-  int component = 0;                                  ///< displacement component of the result
+  int node = 0;                                  ///< where the result is read
+  int component = 0;                             ///< displacement component of the result
 };
 
 /// B1: disc of undeformed radius 30 mm, electrode inside 10 mm, rim held at 3 x 3; 0 -> 5 kV in 10 steps.

@@ -35,7 +35,7 @@ std::string resolved(const Case& one) {
 TEST(Reader, HoneycombInSI) {
   const Case one = honeycomb();
   EXPECT_EQ(one.title, "Unidirectional honeycomb actuator");
-  EXPECT_FALSE(one.three_dimensional);
+  EXPECT_EQ(one.dimension, fem::Dimension::planar);
   EXPECT_EQ(one.film.thickness, 0.001);
   EXPECT_EQ(one.film.prestretch, (std::array{4.0, 2.5}));
   EXPECT_EQ(std::get<0>(one.film.material.law).shear_modulus, 45e3);
@@ -94,7 +94,7 @@ TEST(Reader, DiscDefaults) {
 
 TEST(Reader, SeveralElectrodesOfAnAnnulus) {
   const Case one = read_case(valid / "annulus.toml");
-  EXPECT_TRUE(one.three_dimensional);
+  EXPECT_EQ(one.dimension, fem::Dimension::spatial);
   EXPECT_DOUBLE_EQ(one.film.material.dielectric.permittivity, 4.7 * 8.8541878128e-12);
   EXPECT_EQ(one.drives,
             (std::map<std::string, Drive>{{"left", {Waveform::constant_at(5000), {}}}, {"right", {}}}));

@@ -19,8 +19,8 @@ struct HoneycombCase {
         model(test::unnumbered_model(
             mesh.node_count(), true,
             make_membrane_block(mesh, mesh.blocks[0], test::vhb(4, 2.5),
-                                std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0), true,
-                                3),
+                                std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0),
+                                Dimension::planar, 3),
             make_beam_block(mesh, mesh.blocks[1],
                             materials::rectangular_section({78e6, 0.36, 0.55}, 0.8e-3, 2e-3)))) {
     model->dofs.hold(mesh.node_sets.at("left_apex")[0], 1);
@@ -111,7 +111,7 @@ TEST(Assembler, residual_and_tangent_are_derivatives_in_shared_unknowns_too) {
   const meshing::Mesh mesh = test::distorted_square(2, 2);
   auto model = test::unnumbered_model(
       mesh.node_count(), false,
-      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(8, 0), false, 3));
+      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(8, 0), Dimension::spatial, 3));
   for (const int c : {0, 2}) // neighbours and strangers
     for (const int a : {1, 4, 8}) model->dofs.share(0, a, c);
   model->dofs.number();
@@ -124,9 +124,10 @@ TEST(Assembler, residual_and_tangent_are_derivatives_in_shared_unknowns_too) {
 
 TEST(Assembler, an_unknown_without_elements_has_a_zero_diagonal) {
   const meshing::Mesh mesh = test::distorted_square(2, 1);
-  auto model = test::unnumbered_model(
-      mesh.node_count() + 1, true,
-      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(8, passive), true, 1));
+  auto model =
+      test::unnumbered_model(mesh.node_count() + 1, true,
+                             make_membrane_block(mesh, mesh.blocks[0], test::vhb(),
+                                                 std::vector<int>(8, passive), Dimension::planar, 1));
   model->dofs.add(mesh.node_count(), 0);
   model->dofs.number();
   const int lonely = model->dofs.equation(mesh.node_count(), 0);

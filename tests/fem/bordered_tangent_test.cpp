@@ -25,7 +25,8 @@ class TwoElectrodes : public ::testing::Test {
     std::vector<int> electrodes(18);
     for (std::size_t e = 0; e < electrodes.size(); ++e) electrodes[e] = e % 5 == 0 ? passive : e < 9 ? 0 : 1;
     auto m = test::unnumbered_model(
-        mesh.node_count(), true, make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, true, 3));
+        mesh.node_count(), true,
+        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
     m->electrodes = {"left", "right"};
     for (const int c : {0, 1}) m->dofs.hold(0, c);
     m->dofs.hold(3, 1);
@@ -48,12 +49,13 @@ class TwoElectrodes : public ::testing::Test {
     equilibrium.assembler().tangent(state);
     const Eigen::MatrixXd K = test::dense(equilibrium.assembler().matrix());
     const Charges charges = model->charges(state, true);
-    const int all = size + state.isolated[0] + state.isolated[1] + (path ? 1 : 0);
+    const int all =
+        size + static_cast<int>(std::ranges::count(state.supply, Supply::charge)) + (path ? 1 : 0);
     Eigen::MatrixXd full = Eigen::MatrixXd::Zero(all, all);
     full.topLeftCorner(size, size) = K;
     int at = size;
     for (const std::size_t e : {0, 1})
-      if (state.isolated[e]) {
+      if (state.supply[e] == Supply::charge) {
         full.col(at).head(size) = -charges.coupling[e].head(size);
         full.row(at).head(size) = -charges.coupling[e].head(size);
         full(at, at) = -charges.capacitance[e];
@@ -73,17 +75,18 @@ TEST_F(TwoElectrodes, block_elimination_solves_the_whole_matrix_and_tells_its_in
   const PathBorder path{test::random_vector(random, size), test::random_vector(random, size), 0.3};
   int unstable_films = 0;
   for (const double volts : {1e3, 15e3, 25e3})
-    for (const std::uint8_t left : {0, 1})
-      for (const std::uint8_t right : {0, 1})
+    for (const Supply left : {Supply::voltage, Supply::charge})
+      for (const Supply right : {Supply::voltage, Supply::charge})
         for (const PathBorder* border : {static_cast<const PathBorder*>(nullptr), &path}) {
           State state = state_at(volts);
-          state.isolated = {left, right};
+          state.supply = {left, right};
           const Eigen::MatrixXd full = dense(state, border), symmetric = dense(state, nullptr);
           ASSERT_TRUE(equilibrium.factor(state, border));
           const int modes = negative_eigenvalues(full.topLeftCorner(size, size));
           unstable_films += modes > 0;
           EXPECT_EQ(equilibrium.tangent().negative_pivots(), modes);
-          EXPECT_EQ(equilibrium.tangent().unstable_modes(), negative_eigenvalues(symmetric) - left - right);
+          const auto isolated = static_cast<int>(std::ranges::count(state.supply, Supply::charge));
+          EXPECT_EQ(equilibrium.tangent().unstable_modes(), negative_eigenvalues(symmetric) - isolated);
 
           Eigen::VectorXd right_side = Eigen::VectorXd::Zero(full.rows()), du;
           right_side.head(size) = test::random_vector(random, size);
@@ -108,7 +111,7 @@ TEST(BorderedTangent, charge_holds_a_film_whose_tangent_at_fixed_voltage_vanishe
     State state = model->initial_state();
     state.displacement[0].x() = l + offset - 1;
     state.voltage[0] = phi;
-    state.isolated[0] = 1;
+    state.supply[0] = Supply::charge;
     ASSERT_TRUE(equilibrium.factor(state)) << offset;
     EXPECT_EQ(equilibrium.tangent().unstable_modes(), 0) << offset;
     Eigen::VectorXd du;
@@ -125,7 +128,7 @@ TEST(BorderedTangent, shifts_a_film_at_pull_in) {
   const meshing::Mesh mesh = test::distorted_square(3, 1, side);
   auto model = test::unnumbered_model(
       mesh.node_count(), true,
-      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(18, 0), true, 1));
+      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(18, 0), Dimension::planar, 1));
   for (const int c : {0, 1}) model->dofs.hold(0, c);
   model->dofs.hold(3, 1);
   model->dofs.number();
@@ -134,7 +137,7 @@ TEST(BorderedTangent, shifts_a_film_at_pull_in) {
   const double l = std::cbrt(2.0);
   State state = test::homogeneous(*model, mesh, Eigen::Vector3d(l, l, 1).asDiagonal());
   state.voltage[0] = 0.6873648184993013 * 1e-3 * std::sqrt(45e3 / 4e-11);
-  state.isolated[0] = 1;
+  state.supply[0] = Supply::charge;
   ASSERT_TRUE(equilibrium.factor(state));
   EXPECT_EQ(equilibrium.tangent().unstable_modes(), 0);
   equilibrium.assembler().tangent(state);

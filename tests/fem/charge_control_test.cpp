@@ -17,7 +17,7 @@ TEST(ChargeControl, the_whole_voltage_stretch_curve_is_stable_and_its_falling_pa
     const auto model = test::material_point(J);
     Equilibrium equilibrium(*model, 1);
     State state = model->initial_state();
-    state.isolated[0] = 1;
+    state.supply[0] = Supply::charge;
     const double peak = J == no_limit ? std::cbrt(2.0) : 1.2638044443828862;
     const double valley = J == no_limit ? no_limit : 5.07426;
     for (double l = 1.05; l < 7; l += 0.05) {
@@ -37,7 +37,7 @@ TEST(ChargeControl, finds_the_limit_point_itself) {
   const auto model = test::material_point(no_limit);
   Equilibrium equilibrium(*model, 1);
   State state = model->initial_state();
-  state.isolated[0] = 1;
+  state.supply[0] = Supply::charge;
   const double l = std::cbrt(2.0), phi = test::equilibrium_voltage(no_limit, l);
   state.charge[0] = phi * std::pow(l, 4);
   const NewtonResult result = equilibrium.solve(state, {.tolerance = 1e-14});
@@ -52,7 +52,7 @@ TEST(ChargeControl, an_electrode_without_film_has_no_voltage_for_its_charge) {
   model->electrodes.push_back("nowhere");
   Equilibrium equilibrium(*model, 1);
   State state = model->initial_state();
-  state.isolated[1] = 1;
+  state.supply[1] = Supply::charge;
   state.charge[1] = 1;
   EXPECT_EQ(equilibrium.solve(state, {}).outcome, Outcome::infeasible);
 }
@@ -63,7 +63,8 @@ TEST(ChargeControl, gives_back_the_states_of_voltage_control_when_two_electrodes
   std::vector<int> electrodes(32);
   for (std::size_t e = 0; e < electrodes.size(); ++e) electrodes[e] = e % 7 == 0 ? passive : e < 16 ? 0 : 1;
   auto model = test::unnumbered_model(
-      mesh.node_count(), true, make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, true, 3));
+      mesh.node_count(), true,
+      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
   model->electrodes = {"left", "right"};
   for (const int c : {0, 1}) model->dofs.hold(0, c);
   model->dofs.hold(4, 1);
@@ -75,10 +76,10 @@ TEST(ChargeControl, gives_back_the_states_of_voltage_control_when_two_electrodes
   const NewtonOptions tight{.tolerance = 1e-12};
   ASSERT_EQ(equilibrium.solve(driven, tight).outcome, Outcome::converged);
   const Charges held = model->charges(driven, false);
-  for (const std::uint8_t left : {0, 1}) {
+  for (const Supply left : {Supply::voltage, Supply::charge}) {
     State state = model->initial_state();
     state.voltage = {14e3, 0};
-    state.isolated = {left, 1};
+    state.supply = {left, Supply::charge};
     state.charge = held.charge;
     ASSERT_EQ(equilibrium.solve(state, tight).outcome, Outcome::converged);
     for (const std::size_t e : {0, 1}) EXPECT_NEAR(state.voltage[e], driven.voltage[e], 1e-6);
@@ -86,7 +87,7 @@ TEST(ChargeControl, gives_back_the_states_of_voltage_control_when_two_electrodes
       EXPECT_LT((state.displacement[a] - driven.displacement[a]).norm(), 1e-9 * side);
 
     state.charge = {0, 0}; // discharged
-    state.voltage[0] = left ? state.voltage[0] : 0;
+    state.voltage[0] = left == Supply::charge ? state.voltage[0] : 0;
     ASSERT_EQ(equilibrium.solve(state, tight).outcome, Outcome::converged);
     EXPECT_EQ(state.voltage, (std::vector{0.0, 0.0}));
   }

@@ -57,7 +57,7 @@ TEST(Continuation, under_charge_control_sees_no_limit_point) {
   const double l = 4, charge = test::equilibrium_voltage(no_limit, l) * std::pow(l, 4);
   const LoadPath path = path_to(*model, 0, charge);
   State state = model->initial_state();
-  state.isolated[0] = 1;
+  state.supply[0] = Supply::charge;
   auto progress = begin_continuation(equilibrium, path, state, 0, 1, {});
   ASSERT_TRUE(progress);
   int falling_voltage = 0;
@@ -114,7 +114,7 @@ TEST(Continuation, follows_a_free_film_past_pull_in) {
   const meshing::Mesh mesh = test::distorted_square(3, 2, side);
   auto model = test::unnumbered_model(
       mesh.node_count(), true,
-      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(18, 0), true, 3));
+      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(18, 0), Dimension::planar, 3));
   for (const int c : {0, 1}) model->dofs.hold(0, c);
   model->dofs.hold(3, 1);
   model->dofs.number();

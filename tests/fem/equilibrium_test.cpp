@@ -18,7 +18,8 @@ class PureShear : public ::testing::Test {
   const meshing::Mesh mesh = test::distorted_square(1, 1, side);
   std::unique_ptr<Model> model = [this] {
     auto m = test::unnumbered_model(
-        4, true, make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(2, 0), true, 1));
+        4, true,
+        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(2, 0), Dimension::planar, 1));
     for (const int a : {0, 1, 2, 3}) m->dofs.hold(a, 1);
     for (const int a : {0, 2}) m->dofs.hold(a, 0);
     m->dofs.number();

@@ -17,7 +17,8 @@ std::unique_ptr<Model> film(const MembraneSection& section, bool planar) {
   return test::free_model(
       mesh.node_count(), planar,
       make_membrane_block(mesh, mesh.blocks[0], section,
-                          std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0), planar, 3));
+                          std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0),
+                          test::dimension(planar), 3));
 }
 
 /// Charged and stretched, with some disorder.

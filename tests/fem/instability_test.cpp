@@ -72,9 +72,9 @@ class PullIn : public ::testing::Test {
   static constexpr double side = 0.01;
   const meshing::Mesh mesh = test::distorted_square(4, 2, side);
   std::unique_ptr<Model> model = [this] {
-    auto m = test::unnumbered_model(
-        mesh.node_count(), true,
-        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(32, 0), true, 3));
+    auto m = test::unnumbered_model(mesh.node_count(), true,
+                                    make_membrane_block(mesh, mesh.blocks[0], test::vhb(),
+                                                        std::vector<int>(32, 0), Dimension::planar, 3));
     for (const int c : {0, 1}) m->dofs.hold(0, c);
     m->dofs.hold(4, 1);
     m->dofs.number();
@@ -114,7 +114,8 @@ class PartialElectrode : public ::testing::Test {
       if (row >= 1 && row < 5 && column >= 1 && column < 5) electrodes[e] = 0;
     }
     auto m = test::unnumbered_model(
-        mesh.node_count(), true, make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, true, 3));
+        mesh.node_count(), true,
+        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
     for (const int c : {0, 1}) m->dofs.hold(0, c);
     m->dofs.hold(6, 1);
     m->dofs.number();

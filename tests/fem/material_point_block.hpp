@@ -17,7 +17,7 @@ class MaterialPoint final : public ElementBlock {
 
   int element_count() const override { return 1; }
   int dofs_per_element() const override { return 1; }
-  void claim_dofs(DofMap& dofs, bool) const override { dofs.add(0, 0); }
+  void claim_dofs(DofMap& dofs, Dimension) const override { dofs.add(0, 0); }
   void element_equations(int, const DofMap& dofs, std::span<int> equations) const override {
     equations[0] = dofs.equation(0, 0);
   }
@@ -57,7 +57,7 @@ inline double equilibrium_voltage(double stretch_limit, double l) {
 inline std::unique_ptr<Model> material_point(double stretch_limit) {
   auto model = std::make_unique<Model>(Model{.dofs = DofMap(1), .blocks = {}, .electrodes = {"electrode"}});
   model->blocks.push_back(std::make_unique<MaterialPoint>(stretch_limit));
-  model->blocks[0]->claim_dofs(model->dofs, true);
+  model->blocks[0]->claim_dofs(model->dofs, Dimension::planar);
   model->dofs.number();
   return model;
 }

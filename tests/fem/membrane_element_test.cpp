@@ -53,9 +53,9 @@ class MembraneElement : public ::testing::TestWithParam<Kind> {
     std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks[0].size()), passive);
     for (std::size_t e = 0; electrode && e < electrodes.size(); e += e % 3 == 0 ? 2 : 1) electrodes[e] = 0;
     const int points = order == 1 ? 1 : planar ? 6 : 3;
-    return test::free_model(
-        mesh.node_count(), planar,
-        make_membrane_block(mesh, mesh.blocks[0], test::vhb(2.0, 1.5), electrodes, planar, points));
+    return test::free_model(mesh.node_count(), planar,
+                            make_membrane_block(mesh, mesh.blocks[0], test::vhb(2.0, 1.5), electrodes,
+                                                test::dimension(planar), points));
   }
 };
 
@@ -137,9 +137,10 @@ void expect_dual_derivatives(bool charged, int points) {
   for (int a = 0; a < Nodes; ++a) mesh.blocks[0].nodes.push_back(a);
   constexpr bool planar = Dim == 2;
   const MembraneSection section = test::vhb(1.3, 0.9);
-  const auto model = test::free_model(
-      Nodes, planar,
-      make_membrane_block(mesh, mesh.blocks[0], section, {charged ? 0 : passive}, planar, points));
+  const auto model =
+      test::free_model(Nodes, planar,
+                       make_membrane_block(mesh, mesh.blocks[0], section, {charged ? 0 : passive},
+                                           test::dimension(planar), points));
   Assembler assembler(*model, 1);
   std::mt19937 random(31);
   for (int sample = 0; sample < 20; ++sample) {
@@ -168,9 +169,9 @@ TEST(MembraneTriangle, energy_residual_and_tangent_equal_dual_numbers) {
 TEST(MembraneTriangle, a_planar_film_turned_over_is_infeasible_a_spatial_one_is_not) {
   const meshing::Mesh mesh = test::distorted_square(2, 1);
   for (const bool planar : {true, false}) {
-    const auto model = test::free_model(
-        mesh.node_count(), planar,
-        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector(8, 0), planar, 1));
+    const auto model = test::free_model(mesh.node_count(), planar,
+                                        make_membrane_block(mesh, mesh.blocks[0], test::vhb(),
+                                                            std::vector(8, 0), test::dimension(planar), 1));
     Assembler assembler(*model, 1);
     Eigen::VectorXd residual;
     const State flipped = test::homogeneous(*model, mesh, Eigen::Vector3d(-1, 1, 1).asDiagonal());
@@ -184,7 +185,7 @@ TEST(MembraneTriangle, an_inverted_drawing_is_rejected_by_name) {
   meshing::Mesh mesh = test::distorted_square(2, 1);
   std::swap(mesh.blocks[0].nodes[3], mesh.blocks[0].nodes[4]);
   try {
-    make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector(8, 0), true, 1);
+    make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector(8, 0), Dimension::planar, 1);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("triangle 1 "), std::string::npos) << error.what();

@@ -28,9 +28,9 @@ TEST_P(MembranePatch, homogeneous_deformation_is_exact_and_found_from_a_perturbe
   const meshing::Mesh mesh = test::distorted_square(4, order, side, 0.35);
   const MembraneSection section = test::vhb(2.0, 1.5);
   const std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks[0].size()), 0);
-  auto model =
-      test::unnumbered_model(mesh.node_count(), planar,
-                             make_membrane_block(mesh, mesh.blocks[0], section, electrodes, planar, points));
+  auto model = test::unnumbered_model(
+      mesh.node_count(), planar,
+      make_membrane_block(mesh, mesh.blocks[0], section, electrodes, test::dimension(planar), points));
   for (const int a : mesh.node_sets.at("edge"))
     for (int c = 0; c < 3; ++c) model->dofs.hold(a, c);
   model->dofs.number();

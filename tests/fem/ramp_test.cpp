@@ -18,9 +18,9 @@ class FreeFilm : public ::testing::Test {
   static constexpr double pull_in = 0.6873648184993013 * 1e-3 * 33541019.66249685;
   const meshing::Mesh mesh = test::distorted_square(3, 1, side);
   std::unique_ptr<Model> model = [this] {
-    auto m = test::unnumbered_model(
-        mesh.node_count(), true,
-        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(18, 0), true, 1));
+    auto m = test::unnumbered_model(mesh.node_count(), true,
+                                    make_membrane_block(mesh, mesh.blocks[0], test::vhb(),
+                                                        std::vector<int>(18, 0), Dimension::planar, 1));
     for (const int c : {0, 1}) m->dofs.hold(0, c); // a corner, and another one's height
     m->dofs.hold(3, 1);
     m->dofs.number();

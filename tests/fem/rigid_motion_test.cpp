@@ -23,8 +23,8 @@ TEST_P(RigidMotion, keeps_the_energy_and_turns_residual_and_tangent) {
   const auto model = test::free_model(
       mesh.node_count(), planar,
       make_membrane_block(mesh, mesh.blocks[0], test::vhb(4, 2.5),
-                          std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0), planar,
-                          order == 1 ? 1 : 3),
+                          std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0),
+                          test::dimension(planar), order == 1 ? 1 : 3),
       make_beam_block(mesh, mesh.blocks[1],
                       materials::rectangular_section({78e6, 0.36, 0.55}, 0.8e-3, 2e-3)));
   std::mt19937 random(81);

@@ -37,22 +37,32 @@ inline materials::BeamSection uneven_section() {
   return {.EA = 5, .GA2 = 2, .GA3 = 3, .GJ = 0.7, .EI2 = 1.1, .EI3 = 0.4};
 }
 
+inline Dimension dimension(bool planar) { return planar ? Dimension::planar : Dimension::spatial; }
+
 /// A model of these blocks, every unknown free; hold() and number() are left to the caller.
 template<class... Blocks>
-std::unique_ptr<Model> unnumbered_model(int nodes, bool planar, Blocks&&... blocks) {
+std::unique_ptr<Model> unnumbered_model(int nodes, Dimension dimension, Blocks&&... blocks) {
   auto model =
       std::make_unique<Model>(Model{.dofs = DofMap(nodes), .blocks = {}, .electrodes = {"electrode"}});
   (model->blocks.push_back(std::forward<Blocks>(blocks)), ...);
-  for (const auto& block : model->blocks) block->claim_dofs(model->dofs, planar);
+  for (const auto& block : model->blocks) block->claim_dofs(model->dofs, dimension);
   model->place_histories();
   return model;
 }
+template<class... Blocks>
+std::unique_ptr<Model> unnumbered_model(int nodes, bool planar, Blocks&&... blocks) {
+  return unnumbered_model(nodes, dimension(planar), std::forward<Blocks>(blocks)...);
+}
 
 template<class... Blocks>
-std::unique_ptr<Model> free_model(int nodes, bool planar, Blocks&&... blocks) {
-  auto model = unnumbered_model(nodes, planar, std::forward<Blocks>(blocks)...);
+std::unique_ptr<Model> free_model(int nodes, Dimension dimension, Blocks&&... blocks) {
+  auto model = unnumbered_model(nodes, dimension, std::forward<Blocks>(blocks)...);
   model->dofs.number();
   return model;
+}
+template<class... Blocks>
+std::unique_ptr<Model> free_model(int nodes, bool planar, Blocks&&... blocks) {
+  return free_model(nodes, dimension(planar), std::forward<Blocks>(blocks)...);
 }
 
 inline Eigen::MatrixXd dense(const SparseSymmetric& matrix) {

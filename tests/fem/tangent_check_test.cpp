@@ -18,7 +18,7 @@ class Spoilt : public ElementBlock {
   int element_count() const override { return block_->element_count(); }
   int dofs_per_element() const override { return block_->dofs_per_element(); }
   int granularity() const override { return element_count(); }
-  void claim_dofs(DofMap& dofs, bool planar) const override { block_->claim_dofs(dofs, planar); }
+  void claim_dofs(DofMap& dofs, Dimension dimension) const override { block_->claim_dofs(dofs, dimension); }
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
     block_->element_equations(element, dofs, equations);
   }
@@ -46,7 +46,7 @@ TangentCheck check(int order, bool planar, double residual = 1, double tangent =
   const meshing::Mesh mesh = test::distorted_square(3, order, side);
   auto film = make_membrane_block(mesh, mesh.blocks[0], test::vhb(3, 3),
                                   std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0),
-                                  planar, order == 2 ? 3 : 1);
+                                  test::dimension(planar), order == 2 ? 3 : 1);
   auto model = test::unnumbered_model(mesh.node_count(), planar,
                                       std::make_unique<Spoilt>(std::move(film), residual, tangent));
   for (const int n : mesh.node_sets.at("edge"))

@@ -22,8 +22,9 @@ class CreepingFilm : public testing::Test {
     MembraneSection section = test::vhb();
     section.material.law = materials::Gent{22.5e3, 100};
     section.material.branches = {{materials::Gent{22.5e3, 100}, materials::Dashpot::log, 22.5e3}};
-    auto m = test::unnumbered_model(mesh.node_count(), true,
-                                    make_membrane_block(mesh, mesh.blocks[0], section, {0, 0}, true, 1));
+    auto m = test::unnumbered_model(
+        mesh.node_count(), true,
+        make_membrane_block(mesh, mesh.blocks[0], section, {0, 0}, Dimension::planar, 1));
     for (const int c : {0, 1}) m->dofs.hold(0, c);
     m->dofs.hold(1, 1);
     m->dofs.number();

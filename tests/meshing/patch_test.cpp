@@ -9,7 +9,7 @@ namespace {
 
 TEST(Patch, IsARectangleWithNamedSides) {
   const Mesh mesh = patch_mesh(0.02, 0.01);
-  EXPECT_EQ(mesh.triangles()->size(), 2);
+  EXPECT_EQ(mesh.film()->size(), 2);
   EXPECT_EQ(quality(mesh).inverted, 0);
   const auto side = [&](const char* place, int axis, double at) {
     ASSERT_EQ(mesh.node_sets.at(place).size(), 2u) << place;

@@ -22,11 +22,14 @@ fem::RampProgress sample_progress(int points = 3) {
     return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [&] { return uniform(random); })
         .eval();
   };
-  fem::RampProgress progress{
-      .start = {{uniform(random), 1e3}, {uniform(random), 0}, vector(equations), vector(3)},
-      .load_factor = 1.0 / 3,
-      .increment = 0.1,
-      .unstable_modes = 2};
+  fem::RampProgress progress{.start = {{uniform(random), 1e3},
+                                       {uniform(random), 0},
+                                       {0, uniform(random)},
+                                       vector(equations),
+                                       vector(3)},
+                             .load_factor = 1.0 / 3,
+                             .increment = 0.1,
+                             .unstable_modes = 2};
   for (int p = 0; p < points; ++p) {
     fem::State state;
     for (std::size_t n = 0; n < nodes; ++n) {
@@ -34,7 +37,7 @@ fem::RampProgress sample_progress(int points = 3) {
       state.rotation.emplace_back(uniform(random), uniform(random), uniform(random), uniform(random));
     }
     state.voltage = {uniform(random), 7500};
-    state.isolated = {0, 1};
+    state.supply = {fem::Supply::voltage, fem::Supply::charge};
     state.charge = {0, uniform(random)};
     state.time = uniform(random);
     state.scheme = materials::TimeScheme::bdf2(0.3, uniform(random));
@@ -42,6 +45,10 @@ fem::RampProgress sample_progress(int points = 3) {
       state.history = std::make_shared<const fem::History>(
           fem::History{{uniform(random), 1}, {uniform(random), 2}, {}, uniform(random), 0});
     state.dead_force = vector(equations);
+    state.source = {uniform(random), 0};
+    if (p > 0)
+      state.motion = std::make_shared<const fem::Motion>(fem::Motion{
+          vector(equations), vector(equations), vector(equations), vector(equations), uniform(random)});
     progress.points.push_back({uniform(random), state});
   }
   return progress;
@@ -51,6 +58,7 @@ void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
   EXPECT_EQ(one.start.voltage, other.start.voltage);
   EXPECT_EQ(one.start.dead_force, other.start.dead_force);
   EXPECT_EQ(one.start.charge, other.start.charge);
+  EXPECT_EQ(one.start.source, other.start.source);
   EXPECT_EQ(one.start.held, other.start.held);
   EXPECT_EQ(bits(one.load_factor), bits(other.load_factor));
   EXPECT_EQ(bits(one.increment), bits(other.increment));
@@ -60,7 +68,7 @@ void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
     const fem::State &a = one.points[p].state, &b = other.points[p].state;
     EXPECT_EQ(bits(one.points[p].parameter), bits(other.points[p].parameter));
     EXPECT_EQ(a.voltage, b.voltage);
-    EXPECT_EQ(a.isolated, b.isolated);
+    EXPECT_EQ(a.supply, b.supply);
     EXPECT_EQ(a.charge, b.charge);
     EXPECT_EQ(bits(a.time), bits(b.time));
     EXPECT_EQ(bits(a.scheme.h2), bits(b.scheme.h2));
@@ -69,6 +77,15 @@ void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
       EXPECT_EQ(a.history->now, b.history->now);
       EXPECT_EQ(a.history->before, b.history->before);
       EXPECT_EQ(bits(a.history->step), bits(b.history->step));
+    }
+    EXPECT_EQ(a.source, b.source);
+    ASSERT_EQ(a.motion != nullptr, b.motion != nullptr);
+    if (a.motion) {
+      EXPECT_EQ(a.motion->position, b.motion->position);
+      EXPECT_EQ(a.motion->velocity, b.motion->velocity);
+      EXPECT_EQ(a.motion->acceleration, b.motion->acceleration);
+      EXPECT_EQ(a.motion->unbalanced, b.motion->unbalanced);
+      EXPECT_EQ(bits(a.motion->step), bits(b.motion->step));
     }
     EXPECT_EQ(a.dead_force, b.dead_force);
     ASSERT_EQ(a.displacement.size(), b.displacement.size());

@@ -1,5 +1,6 @@
 #include "post/picture.hpp"
 
+#include "meshing/meridian.hpp"
 #include "tests/post/samples.hpp"
 
 #include <cairo.h>
@@ -136,6 +137,8 @@ TEST(Picture, RefusesPanelsThatDoNotFit) {
   EXPECT_THROW(render_png(mesh, {}), std::invalid_argument);
   EXPECT_THROW(render_png(mesh, {.panels = {{"", {}, {}}}}), std::invalid_argument);
   EXPECT_THROW(render_png(mesh, {.panels = {{"", mesh.nodes, {1}}}}), std::invalid_argument);
+  const meshing::Mesh balloon = meshing::balloon_meridian(1, 4, 2);
+  EXPECT_THROW(render_png(balloon, {.panels = {{"", balloon.nodes, {}}}}), std::invalid_argument);
 }
 
 } // namespace

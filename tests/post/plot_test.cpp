@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <regex>
+#include <utility>
 
 namespace dielast::post {
 namespace {
@@ -39,6 +41,46 @@ TEST(Plot, SurvivesMissingData) {
                                 line("last")});
   ASSERT_EQ(svgs.size(), 4u);
   EXPECT_NE(svgs[3].find("last"), std::string::npos);
+}
+
+/// Where the marks of a document's curves are, px.
+std::vector<std::pair<double, double>> marks(const std::string& svg) {
+  std::vector<std::pair<double, double>> places;
+  const std::regex mark(R"(<use xlink:href='#gpPt6' transform='translate\(([0-9.]+),([0-9.]+)\))");
+  for (std::sregex_iterator i(svg.begin(), svg.end(), mark), end; i != end; ++i)
+    places.emplace_back(std::stod((*i)[1]), std::stod((*i)[2]));
+  return places;
+}
+
+TEST(Plot, LogarithmicAxes) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  const Series powers{"", {1, 10, 100, -1}, {1e-3, 1, 1e3, 1}, Series::Style::points};
+  const Plot both{"both", "x", "y", {powers}, true, true};
+  const auto svgs = render_svg({both,
+                                {"x only", "x", "y", {powers}, true, false},
+                                line("linear"),
+                                {"nothing positive", "x", "y", {{"", {-1, -2}, {1, 2}}}, true, true}});
+  const auto places = marks(svgs[0]);
+  ASSERT_EQ(places.size(), 3u) << "of the point that is not positive there must be none";
+  EXPECT_NEAR(places[1].first - places[0].first, places[2].first - places[1].first, 1);
+  EXPECT_NEAR(places[0].second - places[1].second, places[1].second - places[2].second, 1);
+  const auto half = marks(svgs[1]);
+  ASSERT_EQ(half.size(), 3u);
+  EXPECT_NEAR(half[1].first - half[0].first, half[2].first - half[1].first, 1);
+  EXPECT_LT(half[0].second - half[1].second, 0.01 * (half[1].second - half[2].second));
+  for (const auto& svg : svgs) EXPECT_FALSE(svg.empty());
+  EXPECT_EQ(svgs[2], render_svg({line("linear")})[0]); // nothing stays behind
+}
+
+TEST(Plot, EqualAxes) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  Plot square{"", "x", "y", {{"", {0, 3, 3}, {0, 0, 1}, Series::Style::points}}};
+  square.equal_axes = true;
+  const auto svgs = render_svg({square, line("free")});
+  const auto places = marks(svgs[0]);
+  ASSERT_EQ(places.size(), 3u);
+  EXPECT_NEAR(places[1].first - places[0].first, 3 * (places[1].second - places[2].second), 2);
+  EXPECT_EQ(svgs[1], render_svg({line("free")})[0]);
 }
 
 TEST(Plot, EmptyWithoutGnuplot) {

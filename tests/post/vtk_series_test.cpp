@@ -2,6 +2,7 @@
 
 #include "post/fields.hpp"
 #include "post/file_output.hpp"
+#include "post/revolution.hpp"
 #include "tests/post/samples.hpp"
 #include "tests/post/scratch.hpp"
 
@@ -16,6 +17,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <cmath>
 #include <vector>
 
 namespace dielast::post {
@@ -98,6 +100,44 @@ TEST_F(VtkSeriesTest, LinearCellsAndNoWalls) {
   series().write(0, "release", displacement, samples);
   EXPECT_EQ(read("run_film_0000.vtu")->GetCellType(0), VTK_TRIANGLE);
   EXPECT_EQ(file_count(), 2u);
+}
+
+TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
+  mesh.nodes = {{2, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1.5, 0, 0}, {0.5, 0, 0}};
+  mesh.blocks = {{meshing::CellType::meridian3, {0, 1, 3, 1, 2, 4}}};
+  displacement = {{0.1, 0, 0}, {0.2, 0, 3}, {0, 0, 5}, {0, 0, 0}, {0, 0, 0}};
+  const std::vector<Eigen::Vector3d> mode{{1, 0, 0}, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  series().write(0, "voltage", displacement, samples, mode);
+  EXPECT_EQ(file_count(), 2u);
+  const auto grid = read("run_film_0000.vtu");
+  constexpr int sectors = Revolution::sectors;
+  ASSERT_EQ(grid->GetNumberOfPoints(), 4 * sectors + 1);
+  ASSERT_EQ(grid->GetNumberOfCells(), 4 * sectors);
+  for (int i = 0; i < 4 * sectors; ++i)
+    EXPECT_EQ(grid->GetCellType(i), i < 3 * sectors ? VTK_QUAD : VTK_TRIANGLE) << i;
+
+  const auto at = [&](double x, double y) {
+    const vtkIdType point = grid->FindPoint(x, y, 0);
+    EXPECT_LT((Eigen::Vector3d(grid->GetPoint(point)) - Eigen::Vector3d(x, y, 0)).norm(), 1e-15);
+    return point;
+  };
+  const auto expect_vector = [&](const char* name, vtkIdType point, const Eigen::Vector3d& expected) {
+    EXPECT_LT((Eigen::Vector3d(grid->GetPointData()->GetArray(name)->GetTuple3(point)) - expected).norm(),
+              1e-15)
+        << name << " of " << point;
+  };
+  expect_vector("displacement [m]", at(0, 2), {0, 0.1, 0}); // a quarter turn on
+  expect_vector("displacement [m]", at(-1, 0), {-0.2, 0, 3});
+  expect_vector("displacement [m]", at(0, 0), {0, 0, 5});
+  expect_vector("mode", at(-std::sqrt(2), std::sqrt(2)), {-std::sqrt(0.5), std::sqrt(0.5), 0});
+
+  vtkDataArray* voltage = grid->GetCellData()->GetArray("voltage [V]");
+  vtkDataArray* stress = grid->GetCellData()->GetArray("cauchy_stress [Pa]");
+  ASSERT_EQ(voltage->GetNumberOfTuples(), 4 * sectors);
+  for (int i = 0; i < 4 * sectors; ++i) {
+    EXPECT_EQ(voltage->GetTuple1(i), i < 2 * sectors ? 0 : 500) << i;
+    EXPECT_FLOAT_EQ(static_cast<float>(stress->GetComponent(i, 1)), i < 2 * sectors ? 1 : 2) << i;
+  }
 }
 
 TEST_F(VtkSeriesTest, EveryStepHasItsOwnValues) {

@@ -21,7 +21,7 @@ class CircularActuator {
     for (const int c : mesh_.cell_sets.at("electrode").cells) electrodes[static_cast<std::size_t>(c)] = 0;
     model_ = test::unnumbered_model(
         mesh_.node_count(), true,
-        make_membrane_block(mesh_, mesh_.blocks[0], test::vhb(3, 3), electrodes, true, 6));
+        make_membrane_block(mesh_, mesh_.blocks[0], test::vhb(3, 3), electrodes, Dimension::planar, 6));
     for (const int a : mesh_.node_sets.at("rim"))
       for (const int c : {0, 1}) model_->dofs.hold(a, c);
     model_->dofs.number();

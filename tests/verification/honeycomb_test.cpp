@@ -19,8 +19,8 @@ class Honeycomb {
         model_(test::unnumbered_model(
             mesh_.node_count(), planar,
             make_membrane_block(mesh_, mesh_.blocks[0], test::vhb(4, 2.5),
-                                std::vector<int>(static_cast<std::size_t>(mesh_.blocks[0].size()), 0), planar,
-                                order == 2 ? 3 : 1),
+                                std::vector<int>(static_cast<std::size_t>(mesh_.blocks[0].size()), 0),
+                                test::dimension(planar), order == 2 ? 3 : 1),
             make_beam_block(mesh_, mesh_.blocks[1],
                             materials::rectangular_section({78e6, 0.36, 0.55}, 0.8e-3, 2e-3)))) {
     const int centre = node("centre"), left = node("left_apex"), top = node("top");

@@ -58,9 +58,9 @@ Bending bend(int n, double curvature, double b) {
   Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {}};
   model.blocks.push_back(make_membrane_block(
       mesh, mesh.blocks[0], section,
-      std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), true, 3));
+      std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::planar, 3));
   model.place_histories();
-  model.blocks[0]->claim_dofs(model.dofs, true);
+  model.blocks[0]->claim_dofs(model.dofs, Dimension::planar);
   const auto at_end = [&](int node) {
     const double x = mesh.nodes[static_cast<std::size_t>(node)].x();
     return x < 1e-12 || x > length - 1e-12;

@@ -1,0 +1,146 @@
+#include "cases/analysis.hpp"
+
+#include "fem/harmonic.hpp"
+#include "fem/instability.hpp"
+#include "fem/modal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State state, const Step& step) {
+  if (step.control == Control::charge) {
+    state.charge = device.model.charges(state, false).charge;
+    std::fill_n(state.supply.begin(), device.model.electrodes.size(), fem::Supply::charge);
+  }
+  const auto found = fem::vibration_modes(equilibrium, state, {.count = step.count});
+  if (!found) throw AnalysisError("no modes found: the device is at a critical point");
+  Analysis analysis{.kind = step.kind,
+                    .step = step.name,
+                    .columns = {"mode[1]", "frequency[Hz]", "angular_frequency[rad/s]", "stiffness[1/s^2]"}};
+  for (const fem::VibrationMode& mode : *found) {
+    const double number = static_cast<double>(analysis.rows.size()) + 1;
+    analysis.rows.push_back(
+        {number, mode.frequency() / (2 * std::numbers::pi), mode.frequency(), mode.stiffness});
+    std::vector<Eigen::Vector3d> shape = fem::displacements(device.model.dofs, mode.shape);
+    double largest = 0;
+    for (const Eigen::Vector3d& u : shape) largest = std::max(largest, u.norm());
+    for (Eigen::Vector3d& u : shape) u /= largest > 0 ? largest : 1;
+    analysis.shapes.push_back({mode.stiffness > 0 ? fmt::format("mode {:.0f}, {:.6g} Hz", number,
+                                                                mode.frequency() / (2 * std::numbers::pi))
+                                                  : fmt::format("mode {:.0f}, unstable", number),
+                               std::move(shape)});
+  }
+  return analysis;
+}
+
+void append_polar(std::vector<double>& row, std::complex<double> value) {
+  row.push_back(std::abs(value));
+  row.push_back(std::arg(value) / degree);
+}
+
+Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
+                  const fem::State& state, const Step& step) {
+  const Quantity& quantity = *response_quantity(one, step.response_of);
+  Analysis analysis{.kind = step.kind,
+                    .step = step.name,
+                    .of = quantity.name,
+                    .columns = {"frequency[Hz]", quantity.name + "_per_volt[m/V]",
+                                quantity.name + "_phase[deg]", "voltage_per_volt[V/V]", "voltage_phase[deg]",
+                                "admittance[S]", "admittance_phase[deg]", "impedance[Ohm]",
+                                "impedance_phase[deg]"}};
+  const std::vector<double> hertz = frequencies(step.sweep);
+  std::vector<double> omega = hertz;
+  for (double& w : omega) w *= 2 * std::numbers::pi;
+  const Eigen::VectorXd output = response_row(device, quantity);
+  const fem::Linearisation linear(equilibrium, operating_point(device, state));
+  const auto responses =
+      fem::harmonic_response(linear, fem::HarmonicDrive::at_port(device.model, driven_electrode), omega);
+  std::size_t strongest = 0;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const fem::HarmonicResponse& at = responses[i];
+    const std::complex<double> current = at.current[driven_electrode];
+    std::vector<double> row{hertz[i]};
+    append_polar(row, (output.transpose() * at.displacement).value());
+    append_polar(row, at.voltage[driven_electrode]);
+    append_polar(row, current);
+    append_polar(row, 1.0 / current);
+    analysis.rows.push_back(std::move(row));
+    if (analysis.rows.back()[1] > analysis.rows[strongest][1]) strongest = i;
+  }
+  const std::string where = fmt::format("at {:.6g} Hz", hertz[strongest]);
+  const Eigen::VectorXcd& peak = responses[strongest].displacement;
+  analysis.shapes = {
+      {"in phase " + where, fem::displacements(device.model.dofs, peak.real())},
+      {"a quarter period behind " + where, fem::displacements(device.model.dofs, -peak.imag())}};
+  return analysis;
+}
+
+} // namespace
+
+std::vector<double> Analysis::column(std::size_t number) const {
+  std::vector<double> values;
+  for (const auto& row : rows) values.push_back(row.at(number));
+  return values;
+}
+
+std::vector<std::complex<double>> Analysis::values(std::size_t magnitude) const {
+  std::vector<std::complex<double>> values;
+  for (const auto& row : rows)
+    values.push_back(std::polar(row.at(magnitude), row.at(magnitude + 1) * degree));
+  return values;
+}
+
+std::vector<double> frequencies(const Sweep& sweep) {
+  std::vector<double> all;
+  for (int i = 0; i < sweep.points; ++i)
+    all.push_back(sweep.from * std::pow(sweep.to / sweep.from, static_cast<double>(i) / (sweep.points - 1)));
+  return all;
+}
+
+const Quantity* response_quantity(const Case& one, const std::string& name) {
+  for (const Quantity& quantity : one.quantities)
+    if (quantity.kind == QuantityKind::displacement && quantity.along &&
+        (name.empty() || quantity.name == name))
+      return &quantity;
+  return nullptr;
+}
+
+Eigen::VectorXd response_row(const Device& device, const Quantity& quantity) {
+  const fem::DofMap& dofs = device.model.dofs;
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(dofs.free_count());
+  const bool falls = quantity.along == along_gravity;
+  const auto& nodes = device.mesh.node_sets.at(quantity.of);
+  for (const int node : nodes)
+    if (const int e = dofs.equation(node, falls ? 2 : *quantity.along); e >= 0 && e < dofs.free_count())
+      row[e] += (falls ? -1 : 1) / static_cast<double>(nodes.size());
+  return row;
+}
+
+fem::State operating_point(const Device& device, fem::State state) {
+  for (const fem::Circuit& circuit : device.model.circuits) {
+    const auto e = static_cast<std::size_t>(circuit.electrode);
+    if (state.supply[e] == fem::Supply::voltage) state.source[e] = state.voltage[e] / circuit.steady_share();
+    state.supply[e] = fem::Supply::circuit;
+  }
+  return state;
+}
+
+Analysis analyse(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
+                 const fem::State& state, const Step& step) {
+  try {
+    return step.kind == StepKind::modes ? modes(device, equilibrium, state, step)
+                                        : harmonic(one, device, equilibrium, state, step);
+  } catch (const std::domain_error& error) {
+    throw AnalysisError(error.what());
+  }
+}
+
+} // namespace dielast::cases

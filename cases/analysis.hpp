@@ -1,0 +1,55 @@
+#pragma once
+
+#include "cases/device.hpp"
+#include "fem/equilibrium.hpp"
+
+#include <complex>
+
+namespace dielast::cases {
+
+/// What a step of kind "modes" or "harmonic" has found: a table, and shapes to look at.
+struct Analysis {
+  StepKind kind{};
+  std::string step;                 ///< its name
+  std::string of;                   ///< harmonic: the quantity that responds
+  std::vector<std::string> columns; ///< with units, as in history.csv
+  std::vector<std::vector<double>> rows;
+  /// A shape and its name, a vector per mesh node: displacement of a mode, scaled to one, or of a sine of 1 V
+  /// in phase and a quarter period behind (m/V).
+  struct Shape {
+    std::string name;
+    std::vector<Eigen::Vector3d> displacement;
+  };
+  std::vector<Shape> shapes{}; ///< not kept in a checkpoint
+
+  std::vector<double> column(std::size_t number) const;
+  /// Complex values of harmonic's columns `magnitude` and the phase behind it.
+  std::vector<std::complex<double>> values(std::size_t magnitude) const;
+};
+
+/// Equal ratios from the lowest to the highest frequency, Hz.
+std::vector<double> frequencies(const Sweep& sweep);
+
+/// Quantity of kind displacement by which a linear model responds: the named one, or the first with a
+/// direction; null when there is none.
+const Quantity* response_quantity(const Case& one, const std::string& name);
+
+/// That quantity as a row over the free equations.
+Eigen::VectorXd response_row(const Device& device, const Quantity& quantity);
+
+/// The state that small vibrations go about: sources behind their circuits, branches relaxed.
+fem::State operating_point(const Device& device, fem::State state);
+
+/// Number of the electrode whose source swings: the first.
+constexpr std::size_t driven_electrode = 0;
+
+/// Small vibrations about a state. Throws AnalysisError where there are none to be found.
+Analysis analyse(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
+                 const fem::State& state, const Step& step);
+
+/// An analysis that the state does not admit; says why.
+struct AnalysisError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "cases/analysis.hpp"
+#include "post/report.hpp"
+
+namespace dielast::cases {
+
+/// A table of modes, or Bode plots of displacement, voltage and impedance.
+post::Section analysis_section(const Analysis& analysis);
+
+} // namespace dielast::cases

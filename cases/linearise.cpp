@@ -1,0 +1,173 @@
+#include "cases/linearise.hpp"
+
+#include "cases/run.hpp"
+#include "cases/simulation.hpp"
+#include "fem/balanced_truncation.hpp"
+#include "fem/harmonic.hpp"
+#include "post/bode.hpp"
+#include "post/engineering.hpp"
+#include "post/file_output.hpp"
+#include "post/report.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// The models over the same frequencies: everything that the outputs tell.
+struct Linearised {
+  fem::StateSpace model;
+  std::string output;
+  double error = 0;              ///< largest, relative to the full response
+  std::vector<double> frequency; ///< Hz
+  std::vector<Complex> full, reduced;
+  std::vector<std::vector<Complex>> compared; ///< as in the case
+};
+
+Complex polynomial(const std::vector<double>& coefficients, Complex s) {
+  Complex value = 0;
+  for (const double c : coefficients) value = value * s + c;
+  return value;
+}
+
+Linearised linearise(const Case& one, Simulation& simulation) {
+  const Device& device = simulation.device();
+  const Quantity& output = *response_quantity(one, one.linearise.output);
+  const fem::State state = operating_point(device, simulation.state());
+  fem::Channels channels{{driven_electrode}, response_row(device, output).transpose(), {}};
+  Linearised result{.output = output.name, .frequency = frequencies(one.linearise.sweep)};
+  std::vector<double> omega = result.frequency;
+  for (double& w : omega) w *= 2 * std::numbers::pi;
+  const fem::StateSpace large =
+      fem::state_space(simulation.equilibrium(), state, channels, {.highest_frequency = omega.back()});
+  result.model = fem::balanced_truncation(large, one.linearise.order);
+  const fem::Linearisation full(simulation.equilibrium(), state);
+  result.error = fem::largest_error(result.model, full, channels, omega);
+  for (const auto& at :
+       fem::harmonic_response(full, fem::HarmonicDrive::at_port(device.model, driven_electrode), omega))
+    result.full.push_back((channels.rows.row(0) * at.displacement).value());
+  result.compared.resize(one.linearise.compare.size());
+  for (const double w : omega) {
+    const Complex s(0, w);
+    result.reduced.push_back(result.model.transfer(s)(0, 0));
+    for (std::size_t c = 0; c < result.compared.size(); ++c)
+      result.compared[c].push_back(polynomial(one.linearise.compare[c].numerator, s) /
+                                   polynomial(one.linearise.compare[c].denominator, s));
+  }
+  return result;
+}
+
+nlohmann::json rows_of(const Eigen::MatrixXd& matrix) {
+  auto rows = nlohmann::json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    auto row = nlohmann::json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+nlohmann::ordered_json model_json(const Case& one, const Simulation& simulation, const Linearised& found) {
+  auto poles = nlohmann::json::array();
+  for (const Complex& pole : found.model.A.eigenvalues()) poles.push_back({pole.real(), pole.imag()});
+  return {{"program", "dielast " DIELAST_VERSION},
+          {"title", one.title},
+          {"input", {{"name", "source voltage"}, {"unit", "V"}}},
+          {"output", {{"name", found.output}, {"unit", "m"}}},
+          {"operating_voltage_V", simulation.state().voltage.at(driven_electrode)},
+          {"order", found.model.order()},
+          {"largest_relative_error", found.error},
+          {"compared_from_Hz", found.frequency.front()},
+          {"compared_to_Hz", found.frequency.back()},
+          {"poles_1_per_s", poles},
+          {"A", rows_of(found.model.A)},
+          {"B", rows_of(found.model.B)},
+          {"C", rows_of(found.model.C)},
+          {"D", rows_of(found.model.D)}};
+}
+
+std::string matlab_matrix(const char* name, const Eigen::MatrixXd& matrix) {
+  std::string text = fmt::format("{} = [", name);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      text += fmt::format("{}{:.17g}", j > 0 ? ", " : i > 0 ? ";\n  " : "", matrix(i, j));
+  return text + "];\n";
+}
+
+std::string matlab_script(const Case& one, const Linearised& found) {
+  std::string title = one.title;
+  std::ranges::replace(title, '\n', ' ');
+  return fmt::format("% {}\n% x' = A x + B u, y = C x + D u; u: source voltage (V), y: {} (m)\n"
+                     "% largest relative error {:.3g} from {:.6g} to {:.6g} Hz\n{}{}{}{}",
+                     title, found.output, found.error, found.frequency.front(), found.frequency.back(),
+                     matlab_matrix("A", found.model.A), matlab_matrix("B", found.model.B),
+                     matlab_matrix("C", found.model.C), matlab_matrix("D", found.model.D));
+}
+
+post::Report report_of(const Case& one, const Simulation& simulation, const Linearised& found) {
+  std::vector<post::FrequencyResponse> curves{
+      {"full model", found.frequency, found.full, post::Series::Style::points},
+      {fmt::format("order {}", found.model.order()), found.frequency, found.reduced}};
+  for (std::size_t c = 0; c < found.compared.size(); ++c)
+    curves.push_back({one.linearise.compare[c].name, found.frequency, found.compared[c]});
+  post::Section plots{"Response", {}};
+  for (std::string& svg : post::render_svg(post::bode(found.output, found.output + " [m/V]", curves)))
+    if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
+  post::Table poles{{"pole [1/s]", "frequency [rad/s]", "damping ratio"}, {}};
+  for (const Complex& pole : found.model.A.eigenvalues())
+    poles.rows.push_back({fmt::format("{:.6g} {:+.6g} i", pole.real(), pole.imag()),
+                          fmt::format("{:.6g}", std::abs(pole)),
+                          fmt::format("{:.4g}", -pole.real() / std::abs(pole))});
+  const double voltage = simulation.state().voltage.at(driven_electrode);
+  return {
+      .title = one.title,
+      .subtitle = one.source.filename().string(),
+      .status = {"linear model", post::Tone::good},
+      .highlights = {{"order", std::to_string(found.model.order()), ""},
+                     {"largest error", fmt::format("{:.3g} %", 100 * found.error),
+                      fmt::format("of the full response, {:.4g} to {:.4g} Hz", found.frequency.front(),
+                                  found.frequency.back())},
+                     {"operating point", post::engineering(voltage, "V"), ""},
+                     {"static gain", fmt::format("{:.4g} m/V", found.model.transfer(0)(0, 0).real()), ""}},
+      .sections = {std::move(plots), {"Poles", {std::move(poles)}}},
+      .footer = "dielast " DIELAST_VERSION};
+}
+
+} // namespace
+
+ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
+  if (one.electrodes.empty() || !response_quantity(one, one.linearise.output))
+    throw CaseError({{{one.source.string()},
+                      "linearise",
+                      "needs an electrode and a quantity of kind \"displacement\" with a direction"}});
+  make_directory(settings.directory);
+  Simulation simulation(one, settings.threads);
+  const Outcome outcome = simulation.run({});
+  if (outcome.ending != Ending::complete) {
+    fmt::print(stderr, "error: {}\n", outcome.message);
+    return ExitCode::not_converged;
+  }
+  try {
+    const Linearised found = linearise(one, simulation);
+    post::replace_file(settings.directory / "linear_model.json",
+                       model_json(one, simulation, found).dump(2) + "\n");
+    post::replace_file(settings.directory / "linear_model.m", matlab_script(one, found));
+    report_of(one, simulation, found).write(settings.directory / "report.html");
+    fmt::print("order {}, largest error {:.3g} of the full response, static gain {:.6g} m/V\n",
+               found.model.order(), found.error, found.model.transfer(0)(0, 0).real());
+    fmt::print("written to {}\n", settings.directory.string());
+    return ExitCode::ok;
+  } catch (const std::domain_error& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return ExitCode::not_converged;
+  }
+}
+
+} // namespace dielast::cases

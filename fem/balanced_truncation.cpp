@@ -1,0 +1,60 @@
+#include "fem/balanced_truncation.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr double least_decay = 1e-6; ///< over the slowest rate
+constexpr double round_off =
+    1e-10; ///< of singular values, over the largest; of growth, over the fastest rate
+
+/// R with R R^T = X, A X + X A^T + F F^T = 0: by columns in the Schur form A = U T U^H (Bartels & Stewart
+/// 1972).
+Eigen::MatrixXd gramian_root(const Eigen::ComplexSchur<Eigen::MatrixXcd>& schur, const Eigen::MatrixXd& F) {
+  const Eigen::MatrixXcd &T = schur.matrixT(), &U = schur.matrixU();
+  const Eigen::MatrixXcd G = U.adjoint() * F;
+  Eigen::MatrixXcd Y = -G * G.adjoint();
+  for (Eigen::Index j = T.rows() - 1; j >= 0; --j) {
+    for (Eigen::Index k = j + 1; k < T.rows(); ++k) Y.col(j) -= std::conj(T(j, k)) * Y.col(k);
+    Eigen::MatrixXcd shifted = T;
+    shifted.diagonal().array() += std::conj(T(j, j));
+    Y.col(j) = shifted.triangularView<Eigen::Upper>().solve(Y.col(j)).eval();
+  }
+  const Eigen::MatrixXd X = (U * Y * U.adjoint()).real();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((X + X.transpose()) / 2);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+} // namespace
+
+StateSpace balanced_truncation(const StateSpace& model, int order) {
+  if (model.order() == 0) return model;
+  const Eigen::VectorXcd poles = model.A.eigenvalues();
+  const double slowest = poles.cwiseAbs().minCoeff(), fastest = poles.cwiseAbs().maxCoeff();
+  if (!(slowest > 0) || poles.real().maxCoeff() > round_off * fastest)
+    throw std::domain_error("the linear model is not stable");
+  Eigen::MatrixXcd A = model.A.cast<std::complex<double>>();
+  A.diagonal().array() -= least_decay * slowest;
+  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A), transposed(Eigen::MatrixXcd(A.transpose()));
+  const Eigen::MatrixXd reached = gramian_root(schur, model.B);
+  const Eigen::VectorXd sizes = (model.C * reached).rowwise().norm();
+  const Eigen::MatrixXd C = (sizes.array() > 0).select(sizes, 1).cwiseInverse().asDiagonal() * model.C;
+  const Eigen::MatrixXd seen = gramian_root(transposed, C.transpose());
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(seen.transpose() * reached,
+                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& sigma = svd.singularValues();
+  const Eigen::Index told = (sigma.array() > round_off * sigma[0]).count();
+  const Eigen::Index kept = std::min<Eigen::Index>(order, told);
+  const auto scale = sigma.head(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd right = reached * svd.matrixV().leftCols(kept) * scale;
+  const Eigen::MatrixXd left = seen * svd.matrixU().leftCols(kept) * scale;
+  return {left.transpose() * model.A * right, left.transpose() * model.B, model.C * right, model.D};
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,128 @@
+#include "fem/modal.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr int spare_vectors = 6, powers = 4, most_sweeps = 100;
+constexpr double tolerance = 1e-6;      ///< of modes; that of omega^2 is its square
+constexpr double spanned = 1e-10;       ///< part of a vector that is round-off
+constexpr double singular_shift = 1e-9; ///< of omega^2, over that of the stiffest unknowns
+
+/// As the state is, but for what moves with a vibration.
+State vibrating(const State& state, bool instantaneous) {
+  State at = state;
+  at.scheme = instantaneous ? materials::TimeScheme::frozen() : materials::TimeScheme::relaxed();
+  at.motion_scheme = {};
+  std::ranges::replace(at.supply, Supply::circuit, Supply::voltage);
+  return at;
+}
+
+/// A scheme that adds shift M to the tangent, and nothing of the dampers.
+GeneralisedAlpha mass_times(double shift) { return {.dt = 1 / std::sqrt(shift), .beta = 1}; }
+
+void append(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
+  matrix.conservativeResize(Eigen::NoChange, matrix.cols() + columns.cols());
+  matrix.rightCols(columns.cols()) = columns;
+}
+
+/// Orthonormal in M, to V too; columns that V spans already are left out.
+Eigen::MatrixXd orthonormal_to(const Eigen::MatrixXd& V, const Eigen::SparseMatrix<double>& M,
+                               Eigen::MatrixXd X) {
+  const auto norm = [&](Eigen::Index i) { return std::sqrt(X.col(i).dot(M * X.col(i))); };
+  Eigen::Index kept = 0;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) {
+    const double whole = norm(i);
+    for (int twice = 0; twice < 2; ++twice) { // once loses digits
+      const Eigen::VectorXd momentum = M * X.col(i);
+      X.col(i) -= V * (V.transpose() * momentum);
+      X.col(i) -= X.leftCols(kept) * (X.leftCols(kept).transpose() * momentum);
+    }
+    const double left = norm(i);
+    if (!(left > spanned * whole)) continue;
+    X.col(kept) = X.col(i) / left;
+    ++kept;
+  }
+  return X.leftCols(kept);
+}
+
+} // namespace
+
+double VibrationMode::frequency() const { return std::sqrt(std::max(stiffness, 0.0)); }
+
+std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibrium, const State& state,
+                                                          const ModalOptions& options) {
+  const Inertia& inertia = equilibrium.model().inertia;
+  if (inertia.empty()) return std::vector<VibrationMode>{};
+  const Eigen::Index free = equilibrium.model().dofs.free_count();
+  const Eigen::SparseMatrix<double> M = inertia.mass.topLeftCorner(free, free);
+  const Eigen::VectorXd diagonal = M.diagonal();
+  const Eigen::Index massive = (diagonal.array() > 0).count();
+  const Eigen::Index wanted = std::min<Eigen::Index>(options.count, massive);
+  if (wanted <= 0) return std::vector<VibrationMode>{};
+  const Eigen::Index width = std::min(massive, wanted + spare_vectors);
+
+  State at = vibrating(state, options.instantaneous);
+  double shift = 0;
+  if (!equilibrium.factor(at)) {
+    shift = singular_shift * equilibrium.stiffness().sum() / diagonal.sum();
+    at.motion_scheme = mass_times(shift);
+    if (!equilibrium.factor(at)) return std::nullopt;
+  }
+  const auto respond = [&](const Eigen::MatrixXd& X) { // K^-1 M X
+    Eigen::MatrixXd Y = M * X;
+    Eigen::VectorXd y;
+    for (Eigen::Index i = 0; i < Y.cols(); ++i) {
+      equilibrium.tangent().solve(Y.col(i), y);
+      Y.col(i) = y;
+    }
+    return Y;
+  };
+  std::mt19937 random(1);
+  Eigen::MatrixXd X(free, width);
+  for (Eigen::Index i = 0; i < X.size(); ++i)
+    X.data()[i] = random() / static_cast<double>(std::mt19937::max()) - 0.5;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    Eigen::MatrixXd V(free, 0), W(free, 0); // W = K^-1 M V
+    for (int power = 0; power < powers; ++power) {
+      X = orthonormal_to(V, M, std::move(X));
+      if (X.cols() == 0) break;
+      append(V, X);
+      X = respond(X);
+      append(W, X);
+    }
+    const Eigen::MatrixXd inverse = V.transpose() * (M * W);
+    if (!inverse.allFinite()) return std::nullopt;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz((inverse + inverse.transpose()) / 2);
+    const Eigen::VectorXd& theta = ritz.eigenvalues(); // 1/(omega^2 + shift)
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(theta.size()));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::ranges::sort(order, std::greater{}, [&](Eigen::Index i) { return std::abs(theta[i]); });
+    order.resize(std::min(order.size(), static_cast<std::size_t>(width)));
+
+    X = W * ritz.eigenvectors()(Eigen::all, order); // massless unknowns have followed
+    order.resize(std::min(order.size(), static_cast<std::size_t>(wanted)));
+    const Eigen::MatrixXd before = V * ritz.eigenvectors()(Eigen::all, order);
+    std::vector<VibrationMode> modes;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double inverse_square = theta[order[i]];
+      const Eigen::VectorXd shape = X.col(at), residual = shape - inverse_square * before.col(at);
+      if (!(residual.dot(M * residual) <= std::pow(tolerance * inverse_square, 2))) break;
+      modes.push_back({1 / inverse_square - shift, shape / std::sqrt(shape.dot(M * shape))});
+    }
+    if (modes.size() < order.size()) continue;
+    std::ranges::sort(modes, {}, &VibrationMode::stiffness);
+    return modes;
+  }
+  return std::nullopt;
+}
+
+} // namespace dielast::fem

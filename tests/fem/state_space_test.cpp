@@ -1,0 +1,130 @@
+#include "fem/state_space.hpp"
+
+#include "fem/balanced_truncation.hpp"
+#include "tests/fem/diaphragm.hpp"
+#include "tests/fem/material_point_block.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <numbers>
+
+namespace dielast::fem {
+namespace {
+
+/// The controlled diaphragm: 100 g, damped, 4.5 ms circuit, 0.1 Hz to 50 Hz.
+class LinearDiaphragm : public ::testing::Test {
+ protected:
+  static test::DiaphragmData data(bool viscous, double density) {
+    test::DiaphragmData data{.density = density,
+                             .damping = 1.596,
+                             .circuits = {{.electrode = 0, .resistance = 1.87e6, .leakage = 1e-9}},
+                             .elements = 12};
+    if (viscous)
+      data.branches = {{materials::NeoHookean{15e3}, materials::Dashpot::log, 15e3 * 0.05},
+                       {materials::Gent{5e3, 100}, materials::Dashpot::log, 5e3 * 3}};
+    return data;
+  }
+  static std::vector<double> band() {
+    std::vector<double> omega;
+    for (int i = 0; i <= 60; ++i) omega.push_back(2 * std::numbers::pi * 0.1 * std::pow(500.0, i / 60.0));
+    return omega;
+  }
+  static Channels channels(const test::Diaphragm& diaphragm) {
+    return {{0}, Eigen::VectorXd::Unit(diaphragm.model.dofs.free_count(), diaphragm.plate).transpose(), {0}};
+  }
+};
+
+// Plate on a film without mass: two states, the circuit's charge, and the film follows.
+TEST_F(LinearDiaphragm, of_third_order_is_exact_without_branches_and_film_mass) {
+  const test::Diaphragm diaphragm(data(false, 0));
+  Equilibrium equilibrium(diaphragm.model, 1);
+  const State rest = diaphragm.settled(equilibrium, 2500);
+  const Linearisation linear(equilibrium, rest);
+  const StateSpace model = state_space(equilibrium, rest, channels(diaphragm), {});
+  ASSERT_EQ(model.order(), 3);
+  EXPECT_LT(largest_error(model, linear, channels(diaphragm), band()), 1e-10);
+  const StateSpace balanced = balanced_truncation(model, 3);
+  EXPECT_LT(largest_error(balanced, linear, channels(diaphragm), band()), 1e-10);
+  EXPECT_LT((balanced.A.eigenvalues().real().maxCoeff()), -5);
+}
+
+TEST_F(LinearDiaphragm, with_branches_is_as_good_as_its_order) {
+  const test::Diaphragm diaphragm(data(true, 960));
+  Equilibrium equilibrium(diaphragm.model, 1);
+  const State rest = diaphragm.settled(equilibrium, 2500);
+  const Linearisation linear(equilibrium, rest);
+  const auto error = [&](const StateSpace& model) {
+    return largest_error(model, linear, channels(diaphragm), band());
+  };
+  EXPECT_LT(error(state_space(equilibrium, rest, channels(diaphragm), {})), 1e-6);
+  const StateSpace model =
+      state_space(equilibrium, rest, channels(diaphragm), {.highest_frequency = 350}); // the plate's mode
+  EXPECT_LT(error(model), 3e-4);
+  const std::vector<double> most{4e-2, 1e-2, 3e-4}; // of orders 3, 4, 5
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    const StateSpace reduced = balanced_truncation(model, static_cast<int>(i) + 3);
+    ASSERT_EQ(reduced.order(), static_cast<Eigen::Index>(i) + 3);
+    EXPECT_LT(error(reduced), most[i]);
+    EXPECT_LT(reduced.A.eigenvalues().real().maxCoeff(), 0);
+  }
+}
+
+TEST_F(LinearDiaphragm, is_driven_by_voltage_or_charge_without_a_circuit) {
+  test::DiaphragmData without = data(true, 960);
+  without.circuits.clear();
+  const test::Diaphragm diaphragm(without);
+  Equilibrium equilibrium(diaphragm.model, 1);
+  State rest = diaphragm.settled(equilibrium, 2500);
+  rest.charge = diaphragm.model.charges(rest, false).charge;
+  for (const Supply supply : {Supply::voltage, Supply::charge}) {
+    rest.supply = {supply};
+    const StateSpace model = state_space(equilibrium, rest, channels(diaphragm), {});
+    EXPECT_LT(largest_error(model, Linearisation(equilibrium, rest), channels(diaphragm), band()), 1e-6);
+  }
+}
+
+TEST_F(LinearDiaphragm, has_none_where_rates_vary_or_nothing_is_stable) {
+  test::DiaphragmData nominal = data(true, 960);
+  nominal.branches[0].dashpot = materials::Dashpot::nominal;
+  const test::Diaphragm diaphragm(nominal);
+  Equilibrium equilibrium(diaphragm.model, 1);
+  const State rest = diaphragm.settled(equilibrium, 2500);
+  EXPECT_THROW(state_space(equilibrium, rest, channels(diaphragm), {}), std::domain_error);
+
+  auto film = test::material_point(std::numeric_limits<double>::infinity());
+  Eigen::SparseMatrix<double> mass(1, 1);
+  mass.insert(0, 0) = 1;
+  film->inertia = {mass, Eigen::SparseMatrix<double>(1, 1)};
+  Equilibrium of_film(*film, 1);
+  State state = film->initial_state();
+  state.displacement[0].x() = 0.5;
+  state.voltage[0] = test::equilibrium_voltage(std::numeric_limits<double>::infinity(), 1.5);
+  EXPECT_THROW(state_space(of_film, state, {{0}, Eigen::MatrixXd::Ones(1, 1), {}}, {}), std::domain_error);
+}
+
+// G = 1/(s + 1) + 0.02/(s + 10) + an undamped mode that nothing reaches.
+TEST(BalancedTruncation, keeps_what_is_reached_and_seen) {
+  StateSpace model{Eigen::MatrixXd::Zero(4, 4), Eigen::VectorXd::Zero(4), Eigen::RowVectorXd::Zero(4),
+                   Eigen::MatrixXd::Constant(1, 1, 0.3)};
+  model.A(0, 0) = -1;
+  model.A(1, 1) = -10;
+  model.A(2, 3) = 7;
+  model.A(3, 2) = -7;
+  model.B << 1, 0.2, 0, 0;
+  model.C << 1, 0.1, 1, 1;
+  const auto G = [](std::complex<double> s) { return 1.0 / (s + 1.0) + 0.02 / (s + 10.0) + 0.3; };
+  const StateSpace two = balanced_truncation(model, 3), one = balanced_truncation(model, 1);
+  EXPECT_EQ(two.order(), 2);
+  EXPECT_EQ(one.order(), 1);
+  for (const double omega : {0.0, 0.5, 3.0, 40.0}) {
+    const std::complex<double> s(0, omega);
+    EXPECT_LT(std::abs(two.transfer(s)(0, 0) - G(s)), 1e-6);
+    EXPECT_LT(std::abs(one.transfer(s)(0, 0) - G(s)), 2e-3 + 1e-6);
+  }
+  EXPECT_NEAR(one.A(0, 0), -1, 0.02);
+  model.A(0, 0) = 0.1;
+  EXPECT_THROW(balanced_truncation(model, 1), std::domain_error);
+}
+
+} // namespace
+} // namespace dielast::fem
