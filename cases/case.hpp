@@ -87,6 +87,8 @@ struct MeshOptions {
 struct Electrode {
   std::string name;
   std::string place;
+  std::optional<double> sheet_resistance; ///< of both faces together, Ohm per square
+  std::string terminal;                   ///< where a resistive one is connected
 };
 
 /// [[support]]

@@ -38,7 +38,8 @@ void require_known(SectionReader& reader, Reference kind, const std::string& nou
 void require_one_geometry(SectionReader& reader, const Node& tree) {
   std::vector<std::string> allowed;
   for (const Template& device : templates())
-    allowed.push_back(device.name == "file" ? "[mesh] file = \"...\"" : fmt::format("[{}]", device.name));
+    if (device.with.empty())
+      allowed.push_back(device.name == "file" ? "[mesh] file = \"...\"" : fmt::format("[{}]", device.name));
   const auto found = geometries_of(tree);
   if (found.empty())
     reader.report(tree.source, "",

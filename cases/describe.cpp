@@ -130,7 +130,8 @@ std::string devices_text() {
   for (const Template& device : templates()) {
     const std::string name(device.name);
     const Section* section = case_schema().find_section(name);
-    text += fmt::format("{}: {}\n", name, device.meaning);
+    const std::string with = device.with.empty() ? "" : fmt::format(" with [{}]", device.with);
+    text += fmt::format("{}{}: {}\n", name, with, device.meaning);
     if (section) text += section_text(*section, name);
     text += "\n[mesh]\n";
     for (const Key& key : mesh.keys)

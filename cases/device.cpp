@@ -177,17 +177,26 @@ void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
   model.blocks.push_back(fem::make_lid_block(mesh, lid, compliance, port));
 }
 
+constexpr double typical_voltage = 1000; ///< V, that makes charges of order one
+
 void add_circuits(const Case& one, fem::Model& model) {
+  const std::vector<double> capacitance = model.charges(model.initial_state(), false).capacitance;
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     const auto found = one.circuits.find(one.electrodes[e].name);
     if (found == one.circuits.end()) continue;
     fem::Circuit circuit{.electrode = static_cast<int>(e), .resistance = found->second.resistance};
     if (found->second.leakage_resistance) circuit.leakage = 1 / *found->second.leakage_resistance;
     if (found->second.current_limit) circuit.current_limit = *found->second.current_limit;
-    constexpr double typical_voltage = 1000;
-    circuit.charge_scale = typical_voltage * model.charges(model.initial_state(), false).capacitance[e];
+    circuit.charge_scale = typical_voltage * capacitance[e];
     model.circuits.push_back(circuit);
   }
+}
+
+void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+    if (const Electrode& electrode = one.electrodes[e]; electrode.sheet_resistance)
+      model.sheets.push_back({static_cast<int>(e), *electrode.sheet_resistance,
+                              mesh.node_sets.at(electrode.terminal), typical_voltage});
 }
 
 /// Forces of gravity: on plate and masses, and on the film where its weight counts.
@@ -244,7 +253,7 @@ meshing::Mesh build_mesh(const Case& one) {
                 return meshing::annulus_meridian(a.inner_radius, a.outer_radius, options.rings, options.order,
                                                  options.grading);
               return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order,
-                                           true);
+                                           true, options.grading);
             },
             [&](const Balloon& b) {
               return meshing::balloon_meridian(b.radius, options.rings, options.order);
@@ -279,6 +288,7 @@ Device build_device(const Case& one) {
     high = high.cwiseMax(x);
   }
   model.extent = (high - low).norm();
+  model.drawn = mesh.nodes;
 
   const bool of_revolution = dimension == fem::Dimension::axisymmetric;
   if (!of_revolution && high.z() - low.z() > 1e-9 * model.extent)
@@ -323,7 +333,12 @@ Device build_device(const Case& one) {
   model.dofs.number();
   model.inertia = fem::Inertia::of(model.blocks, model.dofs);
   add_circuits(one, model);
-  model.place_histories();
+  add_sheets(one, mesh, model);
+  try {
+    model.place_histories();
+  } catch (const std::invalid_argument& error) {
+    throw meshing::MeshError(error.what());
+  }
 
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
   device.weight = weight_of(one, device.mesh, device.model);

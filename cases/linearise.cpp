@@ -120,6 +120,10 @@ post::Report report_of(const Case& one, const Simulation& simulation, const Line
   post::Section plots{"Response", {}};
   for (std::string& svg : post::render_svg(post::bode(found.output, found.output + " [m/V]", curves)))
     if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
+  post::Table gains{{"model", "static gain [m/V]"}, {}};
+  for (const post::FrequencyResponse& curve : curves)
+    gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::abs(curve.value.front()))});
+  plots.blocks.push_back(std::move(gains));
   post::Table poles{{"pole [1/s]", "frequency [rad/s]", "damping ratio"}, {}};
   for (const Complex& pole : found.model.A.eigenvalues())
     poles.rows.push_back({fmt::format("{:.6g} {:+.6g} i", pole.real(), pole.imag()),

@@ -151,6 +151,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     return rest == references.end() ? unknown : moved - rest->second;
   }
   case QuantityKind::radius: {
+    if (case_.dimension == fem::Dimension::axisymmetric) return position(quantity.of, state).x();
     const Eigen::Vector3d centre = position(quantity.of, state);
     const auto& nodes = device_.mesh.node_sets.at(quantity.of);
     double sum = 0;

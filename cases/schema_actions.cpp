@@ -10,6 +10,22 @@ Section electrode_section() {
   section.keys = {
       text("name", to(&Electrode::name), "its name, for [drive.<name>]").distinct(),
       text("place", to(&Electrode::place), "the part of the film that it covers").refers_to(Reference::place),
+      measure("sheet_resistance", "Ohm", to(&Electrode::sheet_resistance),
+              "per square of the deformed film, both faces together; without it the voltage is the same "
+              "everywhere")
+          .above(0)
+          .optional(),
+      text("terminal", to(&Electrode::terminal),
+           "place where an electrode with a sheet_resistance is connected")
+          .optional()
+          .refers_to(Reference::place),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& electrode = *static_cast<const Electrode*>(object);
+    if (electrode.sheet_resistance.has_value() == !electrode.terminal.empty()) return std::nullopt;
+    return electrode.terminal.empty()
+               ? Conflict{"terminal", "missing; say where the resistive electrode is connected"}
+               : Conflict{"sheet_resistance", "missing; only a resistive electrode has a terminal"};
   };
   return section;
 }

@@ -226,6 +226,12 @@ Section study_section() {
       text("y", to(&StudyPlot::y), "quantities").values(1, 20),
       text("group", to(&StudyPlot::group), "a varied key: one curve for each of its values").optional(),
   };
+  Section target = list_section(
+      "target", "asks at which value of the one varied key a quantity has this value", each(&Study::targets));
+  target.keys = {
+      text("quantity", to(&StudyTarget::quantity), "name of the quantity"),
+      measure("value", "", to(&StudyTarget::value), "value that it is to have, in the quantity's unit"),
+  };
   Section section;
   section.name = "study";
   section.meaning = "a sweep over keys of the case, run by `dielast study`";
@@ -236,7 +242,7 @@ Section study_section() {
           .optional()
           .values(1, 1000),
   };
-  section.sections = {vary, plot};
+  section.sections = {vary, plot, target};
   return section;
 }
 

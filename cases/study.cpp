@@ -160,6 +160,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       fmt::print("failed: {}: {}\n", fmt::join(point.overrides, "  "),
                  result ? result->message : "not finished");
     }
+  for (const std::string& line : target_lines(study, points)) fmt::print("{}\n", line);
   fmt::print("{} of {} points in {}\n", points.size() - static_cast<std::size_t>(failed), points.size(),
              (settings.directory / "study.csv").string());
   return failed ? ExitCode::not_converged : ExitCode::ok;

@@ -3,7 +3,9 @@
 #include "cases/case_tree.hpp"
 #include "cases/fit_reader.hpp"
 #include "cases/overrides.hpp"
+#include "cases/quantities.hpp"
 #include "cases/section_reader.hpp"
+#include "cases/study_points.hpp"
 #include "cases/units.hpp"
 
 #include <fmt/format.h>
@@ -135,6 +137,22 @@ void check_names(SectionReader& reader, const Node& section, const Study& study,
   }
 }
 
+/// A target needs one key whose values are numbers of one unit.
+void check_targets(SectionReader& reader, const Node& section, const Study& study, const Case& base) {
+  std::vector<std::string> quantities;
+  for (const Quantity& quantity : base.quantities) quantities.push_back(quantity.name);
+  const Node* targets = section.find("target");
+  for (std::size_t i = 0; targets && i < targets->items.size(); ++i) {
+    const Node& item = targets->items[i];
+    const std::string path = fmt::format("study.target[{}]", i + 1);
+    if (const Node* name = item.find("quantity"); name && name->is(Node::Kind::text))
+      require_one_of(reader, item.source, path + ".quantity", name->text, quantities);
+    if (study.axes.size() != 1 || study.axes[0].values.size() < 2 ||
+        !std::ranges::all_of(study.axes[0].values, [](const auto& v) { return axis_number(v).has_value(); }))
+      reader.report(item.source, path, "a target needs a study of one key with two or more numbers");
+  }
+}
+
 /// Without `collect` every quantity is collected; what the plots show always is.
 void complete_collection(Study& study, const Case& base) {
   const auto add = [&](const std::string& name) {
@@ -145,6 +163,7 @@ void complete_collection(Study& study, const Case& base) {
   };
   if (study.collect.empty())
     for (const Quantity& quantity : base.quantities) add(quantity.name);
+  for (const StudyTarget& target : study.targets) add(target.quantity);
   for (const StudyPlot& plot : study.plots) {
     add(plot.x);
     for (const std::string& y : plot.y) add(y);
@@ -170,7 +189,12 @@ Study read_study(const std::filesystem::path& path) {
   study.title = path.stem().string();
   if (const Node* title = tree.find("title"); title && title->is(Node::Kind::text)) study.title = title->text;
   const Node* section = tree.find("study");
-  SectionReader reader({});
+  Case base_case;
+  SectionReader reader({.unit_of_quantity = [&](const std::string& name) -> std::optional<std::string> {
+    for (const Quantity& quantity : base_case.quantities)
+      if (quantity.name == name) return unit_of(quantity, base_case.quantities);
+    return std::nullopt;
+  }});
   if (!section || !section->is(Node::Kind::table))
     throw CaseError({{tree.source, "study", "missing; add the section [study]"}});
   const Node* base_name = tree.find("case");
@@ -183,11 +207,11 @@ Study read_study(const std::filesystem::path& path) {
                                     text_of(*base_name))}});
   }
   const Node base = read_case_file(study.base);
-  const Case base_case =
-      interpret(base, study.base); // its own errors come first: nothing can be varied without it
+  base_case = interpret(base, study.base); // its own errors come first: nothing can be varied without it
   reader.read_table(*case_schema().find_section("study"), *section, &study, "study");
   read_axes(reader, *section, base, study);
   check_names(reader, *section, study, base_case);
+  check_targets(reader, *section, study, base_case);
   complete_collection(study, base_case);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   return study;

@@ -19,6 +19,12 @@ struct StudyPlot {
   std::string group;          ///< key of an axis that makes one curve each; empty: none
 };
 
+/// [[study.target]]: asks at which value of the one varied key a quantity has a value
+struct StudyTarget {
+  std::string quantity;
+  double value = 0; ///< SI
+};
+
 /// [study]: a full grid over its axes
 struct Study {
   std::string title;
@@ -27,6 +33,7 @@ struct Study {
   std::vector<StudyAxis> axes;
   std::vector<std::string> collect; ///< quantities
   std::vector<StudyPlot> plots;
+  std::vector<StudyTarget> targets;
 };
 
 } // namespace dielast::cases

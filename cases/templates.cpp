@@ -11,6 +11,7 @@
 namespace dielast::cases {
 namespace {
 
+/// Of every device, and of those with a chamber.
 constexpr std::string_view quantities_of_all = R"(
 [[quantity]]
 name = "max_field"
@@ -49,70 +50,6 @@ kind = "energy"
 of = "error"
 )";
 
-constexpr std::string_view honeycomb_quantities = R"(
-[[quantity]]
-name = "eps_x"
-kind = "elongation"
-between = ["left_apex", "right_apex"]
-along = "x"
-since = "release"
-[[quantity]]
-name = "eps_y"
-kind = "elongation"
-between = ["corner_bottom", "corner_top"]
-along = "y"
-since = "release"
-[[quantity]]
-name = "released_length_x"
-kind = "distance"
-between = ["left_apex", "right_apex"]
-along = "x"
-at = "release"
-[[quantity]]
-name = "released_length_y"
-kind = "distance"
-between = ["corner_bottom", "corner_top"]
-along = "y"
-at = "release"
-)";
-
-constexpr std::string_view disc_quantities = R"(
-[[quantity]]
-name = "electrode_radius"
-kind = "radius"
-of = "electrode_edge"
-)";
-
-constexpr std::string_view diaphragm_quantities = R"(
-[[quantity]]
-name = "drop"
-kind = "displacement"
-of = "inner"
-along = "gravity"
-[[quantity]]
-name = "stroke"
-kind = "displacement"
-of = "inner"
-along = "gravity"
-since = "weight"
-[[quantity]]
-name = "stiffness"
-kind = "stiffness"
-of = "inner"
-along = "z"
-[[quantity]]
-name = "natural_frequency"
-kind = "natural frequency"
-[[quantity]]
-name = "stretch_inner"
-kind = "radial stretch"
-of = "inner"
-[[quantity]]
-name = "stretch_outer"
-kind = "radial stretch"
-of = "outer"
-)";
-
 constexpr std::string_view chamber_quantities = R"(
 [[quantity]]
 name = "pressure"
@@ -120,71 +57,6 @@ kind = "pressure"
 [[quantity]]
 name = "volume"
 kind = "volume"
-)";
-
-constexpr std::string_view patch_quantities = R"(
-[[quantity]]
-name = "stretch_x"
-kind = "stretch"
-between = ["left", "right"]
-along = "x"
-[[quantity]]
-name = "stretch_y"
-kind = "stretch"
-between = ["bottom", "top"]
-along = "y"
-[[quantity]]
-name = "stress_x"
-kind = "nominal stress"
-of = "film"
-along = "x"
-[[quantity]]
-name = "stress_y"
-kind = "nominal stress"
-of = "film"
-along = "y"
-[[quantity]]
-name = "thickness_stretch"
-kind = "extreme"
-of = "principal_stretches.lambda3"
-extreme = "maximum"
-)";
-
-constexpr std::string_view honeycomb_defaults = R"(
-electrode = [{ name = "film", place = "film" }]
-step = [{ kind = "release" }, { kind = "voltage" }]
-)";
-
-constexpr std::string_view disc_defaults = R"(
-electrode = [{ name = "film", place = "electrode" }]
-support = [{ place = "rim", fix = ["x", "y", "z"] }]
-step = [{ kind = "voltage" }]
-)";
-
-constexpr std::string_view annulus_defaults = R"(
-electrode = [{ name = "film", place = "film" }]
-support = [{ place = "inner", fix = ["x", "y", "z"] }, { place = "outer", fix = ["x", "y", "z"] }]
-step = [{ kind = "voltage" }]
-)";
-
-constexpr std::string_view diaphragm_defaults = R"(
-electrode = [{ name = "film", place = "film" }]
-support = [{ place = "outer", fix = ["x", "y", "z"] }]
-step = [{ kind = "weight" }, { kind = "voltage" }]
-)";
-
-constexpr std::string_view balloon_defaults = R"(
-support = [{ place = "equator", fix = ["z"] }]
-step = [{ kind = "inflate" }]
-)";
-
-constexpr std::string_view patch_defaults = R"(
-electrode = [{ name = "film", place = "film" }]
-)"; // and patch_steps()
-
-constexpr std::string_view file_defaults = R"(
-electrode = [{ name = "film", place = "film" }]
-step = [{ kind = "voltage" }]
 )";
 
 Node parse_default(std::string_view toml, const Node& tree) {
@@ -285,63 +157,6 @@ void add_patch_steps(Node& tree) {
 
 } // namespace
 
-std::span<const Template> templates() {
-  static const std::array table{
-      Template{"honeycomb",
-               "unidirectional actuator: a film with a printed honeycomb, cut free",
-               {{"film", "the film"},
-                {"walls", "all walls"},
-                {"cell[i,j]", "the film in cell j of column i, from 0"},
-                {"left_apex", "leftmost vertex at mid height"},
-                {"right_apex", "rightmost vertex at mid height"},
-                {"corner_top", "top wall of the first column's top cell"},
-                {"corner_bottom", "bottom wall of the first column's bottom cell"},
-                {"top", "top wall of the middle column"},
-                {"bottom", "bottom wall of the middle column"},
-                {"centre", "the node nearest to the middle"}},
-               honeycomb_defaults,
-               honeycomb_quantities},
-      Template{"disc",
-               "a film clamped at its rim, with a round electrode in the middle",
-               {{"film", "the film"},
-                {"electrode", "the film under the electrode"},
-                {"electrode_edge", "the electrode's edge"},
-                {"rim", "the clamped edge"},
-                {"centre", "the node in the middle"}},
-               disc_defaults,
-               disc_quantities},
-      Template{
-          "annulus",
-          "a ring of film clamped at both edges; with [plate] a diaphragm that carries a plate in its hole",
-          {{"film", "the film"}, {"inner", "the inner edge"}, {"outer", "the outer edge"}},
-          annulus_defaults,
-          ""},
-      Template{"balloon",
-               "a sphere of film around a chamber",
-               {{"film", "the film"},
-                {"equator", "the widest circle, held along z"},
-                {"south", "the lower pole"},
-                {"north", "the upper pole"}},
-               balloon_defaults,
-               ""},
-      Template{
-          "patch",
-          "one homogeneous block of film under stretches, nominal stresses, voltage or charge: a material "
-          "test; without [[step]] it takes one for each that is given, or one of kind \"transient\" for "
-          "waves",
-          {{"film", "the film"},
-           {"left", "the side x = 0, held along x"},
-           {"right", "the side that moves along x"},
-           {"bottom", "the side y = 0, held along y"},
-           {"top", "the side that moves along y"},
-           {"centre", "the middle"}},
-          patch_defaults,
-          patch_quantities},
-      Template{"file", "your own gmsh mesh: [mesh] file = \"...\"", {}, file_defaults, ""},
-  };
-  return table;
-}
-
 std::vector<const Node*> geometries_of(const Node& tree) {
   std::vector<const Node*> found;
   for (const Section& section : case_schema().sections)
@@ -354,7 +169,7 @@ std::vector<const Node*> geometries_of(const Node& tree) {
 
 const Template* template_of(const Node& tree) {
   for (const Template& candidate : templates())
-    if (tree.find(candidate.name)) return &candidate;
+    if (tree.find(candidate.name) && (candidate.with.empty() || tree.find(candidate.with))) return &candidate;
   const Node* mesh = tree.find("mesh");
   return mesh && mesh->find("file") ? &templates().back() : nullptr;
 }
@@ -377,8 +192,7 @@ void add_motion_defaults(Node& tree) {
 } // namespace
 
 void add_defaults(Node& tree, const Template& device) {
-  const bool diaphragm = device.name == "annulus" && tree.find("plate");
-  const Node defaults = parse_default(diaphragm ? diaphragm_defaults : device.defaults, tree);
+  const Node defaults = parse_default(device.defaults, tree);
   for (std::size_t i = 0; i < defaults.items.size(); ++i)
     if (!tree.find(defaults.keys[i])) tree.add(defaults.keys[i], defaults.items[i]);
   if (device.name == "patch") add_patch_steps(tree);
@@ -388,9 +202,8 @@ void add_defaults(Node& tree, const Template& device) {
 namespace {
 
 std::string standard_text(const Node& tree, const Template& device) {
-  return fmt::format("{}{}{}{}", device.quantities,
-                     device.name == "annulus" && tree.find("plate") ? diaphragm_quantities : "",
-                     tree.find("chamber") ? chamber_quantities : "", quantities_of_all);
+  return fmt::format("{}{}{}", device.quantities, tree.find("chamber") ? chamber_quantities : "",
+                     quantities_of_all);
 }
 
 } // namespace

@@ -23,6 +23,7 @@ struct Template {
   std::string_view defaults;   ///< TOML: electrodes, supports, steps of a case that has none
   std::string_view quantities; ///< TOML: standard quantities; steps are named by
                                ///< their kind: the first of it is meant
+  std::string_view with{};     ///< another section that makes it this device; empty: none
 };
 
 std::span<const Template> templates();

@@ -2,6 +2,7 @@
 
 #include "fem/dofs.hpp"
 #include "fem/samples.hpp"
+#include "fem/sheet.hpp"
 #include "fem/state.hpp"
 
 #include <functional>
@@ -89,6 +90,10 @@ class ElementBlock {
 
   /// Adds this block's share of the electrodes' charges; `dofs` asks for dQ/du as well.
   virtual void add_charges(const State& /*state*/, const DofMap* /*dofs*/, Charges& /*charges*/) const {}
+  /// Claims the points of the sheets that this block's elements lie under.
+  virtual void place_sheets(SheetMap& /*sheets*/) {}
+  /// Adds its share of the sheets' matrices; conductances of 1/Ohm per square.
+  virtual void add_sheets(const State& /*state*/, SheetMatrices& /*matrices*/) const {}
   virtual void add_energies(const State& state, EnergyParts& parts) const {
     parts.elastic += evaluate(state, 0, element_count(), {}).energy;
   }

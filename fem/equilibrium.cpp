@@ -36,9 +36,12 @@ constexpr double near = 1e-3;
 constexpr double least_stiffness = 1e-6;
 constexpr double negligible = 1e-3;    ///< strain to which the tolerance of steps refers
 constexpr double rounded_step = 1e-10; ///< over the extent; smaller ones may know no descent
+constexpr double farthest_step = 1e4;  ///< over the extent; no part of a farther one leads anywhere
+constexpr double first_widening = 0.02, most_widening = 0.5; ///< strains that give a film tension
 constexpr int most_voltage_corrections = 30;
 constexpr double charge_tolerance = 1e-13;
-constexpr int patience = 10; ///< iterations after which the residual must be smaller than at the start
+constexpr int most_turns = 40; ///< between forces and sheets
+constexpr int patience = 10;   ///< iterations after which the residual must be smaller than at the start
 constexpr int most_indefinite =
     6; ///< tangents in a row: by then the iteration wanders between unstable states
 
@@ -64,6 +67,7 @@ Equilibrium::Equilibrium(const Model& model, int threads)
                std::sqrt(static_cast<double>(K.size));
   stiffness_ = stiffness_.array().max(least_stiffness * stiffest / squared);
   energy_scale_ = (squared == 1).select(stiffness_.array(), 0).sum() * model.extent * model.extent;
+  if (!model.sheets.empty()) conduction_.emplace(model);
 }
 
 double Equilibrium::weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const {
@@ -135,14 +139,14 @@ bool Equilibrium::factor(const State& state, const PathBorder* path, const Eigen
 
 /// Goes along the Newton step, shorter while that leads nowhere; returns the fraction taken, 0 if none will
 /// do.
-double Equilibrium::backtrack(State& state, Balance& current, const Eigen::VectorXd& step) {
+double Equilibrium::backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings) {
   const Eigen::Index free = model_.dofs.free_count();
   const bool definite = tangent_.unstable_modes() == 0;
   const double slope = current.force.head(free).dot(step);
   const double dead_work = state.dead_force.head(free).dot(step);
   Balance there;
   double length = 1;
-  for (int halving = 0; halving <= most_halvings; ++halving, length *= 0.5) {
+  for (int halving = 0; halving <= halvings; ++halving, length *= 0.5) {
     State trial = state;
     model_.dofs.advance(trial, step, length);
     balance(trial, there);
@@ -157,15 +161,47 @@ double Equilibrium::backtrack(State& state, Balance& current, const Eigen::Vecto
   return 0;
 }
 
+/// All of it a little larger.
+State Equilibrium::widened(State state, double strain) const {
+  for (std::size_t n = 0; n < model_.drawn.size(); ++n)
+    state.displacement[n] += strain * (model_.drawn[n] + state.displacement[n]);
+  return state;
+}
+
 NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
                                 const std::function<void(const Iteration&)>& log) {
+  if (!conduction_) return balance_forces(state, options, log);
+  conduction_->solve(state);
+  int iterations = 0;
+  double part = 1; // of the change of drops that is taken
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(state.sheet_drop.size());
+  for (int turn = 0;; ++turn) {
+    NewtonResult result = balance_forces(state, options, log);
+    result.iterations = iterations += result.iterations;
+    if (result.outcome != Outcome::converged) return result;
+    const Eigen::VectorXd drop = state.sheet_drop;
+    if (conduction_->solve(state) <= options.tolerance) return result;
+    if (turn == most_turns) {
+      result.outcome = Outcome::not_converged;
+      return result;
+    }
+    const Eigen::VectorXd next = state.sheet_drop - drop;
+    if (const double bend = (next - change).squaredNorm(); turn > 0 && bend > 0)
+      part *= -change.dot(next - change) / bend;
+    change = next;
+    state.sheet_drop = drop + part * change;
+  }
+}
+
+NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& options,
+                                         const std::function<void(const Iteration&)>& log) {
   NewtonResult result;
   const auto end = [&result](Outcome outcome) {
     result.outcome = outcome;
     return result;
   };
-  const auto factor_and_count = [&](const Eigen::VectorXd* added = nullptr) {
-    const bool regular = factor(state, nullptr, added);
+  const auto factor_and_count = [&](const State& at) {
+    const bool regular = factor(at);
     if (regular) {
       result.negative_pivots = tangent_.negative_pivots();
       result.unstable_modes = tangent_.unstable_modes();
@@ -186,7 +222,7 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
     result.residual = current.scale > 0 ? current.norm / current.scale : 0;
     if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
     if (balanced(current, options.tolerance, previous_norm, step_length == 1 ? step_size(step) : infinity)) {
-      const bool known = stale_tangent <= near || factor_and_count();
+      const bool known = stale_tangent <= near || factor_and_count(state);
       return end(known ? Outcome::converged : Outcome::singular);
     }
     if (result.iterations >= options.max_iterations ||
@@ -195,15 +231,25 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
     previous_norm = current.norm;
     stale_tangent = result.residual;
     ++timings_.iterations;
-    // A flat film without tension has no stiffness across itself until it is loaded: a part of the stiffness
-    // as drawn leads on.
-    if (!factor_and_count() && !factor_and_count(&stiffness_)) return end(Outcome::singular);
-    indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
-    {
+    const auto find_step = [&](const State& at) {
+      if (!factor_and_count(at)) return false;
       const Stopwatch watch(timings_.solve, model_);
       tangent_.solve(-current.force.head(model_.dofs.free_count()), step);
-    }
-    step_length = backtrack(state, current, step);
+      return true;
+    };
+    // A flat film without tension has no stiffness across itself until it is loaded, or that of a rounding:
+    // that of the film a little wider, in tension, leads on. The step goes with 1/widening, its strain with
+    // the square of that: the two are to be alike.
+    const auto find_widened_step = [&] {
+      if (!find_step(widened(state, first_widening))) return false;
+      const double alike = std::cbrt(std::pow(step_size(step) * first_widening, 2));
+      return find_step(widened(state, std::min(alike, most_widening)));
+    };
+    const bool stiffened = !find_step(state) || step_size(step) > farthest_step;
+    if (stiffened && !find_widened_step()) return end(Outcome::singular);
+    if (stiffened) stale_tangent = infinity;
+    indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
+    step_length = backtrack(state, current, step, stiffened ? 2 * most_halvings : most_halvings);
     if (step_length == 0) {
       const bool rounded = current.norm <= round_off_ || step_size(step) <= rounded_step;
       return end(rounded ? Outcome::converged : Outcome::not_converged);

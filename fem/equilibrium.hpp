@@ -2,6 +2,7 @@
 
 #include "fem/assembler.hpp"
 #include "fem/bordered_tangent.hpp"
+#include "fem/sheet_conduction.hpp"
 
 #include <functional>
 
@@ -55,14 +56,24 @@ struct Timings {
 /// charges Q; this is solved for Phi at every u, so that Newton's method sees the energy at fixed charges, a
 /// function of u with the tangent K + B C^-1 B^T (see BorderedTangent). Over a time step a circuit is the
 /// same with more capacitance (see Circuit), and inertia one more quadratic energy (see InertialForce).
+///
+/// Sheets: forces are balanced at fixed drops of voltage, then the drops follow the film (SheetConduction),
+/// in turns, until the latter change no voltage by more than the tolerance; relaxed as in Aitken's method. So
+/// stability is that at fixed drops.
 class Equilibrium {
  public:
   /// `threads`: 0 uses every core. The model must outlive this.
   Equilibrium(const Model& model, int threads);
 
-  /// Improves `state` until it converges. On any other outcome `state` is where the iteration stopped.
+  /// Improves `state` until it converges; its voltages under sheets are found anew. On any other outcome
+  /// `state` is where the iteration stopped.
   NewtonResult solve(State& state, const NewtonOptions& options,
                      const std::function<void(const Iteration&)>& log = {});
+
+  /// Lets the voltages of sheets follow, at fixed displacements.
+  void conduct(State& state) {
+    if (conduction_) conduction_->solve(state);
+  }
 
   /// Internal forces (count() entries; reactions at the held equations, from free_count() on).
   Evaluation internal_force(const State& state, Eigen::VectorXd& force) {
@@ -93,15 +104,19 @@ class Equilibrium {
   const Timings& timings() const { return timings_; }
 
  private:
+  NewtonResult balance_forces(State& state, const NewtonOptions& options,
+                              const std::function<void(const Iteration&)>& log);
   double weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const;
   bool follow_charges(State& state) const;
-  double backtrack(State& state, Balance& current, const Eigen::VectorXd& step);
+  State widened(State state, double strain) const;
+  double backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings);
 
   const Model& model_;
   Assembler assembler_;
   Eigen::VectorXd weight_; ///< 1 for forces, 1/length_scale for moments
   Eigen::VectorXd stiffness_;
   BorderedTangent tangent_;
+  std::optional<SheetConduction> conduction_; ///< where there are sheets
   double energy_scale_ = 0;
   double round_off_ = 0;
   Timings timings_;

@@ -3,6 +3,7 @@
 #include "fem/element_block.hpp"
 #include "fem/film_kinematics.hpp"
 #include "fem/film_response.hpp"
+#include "fem/film_sheets.hpp"
 #include "meshing/mesh.hpp"
 
 #include <cmath>
@@ -13,8 +14,9 @@ namespace dielast::fem {
 /// Membrane elements of one kinematics and one law, `lanes` at a time.
 ///
 /// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see
-/// materials/plane_stress.hpp and FilmResponse). A point's volume is that of the film, of a full turn where
-/// it is a film of revolution.
+/// materials/plane_stress.hpp and FilmResponse), where that is a sheet by the voltages of its corners: k =
+/// eps sum_a N_a (V_a/H)^2 with N_a linear (see SheetPoint). A point's volume is that of the film, of a full
+/// turn where it is a film of revolution.
 template<class Kinematics, class Law>
 class MembraneBlock final : public ElementBlock {
  public:
@@ -30,6 +32,10 @@ class MembraneBlock final : public ElementBlock {
   void sample(const State& state, Samples& samples) const override;
   void add_mass(int element, std::span<double> packed) const override;
   void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
+  void place_sheets(SheetMap& sheets) override {
+    sheets_.claim(sheets, electrodes_, [this](int element, int a) { return node(element, a); });
+  }
+  void add_sheets(const State& state, SheetMatrices& matrices) const override;
   void add_energies(const State& state, EnergyParts& parts) const override;
   void add_relaxation(const State& state, const RateWeight& weight, const Scatter& scatter) const override;
   int history_size() const override { return film_.history_size(count_ * points_); }
@@ -39,6 +45,7 @@ class MembraneBlock final : public ElementBlock {
 
  private:
   static constexpr int Nodes = Kinematics::nodes, Dim = Kinematics::dim, dofs = Nodes * Dim;
+  static constexpr int Corners = Kinematics::corners;
   static constexpr int packed_size = dofs * (dofs + 1) / 2;
   using Point = typename Kinematics::Point;
   using Deformation = typename Kinematics::Deformation;
@@ -53,12 +60,16 @@ class MembraneBlock final : public ElementBlock {
   }
   void gather(const State& state, int pack, Lanes (&x)[Nodes][Dim]) const;
   Lanes electric_modulus(const State& state, int pack) const;
+  /// The same at a point where some of the elements lie under sheets; `k` holds for the others.
+  Lanes under_sheets(const State& state, int pack, int point, Lanes k) const;
+  double voltage(const State& state, int element, int point) const;
   /// Psi over the elements of a pack; `lost`: a wrinkled film that the field pulls wider without limit.
   Potential potential(const State& state, int pack, int point, const materials::InPlaneC<Lanes>& C,
                       const Lanes& k, bool& lost) const;
   /// One integration point of one element, as everything but the assembly sees it.
   struct Visit {
     int element;
+    int place; ///< number in the element
     int point; ///< number in the film, see FilmResponse
     const Point& geometry;
     const Deformation& deformation;
@@ -79,6 +90,7 @@ class MembraneBlock final : public ElementBlock {
   int points_ = 0;
   std::vector<int> nodes_;      ///< padded to whole packs by repeating the last element
   std::vector<int> electrodes_; ///< likewise
+  FilmSheets<Corners> sheets_;
   std::vector<Eigen::Vector3d> reference_;
   std::vector<Point> geometry_; ///< points_ per pack
 };
@@ -101,6 +113,7 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
     const auto places = Kinematics::places(drawn(e), prestretch_, points_);
     for (int p = 0; p < points_; ++p) {
       const auto& place = places[static_cast<std::size_t>(p)];
+      if (e == 0) sheets_.add_place(place.corner_shape);
       if (!(place.area > 0))
         throw std::invalid_argument(Kinematics::element + (" " + std::to_string(e)) +
                                     " is inverted or degenerate as drawn");
@@ -165,6 +178,26 @@ Lanes MembraneBlock<Kinematics, Law>::electric_modulus(const State& state, int p
 }
 
 template<class Kinematics, class Law>
+Lanes MembraneBlock<Kinematics, Law>::under_sheets(const State& state, int pack, int point, Lanes k) const {
+  for (int l = 0; l < lanes; ++l) {
+    const int element = pack * lanes + l;
+    if (!sheets_.points(element)) continue;
+    const auto electrode = static_cast<std::size_t>(electrodes_[static_cast<std::size_t>(element)]);
+    k[l] = film_.dielectric().permittivity / (thickness_ * thickness_) *
+           sheets_.mean_square(state, element, point, state.voltage[electrode]);
+  }
+  return k;
+}
+
+/// Phi at a point of an element, 0 under no electrode, V.
+template<class Kinematics, class Law>
+double MembraneBlock<Kinematics, Law>::voltage(const State& state, int element, int point) const {
+  const int electrode = electrodes_[static_cast<std::size_t>(element)];
+  if (electrode == passive) return 0;
+  return sheets_.voltage(state, element, point, state.voltage[static_cast<std::size_t>(electrode)]);
+}
+
+template<class Kinematics, class Law>
 typename MembraneBlock<Kinematics, Law>::Potential
 MembraneBlock<Kinematics, Law>::potential(const State& state, int pack, int point,
                                           const materials::InPlaneC<Lanes>& C, const Lanes& k,
@@ -192,7 +225,8 @@ void MembraneBlock<Kinematics, Law>::for_each_point(const State& state, const Vi
         const Point& geometry = geometry_[static_cast<std::size_t>(pack * points_ + p)];
         const Deformation d = Kinematics::deformation(x, geometry);
         const int element = pack * lanes + l, point = element * points_ + p;
-        visit(Visit{element, point, geometry, d, l, lane_of(d.C, l), k[l]});
+        const Lanes here = sheets_.vary(state) ? under_sheets(state, pack, p, k) : k;
+        visit(Visit{element, p, point, geometry, d, l, lane_of(d.C, l), here[l]});
       }
   }
 }
@@ -203,6 +237,7 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
                                                           const Scatter& scatter) const {
   Evaluation result;
   Lanes energy{};
+  const bool varies = sheets_.vary(state);
   for (int pack = first / lanes; pack * lanes < last; ++pack) {
     Lanes x[Nodes][Dim];
     gather(state, pack, x);
@@ -216,7 +251,8 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
       for (int l = 0; l < lanes; ++l)
         if (!(orientation[l] > 0)) result.feasible = false;
       bool lost = false;
-      const Potential stored = potential(state, pack, p, d.C, k, lost);
+      const Potential stored =
+          potential(state, pack, p, d.C, varies ? under_sheets(state, pack, p, k) : k, lost);
       if (lost) result.feasible = false;
       energy += point.volume * stored.value;
       Kinematics::template accumulate<with_tangent>(point, d, WeightedStress(point.volume, stored), residual,
@@ -260,10 +296,11 @@ void MembraneBlock<Kinematics, Law>::add_relaxation(const State& state, const Ra
     for (int p = 0; p < points_; ++p) {
       const Point& point = geometry_[static_cast<std::size_t>(pack * points_ + p)];
       const Deformation d = Kinematics::deformation(x, point);
+      const Lanes here = sheets_.vary(state) ? under_sheets(state, pack, p, k) : k;
       Potential psi{};
       for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
         set_lane(psi, l,
-                 film_.relaxation(state, (pack * lanes + l) * points_ + p, lane_of(d.C, l), k[l], weight));
+                 film_.relaxation(state, (pack * lanes + l) * points_ + p, lane_of(d.C, l), here[l], weight));
       Kinematics::template accumulate<true>(point, d, WeightedStress(point.volume, psi), unused, tangent);
     }
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
@@ -278,7 +315,6 @@ template<class Kinematics, class Law>
 void MembraneBlock<Kinematics, Law>::sample(const State& state, Samples& samples) const {
   samples.film.reserve(samples.film.size() + static_cast<std::size_t>(count_ * points_));
   for_each_point(state, [&](const Visit& at) {
-    const int electrode = electrodes_[static_cast<std::size_t>(at.element)];
     const materials::TensionField field = film_.resolve(state, at.point, at.C, at.k);
     const materials::InPlaneC<double>& natural = field.natural;
     MembraneSample s;
@@ -289,8 +325,8 @@ void MembraneBlock<Kinematics, Law>::sample(const State& state, Samples& samples
     s.widening = std::sqrt(natural.det() / at.C.det());
     s.tension = field.tension;
     s.thickness = thickness_;
-    s.voltage = electrode == passive ? 0.0 : state.voltage[static_cast<std::size_t>(electrode)];
-    s.electrode = electrode;
+    s.voltage = voltage(state, at.element, at.place);
+    s.electrode = electrodes_[static_cast<std::size_t>(at.element)];
     s.breakdown_field = film_.dielectric().breakdown_field_at(natural.det());
     samples.film.push_back(s);
   });
@@ -304,11 +340,11 @@ void MembraneBlock<Kinematics, Law>::add_charges(const State& state, const DofMa
     if (electrode == passive) return;
     const auto e = static_cast<std::size_t>(electrode);
     const auto density = film_.charge_density(film_.shape(state, at.point, at.C, at.k), at.C);
-    const double voltage = state.voltage[e];
+    const double phi = voltage(state, at.element, at.place);
     const double per_volt =
         film_.dielectric().permittivity * at.geometry.volume[at.lane] / (thickness_ * thickness_);
     charges.capacitance[e] += per_volt * density.value;
-    charges.charge[e] += per_volt * voltage * density.value;
+    charges.charge[e] += per_volt * phi * density.value;
     if (!dof_map) return;
     const auto& q = density.slope;
     for (int a = 0; a < Nodes; ++a)
@@ -318,9 +354,25 @@ void MembraneBlock<Kinematics, Law>::add_charges(const State& state, const DofMa
         Lanes slope[3];
         Kinematics::slope(at.geometry, at.deformation, a, c, slope);
         charges.coupling[e][equation] +=
-            per_volt * voltage *
-            (q[0] * slope[0][at.lane] + q[1] * slope[1][at.lane] + q[2] * slope[2][at.lane]);
+            per_volt * phi * (q[0] * slope[0][at.lane] + q[1] * slope[1][at.lane] + q[2] * slope[2][at.lane]);
       }
+  });
+}
+
+/// The current flows along the film itself, wrinkles included.
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::add_sheets(const State& state, SheetMatrices& matrices) const {
+  if (sheets_.empty()) return;
+  std::vector<FilmPlace<Nodes, Corners>> places;
+  for_each_point(state, [&](const Visit& at) {
+    if (!sheets_.points(at.element)) return;
+    if (at.place == 0) places = Kinematics::places(drawn(at.element), prestretch_, points_);
+    const auto& place = places[static_cast<std::size_t>(at.place)];
+    const materials::TensionField field = film_.shape(state, at.point, at.C, at.k);
+    const double per_volt =
+        film_.dielectric().permittivity * place.area / thickness_ * film_.charge_density(field, at.C).value;
+    sheets_.add(matrices, at.element, place.corner_shape * per_volt,
+                std::sqrt(place.area) * place.corner_gradient, field.natural);
   });
 }
 

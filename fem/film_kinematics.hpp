@@ -22,11 +22,13 @@ struct FilmPoint {
 };
 
 /// The same as it is computed, for one element.
-template<int Nodes>
+template<int Nodes, int Corners>
 struct FilmPlace {
   Eigen::Matrix<double, Nodes, 1> shape;    ///< values of the shape functions
   Eigen::Matrix<double, Nodes, 2> gradient; ///< 1/m
   double area = 0;                          ///< undeformed, m^2; not positive where the element is degenerate
+  Eigen::Matrix<double, Corners, 1> corner_shape;    ///< of functions linear between the corners
+  Eigen::Matrix<double, Corners, 2> corner_gradient; ///< 1/m
 };
 
 /// S = dPsi/dC and d2Psi/dC2 times the volume of a point, see materials::MembranePotential.
@@ -52,7 +54,7 @@ struct WeightedStress {
 template<int Nodes, int Dim>
 struct TriangleKinematics {
   static constexpr const char* element = "triangle";
-  static constexpr int nodes = Nodes, dim = Dim;
+  static constexpr int nodes = Nodes, dim = Dim, corners = 3;
   static constexpr std::array<int, 3> components{0, 1, 2}; ///< of the displacement, per unknown of a node
   static constexpr int mass_points = Nodes == 6 ? 6 : 3;   ///< that integrate N_a N_b exactly
   using Point = FilmPoint<Nodes>;
@@ -63,15 +65,16 @@ struct TriangleKinematics {
   };
 
   /// `X`: nodes as drawn, m.
-  static std::vector<FilmPlace<Nodes>> places(const Eigen::Matrix<double, 3, Nodes>& X,
-                                              const Eigen::Vector2d& prestretch, int points) {
-    std::vector<FilmPlace<Nodes>> all;
+  static std::vector<FilmPlace<Nodes, corners>> places(const Eigen::Matrix<double, 3, Nodes>& X,
+                                                       const Eigen::Vector2d& prestretch, int points) {
+    std::vector<FilmPlace<Nodes, corners>> all;
     for (const TrianglePoint& at : triangle_rule(points)) {
       const Eigen::Matrix<double, Nodes, 2> dN = shape_gradients<Nodes>(at.xi, at.eta);
       const Eigen::Matrix2d jacobian = X.template topRows<2>() * dN;
       const double det = jacobian.determinant();
-      all.push_back({shape_values<Nodes>(at.xi, at.eta), dN * jacobian.inverse() * prestretch.asDiagonal(),
-                     at.weight * det / prestretch.prod()});
+      const Eigen::Matrix2d per_metre = jacobian.inverse() * prestretch.asDiagonal();
+      all.push_back({shape_values<Nodes>(at.xi, at.eta), dN * per_metre, at.weight * det / prestretch.prod(),
+                     shape_values<3>(at.xi, at.eta), shape_gradients<3>(at.xi, at.eta) * per_metre});
     }
     return all;
   }
@@ -153,7 +156,7 @@ struct TriangleKinematics {
 template<int Nodes>
 struct MeridianKinematics {
   static constexpr const char* element = "meridian";
-  static constexpr int nodes = Nodes, dim = 2;
+  static constexpr int nodes = Nodes, dim = 2, corners = 2;
   static constexpr std::array<int, 2> components{0, 2};
   static constexpr int mass_points = 3;
   using Point = FilmPoint<Nodes>;
@@ -164,11 +167,11 @@ struct MeridianKinematics {
     materials::InPlaneC<Lanes> C;
   };
 
-  static std::vector<FilmPlace<Nodes>> places(const Eigen::Matrix<double, 3, Nodes>& X,
-                                              const Eigen::Vector2d& prestretch, int points) {
-    std::vector<FilmPlace<Nodes>> all;
+  static std::vector<FilmPlace<Nodes, corners>> places(const Eigen::Matrix<double, 3, Nodes>& X,
+                                                       const Eigen::Vector2d& prestretch, int points) {
+    std::vector<FilmPlace<Nodes, corners>> all;
     for (const MeridianPoint& at : meridian_rule(points)) {
-      FilmPlace<Nodes> place{meridian_shape<Nodes>(at.xi), {}, 0};
+      FilmPlace<Nodes, corners> place{meridian_shape<Nodes>(at.xi), {}, 0, meridian_shape<2>(at.xi), {}};
       const Eigen::Matrix<double, Nodes, 1> slope = meridian_slope<Nodes>(at.xi);
       const Eigen::Vector3d tangent = X * slope, chord = X.col(1) - X.col(0);
       const double length = std::copysign(tangent.norm(), tangent.dot(chord)) / prestretch[0];
@@ -176,6 +179,7 @@ struct MeridianKinematics {
       place.gradient.col(0) = slope / length;
       place.gradient.col(1) = place.shape / radius;
       place.area = at.weight * length * 2 * std::numbers::pi * radius;
+      place.corner_gradient << meridian_slope<2>(at.xi) / length, Eigen::Vector2d::Zero(); // none around
       all.push_back(place);
     }
     return all;

@@ -1,6 +1,7 @@
 #include "fem/model.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace dielast::fem {
 
@@ -11,6 +12,35 @@ void Model::place_histories() {
     first += block->history_size();
   }
   circuit_history = static_cast<std::size_t>(first);
+  SheetMap map(sheets);
+  for (const auto& block : blocks) block->place_sheets(map);
+  sheet_points = map.points();
+  if (!sheets.empty()) weigh_sheets();
+}
+
+/// Scales of charges, and leakage spread like the capacitance, as drawn.
+void Model::weigh_sheets() {
+  const Eigen::VectorXd drawn = sheet_matrices(initial_state()).capacitance;
+  for (const Sheet& sheet : sheets) {
+    double whole = 0;
+    bool connected = false;
+    for (std::size_t a = 0; a < sheet_points.size(); ++a)
+      if (sheet_points[a].electrode == sheet.electrode) {
+        whole += drawn[static_cast<Eigen::Index>(a)];
+        connected = connected || sheet_points[a].at_terminal;
+      }
+    const auto electrode = static_cast<std::size_t>(sheet.electrode);
+    if (!connected)
+      throw std::invalid_argument("the terminal of electrode \"" + electrodes[electrode] +
+                                  "\" is no corner of its film");
+    const Circuit* circuit = circuit_of(electrode);
+    for (std::size_t a = 0; a < sheet_points.size(); ++a)
+      if (SheetPoint& point = sheet_points[a]; point.electrode == sheet.electrode) {
+        const double capacitance = drawn[static_cast<Eigen::Index>(a)];
+        point.charge_scale = capacitance * sheet.voltage_scale;
+        point.leakage = circuit ? circuit->leakage * capacitance / whole : 0;
+      }
+  }
 }
 
 State Model::initial_state() const {
@@ -23,7 +53,7 @@ State Model::initial_state() const {
   state.supply.assign(port_count(), Supply::voltage);
   state.charge.assign(port_count(), 0.0);
   state.source.assign(port_count(), 0.0);
-  const std::size_t internal = circuit_history + circuits.size();
+  const std::size_t internal = sheet_history() + sheet_points.size();
   if (internal > 0) {
     History history{std::vector<double>(internal), {}, {}};
     for (const auto& block : blocks) block->start_history(history.now);
@@ -58,8 +88,13 @@ double Model::given_charge(const State& state, std::size_t port) const {
   const std::size_t place = circuit_history + static_cast<std::size_t>(circuit - circuits.data());
   const History& past = *state.history;
   const double before = past.before.empty() ? 0 : past.before[place];
-  return circuit->charge_scale * (state.scheme.h1 * past.now[place] + state.scheme.h2 * before) /
-         state.scheme.a0;
+  double given = circuit->charge_scale * (state.scheme.h1 * past.now[place] + state.scheme.h2 * before) /
+                 state.scheme.a0;
+  for (Eigen::Index a = 0; a < state.sheet_drop.size(); ++a) // less leaks where the voltage is lower
+    if (const SheetPoint& point = sheet_points[static_cast<std::size_t>(a)];
+        static_cast<std::size_t>(point.electrode) == port)
+      given += state.scheme.dt / state.scheme.a0 * point.leakage * state.sheet_drop[a];
+  return given;
 }
 
 Charges Model::surplus(const State& state, bool with_coupling) const {
@@ -86,11 +121,44 @@ double Model::supply_energy(const State& state) const {
   return energy;
 }
 
+SheetMatrices Model::sheet_matrices(const State& state) const {
+  SheetMatrices matrices{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(sheet_points.size())), {}};
+  for (const auto& block : blocks) block->add_sheets(state, matrices);
+  for (auto& entry : matrices.conductance)
+    entry = {entry.row(), entry.col(),
+             entry.value() / sheet_points[static_cast<std::size_t>(entry.row())].resistance};
+  return matrices;
+}
+
+Eigen::VectorXd Model::past_sheet_charges(const State& state) const {
+  const History& past = *state.history;
+  Eigen::VectorXd charges(static_cast<Eigen::Index>(sheet_points.size()));
+  for (std::size_t a = 0; a < sheet_points.size(); ++a) {
+    const double before = past.before.empty() ? 0 : past.before[sheet_history() + a];
+    charges[static_cast<Eigen::Index>(a)] =
+        sheet_points[a].charge_scale *
+        (state.scheme.h1 * past.now[sheet_history() + a] + state.scheme.h2 * before) / state.scheme.a0;
+  }
+  return charges;
+}
+
 EnergyParts Model::energies(const State& state) const {
   EnergyParts parts;
   for (const auto& block : blocks) block->add_energies(state, parts);
   const Charges held = charges(state, false);
   for (std::size_t e = 0; e < electrodes.size(); ++e) parts.electric += held.charge[e] * state.voltage[e] / 2;
+  if (state.sheet_drop.size() > 0) {
+    const Eigen::VectorXd& drop = state.sheet_drop;
+    const SheetMatrices matrices = sheet_matrices(state);
+    for (Eigen::Index a = 0; a < drop.size(); ++a) {
+      const SheetPoint& point = sheet_points[static_cast<std::size_t>(a)];
+      const double voltage = state.voltage[static_cast<std::size_t>(point.electrode)] - drop[a];
+      parts.electric -= matrices.capacitance[a] * voltage * drop[a] / 2;
+      parts.dissipation -= point.leakage * voltage * drop[a]; // sources are not charged for what leaks
+    }
+    for (const auto& entry : matrices.conductance)
+      parts.dissipation += drop[entry.row()] * entry.value() * drop[entry.col()];
+  }
   if (state.motion) {
     const Eigen::VectorXd& velocity = state.motion->velocity;
     parts.kinetic = velocity.dot(inertia.mass * velocity) / 2;
@@ -119,6 +187,16 @@ std::shared_ptr<const History> Model::advanced_history(const State& state) const
     for (std::size_t c = 0; c < circuits.size(); ++c)
       next.now[circuit_history + c] =
           held.charge[static_cast<std::size_t>(circuits[c].electrode)] / circuits[c].charge_scale;
+  }
+  if (!sheets.empty()) {
+    const Eigen::VectorXd capacitance = sheet_matrices(state).capacitance;
+    for (std::size_t a = 0; a < sheet_points.size(); ++a) {
+      const SheetPoint& point = sheet_points[a];
+      const auto i = static_cast<Eigen::Index>(a);
+      const double drop = state.sheet_drop.size() > 0 ? state.sheet_drop[i] : 0;
+      const double voltage = state.voltage[static_cast<std::size_t>(point.electrode)] - drop;
+      next.now[sheet_history() + a] = capacitance[i] * voltage / point.charge_scale;
+    }
   }
   if (!state.scheme.is_relaxed()) {
     next.before = last.now;

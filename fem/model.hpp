@@ -17,14 +17,19 @@ struct Model {
   std::vector<std::string> electrodes; ///< names; a state has one voltage for each
   std::vector<std::string> chambers;   ///< names; a state has one pressure for each, behind the voltages
   std::vector<Circuit> circuits;       ///< at most one per electrode
+  std::vector<Sheet> sheets;           ///< at most one per electrode
   Inertia inertia;                     ///< Inertia::of(blocks, dofs), where something has a mass
   double length_scale = 1; ///< m, an element's size: makes moments comparable with forces in residual norms
   double extent = 1;       ///< m, the whole mesh's: tells which forces are round-off
+  std::vector<Eigen::Vector3d>
+      drawn; ///< m, nodes of the mesh; only needed where a film starts without tension
 
   std::size_t circuit_history = 0; ///< place of the first circuit's internal variable, by place_histories()
+  std::vector<SheetPoint> sheet_points; ///< theirs come behind the circuits'; by place_histories(), too
 
   std::size_t port_count() const { return electrodes.size() + chambers.size(); }
-  /// Tells every block where its internal variables are; to be called once, when all blocks are there.
+  /// Tells every block where its internal variables and the points of its sheets are; to be called once, when
+  /// blocks, circuits and sheets are there. Throws std::invalid_argument for sheets that cannot be.
   void place_histories();
   /// Everything at rest as drawn: no displacement, no voltage, no dead force; branches relaxed.
   State initial_state() const;
@@ -37,6 +42,9 @@ struct Model {
   /// Energy that goes with it: the sum of the integrals of given minus drawn charge over voltage, J.
   double supply_energy(const State& state) const;
   const Circuit* circuit_of(std::size_t electrode) const;
+  SheetMatrices sheet_matrices(const State& state) const;
+  /// (h1 q_n + h2 q_{n-1})/a0 of the charges at the points of the sheets, C.
+  Eigen::VectorXd past_sheet_charges(const State& state) const;
   EnergyParts energies(const State& state) const;
   /// Puts the charges that the electrodes hold at `state` into the memory of the circuits.
   void charge_circuits(State& state) const;
@@ -47,6 +55,10 @@ struct Model {
   State settled(State state) const;
   /// What an electrode or chamber must hold, with what its circuit has drawn, C or m^3.
   double given_charge(const State& state, std::size_t port) const;
+
+ private:
+  std::size_t sheet_history() const { return circuit_history + circuits.size(); }
+  void weigh_sheets();
 };
 
 } // namespace dielast::fem

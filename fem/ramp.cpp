@@ -130,8 +130,9 @@ bool Ramp::pass_break() {
     const double next = done + part > 1 - round_off ? 1.0 : done + part;
     State trial = last();
     jump.apply(trial, next);
+    newton_ = {};
     if (options_.inertia)
-      newton_ = {};
+      equilibrium_.conduct(trial);
     else
       newton_ = equilibrium_.solve(trial, options_.newton, observer_.on_iteration);
     if (newton_.outcome != Outcome::converged) {

@@ -14,8 +14,8 @@
 namespace dielast::fem {
 
 /// What the material remembers: the internal variables of all blocks (see ElementBlock::history_size), then
-/// of the circuits (see Circuit), at the last accepted times, newest first. Never changed once made, so that
-/// states share it.
+/// of the circuits (see Circuit) and the sheets (see SheetPoint), at the last accepted times, newest first.
+/// Never changed once made, so that states share it.
 struct History {
   std::vector<double> now, before, older;
   double step = 0, step_before = 0; ///< s, between now and before, before and older; 0: there is no such past
@@ -44,7 +44,9 @@ struct State {
   std::vector<Supply> supply;               ///< likewise: what is given
   std::vector<double> charge;               ///< likewise: the given charge, C, or volume, m^3
   std::vector<double> source;               ///< likewise: voltage of the circuit's source, V
-  double time = 0;                          ///< s
+  Eigen::VectorXd sheet_drop; ///< per Model::sheet_points, the electrode's voltage less the sheet's there, V;
+                              ///< empty: none
+  double time = 0;            ///< s
   materials::TimeScheme scheme; ///< how the branches get here from `history`; frozen in accepted states
   std::shared_ptr<const History> history; ///< null: nothing has internal variables
   GeneralisedAlpha motion_scheme;         ///< how inertia gets here from `motion`; static in accepted states

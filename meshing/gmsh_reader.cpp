@@ -39,9 +39,7 @@ std::optional<CellType> cell_type(const GmshContents::Elements& elements) {
   return std::nullopt;
 }
 
-bool is_triangle(const CellBlock& block) {
-  return !is_line(block.type);
-}
+bool is_triangle(const CellBlock& block) { return !is_line(block.type); }
 
 /// Makes the mesh; messages come without the file's name.
 class Converter {

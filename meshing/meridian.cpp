@@ -1,5 +1,7 @@
 #include "meshing/meridian.hpp"
 
+#include "meshing/graded_steps.hpp"
+
 #include "meshing/middle_nodes.hpp"
 
 #include <fmt/format.h>
@@ -87,14 +89,7 @@ Mesh disc_meridian(double radius, double electrode_radius, int elements, int ord
 Mesh annulus_meridian(double inner_radius, double outer_radius, int elements, int order, double grading) {
   validate_radii(inner_radius, outer_radius, "the inner and outer radius of an annulus");
   validate(elements, 1, order);
-  if (!(grading >= 1) || !std::isfinite(grading))
-    throw std::invalid_argument(fmt::format("the grading of an annulus is at least 1, not {:.6g}", grading));
-  std::vector<double> distances{0}; // from the inner edge, the first element being 1
-  for (int i = 0; i < elements; ++i)
-    distances.push_back(distances.back() + std::pow(grading, i / std::max(1.0, elements - 1.0)));
-  std::vector<double> radii;
-  for (const double distance : distances)
-    radii.push_back(std::lerp(inner_radius, outer_radius, distance / distances.back()));
+  std::vector<double> radii = graded_steps(inner_radius, outer_radius, elements, grading);
   std::ranges::reverse(radii);
 
   Mesh mesh = flat_chain(radii, order);

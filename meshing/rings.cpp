@@ -1,5 +1,7 @@
 #include "meshing/rings.hpp"
 
+#include "meshing/graded_steps.hpp"
+
 #include "meshing/mesh_error.hpp"
 #include "meshing/middle_nodes.hpp"
 #include "meshing/quality.hpp"
@@ -141,7 +143,8 @@ Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, boo
   return pattern.take();
 }
 
-Mesh annulus_mesh(double inner_radius, double outer_radius, int rings, int order, bool curved) {
+Mesh annulus_mesh(double inner_radius, double outer_radius, int rings, int order, bool curved,
+                  double grading) {
   validate(inner_radius, outer_radius, "the inner and outer radius of an annulus", rings, 1, order);
   const double pattern_start = rings * inner_radius / (outer_radius - inner_radius);
   if (pattern_start > 1e5)
@@ -150,11 +153,7 @@ Mesh annulus_mesh(double inner_radius, double outer_radius, int rings, int order
                     "rings",
                     inner_radius, outer_radius, rings));
   const int first = std::max(1, static_cast<int>(std::lround(pattern_start)));
-  std::vector<double> radii;
-  for (int i = 0; i <= rings; ++i)
-    radii.push_back(std::lerp(inner_radius, outer_radius, static_cast<double>(i) / rings));
-
-  Rings pattern(first, std::move(radii), order, curved);
+  Rings pattern(first, graded_steps(inner_radius, outer_radius, rings, grading), order, curved);
   pattern.name_triangles("film", first, first + rings);
   pattern.name_circle("inner", first);
   pattern.name_circle("outer", first + rings);

@@ -13,11 +13,13 @@ namespace dielast::meshing {
 /// for its sides.
 Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, bool curved);
 
-/// Annulus of `rings` >= 1 rings of triangles between the two radii (m), of equal thickness. The first circle
+/// Annulus of `rings` >= 1 rings of triangles between the two radii (m); `grading` >= 1: thickness of the
+/// outermost over the innermost, growing geometrically. The first circle
 /// has 6 i0 nodes, i0 = rings inner / (outer - inner) to the nearest integer >= 1, so that triangles are
 /// nearly equilateral.
 ///
 /// Places: triangles `film`; nodes `inner`, `outer`. Errors as disc_mesh().
-Mesh annulus_mesh(double inner_radius, double outer_radius, int rings, int order, bool curved);
+Mesh annulus_mesh(double inner_radius, double outer_radius, int rings, int order, bool curved,
+                  double grading = 1);
 
 } // namespace dielast::meshing

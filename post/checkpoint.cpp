@@ -56,6 +56,7 @@ json archive(const fem::State& state) {
           {"supply", state.supply},
           {"charge", post::pack(state.charge)},
           {"source", post::pack(state.source)},
+          {"sheet_drop", pack(state.sheet_drop)},
           {"dead_force", pack(state.dead_force)},
           {"time", state.time},
           {"scheme", post::pack(std::array{scheme.dt, scheme.a0, scheme.h1, scheme.h2})},
@@ -90,6 +91,7 @@ fem::State restore_state(const json& archived, std::size_t nodes, std::size_t eq
   state.supply = archived.at("supply").get<std::vector<fem::Supply>>();
   state.charge = unpack(archived.at("charge"));
   state.source = unpack(archived.at("source"));
+  state.sheet_drop = vector(archived.at("sheet_drop"));
   state.dead_force = vector(archived.at("dead_force"), equations);
   state.time = archived.at("time");
   const std::vector<double> scheme = unpack(archived.at("scheme"));

@@ -76,7 +76,7 @@ TEST(Reader, HoneycombDefaults) {
   EXPECT_EQ(one.quantities[0].along, 0);
   EXPECT_TRUE(one.quantities[0].standard);
   EXPECT_EQ(one.quantities[2].at, "release");
-  EXPECT_EQ(unit_of(one.quantities[4]), "V/m");
+  EXPECT_EQ(unit_of(one.quantities[4], one.quantities), "V/m");
 }
 
 TEST(Reader, DiscDefaults) {

@@ -36,6 +36,7 @@ inline std::unique_ptr<Model> inflatable(const meshing::Mesh& mesh, const Membra
   model->chambers = {"inside"};
   if (lid.area > 0 || compliance > 0) model->blocks.push_back(make_lid_block(mesh, lid, compliance, chamber));
   model->length_scale = model->extent = extent;
+  model->drawn = mesh.nodes;
   return model;
 }
 

@@ -43,6 +43,24 @@ inline meshing::Mesh distorted_square(int n, int order, double side = 1, double 
   return mesh;
 }
 
+/// Film of `length` by `width` (m) from the origin along x, one row of 2 n triangles. Node sets `left` and
+/// `right` are its ends.
+inline meshing::Mesh strip(int n, int order, double length, double width) {
+  meshing::Mesh mesh;
+  meshing::CellBlock triangles{meshing::CellType::triangle3, {}};
+  for (int i = 0; i <= n; ++i)
+    for (const double y : {0.0, width}) mesh.nodes.emplace_back(length * i / n, y, 0);
+  for (int i = 0; i < 2 * n; i += 2)
+    triangles.nodes.insert(triangles.nodes.end(), {i, i + 2, i + 1, i + 2, i + 3, i + 1});
+  mesh.blocks = {std::move(triangles)};
+  if (order == 2) meshing::add_middle_nodes(mesh);
+  for (int a = 0; a < mesh.node_count(); ++a) {
+    if (mesh.nodes[static_cast<std::size_t>(a)].x() == 0) mesh.node_sets["left"].push_back(a);
+    if (mesh.nodes[static_cast<std::size_t>(a)].x() == length) mesh.node_sets["right"].push_back(a);
+  }
+  return mesh;
+}
+
 /// Adds a block of lines along a curve over s in 0..1, with new nodes in the curve's order; `place(t)` maps
 /// uniform steps t to s.
 inline void add_line(

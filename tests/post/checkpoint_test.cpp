@@ -46,6 +46,7 @@ fem::RampProgress sample_progress(int points = 3) {
           fem::History{{uniform(random), 1}, {uniform(random), 2}, {}, uniform(random), 0});
     state.dead_force = vector(equations);
     state.source = {uniform(random), 0};
+    state.sheet_drop = vector(3);
     if (p > 0)
       state.motion = std::make_shared<const fem::Motion>(fem::Motion{
           vector(equations), vector(equations), vector(equations), vector(equations), uniform(random)});
@@ -79,6 +80,7 @@ void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
       EXPECT_EQ(bits(a.history->step), bits(b.history->step));
     }
     EXPECT_EQ(a.source, b.source);
+    EXPECT_EQ(a.sheet_drop, b.sheet_drop);
     ASSERT_EQ(a.motion != nullptr, b.motion != nullptr);
     if (a.motion) {
       EXPECT_EQ(a.motion->position, b.motion->position);
