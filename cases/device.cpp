@@ -252,8 +252,8 @@ meshing::Mesh build_mesh(const Case& one) {
               if (of_revolution)
                 return meshing::annulus_meridian(a.inner_radius, a.outer_radius, options.rings, options.order,
                                                  options.grading);
-              return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order,
-                                           true, options.grading);
+              return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order, true,
+                                           options.grading);
             },
             [&](const Balloon& b) {
               return meshing::balloon_meridian(b.radius, options.rings, options.order);
@@ -298,7 +298,8 @@ Device build_device(const Case& one) {
   if (!film) throw meshing::MeshError("the mesh has no triangles: there is no film");
   if (of_revolution && !meshing::is_meridian(film->type))
     throw meshing::MeshError("model = \"axisymmetric\" is for discs, annuli and balloons");
-  model.length_scale = model.extent / std::sqrt(static_cast<double>(film->size()));
+  const auto elements = static_cast<double>(film->size());
+  model.length_scale = model.extent / (of_revolution ? elements : std::sqrt(elements));
   // Two points of a 3-node meridian: there stretches are one order better than elsewhere.
   const int points = film->type == meshing::CellType::triangle6   ? one.mesh.quadrature
                      : film->type == meshing::CellType::meridian3 ? 2
