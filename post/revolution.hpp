@@ -32,7 +32,7 @@ struct Revolution {
     int cell;                  ///< the meridian's cell
   };
 
-  static constexpr int sectors = 96;
+  static constexpr int sectors = 48;
 
   /// Precondition: `meridians` is a block of the mesh and of meridians.
   Revolution(const meshing::Mesh& mesh, const meshing::CellBlock& meridians);
