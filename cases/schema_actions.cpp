@@ -130,6 +130,20 @@ Section linkage_section() {
   return section;
 }
 
+/// Access to what there is for each electrode.
+template<class T>
+Access of_electrodes(std::map<std::string, T> Case::*part) {
+  return {[part](void* parent, const std::string& electrode) -> void* {
+            return &(static_cast<Case*>(parent)->*part)[electrode];
+          },
+          [part](const void* parent) {
+            std::vector<Access::Entry> entries;
+            for (const auto& [electrode, object] : static_cast<const Case*>(parent)->*part)
+              entries.push_back({electrode, &object});
+            return entries;
+          }};
+}
+
 Section circuit_section() {
   Section section;
   section.name = "circuit";
@@ -137,15 +151,7 @@ Section circuit_section() {
                     "[circuit.<electrode>]";
   section.presence = Section::Presence::optional;
   section.shape = Section::Shape::by_electrode;
-  section.access = {[](void* parent, const std::string& electrode) -> void* {
-                      return &static_cast<Case*>(parent)->circuits[electrode];
-                    },
-                    [](const void* parent) {
-                      std::vector<Access::Entry> entries;
-                      for (const auto& [electrode, circuit] : static_cast<const Case*>(parent)->circuits)
-                        entries.push_back({electrode, &circuit});
-                      return entries;
-                    }};
+  section.access = of_electrodes(&Case::circuits);
   section.keys = {
       measure("resistance", "Ohm", to(&Circuit::resistance), "between the source and the electrode").above(0),
       measure("leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
@@ -241,15 +247,7 @@ Section drive_section() {
   section.name = "drive";
   section.meaning = "how an electrode is driven; with several electrodes [drive.<electrode>]";
   section.shape = Section::Shape::by_electrode;
-  section.access = {[](void* parent, const std::string& electrode) -> void* {
-                      return &static_cast<Case*>(parent)->drives[electrode];
-                    },
-                    [](const void* parent) {
-                      std::vector<Access::Entry> entries;
-                      for (const auto& [electrode, drive] : static_cast<const Case*>(parent)->drives)
-                        entries.push_back({electrode, &drive});
-                      return entries;
-                    }};
+  section.access = of_electrodes(&Case::drives);
   section.keys = {
       wave("voltage", "V", to(&Drive::voltage),
            "voltage that the steps of kind \"voltage\" reach, and \"transient\" follow")

@@ -1,5 +1,5 @@
 #include "cases/quantities.hpp"
-#include "cases/schema.hpp"
+#include "cases/sweep_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -168,14 +168,6 @@ Section output_section() {
 }
 
 Section linearise_section() {
-  const auto frequency = [](std::string name, double Sweep::*part, std::string meaning,
-                            std::string fallback) {
-    return measure(std::move(name), "Hz",
-                   to_part<Linearise>([part](auto& one) -> auto& { return one.sweep.*part; }),
-                   std::move(meaning))
-        .above(0)
-        .otherwise(std::move(fallback));
-  };
   Section compare = list_section("compare", "a transfer function to compare with", each(&Linearise::compare));
   const auto powers = [](std::string name, std::vector<double> TransferFunction::*part, std::string meaning) {
     return number(std::move(name), to(part), std::move(meaning)).values(1, 20);
@@ -196,20 +188,13 @@ Section linearise_section() {
            "quantity of kind \"displacement\"; without it the first that has a direction")
           .optional()
           .refers_to(Reference::quantity),
-      frequency("from", &Sweep::from, "lowest frequency at which it is compared with the full response",
-                "0.01 Hz"),
-      frequency("to", &Sweep::to, "highest one", "50 Hz"),
-      integer("points", to_part<Linearise>([](auto& one) -> auto& { return one.sweep.points; }),
-              "number of frequencies, at equal ratios")
-          .at_least(2)
-          .at_most(10000)
-          .otherwise("121"),
   };
+  for (Key& key :
+       sweep_keys(&Linearise::sweep, " at which it is compared with the full response", "0.01 Hz", "50 Hz"))
+    section.keys.push_back(std::move(key));
   section.sections = {compare};
   section.check = [](const void* object) -> std::optional<Conflict> {
-    const Sweep& sweep = static_cast<const Linearise*>(object)->sweep;
-    if (sweep.from < sweep.to) return std::nullopt;
-    return Conflict{"from", "must be below the highest frequency"};
+    return sweep_conflict(static_cast<const Linearise*>(object)->sweep);
   };
   return section;
 }

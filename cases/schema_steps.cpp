@@ -1,4 +1,4 @@
-#include "cases/schema.hpp"
+#include "cases/sweep_keys.hpp"
 
 namespace dielast::cases {
 namespace {
@@ -11,8 +11,8 @@ const std::vector<std::string> moving{"release", "voltage",  "charge",  "force",
 
 std::optional<Conflict> conflict(const void* object) {
   const auto& step = *static_cast<const Step*>(object);
-  if (step.kind == StepKind::harmonic && step.sweep.from >= step.sweep.to)
-    return Conflict{"from", "must be below the highest frequency"};
+  if (step.kind == StepKind::harmonic)
+    if (auto wrong = sweep_conflict(step.sweep)) return wrong;
   if (step.record && !step.duration) return Conflict{"record", "only for a step with a duration"};
   if (step.record && *step.record > *step.duration) return Conflict{"record", "is longer than the step"};
   if (step.duration && step.on_instability == OnInstability::follow)
@@ -33,15 +33,6 @@ Section step_section() {
   };
   const auto duration = [](std::string meaning) {
     return measure("duration", "s", to(&Step::duration), std::move(meaning)).above(0);
-  };
-  const auto frequency = [](std::string name, double Sweep::*part, std::string meaning,
-                            std::string fallback) {
-    return measure(std::move(name), "Hz",
-                   to_part<Step>([part](auto& step) -> auto& { return step.sweep.*part; }),
-                   std::move(meaning))
-        .above(0)
-        .otherwise(std::move(fallback))
-        .only({"harmonic"});
   };
   Binding response = to(&Step::response);
   response.get = [](const void* object) -> std::optional<Value> {
@@ -98,14 +89,6 @@ Section step_section() {
           .at_most(200)
           .otherwise("6")
           .only({"modes"}),
-      frequency("from", &Sweep::from, "lowest frequency", "0.1 Hz"),
-      frequency("to", &Sweep::to, "highest frequency", "100 Hz"),
-      integer("points", to_part<Step>([](auto& step) -> auto& { return step.sweep.points; }),
-              "number of frequencies, at equal ratios")
-          .at_least(2)
-          .at_most(10000)
-          .otherwise("121")
-          .only({"harmonic"}),
       text("response_of", to(&Step::response_of),
            "quantity of kind \"displacement\"; without it the first that has a direction")
           .optional()
@@ -128,6 +111,8 @@ Section step_section() {
           .otherwise("follow")
           .only(moving),
   };
+  for (Key& key : sweep_keys(&Step::sweep, "", "0.1 Hz", "100 Hz"))
+    section.keys.push_back(std::move(key).only({"harmonic"}));
   section.check = conflict;
   return section;
 }

@@ -204,12 +204,13 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double pa
   const auto chambers = static_cast<Eigen::Index>(model.chambers.size());
   point.force.conservativeResize(dofs.count() + chambers);
   point.position.conservativeResize(dofs.count() + chambers);
-  for (Eigen::Index c = chambers; c > 0; --c) {
-    point.force[dofs.count() + c - 1] = point.voltage.back();
-    point.position[dofs.count() + c - 1] = point.charge.back();
-    point.voltage.pop_back();
-    point.charge.pop_back();
+  for (Eigen::Index c = 0; c < chambers; ++c) {
+    const std::size_t port = model.electrodes.size() + static_cast<std::size_t>(c);
+    point.force[dofs.count() + c] = point.voltage[port];
+    point.position[dofs.count() + c] = point.charge[port];
   }
+  point.voltage.resize(model.electrodes.size());
+  point.charge.resize(model.electrodes.size());
   point.energy = model.energies(state);
   return point;
 }
