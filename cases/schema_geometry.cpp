@@ -246,7 +246,7 @@ Section mesh_section() {
   section.selector = "geometry";
   section.keys = {
       text("file", mesh_file(),
-           "the user's own gmsh mesh (.msh 4.1), beside the case file; physical names are places")
+           "the user's own gmsh mesh (MSH 4.1 or 2.2), beside the case file; physical names are places")
           .only({"file"}),
       measure("unit", "m", mesh_option(&MeshOptions::unit), "what one unit of length of the file stands for")
           .above(0)

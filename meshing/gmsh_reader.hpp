@@ -6,9 +6,8 @@
 
 namespace dielast::meshing {
 
-/// Reads a mesh file of gmsh (.msh 4.1 and whatever else the gmsh library reads), coordinates in m: 3- or
-/// 6-node triangles and 2- or 3-node lines, all of one order. Nodes without a cell are dropped; clockwise
-/// triangles are turned round.
+/// Reads a mesh file of gmsh (MSH 4.1 or 2.2), coordinates in m: 3- or 6-node triangles and 2- or 3-node
+/// lines, all of one order. Nodes without a cell are dropped; clockwise triangles are turned round.
 ///
 /// Places are the physical groups of points, lines and surfaces, by name; one without a name is called
 /// "surface 3" after its tag. `film` (all triangles) is added unless the file has a place of that name.

@@ -113,8 +113,8 @@ TEST_F(GmshReader, SaysWhatIsWrongWithAFile) {
   expect_error(replaced(square(1), "0 1 15 1\n1 1\n", "0 1 15 1\n1 9\n"),
                "the point \"corner\" is not a node");
   expect_error(replaced(square(1), "3 1 3 4\n", "3 1 3 99\n"), "99");
-  expect_error("not a mesh\n", "");
-  expect_error("", "");
+  for (const char* text : {"not a mesh\n", "", "$MeshFormat\n", "$MeshFormat\n1 0 8\n", "$NOD\n0\n$ENDNOD\n"})
+    expect_error(text, "does not begin with $MeshFormat and the version 4.1 or 2.2");
 }
 
 TEST_F(GmshReader, SurvivesDamagedFiles) {
@@ -128,6 +128,48 @@ TEST_F(GmshReader, SurvivesDamagedFiles) {
     } catch (const MeshError&) { // every file that is not whole must end here or as a mesh
     }
   }
+}
+
+// gmsh takes a text that it does not know for a script, whatever the file's name.
+TEST_F(GmshReader, RunsNoCommandsOfAFile) {
+  const std::filesystem::path mark = path_.string() + ".run";
+  const std::string command = "SystemCall \"touch " + mark.string() + "\";\n";
+  for (const std::string head : {"", "\n", "$MeshFormat4.1 0 8\n", "// $MeshFormat\n4.1 0 8\n"}) {
+    expect_error(head + command, "does not begin with $MeshFormat");
+    EXPECT_FALSE(std::filesystem::exists(mark)) << head;
+  }
+  try {
+    read(square(1) + command);
+  } catch (const MeshError&) { // what follows the mesh may be refused, but not run
+  }
+  EXPECT_FALSE(std::filesystem::exists(mark));
+}
+
+// gmsh runs the commands in a neighbour of that name, and its window system leaves settings in the home.
+TEST_F(GmshReader, OpensNothingButTheFile) {
+  const std::filesystem::path home = path_.string() + ".home", mark = home / "run",
+                              options = path_.string() + ".opt";
+  std::filesystem::create_directory(home);
+  setenv("HOME", home.c_str(), 1);
+  const std::string command = "SystemCall \"touch " + mark.string() + "\";\n";
+  std::ofstream(options) << command;
+  EXPECT_EQ(read(square(1)).node_count(), 4);
+  EXPECT_TRUE(std::filesystem::is_empty(home));
+  for (const char* name : {".gmshrc", ".gmsh-options"}) std::ofstream(home / name) << command;
+  EXPECT_EQ(read(square(1)).node_count(), 4);
+  EXPECT_FALSE(std::filesystem::exists(mark));
+  std::filesystem::remove(options);
+  std::filesystem::remove_all(home);
+}
+
+TEST_F(GmshReader, ReadsTheOlderFormatAndLineEndings) {
+  const std::string older =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n"
+      "$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n";
+  EXPECT_EQ(read(older).node_count(), 3);
+  std::string returns;
+  for (const char letter : square(1)) returns += letter == '\n' ? "\r\n" : std::string(1, letter);
+  EXPECT_EQ(read(returns).node_count(), 4);
 }
 
 TEST_F(GmshReader, NamesTheMissingFile) {
