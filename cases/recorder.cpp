@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 
 namespace dielast::cases {
 
@@ -54,13 +53,14 @@ json archive(const Snapshot& snapshot) {
       {"field", post::pack(snapshot.field)}};
 }
 
-Snapshot restore_snapshot(const json& archived) {
+Snapshot restore_snapshot(const json& archived, const meshing::Mesh& mesh) {
+  const auto triangles = static_cast<std::size_t>(mesh.film()->size());
   Snapshot snapshot{archived.at("title"),
                     archived.at("voltage"),
                     {},
-                    post::unpack(archived.at("thickness")),
-                    post::unpack(archived.at("field"))};
-  const std::vector<double> displacement = post::unpack(archived.at("displacement"));
+                    post::unpack(archived.at("thickness"), triangles),
+                    post::unpack(archived.at("field"), triangles)};
+  const std::vector<double> displacement = post::unpack(archived.at("displacement"), 3 * mesh.nodes.size());
   for (std::size_t i = 0; i + 2 < displacement.size(); i += 3)
     snapshot.displacement.emplace_back(&displacement[i]);
   return snapshot;
@@ -78,8 +78,18 @@ json archive(const Analysis& analysis) {
 
 Analysis restore_analysis(const json& archived) {
   Analysis analysis{archived.at("kind"), archived.at("step"), archived.at("of"), archived.at("columns"), {}};
-  for (const json& row : archived.at("rows")) analysis.rows.push_back(post::unpack(row));
+  for (const json& row : archived.at("rows"))
+    analysis.rows.push_back(post::unpack(row, analysis.columns.size()));
   return analysis;
+}
+
+std::vector<double> history_row(const post::StepRecord& record, const std::vector<double>& quantities) {
+  std::vector<double> row{record.load_factor, record.time};
+  row.insert(row.end(), record.voltages.begin(), record.voltages.end());
+  row.insert(row.end(), quantities.begin(), quantities.end());
+  for (const double number : {double(record.iterations), record.residual, double(record.unstable_modes)})
+    row.push_back(number);
+  return row;
 }
 
 /// A step's name as that of a file.
@@ -105,10 +115,17 @@ Recorder::Recorder(const Case& one, Simulation& simulation, std::filesystem::pat
     : case_(one), simulation_(simulation), directory_(std::move(directory)),
       fingerprint_(resolved_text(one)) {
   if (resume) restore_checkpoint();
-  const int kept = static_cast<int>(journal_.records.size());
   post::replace_file(directory_ / "resolved.toml", fingerprint_);
-  history_.emplace(directory_ / "history.csv", history_columns(one), kept);
-  if (one.fields) series_.emplace(directory_, one.source.stem().string(), simulation.device().mesh, kept);
+  history_.emplace(directory_ / "history.csv", history_columns(one));
+  for (std::size_t r = 0; r < journal_.records.size(); ++r)
+    history_->append(journal_.records[r].step, history_row(journal_.records[r], journal_.values[r]));
+  if (one.fields && !series_) open_series(series_, "");
+}
+
+void Recorder::open_series(std::optional<post::VtkSeries>& series, const char* suffix,
+                           std::vector<std::string> entries) {
+  series.emplace(directory_, case_.source.stem().string() + suffix, simulation_.device().mesh,
+                 std::move(entries));
 }
 
 /// Time where it passes; otherwise the steps that have ended and the load factor, or, as that goes back along
@@ -125,8 +142,7 @@ double Recorder::series_time(const post::StepRecord& record) const {
 void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event& event) {
   if (!case_.fields) return;
   const Device& device = simulation_.device();
-  if (!modes_)
-    modes_.emplace(directory_, case_.source.stem().string() + "-modes", device.mesh, journal_.modes);
+  if (!modes_) open_series(modes_, "-modes");
   modes_->write(journal_.modes++, event.message, critical.state.displacement,
                 device.model.sample(critical.state),
                 fem::displacements(device.model.dofs, critical.mode.direction));
@@ -151,12 +167,7 @@ void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
 
 void Recorder::record(const Frame& frame) {
   const post::StepRecord& record = frame.record;
-  std::vector<double> row{record.load_factor, record.time};
-  row.insert(row.end(), record.voltages.begin(), record.voltages.end());
-  row.insert(row.end(), frame.values.begin(), frame.values.end());
-  for (const double number : {double(record.iterations), record.residual, double(record.unstable_modes)})
-    row.push_back(number);
-  history_->append(record.step, row);
+  history_->append(record.step, history_row(record, frame.values));
   if (series_)
     series_->write(series_time(record), record.step, frame.measured.state.displacement,
                    frame.measured.samples);
@@ -185,7 +196,9 @@ void Recorder::save_checkpoint() {
   for (const auto& record : journal_.records) records.push_back(archive(record));
   for (const auto& row : journal_.values) values.push_back(post::pack(row));
   for (const auto& snapshot : journal_.snapshots) snapshots.push_back(archive(snapshot));
-  const std::vector<std::uint8_t> bytes = json::to_cbor(
+  const auto entries = [](const auto& series) { return series ? json(series->entries()) : json::array(); };
+  post::write_checkpoint(
+      checkpoint_path(),
       {{"case", fingerprint_},
        {"step", progress.step},
        {"records", progress.records},
@@ -198,51 +211,52 @@ void Recorder::save_checkpoint() {
        {"active_events", progress.active_events},
        {"results", post::pack(simulation_.results())},
        {"steps_ended", steps_ended_},
+       {"series", entries(series_)},
+       {"modes_series", entries(modes_)},
        {"journal",
         {{"records", records},
          {"values", values},
          {"snapshots", snapshots},
          {"modes", journal_.modes},
          {"analyses", analyses}}}});
-  post::replace_file(checkpoint_path(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   saved_ = std::chrono::steady_clock::now();
 }
 
 void Recorder::remove_checkpoint() { std::filesystem::remove(checkpoint_path()); }
 
-void Recorder::restore_checkpoint() {
-  std::ifstream file(checkpoint_path(), std::ios::binary);
-  if (!file) return; // stopped before the first checkpoint: nothing is lost by starting over
-  try {
-    const json saved = json::from_cbor(file);
-    if (saved.at("case") != fingerprint_)
-      throw FileError(checkpoint_path().string() +
-                      ": the case has changed since; run it again without --resume");
-    const Device& device = simulation_.device();
-    const auto nodes = device.mesh.nodes.size();
-    const auto equations = static_cast<std::size_t>(device.model.dofs.count());
-    StepProgress in_step{post::restore_ramp(saved.at("ramp"), nodes, equations),
-                         {},
-                         saved.at("unstable_modes"),
-                         saved.at("jumps")};
-    if (const json& followed = saved.at("followed"); !followed.is_null())
-      in_step.followed = post::restore_continuation(followed, nodes, equations);
-    simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
-                        post::restore_energy(saved.at("energy")), saved.at("references"),
-                        saved.at("active_events")});
-    simulation_.set_results(post::unpack(saved.at("results")));
-    steps_ended_ = saved.at("steps_ended");
-    const json& journal = saved.at("journal");
-    journal_.modes = journal.at("modes");
-    for (const json& analysis : journal.at("analyses"))
-      journal_.analyses.push_back(restore_analysis(analysis));
-    for (const json& record : journal.at("records")) journal_.records.push_back(restore_record(record));
-    for (const json& row : journal.at("values")) journal_.values.push_back(post::unpack(row));
-    for (const json& snapshot : journal.at("snapshots"))
-      journal_.snapshots.push_back(restore_snapshot(snapshot));
-  } catch (const json::exception&) {
-    throw FileError(checkpoint_path().string() + ": not a checkpoint; run again without --resume");
-  }
+void Recorder::restore_checkpoint() try {
+  if (!std::filesystem::exists(checkpoint_path()))
+    return; // stopped before the first checkpoint: nothing is lost by starting over
+  const json saved = post::read_checkpoint(checkpoint_path());
+  if (saved.at("case") != fingerprint_) throw post::CheckpointError("the case has changed since");
+  const Device& device = simulation_.device();
+  const auto sizes = post::StateSizes::of(device.model);
+  StepProgress in_step{
+      post::restore_ramp(saved.at("ramp"), sizes), {}, saved.at("unstable_modes"), saved.at("jumps")};
+  if (const json& followed = saved.at("followed"); !followed.is_null())
+    in_step.followed = post::restore_continuation(followed, sizes);
+  simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
+                      post::restore_energy(saved.at("energy"), sizes), saved.at("references"),
+                      saved.at("active_events")});
+  simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
+  steps_ended_ = saved.at("steps_ended");
+  const json& journal = saved.at("journal");
+  journal_.modes = journal.at("modes");
+  for (const json& analysis : journal.at("analyses")) journal_.analyses.push_back(restore_analysis(analysis));
+  for (const json& record : journal.at("records")) journal_.records.push_back(restore_record(record));
+  for (const json& row : journal.at("values"))
+    journal_.values.push_back(post::unpack(row, case_.quantities.size()));
+  if (journal_.values.size() != journal_.records.size()) throw post::CheckpointError("damaged");
+  for (const json& snapshot : journal.at("snapshots"))
+    journal_.snapshots.push_back(restore_snapshot(snapshot, device.mesh));
+  if (!case_.fields) return;
+  open_series(series_, "", saved.at("series"));
+  if (journal_.modes > 0) open_series(modes_, "-modes", saved.at("modes_series"));
+} catch (const json::exception&) {
+  throw FileError(checkpoint_path().string() + ": damaged; run again without --resume");
+} catch (const post::CheckpointError& error) {
+  throw FileError(
+      fmt::format("{}: {}; run again without --resume", checkpoint_path().string(), error.what()));
 }
 
 } // namespace dielast::cases

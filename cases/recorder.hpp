@@ -32,8 +32,9 @@ struct Journal {
 /// Everything throws post::WriteError when a file cannot be written.
 class Recorder {
  public:
-  /// With `resume`, restores the simulation and the journal from the directory's checkpoint, and cuts the
-  /// files back to it; starts over when there is none, throws FileError when it is of another case.
+  /// With `resume`, restores the simulation and the journal from the directory's checkpoint, and makes the
+  /// history and the series' lists anew of what it holds; starts over when there is none. Throws FileError
+  /// when the checkpoint is damaged or of another case.
   Recorder(const Case& one, Simulation& simulation, std::filesystem::path directory, bool resume);
 
   void record(const Frame& frame);
@@ -51,6 +52,9 @@ class Recorder {
  private:
   double series_time(const post::StepRecord& record) const;
   void restore_checkpoint();
+  /// The series `<case><suffix>`, behind the `entries` of its list that are kept.
+  void open_series(std::optional<post::VtkSeries>& series, const char* suffix,
+                   std::vector<std::string> entries = {});
   std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.cbor"; }
 
   const Case& case_;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstring>
-#include <stdexcept>
 
 namespace dielast::post {
 
@@ -10,23 +9,26 @@ using nlohmann::json;
 
 namespace {
 
-[[noreturn]] void mismatch() {
-  throw std::runtime_error("the checkpoint belongs to another case or version");
-}
+[[noreturn]] void mismatch() { throw CheckpointError("of another case or version"); }
 
 json pack(const Eigen::VectorXd& values) {
   return post::pack({values.data(), static_cast<std::size_t>(values.size())});
 }
 
-Eigen::VectorXd vector(const json& packed) {
-  const std::vector<double> values = unpack(packed);
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+Eigen::VectorXd vector(const json& packed, std::size_t size) {
+  const std::vector<double> values = unpack(packed, size);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(size));
 }
 
-Eigen::VectorXd vector(const json& packed, std::size_t size) {
-  Eigen::VectorXd values = vector(packed);
-  if (values.size() != static_cast<Eigen::Index>(size)) mismatch();
+/// Doubles that may be left out altogether.
+std::vector<double> unpack_optional(const json& packed, std::size_t size) {
+  std::vector<double> values = unpack(packed);
+  if (!values.empty() && values.size() != size) mismatch();
   return values;
+}
+
+Eigen::VectorXd optional_vector(const json& packed, std::size_t size) {
+  return vector(packed, unpack_optional(packed, size).size());
 }
 
 json archive(const fem::History& history) {
@@ -64,11 +66,15 @@ json archive(const fem::State& state) {
           {"motion", state.motion ? archive(*state.motion) : json(nullptr)}};
 }
 
-std::shared_ptr<const fem::History> restore_history(const json& archived) {
+std::shared_ptr<const fem::History> restore_history(const json& archived, std::size_t size) {
+  if (archived.is_null() != (size == 0)) mismatch();
   if (archived.is_null()) return nullptr;
-  return std::make_shared<const fem::History>(
-      fem::History{unpack(archived.at("now")), unpack(archived.at("before")), unpack(archived.at("older")),
-                   archived.at("steps").at(0), archived.at("steps").at(1)});
+  fem::History history{unpack(archived.at("now"), size), unpack_optional(archived.at("before"), size),
+                       unpack_optional(archived.at("older"), size), archived.at("steps").at(0),
+                       archived.at("steps").at(1)};
+  if ((history.step > 0 && history.before.empty()) || (history.step_before > 0 && history.older.empty()))
+    mismatch();
+  return std::make_shared<const fem::History>(std::move(history));
 }
 
 std::shared_ptr<const fem::Motion> restore_motion(const json& archived, std::size_t equations) {
@@ -78,27 +84,29 @@ std::shared_ptr<const fem::Motion> restore_motion(const json& archived, std::siz
       part("position"), part("velocity"), part("acceleration"), part("unbalanced"), archived.at("step")});
 }
 
-fem::State restore_state(const json& archived, std::size_t nodes, std::size_t equations) {
+fem::State restore_state(const json& archived, const StateSizes& sizes) {
   fem::State state;
-  const std::vector<double> displacement = unpack(archived.at("displacement"));
-  const std::vector<double> rotation = unpack(archived.at("rotation"));
-  if (displacement.size() != 3 * nodes || rotation.size() != 4 * nodes) mismatch();
-  for (std::size_t n = 0; n < nodes; ++n) {
+  const std::size_t ports = sizes.electrodes + sizes.chambers;
+  const std::vector<double> displacement = unpack(archived.at("displacement"), 3 * sizes.nodes);
+  const std::vector<double> rotation = unpack(archived.at("rotation"), 4 * sizes.nodes);
+  for (std::size_t n = 0; n < sizes.nodes; ++n) {
     state.displacement.emplace_back(&displacement[3 * n]);
     state.rotation.emplace_back(&rotation[4 * n]);
   }
-  state.voltage = unpack(archived.at("voltage"));
+  state.voltage = unpack(archived.at("voltage"), ports);
+  for (const json& supply : archived.at("supply"))
+    if (const int number = supply; number < 0 || number > static_cast<int>(fem::Supply::circuit)) mismatch();
   state.supply = archived.at("supply").get<std::vector<fem::Supply>>();
-  state.charge = unpack(archived.at("charge"));
-  state.source = unpack(archived.at("source"));
-  state.sheet_drop = vector(archived.at("sheet_drop"));
-  state.dead_force = vector(archived.at("dead_force"), equations);
+  if (state.supply.size() != ports) mismatch();
+  state.charge = unpack(archived.at("charge"), ports);
+  state.source = unpack(archived.at("source"), ports);
+  state.sheet_drop = optional_vector(archived.at("sheet_drop"), sizes.sheet_points);
+  state.dead_force = vector(archived.at("dead_force"), sizes.equations);
   state.time = archived.at("time");
-  const std::vector<double> scheme = unpack(archived.at("scheme"));
-  if (scheme.size() != 4) mismatch();
+  const std::vector<double> scheme = unpack(archived.at("scheme"), 4);
   state.scheme = {scheme[0], scheme[1], scheme[2], scheme[3]};
-  state.history = restore_history(archived.at("history"));
-  state.motion = restore_motion(archived.at("motion"), equations);
+  state.history = restore_history(archived.at("history"), sizes.internal_variables);
+  state.motion = restore_motion(archived.at("motion"), sizes.equations);
   return state;
 }
 
@@ -113,15 +121,15 @@ json archive(const fem::EnergyPoint& point) {
                                            e.dissipation})}};
 }
 
-fem::EnergyPoint restore_point(const json& archived) {
-  const std::vector<double> place = unpack(archived.at("place")), energy = unpack(archived.at("energy"));
-  if (place.size() != 2 || energy.size() != 6) mismatch();
+fem::EnergyPoint restore_point(const json& archived, const StateSizes& sizes) {
+  const std::vector<double> place = unpack(archived.at("place"), 2),
+                            energy = unpack(archived.at("energy"), 6);
   return {place[0],
           place[1],
-          vector(archived.at("force")),
-          vector(archived.at("position")),
-          unpack(archived.at("voltage")),
-          unpack(archived.at("charge")),
+          vector(archived.at("force"), sizes.equations + sizes.chambers),
+          vector(archived.at("position"), sizes.equations + sizes.chambers),
+          unpack(archived.at("voltage"), sizes.electrodes),
+          unpack(archived.at("charge"), sizes.electrodes),
           {energy[0], energy[1], energy[2], energy[3], energy[4], energy[5]}};
 }
 
@@ -140,6 +148,24 @@ std::vector<double> unpack(const json& packed) {
   return values;
 }
 
+std::vector<double> unpack(const json& packed, std::size_t size) {
+  std::vector<double> values = unpack(packed);
+  if (values.size() != size) mismatch();
+  return values;
+}
+
+StateSizes StateSizes::of(const fem::Model& model) {
+  const fem::State drawn = model.initial_state();
+  const int equations = model.dofs.count();
+  return {drawn.displacement.size(),
+          static_cast<std::size_t>(equations),
+          static_cast<std::size_t>(equations - model.dofs.free_count()),
+          model.electrodes.size(),
+          model.chambers.size(),
+          drawn.history ? drawn.history->now.size() : 0,
+          model.sheet_points.size()};
+}
+
 json archive(const fem::RampProgress& progress) {
   json points = json::array();
   for (const auto& point : progress.points)
@@ -155,19 +181,22 @@ json archive(const fem::RampProgress& progress) {
           {"points", std::move(points)}};
 }
 
-fem::RampProgress restore_ramp(const json& archived, std::size_t nodes, std::size_t equations) {
+fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
   try {
     fem::RampProgress progress;
-    const json& start = archived.at("start");
-    progress.start = {unpack(start.at(0)), unpack(start.at(1)), unpack(start.at(2)), vector(start.at(3)),
-                      vector(start.at(4))};
     progress.load_factor = archived.at("load_factor");
     progress.increment = archived.at("increment");
+    const json& start = archived.at("start");
+    if (progress.increment != 0) { // otherwise no ramp has begun
+      const std::size_t ports = sizes.electrodes + sizes.chambers;
+      progress.start = {unpack(start.at(0), ports), unpack(start.at(1), ports), unpack(start.at(2), ports),
+                        vector(start.at(3), sizes.equations), vector(start.at(4), sizes.held)};
+    }
     progress.at_break = archived.at("at_break");
     progress.turns = archived.at("turns");
     progress.unstable_modes = archived.at("unstable_modes");
     for (const json& point : archived.at("points"))
-      progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), nodes, equations)});
+      progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), sizes)});
     if (progress.points.empty()) mismatch();
     return progress;
   } catch (const json::exception&) {
@@ -185,15 +214,13 @@ json archive(const fem::ContinuationProgress& progress) {
             progress.newton.unstable_modes}}};
 }
 
-fem::ContinuationProgress restore_continuation(const json& archived, std::size_t nodes,
-                                               std::size_t equations) {
+fem::ContinuationProgress restore_continuation(const json& archived, const StateSizes& sizes) {
   try {
-    const std::vector<double> numbers = unpack(archived.at("numbers"));
+    const std::vector<double> numbers = unpack(archived.at("numbers"), 5);
     const json& counts = archived.at("counts");
-    if (numbers.size() != 5) mismatch();
-    fem::ContinuationProgress progress{restore_state(archived.at("state"), nodes, equations),
+    fem::ContinuationProgress progress{restore_state(archived.at("state"), sizes),
                                        numbers[0],
-                                       vector(archived.at("direction")),
+                                       vector(archived.at("direction"), sizes.equations - sizes.held),
                                        numbers[1],
                                        numbers[2],
                                        numbers[3],
@@ -219,15 +246,14 @@ json archive(const fem::EnergyBalance::Record& record) {
           {"window", std::move(window)}};
 }
 
-fem::EnergyBalance::Record restore_energy(const json& archived) {
+fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes& sizes) {
   try {
-    const std::vector<double> settled = unpack(archived.at("settled"));
-    if (settled.size() != 4) mismatch();
+    const std::vector<double> settled = unpack(archived.at("settled"), 4);
     fem::EnergyBalance::Record record{{settled[0], settled[1], settled[2], settled[3]},
                                       archived.at("stored_at_start"),
                                       archived.at("first_settled"),
                                       {}};
-    for (const json& point : archived.at("window")) record.window.push_back(restore_point(point));
+    for (const json& point : archived.at("window")) record.window.push_back(restore_point(point, sizes));
     return record;
   } catch (const json::exception&) {
     mismatch();

@@ -3,10 +3,20 @@
 #include "fem/continuation.hpp"
 #include "fem/energy_balance.hpp"
 #include "fem/ramp.hpp"
+#include "post/checkpoint_file.hpp"
 
 #include <nlohmann/json.hpp>
 
 namespace dielast::post {
+
+/// How long the parts of a model's states are.
+struct StateSizes {
+  std::size_t nodes = 0, equations = 0, held = 0; ///< held: equations that are prescribed
+  std::size_t electrodes = 0, chambers = 0;
+  std::size_t internal_variables = 0, sheet_points = 0;
+
+  static StateSizes of(const fem::Model& model);
+};
 
 /// Progress as JSON whose numbers are kept bit for bit (arrays of doubles as binary): written as CBOR it is
 /// the state part of a checkpoint.
@@ -14,15 +24,16 @@ nlohmann::json archive(const fem::RampProgress& progress);
 nlohmann::json archive(const fem::ContinuationProgress& progress);
 nlohmann::json archive(const fem::EnergyBalance::Record& record);
 
-/// What was archived. Throws std::runtime_error when it is something else, or does not fit a model with so
-/// many nodes and equations.
-fem::RampProgress restore_ramp(const nlohmann::json& archived, std::size_t nodes, std::size_t equations);
-fem::ContinuationProgress restore_continuation(const nlohmann::json& archived, std::size_t nodes,
-                                               std::size_t equations);
-fem::EnergyBalance::Record restore_energy(const nlohmann::json& archived);
+/// What was archived. Throws CheckpointError when it is something else, or does not fit a model whose states
+/// have these sizes.
+fem::RampProgress restore_ramp(const nlohmann::json& archived, const StateSizes& sizes);
+fem::ContinuationProgress restore_continuation(const nlohmann::json& archived, const StateSizes& sizes);
+fem::EnergyBalance::Record restore_energy(const nlohmann::json& archived, const StateSizes& sizes);
 
-/// Doubles as binary JSON and back. `unpack` throws std::runtime_error for anything else.
+/// Doubles as binary JSON and back. `unpack` throws CheckpointError for anything else and, where a size is
+/// given, for another number of them.
 nlohmann::json pack(std::span<const double> values);
 std::vector<double> unpack(const nlohmann::json& packed);
+std::vector<double> unpack(const nlohmann::json& packed, std::size_t size);
 
 } // namespace dielast::post

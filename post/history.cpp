@@ -7,8 +7,6 @@
 #include <cerrno>
 #include <cmath>
 #include <fcntl.h>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -20,24 +18,6 @@ std::string header_of(const std::vector<Column>& columns) {
   std::string header = "step";
   for (const Column& column : columns) header += "," + csv_cell(column.name + "[" + column.unit + "]");
   return header + "\n";
-}
-
-/// The header and the first `rows` rows of an existing table.
-std::string kept_part(const std::filesystem::path& path, const std::string& header, int rows) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string table(std::istreambuf_iterator<char>(stream), {});
-  if (!table.starts_with(header))
-    throw std::runtime_error(path.string() + " is not the history of this case");
-  std::size_t end = header.size();
-  for (int row = 0; row < rows; ++row) {
-    end = table.find('\n', end);
-    if (end == std::string::npos)
-      throw std::runtime_error(
-          fmt::format("{} has {} of the {} rows to resume from", path.string(), row, rows));
-    ++end;
-  }
-  table.resize(end);
-  return table;
 }
 
 } // namespace
@@ -52,11 +32,10 @@ std::string csv_cell(std::string_view text) {
   return quoted + '"';
 }
 
-History::History(std::filesystem::path path, const std::vector<Column>& columns, int rows_to_keep)
+History::History(std::filesystem::path path, const std::vector<Column>& columns)
     : path_(std::move(path)), column_count_(columns.size()) {
-  const std::string header = header_of(columns);
-  replace_file(path_, rows_to_keep > 0 ? kept_part(path_, header, rows_to_keep) : header);
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  replace_file(path_, header_of(columns));
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor_ < 0) throw WriteError(path_, errno);
 }
 

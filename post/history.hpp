@@ -14,8 +14,7 @@ struct Column {
   std::string unit; ///< SI; "1" when it has none
 };
 
-/// A text as a cell of a CSV table: in quotes where it must be, always on one line, as rows are counted by
-/// lines.
+/// A text as a cell of a CSV table: in quotes where it must be, always on one line.
 std::string csv_cell(std::string_view text);
 
 /// The table of a run as CSV: header `step,name[unit],...`, one row per accepted step, each written at once,
@@ -23,9 +22,8 @@ std::string csv_cell(std::string_view text);
 /// an empty cell.
 class History {
  public:
-  /// Starts the table, or, to resume, keeps its first `rows_to_keep` rows and drops what follows. Throws
-  /// WriteError; std::runtime_error when the existing table has other columns or too few rows.
-  History(std::filesystem::path path, const std::vector<Column>& columns, int rows_to_keep = 0);
+  /// Starts the table. Throws WriteError.
+  History(std::filesystem::path path, const std::vector<Column>& columns);
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;

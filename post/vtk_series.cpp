@@ -22,7 +22,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 namespace dielast::post {
@@ -188,24 +187,16 @@ VtkSeries::~VtkSeries() = default;
 VtkSeries::VtkSeries(VtkSeries&&) noexcept = default;
 
 VtkSeries::VtkSeries(std::filesystem::path directory, std::string name, const meshing::Mesh& mesh,
-                     int steps_to_keep)
-    : directory_(std::move(directory)), name_(std::move(name)) {
+                     std::vector<std::string> entries)
+    : directory_(std::move(directory)), name_(std::move(name)), entries_(std::move(entries)) {
   for (const Part part : {Part::film, Part::walls})
     for (const meshing::CellBlock& block : mesh.blocks)
       if (part_of(block.type) == part && block.size() > 0)
         parts_.push_back(std::make_unique<PartFile>(mesh, block));
 
-  const std::size_t lines_to_keep = static_cast<std::size_t>(steps_to_keep) * parts_.size();
-  std::ifstream list(list_path());
-  for (std::string line; entries_.size() < lines_to_keep && std::getline(list, line);)
-    if (line.find("<DataSet ") != std::string::npos) entries_.push_back(line);
-  if (entries_.size() < lines_to_keep)
-    throw std::runtime_error(
-        fmt::format("{} has fewer than the {} steps to resume from", list_path().string(), steps_to_keep));
   write_list();
   for (const auto& part : parts_)
-    for (int step = steps_to_keep; std::filesystem::remove(directory_ / file_name(part->name(), step));)
-      ++step;
+    for (int step = steps(); std::filesystem::remove(directory_ / file_name(part->name(), step));) ++step;
 }
 
 std::filesystem::path VtkSeries::list_path() const { return directory_ / (name_ + ".pvd"); }
@@ -214,9 +205,13 @@ std::string VtkSeries::file_name(std::string_view part, int step) const {
   return fmt::format("{}_{}_{:04}.vtu", name_, part, step);
 }
 
+int VtkSeries::steps() const {
+  return static_cast<int>(entries_.size() / std::max<std::size_t>(parts_.size(), 1));
+}
+
 void VtkSeries::write(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
                       const fem::Samples& samples, std::span<const Eigen::Vector3d> mode) {
-  const int index = static_cast<int>(entries_.size() / std::max<std::size_t>(parts_.size(), 1));
+  const int index = steps();
   std::vector<std::string> entries;
   for (const auto& part : parts_) {
     const std::string file = file_name(part->name(), index);

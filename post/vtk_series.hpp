@@ -26,10 +26,9 @@ namespace dielast::post {
 class VtkSeries {
  public:
   /// Precondition: at most one film and one line block, as samples number their cells within a block.
-  /// To resume, `steps_to_keep` leading steps of an existing list are kept; files of later ones are removed.
-  /// Throws WriteError; std::runtime_error when the list has too few steps.
+  /// To resume, `entries` are those of the steps to keep; files of later ones are removed. Throws WriteError.
   VtkSeries(std::filesystem::path directory, std::string name, const meshing::Mesh& mesh,
-            int steps_to_keep = 0);
+            std::vector<std::string> entries = {});
   ~VtkSeries();
   VtkSeries(VtkSeries&&) noexcept;
 
@@ -38,17 +37,21 @@ class VtkSeries {
   void write(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
              const fem::Samples& samples, std::span<const Eigen::Vector3d> mode = {});
 
+  /// Lines of the list, one per step and part: what a checkpoint keeps.
+  const std::vector<std::string>& entries() const { return entries_; }
+
  private:
   class PartFile;
 
   std::filesystem::path list_path() const;
   std::string file_name(std::string_view part, int step) const;
+  int steps() const;
   void write_list() const;
 
   std::filesystem::path directory_;
   std::string name_;
   std::vector<std::unique_ptr<PartFile>> parts_;
-  std::vector<std::string> entries_; ///< lines of the list, one per step and part
+  std::vector<std::string> entries_;
 };
 
 } // namespace dielast::post

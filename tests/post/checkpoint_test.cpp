@@ -1,7 +1,8 @@
 #include "post/checkpoint.hpp"
 
-#include <gtest/gtest.h>
+#include "tests/post/scratch.hpp"
 
+#include <array>
 #include <bit>
 #include <limits>
 #include <random>
@@ -12,6 +13,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t nodes = 5, equations = 12;
+constexpr StateSizes sizes{nodes, equations, 3, 2, 0, 2, 3};
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
@@ -41,9 +43,8 @@ fem::RampProgress sample_progress(int points = 3) {
     state.charge = {0, uniform(random)};
     state.time = uniform(random);
     state.scheme = materials::TimeScheme::bdf2(0.3, uniform(random));
-    if (p > 0)
-      state.history = std::make_shared<const fem::History>(
-          fem::History{{uniform(random), 1}, {uniform(random), 2}, {}, uniform(random), 0});
+    state.history = std::make_shared<const fem::History>(
+        fem::History{{uniform(random), 1}, {uniform(random), 2}, {}, uniform(random), 0});
     state.dead_force = vector(equations);
     state.source = {uniform(random), 0};
     state.sheet_drop = vector(3);
@@ -103,7 +104,7 @@ json through_file(const json& archived) { return json::from_cbor(json::to_cbor(a
 TEST(Checkpoint, RestoresEveryBit) {
   for (const int points : {1, 4}) {
     const fem::RampProgress progress = sample_progress(points);
-    expect_same(restore_ramp(through_file(archive(progress)), nodes, equations), progress);
+    expect_same(restore_ramp(through_file(archive(progress)), sizes), progress);
   }
 }
 
@@ -127,10 +128,49 @@ TEST(Checkpoint, OnlyPacksAreUnpacked) {
 
 TEST(Checkpoint, OfAnotherModelIsRefused) {
   const json archived = archive(sample_progress());
-  EXPECT_NO_THROW(restore_ramp(archived, nodes, equations));
-  EXPECT_THROW(restore_ramp(archived, nodes + 1, equations), std::runtime_error);
-  EXPECT_THROW(restore_ramp(archived, nodes, equations - 1), std::runtime_error);
-  EXPECT_THROW(restore_ramp(archived, 0, 0), std::runtime_error);
+  EXPECT_NO_THROW(restore_ramp(archived, sizes));
+  for (const auto member :
+       {&StateSizes::nodes, &StateSizes::equations, &StateSizes::held, &StateSizes::electrodes,
+        &StateSizes::internal_variables, &StateSizes::sheet_points}) {
+    StateSizes other = sizes;
+    ++(other.*member);
+    EXPECT_THROW(restore_ramp(archived, other), CheckpointError);
+    other.*member = 0;
+    EXPECT_THROW(restore_ramp(archived, other), CheckpointError);
+  }
+}
+
+// Each of these was read beyond its end.
+TEST(Checkpoint, VectorsOfAnotherLengthAreRefused) {
+  const json archived = archive(sample_progress());
+  for (const char* part : {"voltage", "charge", "source", "sheet_drop", "dead_force", "scheme"}) {
+    json other = archived;
+    other["points"][1]["state"][part] = pack(std::array{1.0});
+    EXPECT_THROW(restore_ramp(other, sizes), CheckpointError) << part;
+  }
+  json other = archived;
+  other["points"][1]["state"]["supply"] = {0};
+  EXPECT_THROW(restore_ramp(other, sizes), CheckpointError);
+  other["points"][1]["state"]["supply"] = {0, 7};
+  EXPECT_THROW(restore_ramp(other, sizes), CheckpointError);
+  other = archived;
+  other["points"][1]["state"]["history"]["before"] = pack({});
+  other["points"][1]["state"]["history"]["steps"][0] = 0.1;
+  EXPECT_THROW(restore_ramp(other, sizes), CheckpointError);
+}
+
+TEST(Checkpoint, EnergyWindowsOfAnotherLengthAreRefused) {
+  fem::EnergyPoint point{.force = Eigen::VectorXd::Ones(equations),
+                         .position = Eigen::VectorXd::Ones(equations),
+                         .voltage = {1, 2},
+                         .charge = {3, 4}};
+  const json archived = archive(fem::EnergyBalance::Record{.window = {point}});
+  EXPECT_NO_THROW(restore_energy(archived, sizes));
+  for (const char* part : {"force", "position", "voltage", "charge", "energy", "place"}) {
+    json other = archived;
+    other["window"][0][part] = pack(std::array{1.0});
+    EXPECT_THROW(restore_energy(other, sizes), CheckpointError) << part;
+  }
 }
 
 TEST(Checkpoint, DamageIsRefused) {
@@ -138,14 +178,56 @@ TEST(Checkpoint, DamageIsRefused) {
   for (const auto& [key, value] : archived.items()) {
     json without = archived, other = archived;
     without.erase(key);
-    EXPECT_THROW(restore_ramp(without, nodes, equations), std::runtime_error) << key;
+    EXPECT_THROW(restore_ramp(without, sizes), std::runtime_error) << key;
     other[key] = "text";
-    EXPECT_THROW(restore_ramp(other, nodes, equations), std::runtime_error) << key;
+    EXPECT_THROW(restore_ramp(other, sizes), std::runtime_error) << key;
   }
   json empty = archived;
   empty["points"] = json::array();
-  EXPECT_THROW(restore_ramp(empty, nodes, equations), std::runtime_error);
-  EXPECT_THROW(restore_ramp(json(), nodes, equations), std::runtime_error);
+  EXPECT_THROW(restore_ramp(empty, sizes), std::runtime_error);
+  EXPECT_THROW(restore_ramp(json(), sizes), std::runtime_error);
+}
+
+class CheckpointFile : public ScratchTest {
+ protected:
+  CheckpointFile() : content({{"numbers", pack(std::array{0.1, 5e-324})}, {"word", "voltage"}}) {}
+  std::filesystem::path path() const { return directory / "checkpoint.cbor"; }
+  void write(const std::string& bytes) const { std::ofstream(path(), std::ios::binary) << bytes; }
+
+  json content;
+};
+
+TEST_F(CheckpointFile, ReadsBackAsItWasWritten) {
+  write_checkpoint(path(), content);
+  EXPECT_EQ(read_checkpoint(path()), content);
+}
+
+TEST_F(CheckpointFile, AnyChangedBitIsRefused) {
+  write_checkpoint(path(), content);
+  const std::string whole = ScratchTest::content("checkpoint.cbor");
+  for (std::size_t byte = 0; byte < whole.size(); ++byte)
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string damaged = whole;
+      damaged[byte] = static_cast<char>(damaged[byte] ^ (1 << bit));
+      write(damaged);
+      EXPECT_THROW(read_checkpoint(path()), CheckpointError) << byte << "." << bit;
+    }
+}
+
+TEST_F(CheckpointFile, ShorterLongerOlderAndMissingOnesAreRefused) {
+  write_checkpoint(path(), content);
+  const std::string whole = ScratchTest::content("checkpoint.cbor");
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    write(whole.substr(0, size));
+    EXPECT_THROW(read_checkpoint(path()), CheckpointError) << size;
+  }
+  const std::vector<std::uint8_t> older = json::to_cbor(content); // of 0.1.0, without a head
+  for (const std::string& other : {whole + '\0', std::string(older.begin(), older.end())}) {
+    write(other);
+    EXPECT_THROW(read_checkpoint(path()), CheckpointError);
+  }
+  std::filesystem::remove(path());
+  EXPECT_THROW(read_checkpoint(path()), CheckpointError);
 }
 
 } // namespace

@@ -52,24 +52,10 @@ TEST_F(HistoryTest, EveryRowIsOnDiskAtOnce) {
   EXPECT_TRUE(content("history.csv").ends_with("a,1,2,3\n"));
 }
 
-TEST_F(HistoryTest, ResumesAfterTheRowsToKeep) {
-  write_three_rows();
-  std::ofstream(path(), std::ios::app) << "voltage,1,75"; // killed in the middle of a row
-  History(path(), columns, 2).append("again", std::array{1.0, 2.0, 3.0});
-  EXPECT_TRUE(content("history.csv").ends_with("release,1,0,0.1\nvoltage,0.5,5000,\nagain,1,2,3\n"));
-}
-
-TEST_F(HistoryTest, StartsAfreshUnlessAskedToResume) {
+TEST_F(HistoryTest, ReplacesAnEarlierTable) {
   write_three_rows();
   const History history(path(), columns);
   EXPECT_EQ(content("history.csv").find('\n'), content("history.csv").size() - 1);
-}
-
-TEST_F(HistoryTest, RefusesToResumeAnotherTable) {
-  write_three_rows();
-  EXPECT_THROW(History(path(), {{"x", "m"}}, 1), std::runtime_error);
-  EXPECT_THROW(History(path(), columns, 4), std::runtime_error);
-  EXPECT_THROW(History(directory / "none.csv", columns, 1), std::runtime_error);
 }
 
 TEST_F(HistoryTest, StepNamesCannotBreakARow) {
