@@ -21,7 +21,9 @@ std::vector<std::string> names_of(const List& list, Name name) {
   return names;
 }
 
-bool is_standard(const Source& source) { return source.line == 0 && !source.file.starts_with("--set"); }
+bool is_standard(const Source& source) {
+  return source.line == 0 && !source.file.text().starts_with("--set");
+}
 
 void require_known(SectionReader& reader, Reference kind, const std::string& noun,
                    const std::vector<std::string>& known) {
@@ -83,6 +85,11 @@ Case interpret(Node tree, const std::filesystem::path& path) {
     standard = add_standard_quantities(tree, *device);
   }
 
+  if (const std::string name = path.stem().string(); name.size() > longest_name)
+    throw CaseError(
+        {{tree.source, "",
+          fmt::format("the file's name is too long: results are called after it, allowed {} letters",
+                      longest_name)}});
   SectionReader reader({geometries_of(tree).size() == 1 ? std::string(device->name) : "", path.parent_path(),
                         [&] { return names_of(one.electrodes, &Electrode::name); },
                         [&](const std::string& name) -> std::optional<std::string> {

@@ -65,7 +65,7 @@ std::string item_expectation(const Key& key, std::string_view unit) {
   case Type::word:
     return "one of " + listed(words_of(key));
   case Type::name:
-    return "a name of letters, digits, \"_\" and \"-\"";
+    return fmt::format("a name of at most {} letters, digits, \"_\" and \"-\"", longest_name);
   case Type::text:
     return "a text in quotes";
   }
@@ -115,7 +115,12 @@ Scalar convert_item(const Key& key, const Node& node, std::string_view unit, con
   const bool text = node.is(Node::Kind::text);
   switch (key.type) {
   case Type::wave:
-    if (read_wave && node.is(Node::Kind::table)) return {0, "", read_wave(node)};
+    if (read_wave && node.is(Node::Kind::table)) {
+      Scalar driven{0, "", read_wave(node)};
+      if (const Node* to = node.find("to"); to && driven.wave->constant()) // resolved.toml has it as a number
+        require_range(key, *to, driven.wave->to, std::string(dimension(unit).shown), false);
+      return driven;
+    }
     if (!text && !node.is(Node::Kind::integer) && !node.is(Node::Kind::number)) mismatch(node, "", allowed);
     return convert_measure(key, node, unit);
   case Type::measure:
@@ -136,7 +141,7 @@ Scalar convert_item(const Key& key, const Node& node, std::string_view unit, con
       if (key.choices[i].word == node.text) return {static_cast<double>(i), node.text};
     mismatch(node, "", allowed + (text ? did_you_mean(node.text, words_of(key)) : ""));
   case Type::name:
-    if (!text || node.text.empty()) mismatch(node, "", allowed);
+    if (!text || node.text.empty() || node.text.size() > longest_name) mismatch(node, "", allowed);
     for (const unsigned char letter : node.text)
       if (letter > 127 || (!std::isalnum(letter) && letter != '_' && letter != '-'))
         mismatch(node, "", allowed);
@@ -176,6 +181,7 @@ Value convert(const Key& key, const Node& node, std::string_view unit, const Wav
       mismatch(node, fmt::format(", a list of {}", node.items.size()), expectation(key, unit));
     for (const Node& item : node.items) value.push_back(convert_item(key, item, unit, read_wave));
   }
+  for (Scalar& scalar : value) scalar.number += 0.0; // -0 is written, and read, as 0
   if (key.check)
     if (const std::string wrong = key.check(value); !wrong.empty()) throw Mismatch{wrong, node.source};
   return value;

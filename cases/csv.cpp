@@ -1,5 +1,6 @@
 #include "cases/csv.hpp"
 
+#include "cases/input_file.hpp"
 #include "cases/units.hpp"
 
 #include <fmt/format.h>
@@ -7,7 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 namespace dielast::cases {
 namespace {
@@ -51,16 +52,13 @@ int CsvTable::find(std::string_view name) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong) {
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure))
-    throw FileError(fmt::format("{}: no such file", path.string()));
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw FileError(fmt::format("{}: cannot be read", path.string()));
-
+  constexpr std::size_t largest = 64u << 20, enough = 20 * most_diagnostics;
+  constexpr int most_rows = 100000;
+  std::istringstream stream(read_input(path, "a CSV file", largest));
   CsvTable table;
   table.file = path.string();
   int number = 0;
-  for (std::string line; std::getline(stream, line);) {
+  for (std::string line; std::getline(stream, line) && wrong.size() < enough;) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3); // byte order mark of spreadsheets
     if (line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos) continue;
@@ -90,6 +88,8 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
       table.columns[c].push_back(value);
     }
   }
+  if (table.rows() > most_rows)
+    wrong.push_back({{table.file}, "", fmt::format("found {} rows, allowed {}", table.rows(), most_rows)});
   if (table.rows() < least_rows)
     wrong.push_back({{table.file},
                      "",

@@ -24,8 +24,8 @@ struct CsvTable {
 };
 
 /// Everything that is wrong with the file is added to `wrong`, with line and column: text or nothing in a
-/// cell, a row with more or fewer cells than names, fewer than `least_rows` rows. Throws FileError when the
-/// file cannot be read.
+/// cell, a row with more or fewer cells than names, fewer than `least_rows` rows; a thousand errors end it.
+/// Throws FileError when the file cannot be read.
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong);
 
 /// The column in SI: its name ends in a unit of the dimension of `si_unit`, or its numbers are SI already.

@@ -9,18 +9,24 @@
 namespace dielast::cases {
 namespace {
 
-std::string lines_of(const std::vector<Diagnostic>& diagnostics) {
+std::string lines_of(const std::vector<Diagnostic>& diagnostics, std::size_t more) {
   std::string lines;
   for (const Diagnostic& diagnostic : diagnostics)
     lines += fmt::format("{}{}", lines.empty() ? "" : "\n", diagnostic.text());
-  return lines;
+  return more == 0 ? lines : fmt::format("{}\nand at least {} more errors", lines, more);
 }
 
-std::vector<Diagnostic> in_file_order(std::vector<Diagnostic> diagnostics) {
+std::vector<Diagnostic> first_in_file(std::vector<Diagnostic> diagnostics) {
   std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::tie(a.source.line, a.source.column) < std::tie(b.source.line, b.source.column);
   });
+  diagnostics.resize(std::min(diagnostics.size(), most_diagnostics));
   return diagnostics;
+}
+
+/// Those that first_in_file leaves out, and those that have been left out before.
+std::size_t left_out(const std::vector<Diagnostic>& diagnostics, std::size_t before) {
+  return before + std::max(diagnostics.size(), most_diagnostics) - most_diagnostics;
 }
 
 /// Optimal string alignment distance, blind to upper and lower case: a swap of neighbours is one mistake.
@@ -44,14 +50,20 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 } // namespace
 
+const std::string& FileName::text() const {
+  static const std::string none;
+  return name_ ? *name_ : none;
+}
+
 std::string Diagnostic::text() const {
-  std::string place = source.file;
+  std::string place = source.file.text();
   if (source.line > 0) place += fmt::format(":{}:{}", source.line, source.column);
   return fmt::format("{}: error: {}{}{}", place, key, key.empty() ? "" : ": ", message);
 }
 
-CaseError::CaseError(std::vector<Diagnostic> diagnostics)
-    : std::runtime_error(lines_of(in_file_order(diagnostics))), diagnostics_(in_file_order(diagnostics)) {}
+CaseError::CaseError(std::vector<Diagnostic> diagnostics, std::size_t more)
+    : std::runtime_error(lines_of(first_in_file(diagnostics), left_out(diagnostics, more))),
+      diagnostics_(first_in_file(diagnostics)), more_(left_out(diagnostics, more)) {}
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
   constexpr std::size_t longest_word = 100; // nobody mistypes that much; keeps the distance cheap

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -7,9 +8,21 @@
 
 namespace dielast::cases {
 
+/// Name of a file, held once by everything that stands in the file.
+class FileName {
+ public:
+  FileName() = default;
+  FileName(std::string name) : name_(std::make_shared<const std::string>(std::move(name))) {}
+  FileName(const char* name) : FileName(std::string(name)) {}
+  const std::string& text() const;
+
+ private:
+  std::shared_ptr<const std::string> name_; ///< null: ""
+};
+
 /// Where a setting was written: a line of a file, or an option of the command line (then line is 0).
 struct Source {
-  std::string file;
+  FileName file;
   int line = 0, column = 0;
 };
 
@@ -30,14 +43,22 @@ struct Mention {
   Source source;
 };
 
-/// The user's input is wrong: everything that is wrong with it, in the order of the file.
+/// More errors than these are counted, not told.
+constexpr std::size_t most_diagnostics = 50;
+
+/// The user's input is wrong: what is wrong with it, in the order of the file.
 class CaseError : public std::runtime_error {
  public:
-  explicit CaseError(std::vector<Diagnostic> diagnostics);
+  /// `more`: the number of errors that `diagnostics` has left out.
+  explicit CaseError(std::vector<Diagnostic> diagnostics, std::size_t more = 0);
+  /// The first ones, most_diagnostics at most.
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+  /// Number of the others.
+  std::size_t more() const { return more_; }
 
  private:
   std::vector<Diagnostic> diagnostics_;
+  std::size_t more_;
 };
 
 /// A file cannot be read.

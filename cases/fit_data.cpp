@@ -173,10 +173,12 @@ void load_test(FitTest& test, const std::filesystem::path& folder, bool needs_ti
     const CsvTable csv = read_csv(folder / test.file, 2, wrong);
     if (wrong.size() > errors_before) return;
     read_rows(test, csv, needs_time, Columns(csv, table, path, wrong), wrong);
-  } catch (const FileError&) {
+  } catch (const FileError& error) {
     wrong.push_back({table.find("file")->source, path + ".file",
-                     fmt::format("found {}: no such file; the path starts at this file's folder",
-                                 toml_string(test.file.string()))});
+                     fmt::format("found {}: {}", toml_string(test.file.string()),
+                                 std::filesystem::exists(folder / test.file)
+                                     ? error.what()
+                                     : "no such file; the path starts at this file's folder")});
   }
 }
 

@@ -118,13 +118,13 @@ ExitCode guarded(ExitCode (*command)(const Arguments&), const Arguments& argumen
   try {
     return command(arguments);
   } catch (const cases::CaseError& error) {
-    for (const cases::Diagnostic& diagnostic : error.diagnostics())
-      fmt::print(stderr, "{}\n", diagnostic.text());
+    fmt::print(stderr, "{}\n", error.what());
     return ExitCode::invalid_case;
   } catch (const meshing::MeshError& error) {
     return fail(ExitCode::mesh, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(ExitCode::usage_or_file, "out of memory: use a coarser mesh");
+    return fail(ExitCode::usage_or_file,
+                "out of memory: use a coarser mesh, fewer rows, or points of a study");
   } catch (const std::exception& error) { // files that cannot be read or written, unknown topics
     return fail(ExitCode::usage_or_file, error.what());
   }

@@ -44,6 +44,8 @@ std::vector<Part> parts_of(std::string_view key, const Source& source) {
       parts.push_back({std::string(until(".[\""))});
     }
   }
+  constexpr std::size_t most_parts = 20; // what goes down into the tables recurses
+  if (parts.size() > most_parts) fail(source, "", fmt::format("a key has more than {} parts", most_parts));
   if (parts.empty()) fail(source, key, "write --set key=value, such as --set drive.voltage=\"5 kV\"");
   return parts;
 }

@@ -22,11 +22,16 @@ bool keeps_the_device(std::string_view assignment) {
 Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   Node tree = read_case_file(path);
   std::vector<Diagnostic> wrong;
+  std::size_t more = 0;
+  const auto gather = [&](const CaseError& error) {
+    wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+    more += error.more();
+  };
   for (const std::string& assignment : overrides) {
     try {
       apply_override(tree, assignment);
     } catch (const CaseError& error) {
-      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+      gather(error);
     }
   }
   try {
@@ -37,9 +42,9 @@ Case read_case(const std::filesystem::path& path, const std::vector<std::string>
     }
     if (wrong.empty()) return one;
   } catch (const CaseError& error) {
-    wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+    gather(error);
   }
-  throw CaseError(wrong);
+  throw CaseError(wrong, more);
 }
 
 void check_places(const Case& one, const std::vector<std::string>& places) {

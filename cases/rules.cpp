@@ -108,6 +108,24 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
+/// Every row of the history is kept until the run ends.
+void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
+  constexpr double most_rows = 100000;
+  double rows = 0;
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    const double before = rows;
+    rows += step.record ? *step.duration / *step.record : step.increments;
+    if (rows <= most_rows || before > most_rows) continue;
+    const Place at = place_of_step(tree, s);
+    reader.report(
+        at.source, at.key + (step.record ? ".record" : ".increments"),
+        fmt::format(
+            "the history would have {:.6g} rows at the end of this step, allowed {:.0f}; record fewer", rows,
+            most_rows));
+  }
+}
+
 bool has_mass(const Case& one) {
   const auto heavy = [](const auto& body) { return body.mass > 0; };
   return one.film.material.density > 0 || (one.plate && heavy(*one.plate)) ||
@@ -182,6 +200,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_motions(reader, tree, one);
   check_drives(reader, tree, one);
   check_waves(reader, tree, one);
+  check_rows(reader, tree, one);
   check_masses(reader, tree, one);
   check_chamber(reader, tree, one);
   check_dimension(reader, tree, one);

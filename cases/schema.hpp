@@ -39,6 +39,9 @@ enum class Type {
   text,
 };
 
+/// Letters of a name, and of a case file's: results are called after both.
+constexpr std::size_t longest_name = 100;
+
 /// What a text refers to, checked once everything is read (places: once the mesh exists).
 enum class Reference { none, place, supported_place, electrode, step, quantity };
 

@@ -3,6 +3,8 @@
 namespace dielast::cases {
 namespace {
 
+constexpr double smallest_resistance = 1e-3; ///< Ohm: below, charging is quicker than any step of time
+
 const std::vector<Choice> axes{{"x", "along x"}, {"y", "along y"}, {"z", "normal to the undeformed film"}};
 
 Section electrode_section() {
@@ -13,7 +15,7 @@ Section electrode_section() {
       measure("sheet_resistance", "Ohm", to(&Electrode::sheet_resistance),
               "per square of the deformed film, both faces together; without it the voltage is the same "
               "everywhere")
-          .above(0)
+          .at_least(smallest_resistance)
           .optional(),
       text("terminal", to(&Electrode::terminal),
            "place where an electrode with a sheet_resistance is connected")
@@ -153,10 +155,11 @@ Section circuit_section() {
   section.shape = Section::Shape::by_electrode;
   section.access = of_electrodes(&Case::circuits);
   section.keys = {
-      measure("resistance", "Ohm", to(&Circuit::resistance), "between the source and the electrode").above(0),
+      measure("resistance", "Ohm", to(&Circuit::resistance), "between the source and the electrode")
+          .at_least(smallest_resistance),
       measure("leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
               "through the film under the whole electrode; without it none leaks")
-          .above(0)
+          .at_least(smallest_resistance)
           .optional(),
       measure("current_limit", "A", to(&Circuit::current_limit),
               "current that the source gives or takes at most")
@@ -236,7 +239,7 @@ Section chamber_section() {
           .at_least(0)
           .optional(),
       measure("bulk_modulus", "Pa", to(&Chamber::bulk_modulus), "of the liquid that is pumped in")
-          .above(0)
+          .at_least(1)
           .otherwise("2.2 GPa"),
   };
   return section;

@@ -8,11 +8,16 @@ namespace {
 
 constexpr double vacuum_permittivity = 8.8541878128e-12; // F/m, CODATA 2018
 
+constexpr double smallest_modulus = 1;            // Pa, far below any gel
+constexpr double smallest_relaxation_time = 1e-9; // s: the branch's strain would be round-off
+
 std::optional<Conflict> law_conflict(const materials::ElasticLaw& law) {
   if (const auto* ogden = std::get_if<materials::Ogden>(&law))
     if (const auto problem = ogden->problem()) return Conflict{"exponents", *problem};
-  if (materials::initial_shear_modulus(law) > 0) return std::nullopt;
-  return Conflict{"law", "its shear modulus at small strain is not positive"};
+  const double modulus = materials::initial_shear_modulus(law);
+  if (modulus >= smallest_modulus) return std::nullopt;
+  return Conflict{"law", fmt::format("its shear modulus at small strain is {:.6g} Pa, allowed at least {} Pa",
+                                     modulus, smallest_modulus)};
 }
 
 /// [[film.material.branch]]
@@ -54,7 +59,7 @@ Section branch_section() {
                            }};
   section.keys.push_back(measure("relaxation_time", "s", relaxation_time,
                                  "viscosity over the spring's shear modulus at small strain")
-                             .above(0));
+                             .at_least(smallest_relaxation_time));
   section.keys.push_back(measure("viscosity", "Pa s", to(&Branch::viscosity), "viscosity eta of the dashpot")
                              .above(0)
                              .replacing("relaxation_time"));
@@ -72,7 +77,11 @@ Section branch_section() {
     const auto& branch = *static_cast<const Branch*>(object);
     if (branch.dashpot == materials::Dashpot::log && !(branch.directions[0] && branch.directions[1]))
       return Conflict{"directions", "only for dashpot = \"nominal\"; a log dashpot flows in all directions"};
-    return law_conflict(branch.law);
+    if (auto wrong = law_conflict(branch.law)) return wrong;
+    const double time = branch.viscosity / materials::initial_shear_modulus(branch.law);
+    if (time >= smallest_relaxation_time * (1 - 1e-12)) return std::nullopt;
+    return Conflict{"viscosity", fmt::format("the relaxation time is {:.6g} s, allowed at least {} s", time,
+                                             smallest_relaxation_time)};
   };
   return section;
 }

@@ -118,7 +118,9 @@ Section check_section() {
       text("source", to(&Check::source), "where the expected value comes from"),
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
-    if (static_cast<const Check*>(object)->tolerance > 0) return std::nullopt;
+    const double tolerance = static_cast<const Check*>(object)->tolerance;
+    if (!std::isfinite(tolerance)) return Conflict{"tolerance", "is too large to store"};
+    if (tolerance > 0) return std::nullopt;
     return Conflict{"tolerance", "a part of zero is zero; give it in the quantity's unit"};
   };
   return section;
@@ -141,12 +143,12 @@ Section solver_section() {
           .otherwise("25"),
       number("smallest_increment", to(&SolverOptions::smallest_increment),
              "part of a step below which it gives up")
-          .above(0)
+          .at_least(1e-12)
           .at_most(1)
           .otherwise("1e-3"),
       number("time_tolerance", to(&SolverOptions::time_tolerance),
              "relative error of the branches that a time step may add")
-          .above(0)
+          .at_least(1e-12)
           .at_most(0.1)
           .otherwise("1e-6"),
   };

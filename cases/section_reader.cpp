@@ -280,10 +280,13 @@ void SectionReader::report_unknown(const Section& section, const Node& table, co
                          selected.empty() ? "" : fmt::format(", here it is \"{}\"", selected)));
       continue;
     }
-    const auto names = section.names_for(selected);
-    std::string advice = home_of(name);
-    if (advice.empty()) advice = did_you_mean(name, names);
-    if (advice.empty()) advice = ", allowed " + listed(names);
+    std::string advice;
+    if (diagnostics_.size() < most_diagnostics) { // a walk through the table, for errors that are told
+      const auto names = section.names_for(selected);
+      advice = home_of(name);
+      if (advice.empty()) advice = did_you_mean(name, names);
+      if (advice.empty()) advice = ", allowed " + listed(names);
+    }
     report(node.key_source, full, "unknown key" + advice);
   }
 }

@@ -45,28 +45,34 @@ void mark_done(const StudyPoint& point, int exit_code, const std::string& messag
 }
 
 std::optional<PointResult> result_of(const Study& study, const StudyPoint& point) {
-  std::ifstream mark_file(mark_path(point)), summary_file(point.directory / "summary.json");
-  const json mark = json::parse(mark_file, nullptr, false);
-  if (mark.is_discarded() || mark.value("values", std::vector<std::string>{}) != point.values)
-    return std::nullopt;
-  PointResult result{.exit_code = mark.value("exit_code", 0), .message = mark.value("message", "")};
-  const json summary = json::parse(summary_file, nullptr, false);
-  for (const std::string& name : study.collect) {
-    result.quantities.emplace_back();
-    result.units.emplace_back();
-    if (summary.is_discarded() || !summary["quantities"].contains(name)) continue;
-    const json& quantity = summary["quantities"][name];
-    result.units.back() = quantity.value("unit", "");
-    if (quantity["value"].is_number()) result.quantities.back() = quantity["value"].get<double>();
-  }
-  if (!summary.is_discarded()) {
-    if (result.message.empty()) result.message = summary.value("message", "");
-    for (const json& event : summary["events"])
-      if (const std::string kind = event.value("kind", "");
+  try {
+    std::ifstream mark_file(mark_path(point));
+    const json mark = json::parse(mark_file);
+    if (mark.at("values") != point.values) return std::nullopt;
+    PointResult result{.exit_code = mark.at("exit_code"), .message = mark.at("message")};
+    result.quantities.resize(study.collect.size());
+    result.units.resize(study.collect.size());
+    const auto summary_path = point.directory / "summary.json";
+    if (result.exit_code != 0 && !std::filesystem::exists(summary_path)) return result; // it failed before
+    std::ifstream summary_file(summary_path);
+    const json summary = json::parse(summary_file);
+    const json& quantities = summary.at("quantities");
+    for (std::size_t i = 0; i < study.collect.size(); ++i) {
+      const auto found = quantities.find(study.collect[i]);
+      if (found == quantities.end()) continue;
+      result.units[i] = found->at("unit");
+      if (const json& value = found->at("value"); value.is_number())
+        result.quantities[i] = value.get<double>();
+    }
+    if (result.message.empty()) result.message = summary.at("message");
+    for (const json& event : summary.at("events"))
+      if (const std::string kind = event.at("kind");
           std::find(result.events.begin(), result.events.end(), kind) == result.events.end())
         result.events.push_back(kind);
+    return result;
+  } catch (const json::exception&) { // damaged, or of an older version: as if it had not run
+    return std::nullopt;
   }
-  return result;
 }
 
 std::optional<WrittenMeasure> axis_number(const std::string& toml) {

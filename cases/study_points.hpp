@@ -32,7 +32,7 @@ struct PointResult {
 std::vector<StudyPoint> study_points(const Study& study, const std::filesystem::path& directory);
 
 /// Remembers in the point's directory how its run ended; reads it back, nothing when the point was not
-/// finished or has other values.
+/// finished, has other values or damaged results.
 void mark_done(const StudyPoint& point, int exit_code, const std::string& message);
 std::optional<PointResult> result_of(const Study& study, const StudyPoint& point);
 

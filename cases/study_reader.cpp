@@ -29,9 +29,11 @@ std::optional<WrittenMeasure> measured(const Node* node) {
   }
 }
 
+constexpr std::size_t most_values = 10000; ///< of one axis: every one is tried on the case
+constexpr double most_points = 1e5;
+
 /// Values of { from, to, step }, both ends included; every unit must be written alike. Empty after a report.
 std::vector<std::string> range_values(SectionReader& reader, const Node& node, const std::string& path) {
-  constexpr double most = 10000;
   const auto from = measured(node.find("from")), to = measured(node.find("to")),
              step = measured(node.find("step"));
   if (!from || !to || !step || node.items.size() != 3) {
@@ -43,10 +45,10 @@ std::vector<std::string> range_values(SectionReader& reader, const Node& node, c
   const double count = std::floor((to->number - from->number) / step->number + 1e-9) + 1;
   if (from->unit != to->unit || from->unit != step->unit)
     reader.report(node.source, path, "from, to and step must have the same unit");
-  else if (!(count >= 1 && count <= most))
+  else if (!(count >= 1 && count <= most_values))
     reader.report(node.source, path,
                   fmt::format("step must lead from {} to {} in at most {} values",
-                              text_of(*node.find("from")), text_of(*node.find("to")), most));
+                              text_of(*node.find("from")), text_of(*node.find("to")), most_values));
   else {
     std::vector<std::string> values;
     for (int i = 0; i < static_cast<int>(count); ++i) {
@@ -90,6 +92,11 @@ void read_axes(SectionReader& reader, const Node& section, const Node& base, Stu
     std::set<std::string> told;
     if (node.is(Node::Kind::list)) {
       if (node.items.empty()) reader.report(node.source, path, "is empty; give at least one value");
+      if (node.items.size() > most_values) {
+        reader.report(node.source, path,
+                      fmt::format("found {} values, allowed {}", node.items.size(), most_values));
+        continue;
+      }
       for (const Node& item : node.items) {
         axis.values.push_back(text_of(item));
         try_value(reader, base, study, axis.key, axis.values.back(), item.source, told);
@@ -106,6 +113,11 @@ void read_axes(SectionReader& reader, const Node& section, const Node& base, Stu
     }
     study.axes.push_back(std::move(axis));
   }
+  double points = 1;
+  for (const StudyAxis& axis : study.axes) points *= static_cast<double>(axis.values.size());
+  if (points > most_points)
+    reader.report(vary->source, "study.vary",
+                  fmt::format("makes a grid of {:.6g} points, allowed {:.6g}", points, most_points));
 }
 
 void require_one_of(SectionReader& reader, const Source& source, const std::string& key,

@@ -12,7 +12,7 @@ std::vector<Key> sweep_keys(Sweep T::*sweep, const std::string& purpose, std::st
   };
   return {
       measure("from", "Hz", part(&Sweep::from), "lowest frequency" + purpose)
-          .above(0)
+          .at_least(1e-9)
           .otherwise(std::move(from)),
       measure("to", "Hz", part(&Sweep::to), "highest frequency" + purpose).above(0).otherwise(std::move(to)),
       integer("points", part(&Sweep::points), "number of frequencies, at equal ratios")

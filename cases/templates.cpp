@@ -142,7 +142,7 @@ void add_patch_steps(Node& tree) {
     list.source = source;
     steps = &tree.add("step", list);
   }
-  const bool written = steps->source.line > 0 || steps->source.file != source.file;
+  const bool written = steps->source.line > 0 || steps->source.file.text() != source.file.text();
   if (written) return;
   for (const std::string& kind : patch_steps(tree)) {
     const bool known =

@@ -1,23 +1,22 @@
 #include "cases/tree.hpp"
 
+#include "cases/input_file.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 
 namespace dielast::cases {
 namespace {
 
-Source source_of(const toml::source_region& region, const std::string& file) {
+Source source_of(const toml::source_region& region, const FileName& file) {
   return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-Node node_of(const toml::node& from, const std::string& file) {
+Node node_of(const toml::node& from, const FileName& file) {
   Node node;
   node.source = source_of(from.source(), file);
   if (const auto* table = from.as_table()) {
@@ -57,6 +56,56 @@ Node node_of(const toml::node& from, const std::string& file) {
   return node;
 }
 
+/// Position behind the string that begins at `i` with a quote; a string of one line ends with its line.
+std::size_t behind_string(std::string_view toml, std::size_t i) {
+  const char quote = toml[i];
+  const std::string_view all(toml.data() + i, std::min<std::size_t>(3, toml.size() - i));
+  const bool lines = all.size() == 3 && all[1] == quote && all[2] == quote;
+  const std::string_view end = lines ? all : all.substr(0, 1);
+  for (i += end.size(); i < toml.size(); ++i) {
+    if (toml.substr(i).starts_with(end)) return i + end.size();
+    if (!lines && toml[i] == '\n') return i;
+    if (quote == '"' && toml[i] == '\\') ++i;
+  }
+  return toml.size();
+}
+
+/// A key with many dots makes as many tables, one in the other, and everything that goes down into tables
+/// would overflow the stack. The parser itself limits the depth of values only.
+void require_shallow(std::string_view toml, const FileName& file) {
+  constexpr int most_dots = 20;
+  int dots = 0, line = 1;
+  for (std::size_t i = 0; i < toml.size(); ++i) {
+    switch (toml[i]) {
+    case '#':
+      i = std::min(toml.find('\n', i), toml.size()) - 1;
+      break;
+    case '"':
+    case '\'': {
+      const std::size_t end = behind_string(toml, i);
+      line += static_cast<int>(std::count(toml.begin() + i, toml.begin() + end, '\n'));
+      i = end - 1;
+      break;
+    }
+    case '.':
+      if (++dots > most_dots)
+        throw CaseError({{{file, line, 1}, "", fmt::format("a key has more than {} dots", most_dots)}});
+      break;
+    case '\n':
+      ++line;
+      [[fallthrough]];
+    case '=':
+    case ',':
+    case '[':
+    case '{':
+      dots = 0;
+      break;
+    default:
+      break;
+    }
+  }
+}
+
 } // namespace
 
 void Node::relocate(const Source& new_source) {
@@ -76,9 +125,10 @@ Node& Node::add(std::string key, Node value) {
   return items.emplace_back(std::move(value));
 }
 
-Node parse_tree(std::string_view toml, const std::string& file) {
+Node parse_tree(std::string_view toml, const FileName& file) {
   try {
-    return node_of(toml::parse(toml, std::string_view(file)), file);
+    require_shallow(toml, file);
+    return node_of(toml::parse(toml, std::string_view(file.text())), file);
   } catch (const toml::parse_error& error) {
     std::string message(error.description());
     if (message.find("expected a comment or whitespace") != std::string::npos)
@@ -89,20 +139,8 @@ Node parse_tree(std::string_view toml, const std::string& file) {
 }
 
 Node read_tree(const std::filesystem::path& path) {
-  constexpr std::uintmax_t largest = 16u << 20;
-  std::error_code failure;
-  const auto status = std::filesystem::status(path, failure);
-  if (!std::filesystem::exists(status)) throw FileError(fmt::format("{}: no such file", path.string()));
-  if (std::filesystem::is_directory(status))
-    throw FileError(fmt::format("{}: a directory, expected a case file", path.string()));
-  if (const auto size = std::filesystem::file_size(path, failure); !failure && size > largest)
-    throw FileError(fmt::format("{}: {} bytes is too large for a case file", path.string(), size));
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  std::string content;
-  if (!stream || (content.assign(std::istreambuf_iterator<char>(stream), {}), stream.bad()))
-    throw FileError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
-  return parse_tree(content, path.string());
+  constexpr std::size_t largest = 4u << 20;
+  return parse_tree(read_input(path, "a case file", largest), path.string());
 }
 
 Node parse_value(std::string_view text, const Source& source) {

@@ -34,12 +34,13 @@ struct Node {
   Node& add(std::string key, Node value);
 };
 
-/// Reads a TOML file; `file` is the name used in messages. Throws FileError (missing, directory, larger than
-/// 16 MB, not readable) or CaseError (syntax, encoding).
+/// Reads a TOML file. Throws FileError (missing, no file, larger than 4 MB, not readable) or CaseError
+/// (syntax, encoding, keys with more than 20 dots).
 Node read_tree(const std::filesystem::path& path);
 
-/// Parses TOML text; every node gets the line and column in it. Throws CaseError.
-Node parse_tree(std::string_view toml, const std::string& file);
+/// Parses TOML text; every node gets the line and column in it, and `file` as the name in messages. Throws
+/// CaseError.
+Node parse_tree(std::string_view toml, const FileName& file);
 
 /// A value as a user types it after "key=": TOML when it is that, otherwise a text. Every node gets `source`.
 /// Throws CaseError for bad UTF-8 and control characters.

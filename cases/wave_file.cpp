@@ -52,10 +52,12 @@ void load_samples(Waveform& wave, std::string_view unit, const std::filesystem::
     wave.samples.clear();
     for (std::size_t i = 0; i < times.size(); ++i) wave.samples.push_back({times[i], values[i]});
     wave.file = std::filesystem::absolute(file).lexically_normal();
-  } catch (const FileError&) {
+  } catch (const FileError& error) {
     wrong.push_back({table.find("file")->source, path + ".file",
-                     fmt::format("found {}: no such file; the path starts at the case file's folder",
-                                 toml_string(wave.file.string()))});
+                     fmt::format("found {}: {}", toml_string(wave.file.string()),
+                                 std::filesystem::exists(file)
+                                     ? error.what()
+                                     : "no such file; the path starts at the case file's folder")});
   }
 }
 

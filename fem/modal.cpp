@@ -98,6 +98,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
       X = respond(X);
       append(W, X);
     }
+    if (V.cols() == 0) return std::nullopt; // the tangent's numbers are beyond double precision
     const Eigen::MatrixXd inverse = V.transpose() * (M * W);
     if (!inverse.allFinite()) return std::nullopt;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz((inverse + inverse.transpose()) / 2);
