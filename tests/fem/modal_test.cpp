@@ -216,5 +216,14 @@ TEST(Modal, a_balloon_breathes_at_constant_pressure) {
   }
 }
 
+// Of numbers that small no vector is left: no modes, instead of a decomposition of nothing.
+TEST(Modal, a_film_without_stiffness_has_none) {
+  for (const int rings : {0, 3}) {
+    const test::Diaphragm diaphragm({.shear_modulus = 1e-200, .rings = rings});
+    Equilibrium equilibrium(diaphragm.model, 1);
+    EXPECT_FALSE(vibration_modes(equilibrium, diaphragm.model.initial_state(), {.count = 6})) << rings;
+  }
+}
+
 } // namespace
 } // namespace dielast::fem
