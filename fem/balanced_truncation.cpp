@@ -1,5 +1,7 @@
 #include "fem/balanced_truncation.hpp"
 
+#include "fem/orientation.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
@@ -48,12 +50,23 @@ StateSpace balanced_truncation(const StateSpace& model, int order) {
   const Eigen::MatrixXd seen = gramian_root(transposed, C.transpose());
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(seen.transpose() * reached,
                                               Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& sigma = svd.singularValues();
+  Eigen::VectorXd sigma = svd.singularValues();
   const Eigen::Index told = (sigma.array() > round_off * sigma[0]).count();
+  const auto scale = sigma.head(told).cwiseSqrt().cwiseInverse().asDiagonal();
+  // States are oriented, before some are left out, by how they are seen, and by how their rates are. What
+  // leads to and from them turns along.
+  const Eigen::Index n = model.order(), outputs = C.rows();
+  Eigen::MatrixXd states(2 * (n + outputs), told);
+  states << reached * svd.matrixV().leftCols(told) * scale, seen * svd.matrixU().leftCols(told) * scale,
+      Eigen::MatrixXd::Zero(2 * outputs, told);
+  states.middleRows(2 * n, outputs) = C * states.topRows(n);
+  states.bottomRows(outputs) = C * model.A * states.topRows(n) / fastest;
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(states.rows());
+  weight.tail(2 * outputs).setOnes();
+  sigma.conservativeResize(told);
+  orient(states, sigma, round_off * sigma[0], weight);
   const Eigen::Index kept = std::min<Eigen::Index>(order, told);
-  const auto scale = sigma.head(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd right = reached * svd.matrixV().leftCols(kept) * scale;
-  const Eigen::MatrixXd left = seen * svd.matrixU().leftCols(kept) * scale;
+  const Eigen::MatrixXd right = states.topLeftCorner(n, kept), left = states.block(n, 0, n, kept);
   return {left.transpose() * model.A * right, left.transpose() * model.B, model.C * right, model.D};
 }
 

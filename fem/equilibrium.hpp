@@ -94,6 +94,9 @@ class Equilibrium {
   /// A positive weight per free equation that makes displacements comparable: the diagonal of the tangent as
   /// drawn (N/m, N m for rotations), not less than a small part of the largest.
   const Eigen::VectorXd& stiffness() const { return stiffness_; }
+  /// What makes moments comparable with forces: 1 for forces, 1/(model's length scale) for moments, per
+  /// equation.
+  const Eigen::VectorXd& weight() const { return weight_; }
   /// Energy that goes with displacements as large as the model in the norm of stiffness(), J.
   double energy_scale() const { return energy_scale_; }
 
@@ -113,7 +116,7 @@ class Equilibrium {
 
   const Model& model_;
   Assembler assembler_;
-  Eigen::VectorXd weight_; ///< 1 for forces, 1/length_scale for moments
+  Eigen::VectorXd weight_;
   Eigen::VectorXd stiffness_;
   BorderedTangent tangent_;
   std::optional<SheetConduction> conduction_; ///< where there are sheets

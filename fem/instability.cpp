@@ -1,5 +1,7 @@
 #include "fem/instability.hpp"
 
+#include "fem/orientation.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
@@ -14,6 +16,7 @@ namespace {
 
 constexpr int subspace = 4, most_iterations = 200;
 constexpr double eigen_tolerance = 1e-6;  ///< of the mode; that of the eigenvalue is its square
+constexpr double round_off = 1e-13;       ///< of the eigenvalue
 constexpr double singular_shift = 1e-9;   ///< of the stiffness as drawn, where the tangent cannot be factored
 constexpr double critical = 1e-7;         ///< eigenvalue, over the largest seen on the way
 constexpr double zero = 1e-3;             ///< likewise, of a bracket that has closed
@@ -77,19 +80,30 @@ std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {
     const Eigen::MatrixXd inverse = X.transpose() * D.asDiagonal() * Y;
     if (!inverse.allFinite()) return std::nullopt;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(inverse);
-    Eigen::Index largest = 0;
-    const double theta_size = ritz.eigenvalues().cwiseAbs().maxCoeff(&largest);
-    const double theta = ritz.eigenvalues()[largest];
-    const Eigen::VectorXd x = X * ritz.eigenvectors().col(largest);
-    const Eigen::VectorXd image = Y * ritz.eigenvectors().col(largest);
-    const Eigen::VectorXd residual = image - theta * x;
-    if (residual.dot(D.cwiseProduct(residual)) <=
-        eigen_tolerance * eigen_tolerance * theta_size * theta_size) {
-      Mode mode{1 / theta - shift, image};
+    const Eigen::VectorXd& theta = ritz.eigenvalues(); // inverse eigenvalues
+    Eigen::Index lowest = 0;
+    const double tolerance = eigen_tolerance * theta.cwiseAbs().maxCoeff(&lowest);
+    const Eigen::MatrixXd images = Y * ritz.eigenvectors();
+    const Eigen::MatrixXd residuals = images - X * ritz.eigenvectors() * theta.asDiagonal();
+    const Eigen::VectorXd error = (residuals.transpose() * D.asDiagonal() * residuals).diagonal().cwiseSqrt();
+    // All that share the lowest eigenvalue are needed to orient one. Whether another vector does, its error
+    // must tell.
+    std::vector<Eigen::Index> twins;
+    bool told = error[lowest] <= tolerance;
+    for (Eigen::Index i = 0; i < width; ++i) {
+      if (error[i] > tolerance)
+        told = told && std::abs(theta[i] - theta[lowest]) > error[i];
+      else if (coincide(1 / theta[i], 1 / theta[lowest], round_off))
+        twins.push_back(i);
+    }
+    if (told) {
+      Eigen::MatrixXd oriented = images(Eigen::all, twins) * theta(twins).cwiseInverse().asDiagonal();
+      orient_twins(oriented, equilibrium.weight().head(D.size()).cwiseInverse());
+      Mode mode{1 / theta[lowest] - shift, oriented.col(0)};
       normalise(equilibrium.model().dofs, mode.direction);
       return mode;
     }
-    X = Y * ritz.eigenvectors();
+    X = images;
     X.colwise().normalize();
   }
   return std::nullopt;

@@ -11,7 +11,9 @@ struct Mode {
   Eigen::VectorXd direction; ///< per free equation; the largest displacement of a node is 1 m
 };
 
-/// The mode whose eigenvalue is nearest to zero, by inverse iteration. Nothing where it does not converge.
+/// The mode whose eigenvalue is nearest to zero, by inverse iteration, the first of them where several share
+/// it; oriented (see orient_twins(); rotations count times the model's length scale). Nothing where it does
+/// not converge.
 std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state);
 
 /// Displacements of the nodes along a direction in the free equations.

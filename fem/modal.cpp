@@ -1,5 +1,7 @@
 #include "fem/modal.hpp"
 
+#include "fem/orientation.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -14,7 +16,8 @@ namespace {
 constexpr int spare_vectors = 6, powers = 4, most_sweeps = 100;
 constexpr double tolerance = 1e-6;      ///< of modes; that of omega^2 is its square
 constexpr double spanned = 1e-10;       ///< part of a vector that is round-off
-constexpr double singular_shift = 1e-9; ///< of omega^2, over that of the stiffest unknowns
+constexpr double round_off = 1e-13;     ///< of omega^2, over that of the stiffest unknowns
+constexpr double singular_shift = 1e-9; ///< likewise
 
 /// As the state is, but for what moves with a vibration.
 State vibrating(const State& state, bool instantaneous) {
@@ -69,10 +72,11 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   if (wanted <= 0) return std::vector<VibrationMode>{};
   const Eigen::Index width = std::min(massive, wanted + spare_vectors);
 
+  const double fastest = equilibrium.stiffness().sum() / diagonal.sum(); // omega^2 of single unknowns
   State at = vibrating(state, options.instantaneous);
   double shift = 0;
   if (!equilibrium.factor(at)) {
-    shift = singular_shift * equilibrium.stiffness().sum() / diagonal.sum();
+    shift = singular_shift * fastest;
     at.motion_scheme = mass_times(shift);
     if (!equilibrium.factor(at)) return std::nullopt;
   }
@@ -109,18 +113,33 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
     order.resize(std::min(order.size(), static_cast<std::size_t>(width)));
 
     X = W * ritz.eigenvectors()(Eigen::all, order); // massless unknowns have followed
-    order.resize(std::min(order.size(), static_cast<std::size_t>(wanted)));
     const Eigen::MatrixXd before = V * ritz.eigenvectors()(Eigen::all, order);
-    std::vector<VibrationMode> modes;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      const double inverse_square = theta[order[i]];
-      const Eigen::VectorXd shape = X.col(at), residual = shape - inverse_square * before.col(at);
-      if (!(residual.dot(M * residual) <= std::pow(tolerance * inverse_square, 2))) break;
-      modes.push_back({1 / inverse_square - shift, shape / std::sqrt(shape.dot(M * shape))});
+    Eigen::VectorXd stiffness = theta(order).cwiseInverse().array() - shift;
+    // Those wanted and what shares the last one's frequency: only all of them together can be oriented.
+    const Eigen::Index last = std::min(wanted, X.cols()) - 1;
+    Eigen::Index found = 0;
+    bool converged = true;
+    for (; found < X.cols() && converged; ++found) {
+      const double inverse_square = theta[order[static_cast<std::size_t>(found)]];
+      const Eigen::VectorXd residual = X.col(found) - inverse_square * before.col(found);
+      const double error = std::sqrt(std::abs(residual.dot(M * residual)));
+      converged = error <= tolerance * std::abs(inverse_square);
+      if (found <= last) continue;
+      const double distance = std::abs(inverse_square - theta[order[static_cast<std::size_t>(last)]]);
+      const bool another =
+          converged ? !coincide(stiffness[found], stiffness[last], round_off * fastest) : distance > error;
+      if (!another) continue;
+      converged = true;
+      break;
     }
-    if (modes.size() < order.size()) continue;
-    std::ranges::sort(modes, {}, &VibrationMode::stiffness);
+    if (!converged) continue;
+    Eigen::MatrixXd shapes = X.leftCols(found);
+    for (auto shape : shapes.colwise()) shape /= std::sqrt(shape.dot(M * shape));
+    stiffness.conservativeResize(found);
+    orient(shapes, stiffness, round_off * fastest, equilibrium.weight().head(free).cwiseInverse());
+    std::vector<VibrationMode> modes;
+    for (Eigen::Index i = 0; i <= last; ++i) modes.push_back({stiffness[i], shapes.col(i)});
+    std::ranges::stable_sort(modes, {}, &VibrationMode::stiffness);
     return modes;
   }
   return std::nullopt;

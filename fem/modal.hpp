@@ -26,7 +26,8 @@ struct VibrationMode {
 /// charged, with its dead forces. Electrodes whose charge is given (chambers whose volume is) keep it, so
 /// that K is bordered (see BorderedTangent); all others, those on circuits too, keep their voltage. Unknowns
 /// without mass follow statically. Motion without stiffness is allowed where it has mass. Nothing where K is
-/// singular otherwise or the iteration does not converge.
+/// singular otherwise or the iteration does not converge. Shapes are oriented (see orient(); rotations count
+/// times the model's length scale).
 ///
 /// Rayleigh and Ritz in the span of a few vectors X and T X, T^2 X, T^3 X with T = K^-1 M, restarted from the
 /// lowest Ritz vectors until they converge (block Krylov; subspace iteration of Bathe, Finite Element

@@ -2,6 +2,7 @@
 
 #include "fem/harmonic.hpp"
 #include "fem/modal.hpp"
+#include "fem/orientation.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -17,6 +18,7 @@ namespace {
 
 /// Energy of a static response, over the whole, below which the modes say it all.
 constexpr double negligible = 1e-10;
+constexpr double round_off = 1e-13; ///< likewise
 
 Eigen::MatrixXd projected(const SparseSymmetric& pattern, const std::vector<double>& values,
                           const Eigen::MatrixXd& V) {
@@ -26,9 +28,9 @@ Eigen::MatrixXd projected(const SparseSymmetric& pattern, const std::vector<doub
   return V.transpose() * (lower.selfadjointView<Eigen::Lower>() * V);
 }
 
-/// Columns that span `responses` besides the modes, orthonormal in K.
+/// Columns that span `responses` besides the modes, orthonormal in K, oriented with this weight.
 Eigen::MatrixXd residual_responses(const Linearisation& linear, const Eigen::MatrixXd& modes,
-                                   Eigen::MatrixXd responses) {
+                                   Eigen::MatrixXd responses, const Eigen::VectorXd& weight) {
   const auto& K = linear.stiffness();
   for (Eigen::Index i = 0; i < responses.cols(); ++i)
     responses.col(i) /= std::sqrt(projected(K, K.values, responses.col(i))(0, 0));
@@ -39,8 +41,11 @@ Eigen::MatrixXd residual_responses(const Linearisation& linear, const Eigen::Mat
   responses -= modes * shares;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> energy(projected(K, K.values, responses));
   const Eigen::Index kept = (energy.eigenvalues().array() > negligible).count(); // ascending: the last ones
-  return responses * energy.eigenvectors().rightCols(kept) *
-         energy.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  Eigen::VectorXd energies = energy.eigenvalues().tail(kept);
+  Eigen::MatrixXd residual =
+      responses * energy.eigenvectors().rightCols(kept) * energies.cwiseSqrt().cwiseInverse().asDiagonal();
+  orient(residual, energies, round_off, weight);
+  return residual;
 }
 
 /// Vibration modes, then static responses.
@@ -76,7 +81,8 @@ Basis basis_of(Equilibrium& equilibrium, State state, const Linearisation& linea
   }
   Basis basis{modes.cols(), modes};
   if (responses.cols() == 0) return basis;
-  const Eigen::MatrixXd residual = residual_responses(linear, modes, responses);
+  const Eigen::MatrixXd residual =
+      residual_responses(linear, modes, responses, equilibrium.weight().head(modes.rows()).cwiseInverse());
   basis.V.conservativeResize(Eigen::NoChange, modes.cols() + residual.cols());
   basis.V.rightCols(residual.cols()) = residual;
   return basis;

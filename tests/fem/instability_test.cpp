@@ -200,6 +200,36 @@ TEST_F(EulerColumn, its_bent_branch_is_the_elastica) {
   }
 }
 
+// Stiff alike in both directions across, along any axis: of the two modes the one that moves its first
+// prominent unknown most, forwards. What rounding makes of the pair differs with the axis.
+TEST(Instability, of_twin_modes_one_is_chosen_by_the_order_of_the_unknowns) {
+  for (const Eigen::Vector3d& along : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
+                                       Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)}) {
+    const meshing::Mesh mesh = test::line(8, 2, [&](double s) { return Eigen::Vector3d(s * along); });
+    auto model = test::unnumbered_model(
+        mesh.node_count(), false,
+        make_beam_block(mesh, mesh.blocks[0],
+                        {.EA = 1e6, .GA2 = 1e6, .GA3 = 1e6, .GJ = 1, .EI2 = 1, .EI3 = 1}));
+    for (int c = 0; c < DofMap::components; ++c) model->dofs.hold(0, c);
+    model->dofs.number();
+    model->length_scale = 1.0 / 8;
+    Equilibrium equilibrium(*model, 1);
+    const int tip = mesh.node_count() - 1;
+    State state = model->initial_state();
+    for (const double load : {0.5, 1 - 1e-9}) { // of Euler's
+      for (int c = 0; c < 3; ++c)
+        state.dead_force[model->dofs.equation(tip, c)] = -load * 2.4674011002723395 * along[c];
+      ASSERT_EQ(equilibrium.solve(state, {.tolerance = 1e-12}).outcome, Outcome::converged);
+      const auto mode = lowest_mode(equilibrium, state);
+      ASSERT_TRUE(mode);
+      const Eigen::Vector3d u = displacements(model->dofs, mode->direction)[static_cast<std::size_t>(tip)];
+      const Eigen::Vector3d expected =
+          std::abs(along.x()) > 0.5 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
+      EXPECT_LT((u - expected).norm(), 1e-5) << along.transpose() << ": " << u.transpose();
+    }
+  }
+}
+
 TEST_F(EulerColumn, lowest_mode_is_that_of_the_dense_eigenproblem) {
   State state = model->initial_state();
   path.apply(state, 0.3);

@@ -102,6 +102,30 @@ TEST_F(LinearDiaphragm, has_none_where_rates_vary_or_nothing_is_stable) {
   EXPECT_THROW(state_space(of_film, state, {{0}, Eigen::MatrixXd::Ones(1, 1), {}}, {}), std::domain_error);
 }
 
+// Other coordinates of the states, their signs included, make no other model; a nearly undamped mode gives
+// two states of one singular value.
+TEST(BalancedTruncation, tells_one_model_whatever_the_states_were) {
+  StateSpace model{Eigen::MatrixXd::Zero(5, 5), Eigen::VectorXd::Zero(5), Eigen::RowVectorXd::Zero(5),
+                   Eigen::MatrixXd::Zero(1, 1)};
+  model.A.diagonal() << -1, -10, -1e-8, -1e-8, -3;
+  model.A(2, 3) = 7;
+  model.A(3, 2) = -7;
+  model.B << 1, 0.2, 1e-3, 0, 0.5;
+  model.C << 1, 0.1, 1, 1, -0.3;
+  std::mt19937 random(3);
+  const StateSpace whole = balanced_truncation(model, 4);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Eigen::MatrixXd T = Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::NullaryExpr(5, 5, [&] {
+                                return std::normal_distribution()(random);
+                              })).householderQ();
+    const StateSpace turned{T.transpose() * model.A * T, T.transpose() * model.B, model.C * T, model.D};
+    const StateSpace other = balanced_truncation(turned, 4);
+    EXPECT_LT((other.A - whole.A).norm(), 1e-5 * whole.A.norm());
+    EXPECT_LT((other.B - whole.B).norm(), 1e-5 * whole.B.norm());
+    EXPECT_LT((other.C - whole.C).norm(), 1e-5 * whole.C.norm());
+  }
+}
+
 // G = 1/(s + 1) + 0.02/(s + 10) + an undamped mode that nothing reaches.
 TEST(BalancedTruncation, keeps_what_is_reached_and_seen) {
   StateSpace model{Eigen::MatrixXd::Zero(4, 4), Eigen::VectorXd::Zero(4), Eigen::RowVectorXd::Zero(4),
