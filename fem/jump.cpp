@@ -12,6 +12,7 @@ constexpr double first_damping = 1e-2; ///< c/dt, over the stiffness as drawn
 constexpr double least_damping = 1e-8, most_damping = 1e8;
 constexpr double quicker = 3, slower = 9; ///< factors of the time step after success and failure
 constexpr double settled = 1e-2;          ///< size of a step from which on Newton's method may finish
+constexpr double round_off = 1e-12;       ///< of an energy, over what it is the difference of
 constexpr double returned = 0.5; ///< part of the energy released that would be taken back: the start again
 
 double farthest_node(const State& state) {
@@ -33,7 +34,9 @@ class Descent {
   JumpResult fall();
 
  private:
+  /// Energy under the control less the work of the dead forces, J.
   double potential(const State& state, const Balance& at) const;
+  double dead_work(const State& state) const;
   void take(State state);
   bool step(double damping);
   std::optional<NewtonResult> land();
@@ -47,14 +50,17 @@ class Descent {
   double step_size_ = 0; ///< of the last step
 };
 
-/// Energy under the control less the work of the dead forces.
 double Descent::potential(const State& state, const Balance& at) const {
+  return at.energy - dead_work(state);
+}
+
+double Descent::dead_work(const State& state) const {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(model_.dofs.count());
   for (int n = 0; n < model_.dofs.node_count(); ++n)
     for (int c = 0; c < 3; ++c)
       if (const int e = model_.dofs.equation(n, c); e != DofMap::absent)
         u[e] = state.displacement[static_cast<std::size_t>(n)][c];
-  return at.energy - state.dead_force.dot(u);
+  return state.dead_force.dot(u);
 }
 
 void Descent::take(State state) {
@@ -63,18 +69,19 @@ void Descent::take(State state) {
   state_ = std::move(state);
 }
 
-/// To the side of `direction` where the energy is lower; false if neither is feasible.
+/// Along `direction`, or against it where the energy is lower there; false if neither is feasible.
 bool Descent::push(const Eigen::VectorXd& direction) {
   const double length = options_.push * model_.extent / direction.cwiseAbs().maxCoeff();
   std::optional<State> lower;
   double lowest = 0;
+  const double rounded = round_off * (std::abs(current_.energy) + std::abs(dead_work(state_)));
   for (const double side : {length, -length}) {
     State there = state_;
     model_.dofs.advance(there, direction, side);
     equilibrium_.balance(there, trial_);
     if (!trial_.feasible) continue;
     const double energy = potential(there, trial_);
-    if (lower && energy >= lowest) continue;
+    if (lower && energy >= lowest - rounded) continue;
     lowest = energy;
     lower = std::move(there);
   }

@@ -24,7 +24,8 @@ struct JumpResult {
 /// Equilibrium::stiffness(), by linearly implicit Euler steps (K + c/dt D) du = -(R - f). A step is taken
 /// where K + c/dt D is positive definite and the energy falls; then the next may be longer, else it is
 /// shorter. Where K has become positive definite Newton's method goes to the equilibrium. `direction` is the
-/// mode to push along, per free equation, to the side where the energy is lower. On success `state` is
+/// mode to push along, per free equation; against it only where the energy is lower there by more than
+/// round-off, so that a symmetric bifurcation is left along the mode. On success `state` is
 /// stable; otherwise it is where the motion was left.
 JumpResult jump(Equilibrium& equilibrium, State& state, const Eigen::VectorXd& direction,
                 const JumpOptions& options);
