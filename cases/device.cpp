@@ -26,6 +26,8 @@ template<class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
+template<class... Functions> // Clang 14 deduces none for aggregates
+Overloaded(Functions...)->Overloaded<Functions...>;
 
 /// Electrode over each triangle.
 std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {

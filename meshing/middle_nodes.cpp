@@ -23,7 +23,7 @@ void add_middle_nodes(Mesh& mesh) {
     for (int c = 0; c < block.size(); ++c)
       for (std::size_t k = 0; k < sides_per_cell(block.type); ++k) sides.push_back(side_of(block.cell(c), k));
   std::ranges::sort(sides);
-  sides.erase(std::ranges::unique(sides).begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
 
   const int corners = mesh.node_count();
   mesh.nodes.reserve(mesh.nodes.size() + sides.size());
@@ -51,7 +51,7 @@ std::vector<int> nodes_of(const Mesh& mesh, const CellSet& set) {
     nodes.insert(nodes.end(), cell.begin(), cell.end());
   }
   std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
