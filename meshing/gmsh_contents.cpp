@@ -8,6 +8,7 @@
 #include <linux/seccomp.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -20,6 +21,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 
 namespace dielast::meshing {
@@ -137,10 +139,28 @@ int private_copy(const std::filesystem::path& path) {
   return -1;
 }
 
+/// gmsh believes the counts of a damaged file: whole files take less than a second and 20 bytes per byte.
+void bound(const std::string& path) {
+  struct stat status {};
+  stat(path.c_str(), &status);
+  const auto megabytes = static_cast<rlim_t>(status.st_size >> 20);
+  const auto limit = [](auto resource, rlim_t most) {
+    const rlimit both{most, most};
+    setrlimit(resource, &both);
+  };
+  limit(RLIMIT_CPU, 10 + megabytes); // s
+  std::ifstream sizes("/proc/self/statm");
+  rlim_t pages = 0; // of data, so far: the sixth of the numbers
+  for (int i = 0; i < 6; ++i) sizes >> pages;
+  if (sizes)
+    limit(RLIMIT_DATA, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + ((1024 + 100 * megabytes) << 20));
+}
+
 [[noreturn]] void run_child(const std::string& path, int output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int interrupt : {SIGINT, SIGTERM, SIGHUP}) std::signal(interrupt, SIG_DFL);
   setenv("HOME", "/dev/null", 1); // nor are settings read from there
+  bound(path);
   // gmsh and a dying C library talk to the terminal.
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
@@ -177,6 +197,8 @@ GmshContents read_gmsh_contents(const std::filesystem::path& path) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGXCPU))
+    return failure("gmsh comes to no end with this mesh file; it is damaged, write it again");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     return failure("gmsh crashes on this mesh file; it is damaged, write it again");
   return nlohmann::json::from_cbor(bytes).get<GmshContents>();

@@ -130,6 +130,11 @@ TEST_F(GmshReader, SurvivesDamagedFiles) {
   }
 }
 
+// A node's tag of 9e18 makes gmsh reserve memory and count without an end.
+TEST_F(GmshReader, ComesToAnEndWithDamagedCounts) {
+  EXPECT_THROW(read_gmsh(DIELAST_SOURCE_DIR "/tests/fuzz/corpus/gmsh/endless_binary.msh"), MeshError);
+}
+
 // gmsh takes a text that it does not know for a script, whatever the file's name.
 TEST_F(GmshReader, RunsNoCommandsOfAFile) {
   const std::filesystem::path mark = path_.string() + ".run";
