@@ -29,11 +29,12 @@ std::optional<WrittenMeasure> measured(const Node* node) {
   }
 }
 
-constexpr std::size_t most_values = 10000; ///< of one axis: every one is tried on the case
 constexpr double most_points = 1e5;
+constexpr std::size_t most_axes = 20;
 
 /// Values of { from, to, step }, both ends included; every unit must be written alike. Empty after a report.
 std::vector<std::string> range_values(SectionReader& reader, const Node& node, const std::string& path) {
+  constexpr double most = 10000;
   const auto from = measured(node.find("from")), to = measured(node.find("to")),
              step = measured(node.find("step"));
   if (!from || !to || !step || node.items.size() != 3) {
@@ -45,10 +46,10 @@ std::vector<std::string> range_values(SectionReader& reader, const Node& node, c
   const double count = std::floor((to->number - from->number) / step->number + 1e-9) + 1;
   if (from->unit != to->unit || from->unit != step->unit)
     reader.report(node.source, path, "from, to and step must have the same unit");
-  else if (!(count >= 1 && count <= most_values))
+  else if (!(count >= 1 && count <= most))
     reader.report(node.source, path,
                   fmt::format("step must lead from {} to {} in at most {} values",
-                              text_of(*node.find("from")), text_of(*node.find("to")), most_values));
+                              text_of(*node.find("from")), text_of(*node.find("to")), most));
   else {
     std::vector<std::string> values;
     for (int i = 0; i < static_cast<int>(count); ++i) {
@@ -85,39 +86,42 @@ void read_axes(SectionReader& reader, const Node& section, const Node& base, Stu
         "what varies is missing, such as vary = { \"honeycomb.angle\" = [\"140 deg\", \"150 deg\"] }");
     return;
   }
+  std::vector<std::vector<Source>> sources; // of each axis' values
   for (std::size_t i = 0; i < vary->items.size(); ++i) {
     const Node& node = vary->items[i];
-    StudyAxis axis{vary->keys[i], {}};
+    StudyAxis& axis = study.axes.emplace_back(StudyAxis{vary->keys[i], {}});
+    std::vector<Source>& written = sources.emplace_back();
     const std::string path = fmt::format("study.vary.\"{}\"", axis.key);
-    std::set<std::string> told;
     if (node.is(Node::Kind::list)) {
       if (node.items.empty()) reader.report(node.source, path, "is empty; give at least one value");
-      if (node.items.size() > most_values) {
-        reader.report(node.source, path,
-                      fmt::format("found {} values, allowed {}", node.items.size(), most_values));
-        continue;
-      }
       for (const Node& item : node.items) {
         axis.values.push_back(text_of(item));
-        try_value(reader, base, study, axis.key, axis.values.back(), item.source, told);
+        written.push_back(item.source);
       }
     } else if (node.is(Node::Kind::table)) {
       axis.values = range_values(reader, node, path);
-      for (const std::string& value : axis.values)
-        try_value(reader, base, study, axis.key, value, node.source, told);
+      written.assign(axis.values.size(), node.source);
     } else {
       reader.report(
           node.source, path,
           fmt::format("found {}, allowed a list of values or {{ from, to, step }}; is \"{}\" in quotes?",
                       text_of(node), axis.key));
     }
-    study.axes.push_back(std::move(axis));
   }
   double points = 1;
   for (const StudyAxis& axis : study.axes) points *= static_cast<double>(axis.values.size());
-  if (points > most_points)
-    reader.report(vary->source, "study.vary",
-                  fmt::format("makes a grid of {:.6g} points, allowed {:.6g}", points, most_points));
+  if (points > most_points || study.axes.size() > most_axes) {
+    reader.report(
+        vary->source, "study.vary",
+        fmt::format("makes a grid of {:.6g} points over {} keys, allowed {:.6g} points over {} keys", points,
+                    study.axes.size(), most_points, most_axes));
+    return;
+  }
+  for (std::size_t a = 0; a < sources.size(); ++a) {
+    std::set<std::string> told;
+    for (std::size_t v = 0; v < sources[a].size(); ++v)
+      try_value(reader, base, study, study.axes[a].key, study.axes[a].values[v], sources[a][v], told);
+  }
 }
 
 void require_one_of(SectionReader& reader, const Source& source, const std::string& key,

@@ -4,6 +4,7 @@
 // Without --seconds the environment's DIELAST_FUZZ_SECONDS counts. The input being tried stands in
 // <program>.input in the working directory: after a crash or a hang it is the one to look at, and to add to
 // the corpus. Where the compiler has libFuzzer, its own driver takes the place of this one.
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -24,7 +25,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 namespace {
 
 constexpr std::size_t longest = 1 << 16; ///< bytes of an input
-constexpr unsigned longest_run = 30;     ///< s; what takes longer hangs
+constexpr unsigned longest_run = 60;     ///< s of the processor; what takes longer hangs
+constexpr unsigned longest_wait = 600;   ///< s
 
 using Random = std::mt19937_64;
 
@@ -154,11 +156,12 @@ int main(int argc, char** argv) {
   const std::vector<std::string> corpus = read_corpus(paths), tokens = tokens_of(corpus);
   const LastInput last(name + ".input");
   Random random(seed);
-  std::signal(SIGALRM, [](int) {
-    constexpr char message[] = "hangs\n";
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message, sizeof message - 1);
-    std::abort();
-  });
+  for (const int timer : {SIGALRM, SIGPROF})
+    std::signal(timer, [](int) {
+      constexpr char message[] = "hangs\n";
+      [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message, sizeof message - 1);
+      std::abort();
+    });
   const auto begin = std::chrono::steady_clock::now();
   const auto elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -169,9 +172,12 @@ int main(int argc, char** argv) {
     if (runs >= corpus.size()) // the corpus itself comes first
       for (std::size_t n = 1 + below(random, 6); n > 0; --n) mutate(text, random, corpus, tokens);
     last.keep(text);
-    alarm(longest_run);
+    alarm(longest_wait);
+    const itimerval processor{{}, {longest_run, 0}};
+    setitimer(ITIMER_PROF, &processor, nullptr);
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   }
+  std::signal(SIGPROF, SIG_IGN);
   alarm(0);
   std::printf("%s: %lu executions in %.1f s, %zu inputs in the corpus, seed %lu\n", name.c_str(), runs,
               elapsed(), corpus.size(), seed);
