@@ -4,7 +4,7 @@
 #include "cases/fit_reader.hpp"
 #include "cases/fit_report.hpp"
 #include "cases/run.hpp"
-#include "post/file_output.hpp"
+#include "post/results_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,8 @@
 namespace dielast::cases {
 
 ExitCode run_fit(const Fit& fit, const std::filesystem::path& directory) {
-  make_directory(directory);
-  for (const char* stale : {"fit.json", "fit.csv", "material.toml", "report.html"})
-    std::filesystem::remove(directory / stale);
+  post::ResultsFolder folder(directory, "fit");
+  folder.begin();
   FitTask task = fit_task(fit);
   fmt::print("{}: {} parameters, {} tests, in {}\n", fit.title, task.parameters.size(), task.tests.size(),
              directory.string());
@@ -27,24 +26,20 @@ ExitCode run_fit(const Fit& fit, const std::filesystem::path& directory) {
   FitOutcome outcome = solve_fit(task);
   const FitResults results(fit, std::move(task), std::move(outcome));
 
-  post::replace_file(directory / "fit.json", fit_json(results).dump(2) + "\n");
-  post::replace_file(directory / "fit.csv", fit_table(results));
-  post::replace_file(directory / "material.toml", material_toml(results));
-  fit_report(results).write(directory / "report.html");
+  folder.write("fit.csv", fit_table(results));
+  folder.write("material.toml", material_toml(results));
+  folder.write("report.html", fit_report(results).html());
+  folder.write("fit.json", fit_json(results).dump(2) + "\n");
 
   fmt::print("{}\n{}", results.ending(), fit_summary(results));
   for (const std::string& warning : results.warnings()) fmt::print("warning: {}\n", warning);
   std::fflush(stdout);
-  switch (results.outcome.ending) {
-  case FitEnding::converged:
-    return ExitCode::ok;
-  case FitEnding::gave_up:
-    fmt::print(stderr, "error: {}\n", results.ending());
-    return ExitCode::not_converged;
-  case FitEnding::interrupted:
-    break;
-  }
-  return ExitCode::interrupted;
+  const FitEnding ending = results.outcome.ending;
+  if (ending == FitEnding::interrupted) return ExitCode::interrupted;
+  if (ending == FitEnding::gave_up) fmt::print(stderr, "error: {}\n", results.ending());
+  const ExitCode code = ending == FitEnding::converged ? ExitCode::ok : ExitCode::not_converged;
+  folder.set_complete(static_cast<int>(code));
+  return code;
 }
 
 } // namespace dielast::cases

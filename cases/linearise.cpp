@@ -6,8 +6,8 @@
 #include "fem/harmonic.hpp"
 #include "post/bode.hpp"
 #include "post/engineering.hpp"
-#include "post/file_output.hpp"
 #include "post/report.hpp"
+#include "post/results_folder.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -151,7 +151,8 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
     throw CaseError({{{one.source.string()},
                       "linearise",
                       "needs an electrode and a quantity of kind \"displacement\" with a direction"}});
-  make_directory(settings.directory);
+  post::ResultsFolder folder(settings.directory, "linearise");
+  folder.begin();
   Simulation simulation(one, settings.threads);
   const Outcome outcome = simulation.run({});
   if (outcome.ending != Ending::complete) {
@@ -160,10 +161,10 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
   }
   try {
     const Linearised found = linearise(one, simulation);
-    post::replace_file(settings.directory / "linear_model.json",
-                       model_json(one, simulation, found).dump(2) + "\n");
-    post::replace_file(settings.directory / "linear_model.m", matlab_script(one, found));
-    report_of(one, simulation, found).write(settings.directory / "report.html");
+    folder.write("linear_model.m", matlab_script(one, found));
+    folder.write("report.html", report_of(one, simulation, found).html());
+    folder.write("linear_model.json", model_json(one, simulation, found).dump(2) + "\n");
+    folder.set_complete(static_cast<int>(ExitCode::ok));
     fmt::print("order {}, largest error {:.3g} of the full response, static gain {:.6g} m/V\n",
                found.model.order(), found.error, found.model.transfer(0)(0, 0).real());
     fmt::print("written to {}\n", settings.directory.string());

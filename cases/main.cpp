@@ -33,14 +33,14 @@ struct Arguments {
   bool resume = false, quiet = false, tangent = false;
 
   /// Where results go unless the user says so: beside where the command was given, named after the case.
-  std::filesystem::path output(const std::string& suffix = "-results") const {
+  std::filesystem::path output(const std::string& suffix) const {
     return directory.empty() ? std::filesystem::path(case_file).stem().string() + suffix : directory;
   }
 };
 
 ExitCode run(const Arguments& arguments) {
   return run_case(cases::read_case(arguments.case_file, arguments.overrides),
-                  {arguments.output(), arguments.threads, arguments.resume, arguments.quiet});
+                  {arguments.output("-results"), arguments.threads, arguments.resume, arguments.quiet});
 }
 
 ExitCode check(const Arguments& arguments) {
@@ -69,10 +69,12 @@ ExitCode check(const Arguments& arguments) {
 ExitCode mesh(const Arguments& arguments) {
   const cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
   const cases::Device device = cases::build_device(one);
-  cases::make_directory(arguments.output());
+  post::ResultsFolder folder(arguments.output("-mesh"), "mesh");
+  folder.begin();
   const fem::State drawn = device.model.initial_state();
-  post::VtkSeries(arguments.output(), one.source.stem().string() + "-mesh", device.mesh)
+  post::VtkSeries(folder, one.source.stem().string() + "-mesh", device.mesh)
       .write(0, "drawn", drawn.displacement, device.model.sample(drawn));
+  folder.set_complete(static_cast<int>(ExitCode::ok));
   fmt::print("{}places:\n", meshing::format(meshing::quality(device.mesh)));
   for (const auto& [name, nodes] : device.mesh.node_sets) {
     const auto cells = device.mesh.cell_sets.find(name);
@@ -80,13 +82,13 @@ ExitCode mesh(const Arguments& arguments) {
         "  {:<16} {:>6} nodes{}\n", name, nodes.size(),
         cells == device.mesh.cell_sets.end() ? "" : fmt::format(" {:>6} cells", cells->second.cells.size()));
   }
-  fmt::print("written to {}\n", (arguments.output() / (one.source.stem().string() + "-mesh.pvd")).string());
+  fmt::print("written to {}\n", (folder / (one.source.stem().string() + "-mesh.pvd")).string());
   return ExitCode::ok;
 }
 
 ExitCode study(const Arguments& arguments) {
   return run_study(cases::read_study(arguments.case_file),
-                   {arguments.output(), arguments.threads, arguments.resume});
+                   {arguments.output("-study"), arguments.threads, arguments.resume});
 }
 
 ExitCode fit(const Arguments& arguments) {
@@ -145,7 +147,7 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  dielast run case.toml                               results in case-results/\n"
       "  dielast run case.toml --set drive.voltage=\"6 kV\" -o six\n"
-      "  dielast study figure5.toml --resume\n"
+      "  dielast study figure5.toml --resume                 results in figure5-study/\n"
       "  dielast fit tests.toml                              results in tests-fit/\n"
       "  dielast linearise step.toml                         A, B, C, D in step-linear/\n"
       "  dielast info devices                                templates, their keys and places\n"
@@ -175,8 +177,9 @@ int main(int argc, char** argv) {
   };
   const auto takes_directory = [&](CLI::App* command) {
     command
-        ->add_option("-o,--output", arguments.directory,
-                     "directory of the results [<case>-results, <case>-fit, <case>-linear]")
+        ->add_option(
+            "-o,--output", arguments.directory,
+            "directory of the results [<case>-results, -study, -fit, -linear, -mesh: one for each command]")
         ->type_name("DIR");
   };
   const auto takes_threads = [&](CLI::App* command, const char* meaning) {

@@ -3,7 +3,6 @@
 #include "cases/quantities.hpp"
 #include "cases/resolved.hpp"
 #include "post/checkpoint.hpp"
-#include "post/file_output.hpp"
 #include "post/reductions.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +16,8 @@ namespace dielast::cases {
 using nlohmann::json;
 
 namespace {
+
+constexpr const char* checkpoint_name = "checkpoint.cbor";
 
 /// Shorter runs are repeated faster than their checkpoints are written.
 constexpr std::chrono::seconds checkpoint_interval{2};
@@ -111,12 +112,13 @@ std::vector<post::Column> history_columns(const Case& one) {
   return columns;
 }
 
-Recorder::Recorder(const Case& one, Simulation& simulation, std::filesystem::path directory, bool resume)
-    : case_(one), simulation_(simulation), directory_(std::move(directory)),
-      fingerprint_(resolved_text(one)) {
+Recorder::Recorder(const Case& one, Simulation& simulation, post::ResultsFolder& folder, bool resume)
+    : case_(one), simulation_(simulation), folder_(folder), fingerprint_(resolved_text(one)) {
   if (resume) restore_checkpoint();
-  post::replace_file(directory_ / "resolved.toml", fingerprint_);
-  history_.emplace(directory_ / "history.csv", history_columns(one));
+  folder_.write("resolved.toml", fingerprint_);
+  folder_.add(checkpoint_name);
+  folder_.add("history.csv");
+  history_.emplace(folder_ / "history.csv", history_columns(one));
   for (std::size_t r = 0; r < journal_.records.size(); ++r)
     history_->append(journal_.records[r].step, history_row(journal_.records[r], journal_.values[r]));
   if (one.fields && !series_) open_series(series_, "");
@@ -124,7 +126,7 @@ Recorder::Recorder(const Case& one, Simulation& simulation, std::filesystem::pat
 
 void Recorder::open_series(std::optional<post::VtkSeries>& series, const char* suffix,
                            std::vector<std::string> entries) {
-  series.emplace(directory_, case_.source.stem().string() + suffix, simulation_.device().mesh,
+  series.emplace(folder_, case_.source.stem().string() + suffix, simulation_.device().mesh,
                  std::move(entries));
 }
 
@@ -151,10 +153,10 @@ void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event
 void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
   std::string table = fmt::format("{}\n", fmt::join(analysis.columns, ","));
   for (const auto& row : analysis.rows) table += fmt::format("{}\n", fmt::join(row, ","));
-  post::replace_file(directory_ / (file_name(analysis.step) + ".csv"), table);
+  folder_.write(file_name(analysis.step) + ".csv", table);
   if (case_.fields) {
     const Device& device = simulation_.device();
-    post::VtkSeries series(directory_, case_.source.stem().string() + "-" + file_name(analysis.step),
+    post::VtkSeries series(folder_, case_.source.stem().string() + "-" + file_name(analysis.step),
                            device.mesh);
     const fem::Samples samples = device.model.sample(state);
     for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
@@ -198,8 +200,9 @@ void Recorder::save_checkpoint() {
   for (const auto& snapshot : journal_.snapshots) snapshots.push_back(archive(snapshot));
   const auto entries = [](const auto& series) { return series ? json(series->entries()) : json::array(); };
   post::write_checkpoint(
-      checkpoint_path(),
+      folder_ / checkpoint_name,
       {{"case", fingerprint_},
+       {"files", folder_.names().size()},
        {"step", progress.step},
        {"records", progress.records},
        {"ramp", post::archive(progress.in_step.ramp)},
@@ -222,13 +225,20 @@ void Recorder::save_checkpoint() {
   saved_ = std::chrono::steady_clock::now();
 }
 
-void Recorder::remove_checkpoint() { std::filesystem::remove(checkpoint_path()); }
+void Recorder::remove_checkpoint() { std::filesystem::remove(folder_ / checkpoint_name); }
 
 void Recorder::restore_checkpoint() try {
-  if (!std::filesystem::exists(checkpoint_path()))
-    return; // stopped before the first checkpoint: nothing is lost by starting over
-  const json saved = post::read_checkpoint(checkpoint_path());
+  if (!std::filesystem::exists(folder_ / checkpoint_name))
+    return folder_.begin(); // stopped before the first checkpoint: nothing is lost by starting over
+  const json saved = post::read_checkpoint(folder_ / checkpoint_name);
   if (saved.at("case") != fingerprint_) throw post::CheckpointError("the case has changed since");
+  const std::size_t files = saved.at("files");
+  if (files > folder_.names().size()) throw post::CheckpointError("the manifest beside it is of another run");
+  std::vector<std::string> kept(folder_.names().begin(),
+                                folder_.names().begin() + static_cast<std::ptrdiff_t>(files));
+  for (const std::string& name : kept)
+    if (!std::filesystem::exists(folder_ / name))
+      throw post::CheckpointError(fmt::format("{}, which belongs to it, is missing", name));
   const Device& device = simulation_.device();
   const auto sizes = post::StateSizes::of(device.model);
   StepProgress in_step{
@@ -249,14 +259,15 @@ void Recorder::restore_checkpoint() try {
   if (journal_.values.size() != journal_.records.size()) throw post::CheckpointError("damaged");
   for (const json& snapshot : journal.at("snapshots"))
     journal_.snapshots.push_back(restore_snapshot(snapshot, device.mesh));
+  folder_.begin(std::move(kept));
   if (!case_.fields) return;
   open_series(series_, "", saved.at("series"));
   if (journal_.modes > 0) open_series(modes_, "-modes", saved.at("modes_series"));
 } catch (const json::exception&) {
-  throw FileError(checkpoint_path().string() + ": damaged; run again without --resume");
+  throw FileError((folder_ / checkpoint_name).string() + ": damaged; run again without --resume");
 } catch (const post::CheckpointError& error) {
   throw FileError(
-      fmt::format("{}: {}; run again without --resume", checkpoint_path().string(), error.what()));
+      fmt::format("{}: {}; run again without --resume", (folder_ / checkpoint_name).string(), error.what()));
 }
 
 } // namespace dielast::cases

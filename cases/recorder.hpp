@@ -35,7 +35,7 @@ class Recorder {
   /// With `resume`, restores the simulation and the journal from the directory's checkpoint, and makes the
   /// history and the series' lists anew of what it holds; starts over when there is none. Throws FileError
   /// when the checkpoint is damaged or of another case.
-  Recorder(const Case& one, Simulation& simulation, std::filesystem::path directory, bool resume);
+  Recorder(const Case& one, Simulation& simulation, post::ResultsFolder& folder, bool resume);
 
   void record(const Frame& frame);
   /// Adds the mode of a critical point to the series `<case>-modes`.
@@ -55,11 +55,10 @@ class Recorder {
   /// The series `<case><suffix>`, behind the `entries` of its list that are kept.
   void open_series(std::optional<post::VtkSeries>& series, const char* suffix,
                    std::vector<std::string> entries = {});
-  std::filesystem::path checkpoint_path() const { return directory_ / "checkpoint.cbor"; }
 
   const Case& case_;
   Simulation& simulation_;
-  std::filesystem::path directory_;
+  post::ResultsFolder& folder_;
   std::string fingerprint_; ///< the resolved case
   Journal journal_;
   int steps_ended_ = 0;

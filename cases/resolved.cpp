@@ -1,9 +1,15 @@
 #include "cases/resolved.hpp"
 
 #include "cases/convert.hpp"
+#include "cases/tree.hpp"
+#include "post/checkpoint_file.hpp"
 
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <sstream>
 
 namespace dielast::cases {
@@ -34,21 +40,74 @@ void write_section(const Section& section, const void* object, const std::string
   }
 }
 
+/// A comment for every file that a key "file" below `node` names: the case is also what stands in them.
+void write_checksums(const Node& node, const std::string& path, std::ostream& out) {
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const Node& item = node.items[i];
+    const std::string key = node.is(Node::Kind::list) ? fmt::format("{}[{}]", path, i + 1)
+                            : path.empty()            ? node.keys[i]
+                                                      : path + "." + node.keys[i];
+    write_checksums(item, key, out);
+    if (!item.is(Node::Kind::text) || !key.ends_with(".file") || !std::filesystem::is_regular_file(item.text))
+      continue;
+    std::ostringstream content;
+    content << std::ifstream(item.text, std::ios::binary).rdbuf();
+    fmt::print(out, "# content of {}: checksum {:016x}\n", key, post::checksum(content.str()));
+  }
+}
+
+/// Keys with their sections, and values, of a resolved text; a comment is taken for a key as well.
+std::map<std::string, std::string> settings_of(const std::string& resolved) {
+  std::map<std::string, std::string> settings;
+  std::map<std::string, int> counts; // of sections in double brackets
+  std::istringstream lines(resolved);
+  std::string section;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("[[")) {
+      const std::string name = line.substr(2, line.find(']') - 2);
+      section = fmt::format("{}[{}].", name, ++counts[name]);
+    } else if (line.starts_with('[')) {
+      section = line.substr(1, line.find(']') - 1) + ".";
+    } else if (line.starts_with("# ")) {
+      const std::size_t end = std::min(line.find(": "), line.rfind(' '));
+      settings[line.substr(2, end - 2)] = line.substr(line.find(' ', end) + 1);
+    } else if (const std::size_t end = line.find(" = "); end != std::string::npos) {
+      settings[section + line.substr(0, end)] = line.substr(end + 3);
+    }
+  }
+  return settings;
+}
+
 } // namespace
 
-void write_resolved(const Case& one, std::ostream& out) {
+std::string resolved_text(const Case& one) {
+  std::ostringstream out;
   fmt::print(out, "# every setting of this run, defaults included; written by dielast {}\n", DIELAST_VERSION);
   write_section(case_schema(), &one, "", geometry_name(one), out);
   fmt::print(out, "\n# standard quantities of this geometry:");
   for (const Quantity& quantity : one.quantities)
     if (quantity.standard) fmt::print(out, " {}", quantity.name);
   fmt::print(out, "\n");
+  write_checksums(parse_tree(out.str(), "resolved.toml"), "", out);
+  return out.str();
 }
 
-std::string resolved_text(const Case& one) {
-  std::ostringstream text;
-  write_resolved(one, text);
-  return text.str();
+std::string resolved_changes(const std::string& before, const std::string& now) {
+  if (before == now) return "";
+  constexpr std::size_t most = 4;
+  const auto was = settings_of(before), is = settings_of(now);
+  std::vector<std::string> changes;
+  for (const auto& [key, value] : is)
+    if (const auto found = was.find(key); found != was.end() && found->second != value)
+      changes.push_back(fmt::format("{} is {}, it was {}", key, value, found->second));
+  for (const auto& [key, value] : is)
+    if (!was.contains(key)) changes.push_back(fmt::format("{} is new: {}", key, value));
+  for (const auto& [key, value] : was)
+    if (!is.contains(key)) changes.push_back(fmt::format("{} is gone, it was {}", key, value));
+  if (changes.empty()) return "resolved.toml is not as it was written";
+  const std::string more = changes.size() > most ? fmt::format("; and {} more", changes.size() - most) : "";
+  changes.resize(std::min(changes.size(), most));
+  return fmt::format("{}{}", fmt::join(changes, "; "), more);
 }
 
 } // namespace dielast::cases

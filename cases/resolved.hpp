@@ -2,14 +2,15 @@
 
 #include "cases/case.hpp"
 
-#include <ostream>
 #include <string>
 
 namespace dielast::cases {
 
-/// Writes the case as a case file with every default explicit, in SI, and the program's version in a comment.
-/// Reading it gives the same case.
-void write_resolved(const Case& one, std::ostream& out);
+/// The case as a case file with every default explicit, in SI; in comments the program's version and the
+/// checksums of the files that the case names. Reading it gives the same case.
 std::string resolved_text(const Case& one);
+
+/// What differs between two resolved texts, key by key, in words; empty where nothing does.
+std::string resolved_changes(const std::string& before, const std::string& now);
 
 } // namespace dielast::cases

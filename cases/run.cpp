@@ -3,7 +3,7 @@
 #include "cases/resolved.hpp"
 #include "cases/results.hpp"
 #include "meshing/quality.hpp"
-#include "post/file_output.hpp"
+#include "post/results_folder.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -24,10 +24,17 @@ namespace {
 
 std::atomic<bool> interrupt_requested = false;
 
+std::string read_text(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
 /// run.log gets everything, the terminal what a person wants to follow.
-spdlog::logger make_logger(const RunSettings& settings) {
-  auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>((settings.directory / "run.log").string(),
-                                                                  !settings.resume);
+spdlog::logger make_logger(const RunSettings& settings, post::ResultsFolder& folder) {
+  // A file of its own, whatever stood there under its name.
+  folder.write("run.log", settings.resume ? read_text(folder / "run.log") : "");
+  auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>((folder / "run.log").string());
   spdlog::sink_ptr terminal = std::make_shared<spdlog::sinks::stdout_sink_st>();
   if (settings.quiet) terminal = std::make_shared<spdlog::sinks::stderr_sink_st>();
   terminal->set_level(settings.quiet ? spdlog::level::err : spdlog::level::info);
@@ -105,24 +112,17 @@ std::vector<double> estimate_errors(const Case& one, const Simulation& fine, int
   return errors;
 }
 
-std::string read_text(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-/// How the run ended whose results of exactly this case the directory holds; nothing when it holds none.
-std::optional<ExitCode> finished(const Case& one, const std::filesystem::path& directory) {
-  if (read_text(directory / "resolved.toml") != resolved_text(one)) return std::nullopt;
-  const auto summary = nlohmann::json::parse(read_text(directory / "summary.json"), nullptr, false);
-  try {
-    if (summary.at("status") != "complete") return ExitCode::not_converged;
-    for (const auto& check : summary.at("checks"))
-      if (!check.at("passed")) return ExitCode::check_failed;
-    return ExitCode::ok;
-  } catch (const nlohmann::json::exception&) { // damaged, or of an older version
-    return std::nullopt;
-  }
+/// How the run ended whose results the folder holds; nothing when there is something left to do. Throws
+/// FileError when they are of another case.
+std::optional<ExitCode> finished(const Case& one, const post::ResultsFolder& folder) {
+  const std::string before = read_text(folder / "resolved.toml");
+  if (before.empty()) return std::nullopt;
+  if (const std::string changes = resolved_changes(before, resolved_text(one)); !changes.empty())
+    throw FileError(fmt::format("{}: the case has changed since: {}; run it again without --resume",
+                                folder.path().string(), changes));
+  const auto summary = nlohmann::json::parse(read_text(folder / "summary.json"), nullptr, false);
+  if (!summary.contains("status") || !std::filesystem::exists(folder / "report.html")) return std::nullopt;
+  return folder.complete() ? std::optional(static_cast<ExitCode>(*folder.complete())) : std::nullopt;
 }
 
 } // namespace
@@ -137,30 +137,16 @@ void catch_interrupts() {
 
 bool interrupted() { return interrupt_requested; }
 
-void make_directory(const std::filesystem::path& directory) {
-  std::error_code error;
-  if (std::filesystem::exists(directory, error) && !std::filesystem::is_directory(directory, error))
-    throw FileError(fmt::format("{}: is not a directory; choose another with -o", directory.string()));
-  std::filesystem::create_directories(directory, error);
-  if (error)
-    throw FileError(
-        fmt::format("{}: cannot make the output directory: {}", directory.string(), error.message()));
-  if (access(directory.c_str(), W_OK) != 0)
-    throw FileError(
-        fmt::format("{}: cannot write to the output directory; choose another with -o", directory.string()));
-}
-
 ExitCode run_case(const Case& one, const RunSettings& settings) {
-  make_directory(settings.directory);
-  if (const auto ended = settings.resume ? finished(one, settings.directory) : std::nullopt) {
-    fmt::print("{}: has run to its end, nothing to resume\n", settings.directory.string());
+  post::ResultsFolder folder(settings.directory, "run");
+  if (const auto ended = settings.resume ? finished(one, folder) : std::nullopt) {
+    if (!settings.quiet) fmt::print("{}: has run to its end, nothing to resume\n", folder.path().string());
     return *ended;
   }
-  for (const char* stale : {"summary.json", "report.html"})
-    std::filesystem::remove(settings.directory / stale);
+  if (!settings.resume) folder.begin();
   Simulation simulation(one, settings.threads);
-  Recorder recorder(one, simulation, settings.directory, settings.resume);
-  spdlog::logger log = make_logger(settings);
+  Recorder recorder(one, simulation, folder, settings.resume);
+  spdlog::logger log = make_logger(settings, folder);
   const Device& device = simulation.device();
   log.info("dielast " DIELAST_VERSION "  {}", one.title);
   if (const int unknowns = device.model.dofs.free_count(); one.dimension == fem::Dimension::axisymmetric)
@@ -202,13 +188,15 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   if (!outcome.message.empty()) log.error(outcome.message);
   log.flush();
 
-  post::replace_file(settings.directory / "summary.json",
-                     summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
-  run_report(one, device, results, recorder.journal(), read_text(settings.directory / "run.log"))
-      .write(settings.directory / "report.html");
+  const ExitCode code = outcome.ending == Ending::gave_up ? ExitCode::not_converged
+                        : results.checks_passed()         ? ExitCode::ok
+                                                          : ExitCode::check_failed;
+  folder.write("report.html",
+               run_report(one, device, results, recorder.journal(), read_text(folder / "run.log")).html());
+  folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
+  folder.set_complete(static_cast<int>(code));
   recorder.remove_checkpoint();
-  if (outcome.ending == Ending::gave_up) return ExitCode::not_converged;
-  return results.checks_passed() ? ExitCode::ok : ExitCode::check_failed;
+  return code;
 }
 
 } // namespace dielast::cases

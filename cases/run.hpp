@@ -10,21 +10,18 @@ namespace dielast::cases {
 struct RunSettings {
   std::filesystem::path directory; ///< of all outputs; made when it does not exist
   int threads = 0;                 ///< 0: every core
-  bool resume = false;             ///< go on from the directory's checkpoint
+  bool resume = false;             ///< go on from the directory's checkpoint, if the case is as it was
   bool quiet = false;              ///< nothing on the terminal; run.log is written all the same
 };
 
 /// Runs a case and writes everything into one directory: history.csv, the ParaView series, resolved.toml,
 /// run.log, summary.json and report.html. Stops after the next accepted state when interrupted() says so.
-/// Throws FileError and post::WriteError, CaseError, and meshing::MeshError.
+/// Throws FileError, also for a case that has changed since the run to resume, post::WriteError, and what
+/// post::ResultsFolder, build_device() throw.
 ExitCode run_case(const Case& one, const RunSettings& settings);
 
 /// Makes SIGINT and SIGTERM stop runs and studies in good order.
 void catch_interrupts();
 bool interrupted();
-
-/// Makes a directory with its parents. Throws FileError with the system's reason, also when it cannot be
-/// written to.
-void make_directory(const std::filesystem::path& directory);
 
 } // namespace dielast::cases

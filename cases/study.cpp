@@ -5,7 +5,7 @@
 #include "cases/run.hpp"
 #include "cases/study_report.hpp"
 #include "meshing/mesh_error.hpp"
-#include "post/file_output.hpp"
+#include "post/results_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -103,14 +103,22 @@ class ProgressLine {
 } // namespace
 
 ExitCode run_study(const Study& study, const StudySettings& settings) {
-  make_directory(settings.directory);
+  post::ResultsFolder folder(settings.directory, "study");
   const std::vector<StudyPoint> points = study_points(study, settings.directory);
+  std::vector<std::string> names;
+  for (const StudyPoint& point : points) names.push_back(point.directory.filename());
+  folder.begin(settings.resume ? names : std::vector<std::string>{});
+  for (const std::string& name : names) folder.add(name);
   const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
                                                        : std::max(1U, std::thread::hardware_concurrency());
   fmt::print("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
              settings.directory.string());
   ProgressLine progress(points.size());
-  std::vector<const StudyPoint*> waiting;
+  struct Waiting {
+    const StudyPoint* point;
+    bool resume;
+  };
+  std::vector<Waiting> waiting;
   for (const StudyPoint& point : points) {
     const bool current = settings.resume && is_current(study, point);
     const auto result = current ? result_of(study, point) : std::nullopt;
@@ -118,8 +126,8 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       progress.skipped();
       continue;
     }
-    if (!current) std::filesystem::remove_all(point.directory);
-    waiting.push_back(&point);
+    if (!current) std::filesystem::remove(point.directory / "point.json");
+    waiting.push_back({&point, current && !std::filesystem::exists(point.directory / "summary.json")});
   }
   progress.show();
   std::fflush(nullptr); // or every child would print it again
@@ -127,11 +135,11 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   std::map<pid_t, const StudyPoint*> running;
   for (std::size_t next = 0; next < waiting.size() || !running.empty();) {
     while (next < waiting.size() && running.size() < processes && !interrupted()) {
-      const StudyPoint& point = *waiting[next++];
+      const auto& [point, resume] = waiting[next++];
       const pid_t child = fork();
-      if (child == 0) run_point(study, point, settings.resume);
+      if (child == 0) run_point(study, *point, resume);
       if (child < 0) throw FileError("cannot start another process for the study's points");
-      running[child] = &point;
+      running[child] = point;
     }
     if (running.empty()) break; // interrupted
     int status = 0;
@@ -143,15 +151,15 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     if (code < 0 && !interrupted()) mark_done(point, code, fmt::format("crashed (signal {})", -code));
     if (code != static_cast<int>(ExitCode::interrupted)) progress.done(point, code);
-    post::replace_file(settings.directory / "study.csv", study_table(study, points));
+    folder.write("study.csv", study_table(study, points));
   }
   progress.end();
   if (interrupted()) {
     fmt::print("interrupted; go on with --resume\n");
     return ExitCode::interrupted;
   }
-  post::replace_file(settings.directory / "study.csv", study_table(study, points));
-  study_report(study, points).write(settings.directory / "report.html");
+  folder.write("study.csv", study_table(study, points));
+  folder.write("report.html", study_report(study, points).html());
 
   int failed = 0;
   for (const StudyPoint& point : points)
@@ -163,7 +171,9 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   for (const std::string& line : target_lines(study, points)) fmt::print("{}\n", line);
   fmt::print("{} of {} points in {}\n", points.size() - static_cast<std::size_t>(failed), points.size(),
              (settings.directory / "study.csv").string());
-  return failed ? ExitCode::not_converged : ExitCode::ok;
+  const ExitCode code = failed ? ExitCode::not_converged : ExitCode::ok;
+  folder.set_complete(static_cast<int>(code));
+  return code;
 }
 
 } // namespace dielast::cases

@@ -1,6 +1,6 @@
 #include "cases/study_points.hpp"
 
-#include "post/file_output.hpp"
+#include "post/results_folder.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -38,10 +38,8 @@ std::vector<StudyPoint> study_points(const Study& study, const std::filesystem::
 }
 
 void mark_done(const StudyPoint& point, int exit_code, const std::string& message) {
-  std::filesystem::create_directories(point.directory);
-  post::replace_file(mark_path(point),
-                     json{{"values", point.values}, {"exit_code", exit_code}, {"message", message}}.dump(2) +
-                         "\n");
+  const json mark{{"values", point.values}, {"exit_code", exit_code}, {"message", message}};
+  post::ResultsFolder(point.directory, "run").write("point.json", mark.dump(2) + "\n");
 }
 
 std::optional<PointResult> result_of(const Study& study, const StudyPoint& point) {

@@ -23,7 +23,9 @@ void write_all(int descriptor, std::string_view bytes, const std::filesystem::pa
 
 void replace_file(const std::filesystem::path& path, std::string_view bytes) {
   const std::string part = path.string() + ".part";
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  // A new file, never what a link of that name leads to; a killed run may have left one.
+  ::unlink(part.c_str());
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) throw WriteError(path, errno);
   try {
     write_all(descriptor, bytes, path);

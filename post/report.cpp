@@ -1,6 +1,5 @@
 #include "post/report.hpp"
 
-#include "post/file_output.hpp"
 #include "post/markup.hpp"
 
 #include <fmt/format.h>
@@ -153,7 +152,5 @@ std::string Report::html() const {
   for (const Section& section : sections) page += html_of(section);
   return page + "<footer>" + escape_markup(footer) + "</footer>\n</main>\n</body>\n</html>\n";
 }
-
-void Report::write(const std::filesystem::path& path) const { replace_file(path, html()); }
 
 } // namespace dielast::post

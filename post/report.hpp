@@ -61,9 +61,6 @@ struct Report {
   std::string footer{}; ///< program, version
 
   std::string html() const;
-
-  /// Throws WriteError.
-  void write(const std::filesystem::path& path) const;
 };
 
 } // namespace dielast::post

@@ -1,7 +1,6 @@
 #include "post/vtk_series.hpp"
 
 #include "post/fields.hpp"
-#include "post/file_output.hpp"
 #include "post/markup.hpp"
 #include "post/reductions.hpp"
 #include "post/revolution.hpp"
@@ -186,20 +185,16 @@ class VtkSeries::PartFile {
 VtkSeries::~VtkSeries() = default;
 VtkSeries::VtkSeries(VtkSeries&&) noexcept = default;
 
-VtkSeries::VtkSeries(std::filesystem::path directory, std::string name, const meshing::Mesh& mesh,
+VtkSeries::VtkSeries(ResultsFolder& folder, std::string name, const meshing::Mesh& mesh,
                      std::vector<std::string> entries)
-    : directory_(std::move(directory)), name_(std::move(name)), entries_(std::move(entries)) {
+    : folder_(folder), name_(std::move(name)), entries_(std::move(entries)) {
   for (const Part part : {Part::film, Part::walls})
     for (const meshing::CellBlock& block : mesh.blocks)
       if (part_of(block.type) == part && block.size() > 0)
         parts_.push_back(std::make_unique<PartFile>(mesh, block));
 
   write_list();
-  for (const auto& part : parts_)
-    for (int step = steps(); std::filesystem::remove(directory_ / file_name(part->name(), step));) ++step;
 }
-
-std::filesystem::path VtkSeries::list_path() const { return directory_ / (name_ + ".pvd"); }
 
 std::string VtkSeries::file_name(std::string_view part, int step) const {
   return fmt::format("{}_{}_{:04}.vtu", name_, part, step);
@@ -215,7 +210,7 @@ void VtkSeries::write(double time, std::string_view step, std::span<const Eigen:
   std::vector<std::string> entries;
   for (const auto& part : parts_) {
     const std::string file = file_name(part->name(), index);
-    replace_file(directory_ / file, part->content(time, step, displacement, samples, mode));
+    folder_.write(file, part->content(time, step, displacement, samples, mode));
     entries.push_back(fmt::format(R"(    <DataSet timestep="{}" part="{}" name="{}" file="{}"/>)", time,
                                   entries.size(), part->name(), escape_markup(file)));
   }
@@ -223,12 +218,12 @@ void VtkSeries::write(double time, std::string_view step, std::span<const Eigen:
   write_list();
 }
 
-void VtkSeries::write_list() const {
-  replace_file(list_path(),
-               fmt::format("<?xml version=\"1.0\"?>\n"
-                           "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-                           "  <Collection>\n{}{}  </Collection>\n</VTKFile>\n",
-                           fmt::join(entries_, "\n"), entries_.empty() ? "" : "\n"));
+void VtkSeries::write_list() {
+  folder_.write(name_ + ".pvd",
+                fmt::format("<?xml version=\"1.0\"?>\n"
+                            "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+                            "  <Collection>\n{}{}  </Collection>\n</VTKFile>\n",
+                            fmt::join(entries_, "\n"), entries_.empty() ? "" : "\n"));
 }
 
 } // namespace dielast::post

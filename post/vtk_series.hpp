@@ -2,10 +2,10 @@
 
 #include "fem/samples.hpp"
 #include "meshing/mesh.hpp"
+#include "post/results_folder.hpp"
 
 #include <Eigen/Core>
 
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,8 +26,8 @@ namespace dielast::post {
 class VtkSeries {
  public:
   /// Precondition: at most one film and one line block, as samples number their cells within a block.
-  /// To resume, `entries` are those of the steps to keep; files of later ones are removed. Throws WriteError.
-  VtkSeries(std::filesystem::path directory, std::string name, const meshing::Mesh& mesh,
+  /// To resume, `entries` are those of the steps to keep. The folder must outlive this. Throws WriteError.
+  VtkSeries(ResultsFolder& folder, std::string name, const meshing::Mesh& mesh,
             std::vector<std::string> entries = {});
   ~VtkSeries();
   VtkSeries(VtkSeries&&) noexcept;
@@ -43,12 +43,11 @@ class VtkSeries {
  private:
   class PartFile;
 
-  std::filesystem::path list_path() const;
   std::string file_name(std::string_view part, int step) const;
   int steps() const;
-  void write_list() const;
+  void write_list();
 
-  std::filesystem::path directory_;
+  ResultsFolder& folder_;
   std::string name_;
   std::vector<std::unique_ptr<PartFile>> parts_;
   std::vector<std::string> entries_;

@@ -258,10 +258,10 @@ relaxation_time = "2 s"
     ASSERT_EQ(straight.run(count).ending, Ending::complete);
     for (int stop = 1; stop < records; stop += 5) {
       const auto out = directory / fmt::format("out{}", stop);
-      std::filesystem::create_directories(out);
       {
+        post::ResultsFolder folder(out, "run");
         Simulation first(one, 1);
-        Recorder recorder(one, first, out, false);
+        Recorder recorder(one, first, folder, false);
         int seen = 0;
         SimulationObserver observer;
         observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event& event) {
@@ -275,7 +275,8 @@ relaxation_time = "2 s"
         recorder.save_checkpoint();
       }
       Simulation second(one, 1);
-      Recorder recorder(one, second, out, true);
+      post::ResultsFolder folder(out, "run");
+      Recorder recorder(one, second, folder, true);
       ASSERT_EQ(second.run({}).ending, Ending::complete) << stop;
       for (std::size_t q = 0; q < one.quantities.size(); ++q)
         EXPECT_EQ(second.results()[q], straight.results()[q]) << one.quantities[q].name << " " << stop;

@@ -29,15 +29,17 @@ increments = 4
 
 /// A case, its folder, and the content of the checkpoint in the middle of its run.
 struct Interrupted {
-  std::filesystem::path folder = fuzz::scratch();
+  std::filesystem::path folder = fuzz::scratch() / "results";
   cases::Case one;
   std::string content;
+  std::vector<std::string> names; ///< of the files that belong to it
 
   Interrupted() {
-    fuzz::write(folder / "case.toml", text);
-    one = cases::read_case(folder / "case.toml");
+    fuzz::write(fuzz::scratch() / "case.toml", text);
+    one = cases::read_case(fuzz::scratch() / "case.toml");
     cases::Simulation simulation(one, 1);
-    cases::Recorder recorder(one, simulation, folder, false);
+    post::ResultsFolder results(folder, "run");
+    cases::Recorder recorder(one, simulation, results, false);
     int left = 7;
     simulation.run({.on_accept = [&](const cases::Frame& frame) {
       recorder.record(frame);
@@ -45,6 +47,7 @@ struct Interrupted {
     }});
     recorder.save_checkpoint();
     nlohmann::json::to_cbor(post::read_checkpoint(folder / "checkpoint.cbor"), content);
+    names = results.names();
   }
 };
 
@@ -74,10 +77,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const std::string head = fmt::format("dielast checkpoint {} {} {:016x}\n", post::checkpoint_format,
                                        content.size(), post::checksum(content));
-  fuzz::write(run.folder / "checkpoint.cbor", head + content);
+  post::ResultsFolder results(run.folder, "run");
+  results.begin(run.names); // the checkpoint before may have kept fewer
+  for (const std::string& name : run.names)
+    if (!std::filesystem::exists(results / name)) fuzz::write(results / name, "");
+  fuzz::write(results / "checkpoint.cbor", head + content);
   try {
     cases::Simulation simulation(run.one, 1);
-    const cases::Recorder recorder(run.one, simulation, run.folder, true);
+    const cases::Recorder recorder(run.one, simulation, results, true);
   } catch (const cases::FileError&) {
   } catch (const std::exception& error) {
     fuzz::fail(std::string("an error without a place: ") + error.what());

@@ -64,23 +64,6 @@ TEST(Report, AlignsColumnsOfNumbers) {
   EXPECT_NE(html.find("<th>Quantity</th>"), std::string::npos);
 }
 
-class ReportFileTest : public ScratchTest {};
-
-TEST_F(ReportFileTest, IsWritten) {
-  sample_report().write(directory / "report.html");
-  EXPECT_EQ(content("report.html"), sample_report().html());
-  EXPECT_EQ(file_count(), 1u);
-  EXPECT_THROW(sample_report().write(directory / "none" / "report.html"), WriteError);
-}
-
-TEST_F(ReportFileTest, AFullDiskKeepsTheOldOne) {
-  replace_file(directory / "report.html", "old");
-  const FileSizeLimit limit(500);
-  EXPECT_THROW(sample_report().write(directory / "report.html"), WriteError);
-  EXPECT_EQ(content("report.html"), "old");
-  EXPECT_EQ(file_count(), 1u);
-}
-
 TEST(ReportTables, ShowErrorsInTheUnitOfTheValue) {
   const QuantityRow length{"released_length_x", 0.08397, "m", Ratio::plain, 2.1e-5, "length"};
   EXPECT_EQ(with_error(length), "83.970 ± 0.021 mm");

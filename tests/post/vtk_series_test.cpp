@@ -25,6 +25,10 @@ namespace {
 
 class VtkSeriesTest : public ScratchTest {
  protected:
+  void SetUp() override {
+    ScratchTest::SetUp();
+    folder.emplace(directory, "test");
+  }
   VtkSeriesTest() : mesh(square_mesh()), displacement(mesh.nodes.size()) {
     for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] = {static_cast<double>(i), 0.1, -1};
     for (const int cell : {0, 1}) {
@@ -36,8 +40,8 @@ class VtkSeriesTest : public ScratchTest {
     samples.walls = {wall_sample(0, 1, 10)};
   }
 
-  VtkSeries series(std::vector<std::string> entries = {}) const {
-    return {directory, "run", mesh, std::move(entries)};
+  VtkSeries series(std::vector<std::string> entries = {}) {
+    return {*folder, "run", mesh, std::move(entries)};
   }
 
   vtkSmartPointer<vtkUnstructuredGrid> read(const std::string& file) const {
@@ -50,6 +54,7 @@ class VtkSeriesTest : public ScratchTest {
   meshing::Mesh mesh;
   std::vector<Eigen::Vector3d> displacement;
   fem::Samples samples;
+  std::optional<ResultsFolder> folder;
 };
 
 TEST_F(VtkSeriesTest, FilmReadsBack) {
@@ -101,7 +106,7 @@ TEST_F(VtkSeriesTest, LinearCellsAndNoWalls) {
   mesh.blocks = {{meshing::CellType::triangle3, {1, 2, 3, 1, 3, 4}}};
   series().write(0, "release", displacement, samples);
   EXPECT_EQ(read("run_film_0000.vtu")->GetCellType(0), VTK_TRIANGLE);
-  EXPECT_EQ(file_count(), 2u);
+  EXPECT_EQ(file_count(), 3u);
 }
 
 TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
@@ -110,7 +115,7 @@ TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
   displacement = {{0.1, 0, 0}, {0.2, 0, 3}, {0, 0, 5}, {0, 0, 0}, {0, 0, 0}};
   const std::vector<Eigen::Vector3d> mode{{1, 0, 0}, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   series().write(0, "voltage", displacement, samples, mode);
-  EXPECT_EQ(file_count(), 2u);
+  EXPECT_EQ(file_count(), 3u);
   const auto grid = read("run_film_0000.vtu");
   constexpr int sectors = Revolution::sectors;
   ASSERT_EQ(grid->GetNumberOfPoints(), 4 * sectors + 1);
@@ -177,11 +182,12 @@ TEST_F(VtkSeriesTest, ResumesAfterTheStepsToKeep) {
   const auto kept = steps.entries();
   for (const int time : {1, 2}) steps.write(time, "voltage", displacement, samples);
   const std::string first = content("run_film_0000.vtu");
+  folder->begin({"run.pvd", "run_film_0000.vtu", "run_walls_0000.vtu"});
   VtkSeries resumed = series(kept);
-  EXPECT_EQ(file_count(), 3u);
+  EXPECT_EQ(file_count(), 4u); // with the manifest
   resumed.write(7, "voltage", displacement, samples);
   EXPECT_EQ(content("run_film_0000.vtu"), first);
-  EXPECT_EQ(file_count(), 5u);
+  EXPECT_EQ(file_count(), 6u);
   const std::string list = content("run.pvd");
   EXPECT_NE(list.find("timestep=\"0\""), std::string::npos);
   EXPECT_EQ(list.find("timestep=\"1\""), std::string::npos);
@@ -204,7 +210,7 @@ TEST_F(VtkSeriesTest, AFullDiskIsReportedAndKeepsTheSeriesReadable) {
     }
   }
   EXPECT_EQ(content("run.pvd"), list);
-  EXPECT_EQ(file_count(), 3u);
+  EXPECT_EQ(file_count(), 4u);
   steps.write(1, "voltage", displacement, samples); // room again
   EXPECT_EQ(read("run_film_0001.vtu")->GetNumberOfCells(), 2);
 }
