@@ -3,7 +3,7 @@
 #include "cases/fit_files.hpp"
 #include "cases/fit_reader.hpp"
 #include "cases/fit_report.hpp"
-#include "cases/run.hpp"
+#include "cases/terminal.hpp"
 #include "post/results_folder.hpp"
 
 #include <fmt/format.h>
@@ -16,10 +16,10 @@ ExitCode run_fit(const Fit& fit, const std::filesystem::path& directory) {
   post::ResultsFolder folder(directory, "fit");
   folder.begin();
   FitTask task = fit_task(fit);
-  fmt::print("{}: {} parameters, {} tests, in {}\n", fit.title, task.parameters.size(), task.tests.size(),
-             directory.string());
+  say("{}: {} parameters, {} tests, in {}\n", fit.title, task.parameters.size(), task.tests.size(),
+      directory.string());
   task.on_iteration = [](int iteration, double misfit) {
-    fmt::print("  iteration {:3d}   rms of the weighted residuals {:.6g}\n", iteration, misfit);
+    say("  iteration {:3d}   rms of the weighted residuals {:.6g}\n", iteration, misfit);
     std::fflush(stdout);
     return !interrupted();
   };
@@ -31,12 +31,12 @@ ExitCode run_fit(const Fit& fit, const std::filesystem::path& directory) {
   folder.write("report.html", fit_report(results).html());
   folder.write("fit.json", fit_json(results).dump(2) + "\n");
 
-  fmt::print("{}\n{}", results.ending(), fit_summary(results));
-  for (const std::string& warning : results.warnings()) fmt::print("warning: {}\n", warning);
+  say("{}\n{}", results.ending(), fit_summary(results));
+  for (const std::string& warning : results.warnings()) say("warning: {}\n", warning);
   std::fflush(stdout);
   const FitEnding ending = results.outcome.ending;
   if (ending == FitEnding::interrupted) return ExitCode::interrupted;
-  if (ending == FitEnding::gave_up) fmt::print(stderr, "error: {}\n", results.ending());
+  if (ending == FitEnding::gave_up) say(stderr, "error: {}\n", results.ending());
   const ExitCode code = ending == FitEnding::converged ? ExitCode::ok : ExitCode::not_converged;
   folder.set_complete(static_cast<int>(code));
   return code;

@@ -1,7 +1,7 @@
 #include "cases/linearise.hpp"
 
-#include "cases/run.hpp"
 #include "cases/simulation.hpp"
+#include "cases/terminal.hpp"
 #include "fem/balanced_truncation.hpp"
 #include "fem/harmonic.hpp"
 #include "post/bode.hpp"
@@ -156,7 +156,7 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
   Simulation simulation(one, settings.threads);
   const Outcome outcome = simulation.run({});
   if (outcome.ending != Ending::complete) {
-    fmt::print(stderr, "error: {}\n", outcome.message);
+    say(stderr, "error: {}\n", outcome.message);
     return ExitCode::not_converged;
   }
   try {
@@ -165,12 +165,12 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
     folder.write("report.html", report_of(one, simulation, found).html());
     folder.write("linear_model.json", model_json(one, simulation, found).dump(2) + "\n");
     folder.set_complete(static_cast<int>(ExitCode::ok));
-    fmt::print("order {}, largest error {:.3g} of the full response, static gain {:.6g} m/V\n",
-               found.model.order(), found.error, found.model.transfer(0)(0, 0).real());
-    fmt::print("written to {}\n", settings.directory.string());
+    say("order {}, largest error {:.3g} of the full response, static gain {:.6g} m/V\n", found.model.order(),
+        found.error, found.model.transfer(0)(0, 0).real());
+    say("written to {}\n", settings.directory.string());
     return ExitCode::ok;
   } catch (const std::domain_error& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    say(stderr, "error: {}\n", error.what());
     return ExitCode::not_converged;
   }
 }

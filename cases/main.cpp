@@ -8,6 +8,7 @@
 #include "cases/run.hpp"
 #include "cases/study.hpp"
 #include "cases/study_reader.hpp"
+#include "cases/terminal.hpp"
 #include "fem/tangent_check.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/quality.hpp"
@@ -16,7 +17,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <csignal>
 #include <malloc.h>
 
 using namespace dielast;
@@ -47,7 +47,7 @@ ExitCode check(const Arguments& arguments) {
   const cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
   const cases::Device device = cases::build_device(one);
   const auto quality = meshing::quality(device.mesh);
-  fmt::print("{}: valid\n{}unknowns: {} free, {} held{}\n", arguments.case_file, meshing::format(quality),
+  cases::say("{}: valid\n{}unknowns: {} free, {} held{}\n", arguments.case_file, meshing::format(quality),
              device.model.dofs.free_count(), device.model.dofs.count() - device.model.dofs.free_count(),
              device.free_body ? " (a free body, pinned against rigid motion)" : "");
   if (!arguments.tangent) return ExitCode::ok;
@@ -60,7 +60,7 @@ ExitCode check(const Arguments& arguments) {
   constexpr double tolerance = 1e-6;
   const auto found = fem::check_tangent(equilibrium, state, 0.02 * device.model.length_scale, 5);
   const bool passed = found.residual < tolerance && found.tangent < tolerance;
-  fmt::print(
+  cases::say(
       "derivatives against differences of the energy in {} directions: residual {:.1e}, tangent {:.1e}: {}\n",
       found.directions, found.residual, found.tangent, passed ? "passed" : "FAILED");
   return passed ? ExitCode::ok : ExitCode::check_failed;
@@ -75,14 +75,14 @@ ExitCode mesh(const Arguments& arguments) {
   post::VtkSeries(folder, one.source.stem().string() + "-mesh", device.mesh)
       .write(0, "drawn", drawn.displacement, device.model.sample(drawn));
   folder.set_complete(static_cast<int>(ExitCode::ok));
-  fmt::print("{}places:\n", meshing::format(meshing::quality(device.mesh)));
+  cases::say("{}places:\n", meshing::format(meshing::quality(device.mesh)));
   for (const auto& [name, nodes] : device.mesh.node_sets) {
     const auto cells = device.mesh.cell_sets.find(name);
-    fmt::print(
+    cases::say(
         "  {:<16} {:>6} nodes{}\n", name, nodes.size(),
         cells == device.mesh.cell_sets.end() ? "" : fmt::format(" {:>6} cells", cells->second.cells.size()));
   }
-  fmt::print("written to {}\n", (folder / (one.source.stem().string() + "-mesh.pvd")).string());
+  cases::say("written to {}\n", (folder / (one.source.stem().string() + "-mesh.pvd")).string());
   return ExitCode::ok;
 }
 
@@ -101,17 +101,17 @@ ExitCode linearise(const Arguments& arguments) {
 }
 
 ExitCode info(const Arguments& arguments) {
-  fmt::print("{}", cases::describe(arguments.topic));
+  cases::say("{}", cases::describe(arguments.topic));
   return ExitCode::ok;
 }
 
 ExitCode schema(const Arguments& /*none*/) {
-  fmt::print("{}\n", cases::json_schema());
+  cases::say("{}\n", cases::json_schema());
   return ExitCode::ok;
 }
 
 ExitCode fail(ExitCode code, std::string_view message) {
-  fmt::print(stderr, "error: {}\n", message);
+  cases::say(stderr, "error: {}\n", message);
   return code;
 }
 
@@ -120,7 +120,7 @@ ExitCode guarded(ExitCode (*command)(const Arguments&), const Arguments& argumen
   try {
     return command(arguments);
   } catch (const cases::CaseError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    cases::say(stderr, "{}\n", error.what());
     return ExitCode::invalid_case;
   } catch (const meshing::MeshError& error) {
     return fail(ExitCode::mesh, error.what());
@@ -139,8 +139,8 @@ int main(int argc, char** argv) {
   // tenth of a run.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
-  std::signal(SIGXFSZ, SIG_IGN); // a file-size limit is a write error like any other
-  cases::catch_interrupts();
+  cases::open_standard_streams();
+  cases::catch_signals();
 
   CLI::App app{"dielast: finite elements for dielectric elastomer actuators"};
   app.footer(
@@ -226,9 +226,9 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage_or_file);
+    return static_cast<int>(finish_output(app.exit(error) == 0 ? ExitCode::ok : ExitCode::usage_or_file));
   }
   for (const auto& [command, function] : commands)
-    if (command->parsed()) return static_cast<int>(guarded(function, arguments));
+    if (command->parsed()) return static_cast<int>(finish_output(guarded(function, arguments)));
   return static_cast<int>(ExitCode::usage_or_file);
 }

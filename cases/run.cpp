@@ -2,6 +2,7 @@
 
 #include "cases/resolved.hpp"
 #include "cases/results.hpp"
+#include "cases/terminal.hpp"
 #include "meshing/quality.hpp"
 #include "post/results_folder.hpp"
 
@@ -10,19 +11,14 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <atomic>
 #include <cmath>
-#include <csignal>
 #include <ctime>
 #include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 namespace dielast::cases {
 
 namespace {
-
-std::atomic<bool> interrupt_requested = false;
 
 std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
@@ -127,20 +123,10 @@ std::optional<ExitCode> finished(const Case& one, const post::ResultsFolder& fol
 
 } // namespace
 
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupt_requested = true; };
-  action.sa_flags = SA_RESETHAND; // a second Ctrl-C ends the program at once
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
-bool interrupted() { return interrupt_requested; }
-
 ExitCode run_case(const Case& one, const RunSettings& settings) {
   post::ResultsFolder folder(settings.directory, "run");
   if (const auto ended = settings.resume ? finished(one, folder) : std::nullopt) {
-    if (!settings.quiet) fmt::print("{}: has run to its end, nothing to resume\n", folder.path().string());
+    if (!settings.quiet) say("{}: has run to its end, nothing to resume\n", folder.path().string());
     return *ended;
   }
   if (!settings.resume) folder.begin();

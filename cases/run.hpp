@@ -20,8 +20,4 @@ struct RunSettings {
 /// post::ResultsFolder, build_device() throw.
 ExitCode run_case(const Case& one, const RunSettings& settings);
 
-/// Makes SIGINT and SIGTERM stop runs and studies in good order.
-void catch_interrupts();
-bool interrupted();
-
 } // namespace dielast::cases

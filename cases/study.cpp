@@ -4,6 +4,7 @@
 #include "cases/resolved.hpp"
 #include "cases/run.hpp"
 #include "cases/study_report.hpp"
+#include "cases/terminal.hpp"
 #include "meshing/mesh_error.hpp"
 #include "post/results_folder.hpp"
 
@@ -71,7 +72,7 @@ class ProgressLine {
     ++ran_;
     failed_ += exit_code != 0;
     if (!terminal_) {
-      fmt::print("{}/{}  {}  exit {}\n", done_, total_, fmt::join(point.overrides, "  "), exit_code);
+      say("{}/{}  {}  exit {}\n", done_, total_, fmt::join(point.overrides, "  "), exit_code);
       std::fflush(stdout);
     }
     show();
@@ -86,12 +87,12 @@ class ProgressLine {
                                  ? fmt::format("about {:.0f} s left", elapsed / static_cast<double>(ran_) *
                                                                           static_cast<double>(total_ - done_))
                                  : "";
-    fmt::print("\r[{:#>{}}{:->{}}] {}/{}  {} failed  {:.0f} s  {}\033[K", "", filled, "", width - filled,
-               done_, total_, failed_, elapsed, left);
+    say("\r[{:#>{}}{:->{}}] {}/{}  {} failed  {:.0f} s  {}\033[K", "", filled, "", width - filled, done_,
+        total_, failed_, elapsed, left);
     std::fflush(stdout);
   }
   void end() const {
-    if (terminal_) fmt::print("\n");
+    if (terminal_) say("\n");
   }
 
  private:
@@ -111,8 +112,8 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   for (const std::string& name : names) folder.add(name);
   const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
                                                        : std::max(1U, std::thread::hardware_concurrency());
-  fmt::print("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
-             settings.directory.string());
+  say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
+      settings.directory.string());
   ProgressLine progress(points.size());
   struct Waiting {
     const StudyPoint* point;
@@ -122,7 +123,8 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   for (const StudyPoint& point : points) {
     const bool current = settings.resume && is_current(study, point);
     const auto result = current ? result_of(study, point) : std::nullopt;
-    if (result && result->exit_code >= 0) { // a crashed one is tried again
+    if (result && result->exit_code != static_cast<int>(ExitCode::usage_or_file) &&
+        result->exit_code >= 0) { // one that crashed or could not write its files is tried again
       progress.skipped();
       continue;
     }
@@ -155,7 +157,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   }
   progress.end();
   if (interrupted()) {
-    fmt::print("interrupted; go on with --resume\n");
+    say("interrupted; go on with --resume\n");
     return ExitCode::interrupted;
   }
   folder.write("study.csv", study_table(study, points));
@@ -165,12 +167,11 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   for (const StudyPoint& point : points)
     if (const auto result = result_of(study, point); !result || result->exit_code != 0) {
       ++failed;
-      fmt::print("failed: {}: {}\n", fmt::join(point.overrides, "  "),
-                 result ? result->message : "not finished");
+      say("failed: {}: {}\n", fmt::join(point.overrides, "  "), result ? result->message : "not finished");
     }
-  for (const std::string& line : target_lines(study, points)) fmt::print("{}\n", line);
-  fmt::print("{} of {} points in {}\n", points.size() - static_cast<std::size_t>(failed), points.size(),
-             (settings.directory / "study.csv").string());
+  for (const std::string& line : target_lines(study, points)) say("{}\n", line);
+  say("{} of {} points in {}\n", points.size() - static_cast<std::size_t>(failed), points.size(),
+      (settings.directory / "study.csv").string());
   const ExitCode code = failed ? ExitCode::not_converged : ExitCode::ok;
   folder.set_complete(static_cast<int>(code));
   return code;
