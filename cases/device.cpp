@@ -291,6 +291,7 @@ Device build_device(const Case& one) {
   }
   model.extent = (high - low).norm();
   model.drawn = mesh.nodes;
+  model.corners = fem::element_corners(mesh);
 
   const bool of_revolution = dimension == fem::Dimension::axisymmetric;
   if (!of_revolution && high.z() - low.z() > 1e-9 * model.extent)

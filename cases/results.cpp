@@ -238,7 +238,9 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                         {"voltages", record.voltages},
                         {"place", event.place},
                         {"message", event.message}});
-  if (!results.outcome.kind.empty() && !journal.records.empty()) {
+  const auto tells = [&](const post::Event& event) { return event.kind == results.outcome.kind; };
+  if (!results.outcome.kind.empty() && !journal.records.empty() &&
+      std::ranges::none_of(journal.records.back().events, tells)) {
     const auto& last = journal.records.back();
     events.push_back({{"kind", results.outcome.kind},
                       {"step", last.step},

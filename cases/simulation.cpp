@@ -69,7 +69,14 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
   account(state, increment, reached);
-  if (!increment.lands) return !observer.on_pass || observer.on_pass();
+  if (increment.lands) return record(observer, step, state, increment, reached);
+  unrecorded_ = increment;
+  return !observer.on_pass || observer.on_pass();
+}
+
+bool Simulation::record(const SimulationObserver& observer, const Step& step, const fem::State& state,
+                        const fem::Increment& increment, Reached reached) {
+  unrecorded_.reset();
   const bool is_drawn = records_ == 0;
   const bool ends = !is_drawn && increment.load_factor >= 1;
   Measured measured(device_, equilibrium_, state, energy_);
@@ -135,6 +142,8 @@ Outcome Simulation::run(const SimulationObserver& observer) {
           return accept(observer, step, state, increment, reached);
         }};
     const Outcome outcome = StepRun(equilibrium_, step, path, options, in_step_, watcher).run();
+    if (outcome.ending == Ending::gave_up && unrecorded_)
+      record(observer, step, state(), *unrecorded_, Reached::along_path);
     if (outcome.ending != Ending::complete) return outcome;
   }
   return {Ending::complete};

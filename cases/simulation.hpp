@@ -69,6 +69,8 @@ class Simulation {
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
               const fem::Increment& increment, Reached reached);
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);
+  bool record(const SimulationObserver& observer, const Step& step, const fem::State& state,
+              const fem::Increment& increment, Reached reached);
 
   const Case& case_;
   Device device_;
@@ -82,6 +84,7 @@ class Simulation {
   StepProgress in_step_;
   std::vector<post::Event> news_; ///< for the next record
   fem::EnergyBalance energy_;
+  std::optional<fem::Increment> unrecorded_; ///< that led to the last accepted state
 };
 
 } // namespace dielast::cases

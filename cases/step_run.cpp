@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace dielast::cases {
 
@@ -16,6 +18,8 @@ constexpr int most_jumps = 100;
 constexpr double beyond = 1e-6;
 /// Displacement along a mode at which another branch is looked for, over the model's extent.
 constexpr double branch_amplitude = 1e-3;
+/// Eigenvalue of the lowest mode, over the stiffness as drawn, below which a timed step has come to a limit.
+constexpr double critical_in_time = 1e-3;
 
 const char* word(fem::Instability kind) {
   return kind == fem::Instability::limit_point ? "limit point" : "bifurcation";
@@ -58,28 +62,64 @@ void StepRun::announce(const fem::CriticalPoint& critical) {
                          fmt::format("{} at {}", word(critical.kind), load_text(critical.load_factor))});
 }
 
+/// The last equilibrium before stability is lost is a result of its own.
+bool StepRun::accept_critical(const fem::CriticalPoint& critical) {
+  fem::RampProgress& ramp = progress_.ramp;
+  const double length = critical.load_factor - ramp.load_factor;
+  if (length <= 0) return true;
+  ramp.load_factor = critical.load_factor;
+  ramp.slope.reset();
+  ramp.points = {{0, model().settled(critical.state)}};
+  return accept(ramp.points.back().state, {ramp.load_factor, {}, true, length}, Reached::along_path);
+}
+
 bool StepRun::accept(const fem::State& state, const fem::Increment& increment, Reached reached) {
   progress_.unstable_modes = increment.newton.unstable_modes;
   return !observer_.on_accept || observer_.on_accept(state, increment, reached);
 }
 
+/// Whether the path is followed by arclength where load control ends: that finds its critical points, too.
+bool StepRun::follows() const {
+  return step_.on_instability == OnInstability::follow && step_.on_bifurcation == OnBifurcation::follow;
+}
+
+/// The critical point between the last accepted state and the load factor s.
+std::optional<fem::CriticalPoint> StepRun::locate(double s) const {
+  const double reached = progress_.ramp.load_factor;
+  return fem::locate_by_load_control(equilibrium_, path_, loaded(last(), reached), reached, s,
+                                     options_.newton);
+}
+
+/// The last accepted state, where it is about to lose its stability at the pace of the step.
+std::optional<fem::CriticalPoint> StepRun::limit_in_time() const {
+  const double reached = progress_.ramp.load_factor;
+  fem::State state = loaded(last(), reached);
+  auto mode = fem::lowest_mode(equilibrium_, state);
+  if (!mode || std::abs(mode->eigenvalue) > critical_in_time) return std::nullopt;
+  return fem::CriticalPoint{fem::Instability::limit_point, reached, std::move(state), std::move(*mode)};
+}
+
 /// A state under load control. Where stability was lost on the way, the critical point is located; a step
-/// that leaves its path there does not accept the unstable state.
+/// that leaves its path there does not accept the unstable state, nor one that stops at instabilities any.
 bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increment) {
-  const bool lost = increment.newton.unstable_modes > progress_.unstable_modes;
-  if (!timed() && lost && now.points.size() > 1) {
-    const fem::State& before = now.points[now.points.size() - 2].state;
-    const double s_before = increment.load_factor - increment.length;
-    auto critical = fem::locate_by_load_control(equilibrium_, path_, loaded(before, s_before), s_before,
-                                                increment.load_factor, options_.newton);
-    if (critical) announce(*critical);
-    const bool leaves =
-        step_.on_bifurcation == OnBifurcation::switch_branch || step_.on_instability == OnInstability::jump;
-    if (critical && leaves) {
-      leaving_ = std::move(critical);
-      return false;
-    }
+  const int unstable = increment.newton.unstable_modes;
+  const bool lost = unstable > progress_.unstable_modes && now.points.size() > 1;
+  const bool switches = step_.on_bifurcation == OnBifurcation::switch_branch;
+  const bool leaves =
+      stops() ? unstable > 0 : lost && (switches || step_.on_instability == OnInstability::jump);
+  if (!leaves && (timed() || !lost)) return accept(now.points.back().state, increment, Reached::along_path);
+  Trouble trouble{{fem::RampEnd::gave_up, increment.load_factor, increment.newton}, {}, unstable};
+  // back to the last stable state
+  const fem::RampProgress beyond_it = progress_.ramp;
+  if (now.points.size() > 1) progress_.ramp.points.pop_back();
+  progress_.ramp.load_factor = increment.load_factor - increment.length;
+  if (lost) trouble.critical = timed() ? limit_in_time() : locate(increment.load_factor);
+  if (leaves && (trouble.critical || stops())) {
+    leaving_ = std::move(trouble);
+    return false;
   }
+  progress_.ramp = beyond_it;
+  if (trouble.critical) announce(*trouble.critical);
   return accept(now.points.back().state, increment, Reached::along_path);
 }
 
@@ -93,22 +133,17 @@ Outcome StepRun::run() {
       if (const auto outcome = follow()) return *outcome;
       continue;
     }
-    Trouble trouble{fem::ramp(equilibrium_, path_, options_, progress_.ramp, watcher), {}};
+    Trouble trouble{fem::ramp(equilibrium_, path_, options_, progress_.ramp, watcher)};
     if (trouble.ramp.end == fem::RampEnd::complete) break;
     if (trouble.ramp.end == fem::RampEnd::stopped) {
       if (!leaving_) return {Ending::interrupted};
-      // back to the last stable state
-      auto& points = progress_.ramp.points;
-      trouble.ramp.failed_at = progress_.ramp.load_factor;
-      progress_.ramp.load_factor = leaving_->load_factor;
-      points.pop_back();
-      trouble.critical = std::exchange(leaving_, std::nullopt);
-    } else if (!timed() && trouble.ramp.failure.outcome != fem::Outcome::singular) {
-      const double s = progress_.ramp.load_factor;
-      trouble.critical = fem::locate_by_load_control(equilibrium_, path_, loaded(last(), s), s,
-                                                     trouble.ramp.failed_at, options_.newton);
-      if (trouble.critical) announce(*trouble.critical);
+      trouble = *std::exchange(leaving_, std::nullopt);
+    } else if (timed()) {
+      if (!options_.inertia) trouble.critical = limit_in_time();
+    } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows()) {
+      trouble.critical = locate(trouble.ramp.failed_at);
     }
+    if (trouble.critical) announce(*trouble.critical);
     if (const auto outcome = leave(trouble)) return *outcome;
   }
   return {};
@@ -125,7 +160,10 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
     return std::nullopt;
   }
   if (step_.on_instability == OnInstability::jump) return jump(trouble);
-  if (step_.on_instability == OnInstability::stop || timed()) return failure(trouble);
+  if (step_.on_instability == OnInstability::stop || timed()) {
+    if (trouble.critical && !accept_critical(*trouble.critical)) return Outcome{Ending::interrupted};
+    return failure(trouble);
+  }
   const double s = progress_.ramp.load_factor;
   progress_.followed = fem::begin_continuation(equilibrium_, path_, loaded(last(), s), s, 1, arcs);
   if (!progress_.followed) return failure(trouble);
@@ -181,12 +219,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
     state = trouble.critical->state;
     s = std::min(1.0, trouble.critical->load_factor + beyond);
     direction = trouble.critical->mode.direction;
-    const double length = trouble.critical->load_factor - ramp.load_factor;
-    if (length > beyond) { // an interrupt waits until the device has landed
-      ramp.load_factor = trouble.critical->load_factor;
-      ramp.points = {{0, model().settled(state)}};
-      accept(ramp.points.back().state, {ramp.load_factor, {}, true, length}, Reached::along_path);
-    }
+    accept_critical(*trouble.critical); // an interrupt waits until the device has landed
   } else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(state, ramp.load_factor))) {
     direction = mode->direction;
   } else {
@@ -205,6 +238,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   ramp.increment = 1.0 / options_.increments;
   ramp.at_break = ramp.turns = true;
   ramp.unstable_modes = result.newton.unstable_modes;
+  ramp.slope.reset();
   ramp.points = {{0, state}};
   if (!accept(state, {s, result.newton}, Reached::by_jump)) return Outcome{Ending::interrupted};
   return std::nullopt;
@@ -237,23 +271,43 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                 "{} integration points at {}), whatever its wrinkles take up. Lower the drive or stretch the "
                 "film more",
                 step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
+  const std::string more =
+      " Lower the drive, or stiffen the device or stretch the film more, to stay below it; "
+      "or let the step go on with on_instability = ";
   if (trouble.critical) {
     const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
+    if (timed())
+      return {Ending::gave_up, "limit point",
+              fmt::format("limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of "
+                          "the step.{}\"jump\"",
+                          load_text(reached), last().time, more)};
     return {
         Ending::gave_up, "limit point",
         fmt::format(
-            "limit point near {}: equilibrium found up to {}, none at {}{}. Lower the drive, or stiffen the "
-            "device or stretch the film more, to stay below it; or let the step go on with "
-            "on_instability = \"follow\" or \"jump\"",
-            load_text(trouble.critical->load_factor), load_text(reached), load_text(trouble.ramp.failed_at),
-            branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable" : "")};
+            "limit point near {}: equilibrium found up to {}, none {}at {}{}.{}\"follow\" or \"jump\"",
+            load_text(trouble.critical->load_factor), load_text(reached),
+            trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
+            branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable" : "",
+            more)};
   }
+  if (trouble.unstable_modes > 0)
+    return {
+        Ending::gave_up, "instability",
+        fmt::format("step \"{}\" stopped at {}: the equilibrium at {} has {} unstable mode{}, so a device "
+                    "would leave it. Change what makes it unstable (compressed film, a voltage beyond a "
+                    "limit point); or let the step go on with on_instability = \"follow\" or \"jump\"",
+                    step_.name, load_text(reached), load_text(trouble.ramp.failed_at), trouble.unstable_modes,
+                    trouble.unstable_modes == 1 ? "" : "s")};
+  if (trouble.ramp.failure.outcome == fem::Outcome::off_path)
+    return {Ending::gave_up, "limit point",
+            fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
+                        "of another branch beyond it.{}\"follow\" or \"jump\"",
+                        load_text(reached), more)};
   return {Ending::gave_up, "no equilibrium",
-          fmt::format(
-              "step \"{}\" stopped at load factor {:.4g}: no equilibrium found at {:.4g} with smaller and "
-              "smaller increments. Try more increments, a finer mesh, or a smaller prestretch{}",
-              step_.name, reached, trouble.ramp.failed_at,
-              timed() ? "; or let the step go on with on_instability = \"jump\"" : "")};
+          fmt::format("step \"{}\" stopped at load factor {:.4g}: no equilibrium found at {:.4g}, and the "
+                      "increments are smaller than solver.smallest_increment. A finer mesh may help{}",
+                      step_.name, reached, trouble.ramp.failed_at,
+                      timed() ? "; or let the step go on with on_instability = \"jump\"" : "")};
 }
 
 } // namespace dielast::cases

@@ -32,7 +32,7 @@ enum class Ending { complete, gave_up, interrupted };
 
 struct Outcome {
   Ending ending = Ending::complete;
-  std::string kind{};    ///< gave_up: "limit point", "bifurcation", "singular tangent", "no equilibrium", ...
+  std::string kind{};    ///< gave_up: "limit point", "instability", "singular tangent", "no equilibrium", ...
   std::string message{}; ///< gave_up: what happened and what to do
 };
 
@@ -51,6 +51,7 @@ class StepRun {
   struct Trouble {
     fem::RampResult ramp;                       ///< how load control ended
     std::optional<fem::CriticalPoint> critical; ///< where, if it could be located
+    int unstable_modes = 0;                     ///< of a state that was reached and is not accepted
   };
   bool timed() const { return options_.duration > 0; }
   const fem::Model& model() const { return equilibrium_.model(); }
@@ -58,7 +59,12 @@ class StepRun {
   fem::State loaded(fem::State state, double s) const;
   bool accept(const fem::State& state, const fem::Increment& increment, Reached reached);
   bool on_ramp(const fem::RampProgress& now, const fem::Increment& increment);
+  bool stops() const { return step_.on_instability == OnInstability::stop && !options_.inertia; }
+  bool follows() const;
+  std::optional<fem::CriticalPoint> locate(double s) const;
+  std::optional<fem::CriticalPoint> limit_in_time() const;
   void announce(const fem::CriticalPoint& critical);
+  bool accept_critical(const fem::CriticalPoint& critical);
   std::optional<Outcome> leave(const Trouble& trouble);
   std::optional<Outcome> follow();
   std::optional<Outcome> jump(const Trouble& trouble);
@@ -72,7 +78,7 @@ class StepRun {
   const fem::RampOptions& options_;
   StepProgress& progress_;
   const StepObserver& observer_;
-  std::optional<fem::CriticalPoint> leaving_; ///< the step leaves its path here
+  std::optional<Trouble> leaving_; ///< the step leaves its path
 };
 
 } // namespace dielast::cases

@@ -92,8 +92,8 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
   if (begins(unstable_modes > 0, "instability"))
     events.push_back(
         {"instability", "",
-         fmt::format("the equilibrium is unstable ({} unstable mode{}): the flat or symmetric shape "
-                     "would buckle",
+         fmt::format("the equilibrium is unstable ({} unstable mode{}): a device under these loads would "
+                     "leave it",
                      unstable_modes, unstable_modes == 1 ? "" : "s")});
   return events;
 }

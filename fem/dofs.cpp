@@ -70,4 +70,20 @@ void DofMap::advance(State& state, const Eigen::VectorXd& increment, double scal
   }
 }
 
+Eigen::VectorXd DofMap::increment(const State& from, const State& to) const {
+  Eigen::VectorXd increment = Eigen::VectorXd::Zero(free_count_);
+  for (std::size_t n = 0; n < equation_.size(); ++n) {
+    const auto& equation = equation_[n];
+    const auto is_free = [this](int e) { return e != absent && e < free_count_; };
+    for (int c = 0; c < 3; ++c)
+      if (const int e = equation[static_cast<std::size_t>(c)]; is_free(e))
+        increment[e] = to.displacement[n][c] - from.displacement[n][c];
+    if (std::none_of(equation.begin() + 3, equation.end(), is_free)) continue;
+    const Eigen::Vector3d spin = spin_of(to.rotation[n] * from.rotation[n].conjugate());
+    for (int c = 3; c < components; ++c)
+      if (const int e = equation[static_cast<std::size_t>(c)]; is_free(e)) increment[e] = spin[c - 3];
+  }
+  return increment;
+}
+
 } // namespace dielast::fem

@@ -55,6 +55,8 @@ class DofMap {
 
   /// state := state + scale * increment, rotations as exp(spin) R; increment has free_count() entries.
   void advance(State& state, const Eigen::VectorXd& increment, double scale) const;
+  /// The increment by which advance() leads from one state to the other's free displacements and rotations.
+  Eigen::VectorXd increment(const State& from, const State& to) const;
 
  private:
   static constexpr int free_mark = 0, held_mark = 1; // before number()

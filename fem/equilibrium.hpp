@@ -22,7 +22,13 @@ struct NewtonOptions {
   int max_iterations = 25;
 };
 
-enum class Outcome { converged, infeasible, not_converged, singular };
+enum class Outcome {
+  converged,
+  infeasible,
+  not_converged,
+  singular,
+  off_path, ///< converged to a state that the path of the states before does not lead to
+};
 
 struct NewtonResult {
   Outcome outcome{};

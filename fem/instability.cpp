@@ -39,6 +39,7 @@ struct LoadPoint {
   double s = 0;
   State state;
   Mode mode;
+  PathSlope slope; ///< per load factor
 };
 
 } // namespace
@@ -177,8 +178,18 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     if (newton.outcome != Outcome::converged || (modes >= 0 && newton.unstable_modes > modes)) return false;
     auto mode = lowest_mode(equilibrium, trial);
     if (!mode) return false;
+    const double length = points.empty() ? s - s_beyond : s - points.back().s;
+    PathSlope slope = slope_at(equilibrium, path, trial, s, -length);
+    if (!points.empty()) {
+      const LoadPoint& last = points.back();
+      const Model& model = equilibrium.model();
+      if (is_turned_over(model.corners, model.drawn, last.state, trial) ||
+          !is_joined(equilibrium, last.state, last.slope.per(1 / length), trial, slope.per(1 / length),
+                     Steadiness::kinked()))
+        return false;
+    }
     modes = newton.unstable_modes;
-    points.push_back({s, std::move(trial), std::move(*mode)});
+    points.push_back({s, std::move(trial), std::move(*mode), std::move(slope)});
     return true;
   };
   if (!attempt(state, s_before)) return std::nullopt;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/continuation.hpp"
+#include "fem/path_slope.hpp"
 
 namespace dielast::fem {
 
@@ -43,9 +44,10 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
                                     const NewtonOptions& options);
 
 /// The same by load control alone: `state` is converged at load factor s_before; at s_beyond Newton's method
-/// fails or ends in a less stable state. Near a limit point the eigenvalue goes with the square root of the
-/// distance in s, near a bifurcation with the distance: extrapolated, that says where to go next. Ends when
-/// the critical load factor is known to `tolerance`.
+/// fails, or ends in a less stable state or in one that is not joined with those before (see is_joined()).
+/// Near a limit point the eigenvalue goes with the square root of the distance in s, near a bifurcation with
+/// the distance: extrapolated, that says where to go next. Ends when the critical load factor is known to
+/// `tolerance`.
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
                                                     const State& state, double s_before, double s_beyond,
                                                     const NewtonOptions& options, double tolerance = 1e-7);

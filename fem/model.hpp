@@ -3,6 +3,7 @@
 #include "fem/circuit.hpp"
 #include "fem/element_block.hpp"
 #include "fem/inertia.hpp"
+#include "fem/turnover.hpp"
 
 #include <memory>
 #include <string>
@@ -22,7 +23,8 @@ struct Model {
   double length_scale = 1; ///< m, an element's size: makes moments comparable with forces in residual norms
   double extent = 1;       ///< m, the whole mesh's: tells which forces are round-off
   std::vector<Eigen::Vector3d>
-      drawn; ///< m, nodes of the mesh; only needed where a film starts without tension
+      drawn; ///< m, nodes of the mesh; needed for `corners` and where a film starts without tension
+  std::vector<ElementCorners> corners; ///< of the elements that no increment may turn over; may be empty
 
   std::size_t circuit_history = 0; ///< place of the first circuit's internal variable, by place_histories()
   std::vector<SheetPoint> sheet_points; ///< theirs come behind the circuits'; by place_histories(), too

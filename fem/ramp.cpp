@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -12,8 +13,12 @@ constexpr double round_off = 1e-9;     ///< in load factors
 constexpr double left_side = 1e-13;    ///< before a break, in load factors: the loads that hold until it
 constexpr double most_growth = 2;      ///< of a time step: BDF2 is stable below 2.41
 constexpr double safety = 0.9;
-constexpr double jump_part = 1.0 / 8;      ///< of loads that jump
+constexpr int jump_parts = 8;              ///< of loads that jump
 constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
+constexpr double smallest_on_path = 1e-9;  ///< of the load factor, where other branches are found
+constexpr double longest_kinked = 1e-4;    ///< increment, see Steadiness
+constexpr double foreseen = 0.1;           ///< error of the predictor over the change of the state
+constexpr double first_moment = 1e-3;      ///< of an increment in time: its start, with dashpots that flow
 constexpr double tiny = 1e-300;
 constexpr double typical_motion = 1e-2; ///< of the extent, to which errors of the motion are compared
 
@@ -37,7 +42,12 @@ class Ramp {
   materials::TimeScheme scheme(double dt) const;
   State solve(State state, double s);
   bool less_stable() const;
+  LoadPath within(double s) const;
+  PathSlope slope_of_start(const LoadPath& increment, double length);
+  bool goes_on(const State& predicted, const State& trial, double s);
+  bool detour(const LoadPath& path, State start, const RampOptions& options, bool tells);
   bool pass_break();
+  bool flow();
   static double time_error(const History& past, const History& next);
   double motion_error(const GeneralisedAlpha& scheme, const Motion& past, const Motion& next) const;
   bool accept(State state, double s);
@@ -50,8 +60,9 @@ class Ramp {
   const RampObserver& observer_;
   double largest_, landing_, smallest_;
   NewtonResult newton_;
-  bool jumped_ = false;  ///< at the last break
-  double last_part_ = 0; ///< of that jump
+  std::optional<PathSlope> slope_; ///< at the trial state
+  bool jumped_ = false;            ///< at the last break
+  double last_part_ = 0;           ///< of that jump
 };
 
 double Ramp::next_break() const {
@@ -97,11 +108,85 @@ bool Ramp::less_stable() const {
          newton_.unstable_modes > progress_.unstable_modes;
 }
 
+/// The loads and the time scheme of the increment to s as functions of the part of it, 0..1.
+LoadPath Ramp::within(double s) const {
+  LoadPath path;
+  path.apply = [this, s](State& state, double part) {
+    const double s0 = progress_.load_factor;
+    path_.apply(state, s0 + part * (s - s0) - (timed() && part >= 1 ? left_side : 0));
+    state.scheme = scheme(part * (s - s0) * options_.duration);
+  };
+  return path;
+}
+
+/// Of the increment's path at the last accepted state, as the increment sets out from it.
+PathSlope Ramp::slope_of_start(const LoadPath& increment, double length) {
+  const double at = timed() ? first_moment : 0;
+  const auto& known = progress_.slope;
+  if (known && !timed()) return known->per(1 / length);
+  State start = last();
+  increment.apply(start, at);
+  if (known) {
+    PathSlope slope = slope_at(equilibrium_, increment, start, at, 1, false);
+    slope.displacement = length * known->displacement;
+    return slope;
+  }
+  const bool regular = equilibrium_.factor(start);
+  if (regular && progress_.unstable_modes < 0)
+    progress_.unstable_modes = equilibrium_.tangent().unstable_modes();
+  return slope_at(equilibrium_, increment, start, at, 1, regular);
+}
+
+/// Whether a converged trial lies on the path through the last accepted states.
+bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
+  slope_.reset();
+  const Model& model = equilibrium_.model();
+  if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
+  if (options_.inertia) return true; // motion has no other branch
+  const auto size = [this](const State& from, const State& to) {
+    const Eigen::VectorXd u = equilibrium_.model().dofs.increment(from, to);
+    return std::sqrt(u.dot(equilibrium_.stiffness().cwiseProduct(u)));
+  };
+  if (progress_.points.size() > 1 && size(predicted, trial) <= foreseen * size(last(), trial)) return true;
+  const double length = s - progress_.load_factor;
+  const LoadPath increment = within(s);
+  const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
+  const PathSlope start = slope_of_start(increment, length);
+  progress_.slope = start.per(length);
+  const Steadiness steadiness = length > longest_kinked ? Steadiness::resolved() : Steadiness::kinked();
+  if (!is_joined(equilibrium_, last(), start, trial, end, steadiness)) return false;
+  slope_ = end.per(length);
+  return true;
+}
+
+/// Takes the last state along a path of its own, on which no time passes; the observer hears of all of its
+/// states but the last.
+bool Ramp::detour(const LoadPath& path, State start, const RampOptions& options, bool tells) {
+  const double at = parameter(progress_.load_factor);
+  RampProgress progress = RampProgress::begin(start, equilibrium_.model().dofs, options);
+  progress.unstable_modes = progress_.unstable_modes;
+  RampObserver watcher;
+  watcher.on_iteration = observer_.on_iteration;
+  watcher.on_accept = [&](const RampProgress& now, const Increment& increment) {
+    progress_.points = {{at, now.points.back().state}};
+    progress_.unstable_modes = increment.newton.unstable_modes;
+    newton_ = increment.newton;
+    last_part_ = increment.length;
+    if (tells && now.load_factor < 1) notify(false, last_part_);
+    return true;
+  };
+  const RampResult result = Ramp(equilibrium_, path, options, progress, watcher).run();
+  if (result.end == RampEnd::complete) return true;
+  newton_ = result.failure;
+  return false;
+}
+
 /// Forgets the past, in which the loads went elsewhere, and lets loads that jump here act at once, in parts.
 /// False where even the smallest part does not converge.
 bool Ramp::pass_break() {
   progress_.at_break = false;
   progress_.turns = true;
+  progress_.slope.reset();
   State state = last();
   if (state.history && state.history->step > 0)
     state.history = std::make_shared<const History>(History{state.history->now, {}, {}});
@@ -121,31 +206,52 @@ bool Ramp::pass_break() {
   const Loads after = Loads::of(goal, dofs);
   state.scheme = materials::TimeScheme::frozen();
   const double at = parameter(progress_.load_factor);
-  progress_.points = {{at, std::move(state)}};
+  progress_.points = {{at, state}};
   jumped_ = before != after;
   if (!jumped_) return true;
   const LoadPath jump = linear_path(dofs, before, after);
-  double part = jump_part;
-  for (double done = 0; done < 1;) {
-    const double next = done + part > 1 - round_off ? 1.0 : done + part;
-    State trial = last();
-    jump.apply(trial, next);
-    newton_ = {};
-    if (options_.inertia)
-      equilibrium_.conduct(trial);
-    else
-      newton_ = equilibrium_.solve(trial, options_.newton, observer_.on_iteration);
-    if (newton_.outcome != Outcome::converged) {
-      if ((part /= 2) < options_.smallest_increment) return false;
-      continue;
-    }
-    progress_.points = {{at, std::move(trial)}};
-    progress_.unstable_modes = newton_.unstable_modes;
-    if (next < 1) notify(false, next - done);
-    last_part_ = next - done;
-    done = next;
+  if (!options_.inertia)
+    return detour(jump, std::move(state),
+                  {.newton = options_.newton,
+                   .increments = jump_parts,
+                   .smallest_increment = options_.smallest_increment,
+                   .instantaneous = true},
+                  true);
+  newton_ = {}; // nothing moves
+  last_part_ = 1.0 / jump_parts;
+  for (int part = 1; part <= jump_parts; ++part) {
+    jump.apply(state, part * last_part_);
+    equilibrium_.conduct(state);
+    progress_.points = {{at, state}};
+    if (part < jump_parts) notify(false, last_part_);
   }
   return true;
+}
+
+/// Lets dashpots that have been frozen flow, with the loads as they are: what they lose of the forces is
+/// taken away in parts. False where that leads to no equilibrium.
+bool Ramp::flow() {
+  State state = last();
+  if (timed() || options_.instantaneous || !state.history) return true;
+  state.scheme = scheme(0);
+  Balance relaxed;
+  equilibrium_.balance(state, relaxed);
+  const Eigen::Index free = equilibrium_.model().dofs.free_count();
+  if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off()))
+    return true;
+  Eigen::VectorXd lost = Eigen::VectorXd::Zero(relaxed.force.size());
+  lost.head(free) = relaxed.force.head(free);
+  LoadPath path;
+  path.apply = [&, loads = state.dead_force](State& at, double part) {
+    at.dead_force = loads + (1 - part) * lost;
+  };
+  path.apply(state, 0);
+  const bool flows =
+      detour(path, std::move(state),
+             {.newton = options_.newton, .smallest_increment = options_.smallest_increment}, false);
+  if (flows) notify(false, 1);
+  progress_.turns = true;
+  return flows;
 }
 
 /// Largest local error of the internal variables, relative; 0 where the past is too short to tell.
@@ -178,10 +284,11 @@ double Ramp::motion_error(const GeneralisedAlpha& scheme, const Motion& past, co
 
 bool Ramp::accept(State state, double s) {
   progress_.at_break = timed() && s < 1 && std::abs(s - next_break()) < round_off;
-  const bool lands = std::abs(s / landing_ - std::round(s / landing_)) < round_off || s >= 1;
+  const bool lands = !timed() || std::abs(s / landing_ - std::round(s / landing_)) < round_off || s >= 1;
   const double length = s - progress_.load_factor;
   progress_.load_factor = s;
   progress_.unstable_modes = newton_.unstable_modes;
+  progress_.slope = std::exchange(slope_, std::nullopt);
   progress_.points.push_back({parameter(s), std::move(state)});
   if (progress_.points.size() > most_points) progress_.points.erase(progress_.points.begin());
   return notify(lands, length);
@@ -196,6 +303,7 @@ bool Ramp::notify(bool lands, double length) {
 
 RampResult Ramp::run() {
   progress_.points.back().parameter = parameter(progress_.load_factor);
+  if (progress_.load_factor == 0 && !flow()) return {RampEnd::gave_up, 0, newton_};
   while (progress_.load_factor < 1) {
     if (timed() && progress_.at_break) {
       if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
@@ -208,13 +316,18 @@ RampResult Ramp::run() {
     const double s = next_load_factor();
     const double tried = s - progress_.load_factor;
     if (observer_.on_try) observer_.on_try(s);
-    State trial = solve(extrapolate(progress_.points, parameter(s)), s);
+    const State predicted = extrapolate(progress_.points, parameter(s));
+    State trial = solve(predicted, s);
     if ((newton_.outcome != Outcome::converged || less_stable()) && progress_.points.size() > 1)
       trial = solve(last(), s); // the predictor may have led astray
+    if (newton_.outcome == Outcome::converged && !goes_on(predicted, trial, s))
+      newton_.outcome = Outcome::off_path;
     if (newton_.outcome != Outcome::converged || (less_stable() && tried >= 2 * smallest_)) {
       if (observer_.on_cutback) observer_.on_cutback(s, newton_);
       progress_.increment = tried / 2;
-      if (progress_.increment < smallest_) return {RampEnd::gave_up, s, newton_};
+      const double smallest =
+          newton_.outcome == Outcome::off_path ? std::min(smallest_, smallest_on_path) : smallest_;
+      if (progress_.increment < smallest) return {RampEnd::gave_up, s, newton_};
       continue;
     }
     State arrived = equilibrium_.model().settled(trial);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "fem/equilibrium.hpp"
-#include "fem/load_path.hpp"
+#include "fem/path_slope.hpp"
+
+#include <optional>
 
 namespace dielast::fem {
 
@@ -30,13 +32,14 @@ struct Increment {
 /// Where a ramp stands between two increments. A value: stored with the state it lets a run go on bit for
 /// bit.
 struct RampProgress {
-  Loads start;                   ///< at load factor 0
-  double load_factor = 0;        ///< of the last accepted increment
-  double increment = 0;          ///< next to be tried, of the load factor
-  bool at_break = true;          ///< loads may jump now: dashpots stay, the time scheme starts again
-  bool turns = true;             ///< the path has a corner at the last accepted state
-  int unstable_modes = -1;       ///< of the branch being followed; -1 before the first increment
-  std::vector<PathPoint> points; ///< last accepted states, oldest first, for the predictor
+  Loads start;                    ///< at load factor 0
+  double load_factor = 0;         ///< of the last accepted increment
+  double increment = 0;           ///< next to be tried, of the load factor
+  bool at_break = true;           ///< loads may jump now: dashpots stay, the time scheme starts again
+  bool turns = true;              ///< the path has a corner at the last accepted state
+  int unstable_modes = -1;        ///< of the branch being followed; -1 before the first increment
+  std::optional<PathSlope> slope; ///< per load factor, at the last accepted state, where it is known
+  std::vector<PathPoint> points;  ///< last accepted states, oldest first, for the predictor
 
   /// Nothing done yet: the ramp starts from the loads that `state` carries.
   static RampProgress begin(const State& state, const DofMap& dofs, const RampOptions& options);
@@ -67,12 +70,19 @@ struct RampResult {
 /// branch that is less stable even after the smallest increment is followed: the change of inertia is then a
 /// bifurcation, not a limit point.
 ///
+/// A state is accepted only on the path that leads through the states before: no element has turned over
+/// (see is_turned_over()), and the state is where the polynomial foresaw it, or agrees with the slopes of the
+/// path at both ends of the increment (is_joined()). An increment that Newton's method has taken to another
+/// branch is halved like one that fails, as often as it takes: a continuous path lets it through at last, a
+/// limit point never.
+///
 /// In time the dashpots go by BDF2, after a break by one backward Euler step. The local error is estimated
 /// from the distance to the polynomial through the last three accepted internal variables (Milne's device);
 /// steps grow at most by two. With inertia the step is generalised-alpha's (backward Euler after a break),
 /// and so is its error, relative to a hundredth of the model's extent. Loads that jump at a break act at
 /// once, with the dashpots as they are, and, with inertia, nothing moved: in parts, so that their work can be
-/// told.
+/// told. Where no time passes and dashpots flow that have not flowed before, they do so first, at the loads
+/// that the step starts from.
 ///
 /// `progress.points.back().state` is the last accepted state.
 RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,

@@ -110,6 +110,14 @@ fem::State restore_state(const json& archived, const StateSizes& sizes) {
   return state;
 }
 
+json archive(const fem::PathSlope& slope) {
+  return {{"displacement", pack(slope.displacement)}, {"potential", slope.potential}, {"power", slope.power}};
+}
+
+fem::PathSlope restore_slope(const json& archived, std::size_t free) {
+  return {optional_vector(archived.at("displacement"), free), archived.at("potential"), archived.at("power")};
+}
+
 json archive(const fem::EnergyPoint& point) {
   const fem::EnergyParts& e = point.energy;
   return {{"place", post::pack(std::array{point.parameter, point.time})},
@@ -178,6 +186,7 @@ json archive(const fem::RampProgress& progress) {
           {"at_break", progress.at_break},
           {"turns", progress.turns},
           {"unstable_modes", progress.unstable_modes},
+          {"slope", progress.slope ? archive(*progress.slope) : json(nullptr)},
           {"points", std::move(points)}};
 }
 
@@ -195,6 +204,8 @@ fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
     progress.at_break = archived.at("at_break");
     progress.turns = archived.at("turns");
     progress.unstable_modes = archived.at("unstable_modes");
+    if (const json& slope = archived.at("slope"); !slope.is_null())
+      progress.slope = restore_slope(slope, sizes.equations - sizes.held);
     for (const json& point : archived.at("points"))
       progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), sizes)});
     if (progress.points.empty()) mismatch();

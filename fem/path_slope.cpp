@@ -1,0 +1,65 @@
+#include "fem/path_slope.hpp"
+
+#include "fem/inertia.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr double difference = 1e-3; ///< of the reach
+constexpr double still = 1e-7;      ///< mean displacement over the extent that tells nothing of a path
+constexpr double rounding = 1e-12;  ///< of potentials
+
+/// The energy that forces and, with the opposite sign, changes of the loads derive from.
+double potential(const Balance& balance, const State& state, const DofMap& dofs) {
+  return balance.energy - state.dead_force.dot(position(state, dofs));
+}
+
+} // namespace
+
+PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s, double reach,
+                   bool factored) {
+  const DofMap& dofs = equilibrium.model().dofs;
+  PathSlope slope;
+  Balance here, there;
+  State at = state;
+  path.apply(at, s);
+  equilibrium.balance(at, here);
+  slope.potential = potential(here, at, dofs);
+  const double ds = difference * reach;
+  path.apply(at, s + ds);
+  equilibrium.balance(at, there);
+  slope.power = (potential(there, at, dofs) - slope.potential) / ds;
+  if (factored)
+    equilibrium.tangent().solve((here.force - there.force).head(dofs.free_count()) / ds, slope.displacement);
+  return slope;
+}
+
+bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,
+               const State& to, const PathSlope& slope_to, const Steadiness& steadiness) {
+  const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from, to);
+  const auto product = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return a.dot(equilibrium.stiffness().cwiseProduct(b));
+  };
+  const auto norm = [&](const Eigen::VectorXd& a) { return std::sqrt(product(a, a)); };
+  const double least = still * std::sqrt(equilibrium.energy_scale());
+  if (norm(chord) <= least) return true;
+  const Eigen::VectorXd &v0 = slope_from.displacement, &v1 = slope_to.displacement;
+  const bool singular_start = v0.size() == 0;
+  const double n0 = singular_start ? 0 : norm(v0), n1 = norm(v1);
+  const double missing =
+      std::abs(slope_to.potential - slope_from.potential - (slope_from.power + slope_to.power) / 2);
+  const double round_off = rounding * (std::abs(slope_from.potential) + std::abs(slope_to.potential));
+  const double energy = n1 > n0 ? steadiness.energy_of_faster : steadiness.part;
+  if (missing > energy * std::abs(slope_to.power - slope_from.power) + round_off) return false;
+  if (singular_start) return product(chord, v1) > 0; // of it only the energy is known
+  const Eigen::VectorXd half = (v1 - v0) / 2;
+  const double length = product(half, half);
+  const double part = n1 > n0 && length > 0 ? std::clamp(product(chord - v0, half) / length, 0.0, 1.0) : 1.0;
+  return norm(chord - v0 - part * half) <= steadiness.part * std::max(n0, n1) + least;
+}
+
+} // namespace dielast::fem
