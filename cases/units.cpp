@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <clocale>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -21,6 +22,22 @@ std::mutex parser_mutex;
 Unit parsed(ut_system* system, const std::string& text) {
   return {ut_parse(system, text.c_str(), UT_UTF8), &ut_free};
 }
+
+/// udunits reads and writes numbers as the locale has them: while this lives, the thread's has a decimal
+/// point.
+class DecimalPoint {
+ public:
+  DecimalPoint() {
+    static const locale_t plain = newlocale(LC_ALL_MASK, "C", nullptr);
+    before_ = uselocale(plain);
+  }
+  ~DecimalPoint() { uselocale(before_); }
+  DecimalPoint(const DecimalPoint&) = delete;
+  DecimalPoint& operator=(const DecimalPoint&) = delete;
+
+ private:
+  locale_t before_;
+};
 
 /// The units database, read once; "deg" is added since engineers write it and udunits knows only "degree".
 ut_system* unit_system() {
@@ -46,6 +63,7 @@ std::string_view trimmed(std::string_view text) {
 /// udunits: only a linear map is a unit of the same dimension.
 double factor_to_si(const std::string& unit, std::string_view si_unit) {
   const std::lock_guard lock(parser_mutex);
+  const DecimalPoint decimal_point;
   const Unit from = parsed(unit_system(), unit), to = parsed(unit_system(), std::string(si_unit));
   if (!from) throw UnitError(fmt::format("with the unknown unit \"{}\"", unit), unit);
   const Converter converter{ut_get_converter(from.get(), to.get()), &cv_free};

@@ -3,12 +3,14 @@
 #include <cholmod.h>
 #include <dmumps_c.h>
 #include <omp.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <new>
 #include <stdexcept>
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+extern "C" void dpotrf_(const char* uplo, const int* n, double* A, const int* stride, int* info);
 
 namespace dielast::fem {
 
@@ -37,10 +39,28 @@ class OneThread {
   int levels_;
 };
 
+/// OpenBLAS tries for ever to get its buffer where memory is limited: asked for beforehand, and taken at once
+/// by the smallest factorisation, the buffer is there, or its lack is told.
+bool has_blas_buffer() {
+  if (!openblas_set_num_threads) return true;
+  constexpr std::size_t buffer = (128 << 20) + (1 << 16);
+  void* const memory = mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED)
+    throw std::runtime_error(
+        "the limit of memory is too low for OpenBLAS, which needs 128 MB: see ulimit -v");
+  munmap(memory, buffer);
+  const int one = 1;
+  double number = 1;
+  int info = 0;
+  dpotrf_("L", &one, &number, &one, &info);
+  return true;
+}
+
 } // namespace
 
 struct SymmetricSolver::Cholesky {
   explicit Cholesky(const SparseSymmetric& matrix) {
+    [[maybe_unused]] static const bool has_buffer = has_blas_buffer();
     const OneThread one_thread;
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;

@@ -1,0 +1,85 @@
+#include "tests/cases/command.hpp"
+
+#include <clocale>
+#include <cstdlib>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define DIELAST_ADDRESS_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define DIELAST_ADDRESS_SANITIZER 1
+#endif
+#endif
+
+// What the surroundings of the program must not change.
+namespace dielast::test {
+namespace {
+
+class Environment : public CommandTest {};
+
+/// Lines of a log or a report that tell the time that was needed are left out.
+std::string timeless(const std::string& text) {
+  std::string kept;
+  for (const std::string& line : lines_of(text))
+    if (line.find("; CPU ") == std::string::npos) kept += line + "\n";
+  return kept;
+}
+
+TEST_F(Environment, DecimalCommasChangeNothing) {
+  constexpr const char* german = "de_DE.UTF-8";
+  const bool installed = std::setlocale(LC_ALL, german) != nullptr;
+  std::setlocale(LC_ALL, "C");
+  if (!installed) GTEST_SKIP() << "needs the locale " << german;
+  std::filesystem::copy(source_folder / "tests/fuzz/corpus/gmsh/order1_41.msh", directory / "own.msh");
+  write("own.toml", R"toml([film]
+material = "VHB 4910 (honeycomb)"
+thickness = "0.5 mm"
+prestretch = 1.5
+[mesh]
+file = "own.msh"
+unit = "50.5 mm"
+[[support]]
+place = "rim"
+fix = ["x", "y"]
+[[electrode]]
+name = "film"
+place = "film"
+[drive]
+voltage = "1.5 kV"
+)toml");
+  for (const std::string name : {"own", "disc"}) {
+    std::vector<std::filesystem::path> folders;
+    for (const char* locale : {"C", german}) {
+      folders.push_back(directory / (name + locale));
+      const Ended ended =
+          dielast({"run", name + ".toml", "-o", folders.back()}, [&] { setenv("LC_ALL", locale, 1); });
+      ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folders[0]))
+      EXPECT_EQ(timeless(text_of(entry.path())), timeless(text_of(folders[1] / entry.path().filename())))
+          << entry.path().filename();
+  }
+}
+
+#ifndef DIELAST_ADDRESS_SANITIZER // which needs terabytes of addresses
+// OpenBLAS would try for ever to get its buffer.
+TEST_F(Environment, LittleMemoryIsEnoughOrTold) {
+  int told = 0, enough = 0;
+  for (rlim_t megabytes = 220; megabytes <= 620; megabytes += 40) {
+    const Ended ended = dielast({"run", "disc.toml", "-j", "1", "-q", "-o", std::to_string(megabytes)}, [&] {
+      limit(RLIMIT_AS, megabytes << 20);
+      limit(RLIMIT_CPU, 30);
+    });
+    EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1)
+        << megabytes << " MB: " << ended.exit_code << ended.err;
+    if (ended.exit_code == 1) EXPECT_NE(ended.err.find(" memory"), std::string::npos) << ended.err;
+    told += ended.exit_code == 1;
+    enough += ended.exit_code == 0;
+  }
+  EXPECT_GT(told, 0);
+  EXPECT_GT(enough, 0);
+}
+#endif
+
+} // namespace
+} // namespace dielast::test
