@@ -207,7 +207,6 @@ void Recorder::save_checkpoint() {
        {"records", progress.records},
        {"ramp", post::archive(progress.in_step.ramp)},
        {"followed", progress.in_step.followed ? post::archive(*progress.in_step.followed) : json(nullptr)},
-       {"unstable_modes", progress.in_step.unstable_modes},
        {"jumps", progress.in_step.jumps},
        {"energy", post::archive(progress.energy)},
        {"references", progress.references},
@@ -241,8 +240,7 @@ void Recorder::restore_checkpoint() try {
       throw post::CheckpointError(fmt::format("{}, which belongs to it, is missing", name));
   const Device& device = simulation_.device();
   const auto sizes = post::StateSizes::of(device.model);
-  StepProgress in_step{
-      post::restore_ramp(saved.at("ramp"), sizes), {}, saved.at("unstable_modes"), saved.at("jumps")};
+  StepProgress in_step{post::restore_ramp(saved.at("ramp"), sizes), {}, saved.at("jumps")};
   if (const json& followed = saved.at("followed"); !followed.is_null())
     in_step.followed = post::restore_continuation(followed, sizes);
   simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dielast::cases {
 
@@ -200,8 +201,12 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
   for (const Check& check : one.checks) {
     const auto row = std::find_if(results.quantities.begin(), results.quantities.end(),
                                   [&](const post::QuantityRow& r) { return r.name == check.quantity; });
-    results.checks.push_back({check.quantity, row->value, check.value, check.tolerance, row->unit, row->ratio,
-                              check.source, std::abs(row->value - check.value) <= check.tolerance});
+    // What is read at the end has no value in a run that did not get there.
+    const std::string& at = one.quantities[static_cast<std::size_t>(row - results.quantities.begin())].at;
+    const bool reached = outcome.ending == Ending::complete || !at.empty();
+    const double value = reached ? row->value : std::numeric_limits<double>::quiet_NaN();
+    results.checks.push_back({check.quantity, value, check.value, check.tolerance, row->unit, row->ratio,
+                              check.source, std::abs(value - check.value) <= check.tolerance});
   }
   return results;
 }

@@ -74,7 +74,6 @@ bool StepRun::accept_critical(const fem::CriticalPoint& critical) {
 }
 
 bool StepRun::accept(const fem::State& state, const fem::Increment& increment, Reached reached) {
-  progress_.unstable_modes = increment.newton.unstable_modes;
   return !observer_.on_accept || observer_.on_accept(state, increment, reached);
 }
 
@@ -103,7 +102,7 @@ std::optional<fem::CriticalPoint> StepRun::limit_in_time() const {
 /// that leaves its path there does not accept the unstable state, nor one that stops at instabilities any.
 bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increment) {
   const int unstable = increment.newton.unstable_modes;
-  const bool lost = unstable > progress_.unstable_modes && now.points.size() > 1;
+  const bool lost = increment.unstable_before >= 0 && unstable > increment.unstable_before;
   const bool switches = step_.on_bifurcation == OnBifurcation::switch_branch;
   const bool leaves =
       stops() ? unstable > 0 : lost && (switches || step_.on_instability == OnInstability::jump);
@@ -156,10 +155,11 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   if (branches_off && step_.on_bifurcation == OnBifurcation::switch_branch) {
     progress_.followed =
         fem::switch_branch(equilibrium_, path_, *trouble.critical, branch_amplitude * model().extent, arcs);
-    if (!progress_.followed) return failure(trouble);
-    return std::nullopt;
+    if (progress_.followed) return std::nullopt;
+    accept_critical(*trouble.critical);
+    return failure(trouble);
   }
-  if (step_.on_instability == OnInstability::jump) return jump(trouble);
+  if (step_.on_instability == OnInstability::jump || step_.kind == StepKind::release) return jump(trouble);
   if (step_.on_instability == OnInstability::stop || timed()) {
     if (trouble.critical && !accept_critical(*trouble.critical)) return Outcome{Ending::interrupted};
     return failure(trouble);
@@ -209,13 +209,20 @@ std::optional<Outcome> StepRun::follow() {
                                                              : "was left: that is the most")};
 }
 
+/// Where a film cannot be let go slowly, as its frame gives way under dead forces, it is let go at once.
 std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   if (++progress_.jumps > most_jumps) return failure(trouble);
   fem::RampProgress& ramp = progress_.ramp;
   fem::State state = last();
   double s = trouble.ramp.failed_at;
   Eigen::VectorXd direction;
-  if (trouble.critical) {
+  if (step_.kind == StepKind::release) {
+    s = 1;
+    fem::Balance pull;
+    fem::State released = loaded(state, s);
+    equilibrium_.balance(released, pull);
+    direction = -pull.force.head(model().dofs.free_count());
+  } else if (trouble.critical) {
     state = trouble.critical->state;
     s = std::min(1.0, trouble.critical->load_factor + beyond);
     direction = trouble.critical->mode.direction;

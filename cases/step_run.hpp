@@ -10,7 +10,6 @@ namespace dielast::cases {
 struct StepProgress {
   fem::RampProgress ramp;
   std::optional<fem::ContinuationProgress> followed; ///< a path past a critical point, while it is followed
-  int unstable_modes = 0;                            ///< of the last accepted state
   int jumps = 0;
 };
 

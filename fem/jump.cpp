@@ -112,7 +112,9 @@ std::optional<NewtonResult> Descent::land() {
     return std::nullopt;
   State there = state_;
   const NewtonResult newton = equilibrium_.solve(there, options_.newton);
-  if (newton.outcome != Outcome::converged || newton.unstable_modes > 0) return std::nullopt;
+  if (newton.outcome != Outcome::converged || newton.unstable_modes > 0 ||
+      is_turned_over(model_.corners, model_.drawn, state_, there))
+    return std::nullopt;
   equilibrium_.balance(there, trial_);
   if (potential(there, trial_) - energy_ > returned * (start_ - energy_)) return std::nullopt;
   take(std::move(there));

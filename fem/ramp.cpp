@@ -51,7 +51,7 @@ class Ramp {
   static double time_error(const History& past, const History& next);
   double motion_error(const GeneralisedAlpha& scheme, const Motion& past, const Motion& next) const;
   bool accept(State state, double s);
-  bool notify(bool lands, double length);
+  bool notify(bool lands, double length, int unstable_before = -1);
 
   Equilibrium& equilibrium_;
   const LoadPath& path_;
@@ -287,16 +287,16 @@ bool Ramp::accept(State state, double s) {
   const bool lands = !timed() || std::abs(s / landing_ - std::round(s / landing_)) < round_off || s >= 1;
   const double length = s - progress_.load_factor;
   progress_.load_factor = s;
-  progress_.unstable_modes = newton_.unstable_modes;
+  const int before = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
   progress_.slope = std::exchange(slope_, std::nullopt);
   progress_.points.push_back({parameter(s), std::move(state)});
   if (progress_.points.size() > most_points) progress_.points.erase(progress_.points.begin());
-  return notify(lands, length);
+  return notify(lands, length, before);
 }
 
 /// Tells the observer; false when it wants to stop.
-bool Ramp::notify(bool lands, double length) {
-  const Increment increment{progress_.load_factor, newton_, lands, length, progress_.turns};
+bool Ramp::notify(bool lands, double length, int unstable_before) {
+  const Increment increment{progress_.load_factor, newton_, lands, length, progress_.turns, unstable_before};
   progress_.turns = false;
   return !observer_.on_accept || observer_.on_accept(progress_, increment);
 }

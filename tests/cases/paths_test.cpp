@@ -1,0 +1,269 @@
+#include "cases/reader.hpp"
+#include "cases/results.hpp"
+#include "cases/simulation.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+// Which states a run accepts: those on the path that leads through the states before, and no others.
+
+namespace dielast::cases {
+namespace {
+
+/// A free film of a Gent material that pulls in under a dead stress of mu: at 12516.7 V and stretch 1.781.
+const std::string pull_in = R"toml([film]
+thickness = "1 mm"
+[film.material]
+law = "gent"
+shear_modulus = "45 kPa"
+stretch_limit = 100
+permittivity = "4e-11 F/m"
+[patch]
+mode = "equal-biaxial"
+stress_x = "45 kPa"
+)toml";
+constexpr double pull_in_voltage = 12516.7;
+
+class Paths : public test::ScratchTest {
+ protected:
+  struct Row {
+    double load_factor, time, voltage, value;
+    int unstable_modes;
+  };
+  struct Run {
+    Outcome outcome;
+    std::vector<Row> rows;
+    std::vector<post::Event> events;
+    Results results;
+  };
+  /// Rows carry the quantity of this name.
+  Run run(const std::string& text, const std::string& name) {
+    write("path.toml", text);
+    const Case one = read_case(directory / "path.toml");
+    std::size_t q = 0;
+    while (one.quantities.at(q).name != name) ++q;
+    Simulation simulation(one, 1);
+    Run result;
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      const post::StepRecord& record = frame.record;
+      result.rows.push_back({record.load_factor, record.time, record.largest_voltage(), frame.values[q],
+                             record.unstable_modes});
+      result.events.insert(result.events.end(), record.events.begin(), record.events.end());
+      return true;
+    };
+    result.outcome = simulation.run(observer);
+    result.results = collect_results(one, simulation, result.outcome, {});
+    return result;
+  }
+  static std::string steps(const std::string& drive, const std::string& last) {
+    return "[drive]\nvoltage = " + drive + "\n[[step]]\nkind = \"force\"\n[[step]]\n" + last;
+  }
+};
+
+TEST_F(Paths, a_limit_point_stops_any_number_of_increments) {
+  for (const int increments : {1, 2, 3, 5, 10, 17, 20, 40, 100, 200}) {
+    SCOPED_TRACE(increments);
+    const Run stopped =
+        run(pull_in + steps("\"20 kV\"", fmt::format("kind = \"voltage\"\nincrements = {}\n", increments)),
+            "stretch_x");
+    EXPECT_EQ(stopped.outcome.ending, Ending::gave_up);
+    EXPECT_EQ(stopped.outcome.kind, "limit point");
+    // the last equilibrium is a row, with the loads of the limit
+    EXPECT_NEAR(stopped.rows.back().voltage, pull_in_voltage, 0.1);
+    EXPECT_NEAR(stopped.rows.back().load_factor, pull_in_voltage / 20e3, 1e-5);
+    EXPECT_NEAR(stopped.rows.back().value, 1.781, 1e-3);
+    for (const Row& row : stopped.rows) EXPECT_EQ(row.unstable_modes, 0);
+  }
+}
+
+TEST_F(Paths, a_jump_lands_on_the_far_branch_from_the_limit_itself) {
+  for (const int increments : {10, 100}) {
+    const Run jumped = run(pull_in + steps("\"13 kV\"", fmt::format("kind = \"voltage\"\nincrements = {}\n"
+                                                                    "on_instability = \"jump\"\n",
+                                                                    increments)),
+                           "stretch_x");
+    EXPECT_EQ(jumped.outcome.ending, Ending::complete) << jumped.outcome.message;
+    const auto far =
+        std::find_if(jumped.rows.begin(), jumped.rows.end(), [](const Row& row) { return row.value > 3; });
+    ASSERT_NE(far, jumped.rows.end());
+    EXPECT_NEAR(far->voltage, pull_in_voltage, 0.1);
+    EXPECT_NEAR((far - 1)->voltage, pull_in_voltage, 0.1);
+    EXPECT_EQ(std::count_if(jumped.events.begin(), jumped.events.end(),
+                            [](const post::Event& event) { return event.kind == "limit point"; }),
+              1);
+  }
+}
+
+TEST_F(Paths, a_followed_fold_is_one_event) {
+  const Run followed = run(pull_in + steps("\"13 kV\"", "kind = \"voltage\"\nincrements = 40\n"
+                                                        "on_instability = \"follow\"\n"),
+                           "stretch_x");
+  EXPECT_EQ(followed.outcome.ending, Ending::complete) << followed.outcome.message;
+  std::vector<std::string> folds;
+  for (const post::Event& event : followed.events)
+    if (event.kind == "limit point") folds.push_back(event.message);
+  EXPECT_EQ(folds.size(), 2U) << fmt::format("{}", folds.size()); // pull-in, and the valley behind it
+  for (const post::Event& event : followed.events)
+    EXPECT_EQ(event.message.find("buckle"), std::string::npos) << event.message;
+}
+
+TEST_F(Paths, in_time_pull_in_is_a_limit_point_too) {
+  for (const int increments : {10, 30}) {
+    SCOPED_TRACE(increments);
+    const Run stopped = run(
+        pull_in +
+            steps("{ wave = \"trapezoid\", to = \"16 kV\", rise = \"1 s\", hold = \"1 s\", fall = \"1 s\" }",
+                  fmt::format("kind = \"transient\"\nduration = \"1 s\"\nincrements = {}\n", increments)),
+        "stretch_x");
+    EXPECT_EQ(stopped.outcome.ending, Ending::gave_up);
+    EXPECT_EQ(stopped.outcome.kind, "limit point") << stopped.outcome.message;
+    EXPECT_NEAR(stopped.rows.back().voltage, pull_in_voltage, 0.1);
+    EXPECT_NEAR(stopped.rows.back().time, pull_in_voltage / 16e3, 1e-5);
+  }
+}
+
+TEST_F(Paths, a_balloon_stops_at_its_greatest_pressure) {
+  for (const int increments : {5, 10, 13, 100}) {
+    const Run stopped = run(fmt::format(R"toml([film]
+thickness = "0.5 mm"
+[film.material]
+law = "gent"
+shear_modulus = "45 kPa"
+stretch_limit = 30
+permittivity = "4e-11 F/m"
+[balloon]
+radius = "20 mm"
+[mesh]
+rings = 16
+[chamber]
+pressure = "1.6 kPa"
+[[step]]
+kind = "pressure"
+increments = {}
+)toml",
+                                        increments),
+                            "pressure");
+    EXPECT_EQ(stopped.outcome.kind, "limit point");
+    EXPECT_NEAR(stopped.rows.back().value, 1454.17, 0.1) << increments; // closed form, at stretch 1.445
+  }
+}
+
+// One increment of Newton's method turns these films inside out, or leads to a second equilibrium far away.
+TEST_F(Paths, a_film_that_settles_goes_back_to_where_it_is_free) {
+  for (const double prestretch : {1.9, 2.15, 3.0}) {
+    const Run settled = run(fmt::format(R"toml([film]
+thickness = "1 mm"
+prestretch = {}
+[film.material]
+law = "yeoh"
+c1 = "200 kPa"
+c2 = "-3 kPa"
+permittivity = "3e-11 F/m"
+[patch]
+mode = "equal-biaxial"
+[drive]
+voltage = "1 kV"
+)toml",
+                                        prestretch),
+                            "stretch_x");
+    EXPECT_EQ(settled.outcome.ending, Ending::complete) << settled.outcome.message;
+    EXPECT_NEAR(settled.rows.back().value, 1.0, 1e-4) << prestretch;
+    for (const Row& row : settled.rows) EXPECT_GT(row.value, 0.9);
+  }
+}
+
+TEST_F(Paths, dashpots_that_flow_after_an_instantaneous_step_do_not_throw_the_film_through_zero) {
+  const Run relaxed = run(R"toml([film]
+thickness = "1 mm"
+[film.material]
+shear_modulus = "5 kPa"
+permittivity = "4e-11 F/m"
+[[film.material.branch]]
+law = "st-venant-kirchhoff"
+youngs_modulus = "5.6 kPa"
+poisson_ratio = 0.3
+relaxation_time = "1 s"
+dashpot = "nominal"
+[patch]
+mode = "equal-biaxial"
+stress_x = "6.3 kPa"
+[drive]
+voltage = "3 kV"
+[[step]]
+kind = "force"
+increments = 3
+response = "instantaneous"
+[[step]]
+kind = "voltage"
+increments = 8
+)toml",
+                          "stretch_x");
+  EXPECT_EQ(relaxed.outcome.ending, Ending::complete) << relaxed.outcome.message;
+  // the neo-Hookean film alone: s = mu (l - l^-5) - eps E^2 l^3
+  EXPECT_NEAR(relaxed.rows[4].value, 1.43033, 1e-4);
+  EXPECT_NEAR(relaxed.rows.back().value, 1.6737, 1e-4);
+  for (std::size_t r = 5; r < relaxed.rows.size(); ++r)
+    EXPECT_GT(relaxed.rows[r].value, relaxed.rows[r - 1].value);
+}
+
+std::string diaphragm(const std::string& prestretch, const std::string& voltage) {
+  return fmt::format(R"toml(model = "axisymmetric"
+[film]
+thickness = "1 mm"
+prestretch = {}
+[film.material]
+shear_modulus = "40 kPa"
+relative_permittivity = 4.7
+[annulus]
+inner_radius = "12.7 mm"
+outer_radius = "68.58 mm"
+[mesh]
+rings = 12
+[plate]
+at = "inner"
+mass = "100 g"
+[drive]
+voltage = "{}"
+[[step]]
+kind = "weight"
+[[step]]
+kind = "voltage"
+)toml",
+                     prestretch, voltage);
+}
+
+TEST_F(Paths, far_beyond_a_limit_point_no_unstable_state_is_accepted) {
+  for (const char* voltage : {"100 kV", "1000 kV"}) {
+    const Run stopped = run(diaphragm("2.0", voltage), "drop");
+    EXPECT_EQ(stopped.outcome.ending, Ending::gave_up) << voltage;
+    for (const Row& row : stopped.rows) EXPECT_EQ(row.unstable_modes, 0);
+  }
+}
+
+TEST_F(Paths, a_start_that_is_unstable_is_told_and_not_called_a_limit_point) {
+  const Run stopped = run(diaphragm("0.5", "1 kV"), "drop");
+  EXPECT_EQ(stopped.outcome.ending, Ending::gave_up);
+  EXPECT_EQ(stopped.outcome.kind, "instability") << stopped.outcome.message;
+}
+
+TEST_F(Paths, what_was_accepted_before_a_stop_is_kept_in_rows) {
+  std::string text = test::small_honeycomb;
+  text.replace(text.find("6 kV"), 4, "20 kV");
+  text.replace(text.find("increments = 3"), 14, "increments = 2");
+  text += "[[check]]\nquantity = \"eps_y\"\nvalue = 0.3\ntolerance = 1.0\nsource = \"anything\"\n";
+  const Run stopped = run(text, "eps_y");
+  EXPECT_EQ(stopped.outcome.ending, Ending::gave_up);
+  EXPECT_GT(stopped.rows.size(), 4U); // drawn, released, sub-steps, the limit
+  EXPECT_GT(stopped.rows.back().load_factor, stopped.rows[stopped.rows.size() - 2].load_factor);
+  const double between = stopped.rows.back().load_factor - stopped.rows[stopped.rows.size() - 2].load_factor;
+  EXPECT_LT(between, 0.01);
+  // the end of the run was not reached: nothing can be checked there
+  ASSERT_EQ(stopped.results.checks.size(), 1U);
+  EXPECT_FALSE(stopped.results.checks[0].passed);
+}
+
+} // namespace
+} // namespace dielast::cases
