@@ -67,8 +67,8 @@ Section honeycomb_section() {
   section.access = geometry_of_type<Honeycomb>();
   section.keys = {
       measure("angle", "rad", to(&Honeycomb::angle), "interior angle at the four equal vertices of a cell")
-          .above(60 * degree)
-          .below(180 * degree)
+          .at_least(60.01 * degree)
+          .at_most(179.99 * degree)
           .because("cells close up at 60 deg and are flat at 180 deg"),
       integer("columns", to(&Honeycomb::columns), "number of cells in each column, left to right")
           .values(1, 100)

@@ -304,7 +304,8 @@ bool Ramp::notify(bool lands, double length, int unstable_before) {
 RampResult Ramp::run() {
   progress_.points.back().parameter = parameter(progress_.load_factor);
   if (progress_.load_factor == 0 && !flow()) return {RampEnd::gave_up, 0, newton_};
-  while (progress_.load_factor < 1) {
+  for (int tries = 0; progress_.load_factor < 1; ++tries) {
+    if (tries == options_.most_tries) return {RampEnd::endless, progress_.load_factor, newton_};
     if (timed() && progress_.at_break) {
       if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
       if (jumped_) {

@@ -11,6 +11,7 @@ struct RampOptions {
   NewtonOptions newton;
   int increments = 1;               ///< the largest increment is this part of the step
   double smallest_increment = 1e-3; ///< of the load factor; a step that needs less gives up
+  int most_tries = 1000000;         ///< increments, in vain or not; a step that needs more has no end
   double landing = 0;  ///< load factors at whose multiples a result is wanted; 0: at every 1/increments
   double duration = 0; ///< s; 0: no time passes
   bool instantaneous = false;   ///< no time passes: dashpots stay as they are; otherwise they flow to the end
@@ -55,7 +56,7 @@ struct RampObserver {
   std::function<bool(const RampProgress&, const Increment&)> on_accept;
 };
 
-enum class RampEnd { complete, gave_up, stopped };
+enum class RampEnd { complete, gave_up, stopped, endless };
 
 struct RampResult {
   RampEnd end{};

@@ -33,8 +33,8 @@ void validate(const HoneycombShape& shape) {
   // A thousandth of a degree off the limits: nearer, a cell has no area between its walls.
   if (!(degrees > 60.001 && degrees < 179.999))
     throw std::invalid_argument(
-        fmt::format("a honeycomb's angle must be larger than 60 and smaller than 180 degrees "
-                    "(at 60 the two apexes of a cell touch), not {:.6g}",
+        fmt::format("a honeycomb's angle must be larger than 60.001 and smaller than 179.999 degrees "
+                    "(at 60 the two apexes of a cell touch), not {:.8g}",
                     degrees));
   if (!(shape.wall_length > 0) || !std::isfinite(shape.wall_length))
     throw std::invalid_argument(

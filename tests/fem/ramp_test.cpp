@@ -49,6 +49,14 @@ class FreeFilm : public ::testing::Test {
   }
 };
 
+TEST_F(FreeFilm, stops_a_step_that_does_not_come_to_its_end) {
+  const RampOptions options{.newton = {}, .increments = 5, .most_tries = 3};
+  RampProgress progress = RampProgress::begin(state, model->dofs, options);
+  EXPECT_EQ(run(22e3, options, progress).end, RampEnd::endless);
+  EXPECT_NEAR(progress.load_factor, 0.6, 1e-12);
+  EXPECT_EQ(run(22e3, options, progress).end, RampEnd::complete); // resumed, it goes on
+}
+
 TEST_F(FreeFilm, follows_the_closed_form_in_equal_increments) {
   std::vector<double> factors;
   const auto accept = [&](const RampProgress& progress, const Increment& increment) {

@@ -92,7 +92,7 @@ TEST(Honeycomb, CentresEveryColumnAtTheSameHeight) {
 }
 
 TEST(Honeycomb, RejectsImpossibleShapes) {
-  EXPECT_NE(message({60 * degree, {2}, 8e-3}).find("larger than 60 and smaller than 180 degrees"),
+  EXPECT_NE(message({60 * degree, {2}, 8e-3}).find("larger than 60.001 and smaller than 179.999 degrees"),
             std::string::npos);
   EXPECT_NE(message({180 * degree, {2}, 8e-3}).find("not 180"), std::string::npos);
   EXPECT_NE(message({std::numeric_limits<double>::quiet_NaN(), {2}, 8e-3}), "");
