@@ -336,13 +336,13 @@ Device build_device(const Case& one) {
   if (const auto* patch = std::get_if<Patch>(&one.geometry)) keep_homogeneous(*patch, mesh, model.dofs);
   model.dofs.number();
   model.inertia = fem::Inertia::of(model.blocks, model.dofs);
-  add_circuits(one, model);
   add_sheets(one, mesh, model);
   try {
     model.place_histories();
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
+  add_circuits(one, model); // film that wrinkles needs its history to tell its capacitance
 
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
   device.weight = weight_of(one, device.mesh, device.model);

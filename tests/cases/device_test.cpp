@@ -151,5 +151,11 @@ TEST(Patch, InEqualBiaxialTensionBothSidesCarryTheStress) {
               1e-15);
 }
 
+TEST(Device, WrinkledFilmWithBranches) {
+  const Device device = build_device(read_case(valid / "patch.toml"));
+  EXPECT_TRUE(device.tension_field);
+  EXPECT_TRUE(device.model.initial_state().history);
+}
+
 } // namespace
 } // namespace dielast::cases
