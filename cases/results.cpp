@@ -187,7 +187,7 @@ bool Results::checks_passed() const {
 
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
                         const std::vector<double>& errors) {
-  Results results{.outcome = outcome};
+  Results results{.outcome = outcome, .time_error = simulation.time_error()};
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,
@@ -208,6 +208,9 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
     results.checks.push_back({check.quantity, value, check.value, check.tolerance, row->unit, row->ratio,
                               check.source, std::abs(value - check.value) <= check.tolerance});
   }
+  if (const auto& energy = simulation.energy().worst(); energy.is_poor())
+    results.checks.push_back({"energy error", energy.error, 0, 0.01 * energy.exchanged, "J",
+                              post::Ratio::plain, "every run: 1 % of the energy that was exchanged", false});
   return results;
 }
 
@@ -233,6 +236,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                       {"passed", check.passed},
                       {"source", check.source}});
   summary["checks"] = checks;
+  if (results.time_error > 0) summary["time_error"] = results.time_error;
   json events = json::array();
   for (const auto& record : journal.records)
     for (const auto& event : record.events)

@@ -12,6 +12,7 @@ struct Results {
   Outcome outcome;
   std::vector<post::QuantityRow> quantities; ///< in the case's order
   std::vector<post::CheckRow> checks;
+  double time_error = 0; ///< see Simulation::time_error()
 
   bool checks_passed() const;
 };

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace dielast::cases {
 
 namespace {
 
-/// Shortest relaxation time of the film's branches and of its circuits, s; infinite without.
+/// Kinks closer than this part of the step are one break.
+constexpr double same_break = 2e-9;
+
+/// Shortest relaxation time of the film's branches, of its circuits and of its sheets, s; infinite without.
 double shortest_relaxation(const materials::Material& material, const fem::Model& model) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const materials::Branch& branch : material.branches)
@@ -17,6 +21,9 @@ double shortest_relaxation(const materials::Material& material, const fem::Model
   for (const fem::Circuit& circuit : model.circuits)
     shortest = std::min(shortest,
                         circuit.resistance * drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
+  for (const fem::Sheet& sheet : model.sheets)
+    shortest =
+        std::min(shortest, sheet.resistance * drawn.capacitance[static_cast<std::size_t>(sheet.electrode)]);
   return shortest;
 }
 
@@ -75,7 +82,7 @@ bool StepLoads::happened(int step, StepKind kind) const {
 }
 
 /// The frame's forces until a release, the loads from the first step that applies them.
-Eigen::VectorXd StepLoads::dead_force(int step, double t) const {
+Eigen::VectorXd StepLoads::dead_force(int step, Instant t) const {
   const fem::DofMap& dofs = device_.model.dofs;
   Eigen::VectorXd force = frame_force_;
   if (happened(step, StepKind::release)) force.setZero();
@@ -86,23 +93,23 @@ Eigen::VectorXd StepLoads::dead_force(int step, double t) const {
     for (int c = 0; c < 3; ++c)
       for (const int node : nodes)
         if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
-          force[e] += load.force[static_cast<std::size_t>(c)].at(t) / static_cast<double>(nodes.size());
+          force[e] += t.of(load.force[static_cast<std::size_t>(c)]) / static_cast<double>(nodes.size());
   }
   return force;
 }
 
-void StepLoads::move(Eigen::VectorXd& held, double t) const {
+void StepLoads::move(Eigen::VectorXd& held, Instant t) const {
   const fem::DofMap& dofs = device_.model.dofs;
   for (const Support& support : case_.supports)
     for (int c = 0; c < 3; ++c)
       if (const auto& motion = support.motion[static_cast<std::size_t>(c)])
         for (const int node : device_.mesh.node_sets.at(support.place))
           if (const int e = dofs.equation(node, c); e >= dofs.free_count())
-            held[e - dofs.free_count()] = motion->at(t);
+            held[e - dofs.free_count()] = t.of(*motion);
 }
 
 /// The loads that the step leads to (a ramp, t = 0) or has at t (a transient).
-fem::Loads StepLoads::at(int number, const fem::Loads& start, double t) const {
+fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   fem::Loads loads = start;
   const auto does = [&step](StepKind kind) { return step.kind == kind || step.kind == StepKind::transient; };
@@ -114,25 +121,26 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, double t) const {
     if (!source) continue;
     const bool isolated = supply(step, e) == fem::Supply::charge;
     if (does(StepKind::voltage) && source->voltage && !isolated) {
-      loads.source[e] = source->voltage->at(t);
+      loads.source[e] = t.of(*source->voltage);
       const fem::Circuit* circuit = device_.model.circuit_of(e);
       loads.voltage[e] = loads.source[e] * (circuit ? circuit->steady_share() : 1);
     }
-    if (does(StepKind::charge) && source->charge && isolated) loads.charge[e] = source->charge->at(t);
+    if (does(StepKind::charge) && source->charge && isolated) loads.charge[e] = t.of(*source->charge);
   }
   if (case_.chamber) {
     const std::size_t port = case_.electrodes.size();
     if (does(StepKind::pressure) && case_.chamber->pressure)
-      loads.voltage[port] = case_.chamber->pressure->at(t);
-    if (does(StepKind::inflate) && case_.chamber->volume) loads.charge[port] = case_.chamber->volume->at(t);
+      loads.voltage[port] = t.of(*case_.chamber->pressure);
+    if (does(StepKind::inflate) && case_.chamber->volume) loads.charge[port] = t.of(*case_.chamber->volume);
   }
   return loads;
 }
 
-std::vector<double> StepLoads::kinks(const Step& step) const {
-  std::vector<double> all;
+std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
+  std::vector<double> all{0.0, *step.duration};
   const auto add = [&](const Waveform& wave) {
-    for (const double t : wave.kinks(0, *step.duration)) all.push_back(t / *step.duration);
+    const std::vector<double> kinks = wave.kinks(0, *step.duration);
+    all.insert(all.end(), kinks.begin(), kinks.end());
   };
   for (const auto& [name, source] : case_.drives)
     for (const auto& wave : {source.voltage, source.charge})
@@ -145,20 +153,38 @@ std::vector<double> StepLoads::kinks(const Step& step) const {
   if (case_.chamber)
     for (const auto& wave : {case_.chamber->pressure, case_.chamber->volume})
       if (wave) add(*wave);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
+  std::ranges::sort(all);
+  std::vector<Break> breaks;
+  for (const double t : all)
+    if (breaks.empty() || t - breaks.back().first > same_break * *step.duration)
+      breaks.push_back({t, t});
+    else
+      breaks.back().last = t;
+  return breaks;
 }
 
 fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   if (step.kind != StepKind::transient)
-    return fem::linear_path(device_.model.dofs, start, at(number, start, 0));
+    return fem::linear_path(device_.model.dofs, start, at(number, start, {}));
   fem::LoadPath path;
-  path.apply = [this, number, start, duration = *step.duration](fem::State& state, double s) {
-    at(number, start, s * duration).apply(state, device_.model.dofs);
+  const double duration = *step.duration;
+  const std::vector<Break> all = breaks(step);
+  const auto apply = [this, number, start](fem::State& state, Instant instant) {
+    at(number, start, instant).apply(state, device_.model.dofs);
   };
-  path.breaks = kinks(step);
+  // Beside a break waves are taken on the side of t, whatever they take for the same time.
+  const auto instant = [all, duration](double s, bool before) {
+    const double t = s * duration, tolerance = same_break / 2 * duration;
+    const auto next = std::ranges::lower_bound(all, t - tolerance, {}, &Break::first);
+    if (next == all.end()) return Instant{t, before};
+    if (next->first <= t + tolerance) return Instant{before ? next->first : next->last, before};
+    return Instant{t, next != all.begin() && next->first - t < t - std::prev(next)->last};
+  };
+  path.apply = [apply, instant](fem::State& state, double s) { apply(state, instant(s, false)); };
+  path.apply_before = [apply, instant](fem::State& state, double s) { apply(state, instant(s, true)); };
+  for (const Break& b : all)
+    if (b.first > 0 && b.last < duration) path.breaks.push_back(b.first / duration);
   return path;
 }
 

@@ -29,6 +29,8 @@ struct Increment {
   double length = 1;  ///< of the path from the last accepted state, in a parameter in which it is smooth
   bool turns = false; ///< the path had a corner at the last accepted state
   int unstable_before = -1; ///< unstable modes of the last accepted state; -1: unknown
+  double time_error = 0; ///< that the time step may have added, relative; of the first ones after a break the
+                         ///< tolerance
 };
 
 /// Where a ramp stands between two increments. A value: stored with the state it lets a run go on bit for
