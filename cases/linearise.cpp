@@ -3,13 +3,13 @@
 #include "cases/simulation.hpp"
 #include "cases/terminal.hpp"
 #include "fem/balanced_truncation.hpp"
+#include "fem/dense_algebra.hpp"
 #include "fem/harmonic.hpp"
 #include "post/bode.hpp"
 #include "post/engineering.hpp"
 #include "post/report.hpp"
 #include "post/results_folder.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -76,7 +76,7 @@ nlohmann::json rows_of(const Eigen::MatrixXd& matrix) {
 
 nlohmann::ordered_json model_json(const Case& one, const Simulation& simulation, const Linearised& found) {
   auto poles = nlohmann::json::array();
-  for (const Complex& pole : found.model.A.eigenvalues()) poles.push_back({pole.real(), pole.imag()});
+  for (const Complex& pole : fem::eigenvalues(found.model.A)) poles.push_back({pole.real(), pole.imag()});
   return {{"program", "dielast " DIELAST_VERSION},
           {"title", one.title},
           {"input", {{"name", "source voltage"}, {"unit", "V"}}},
@@ -125,7 +125,7 @@ post::Report report_of(const Case& one, const Simulation& simulation, const Line
     gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::abs(curve.value.front()))});
   plots.blocks.push_back(std::move(gains));
   post::Table poles{{"pole [1/s]", "frequency [rad/s]", "damping ratio"}, {}};
-  for (const Complex& pole : found.model.A.eigenvalues())
+  for (const Complex& pole : fem::eigenvalues(found.model.A))
     poles.rows.push_back({fmt::format("{:.6g} {:+.6g} i", pole.real(), pole.imag()),
                           fmt::format("{:.6g}", std::abs(pole)),
                           fmt::format("{:.4g}", -pole.real() / std::abs(pole))});

@@ -1,6 +1,6 @@
 #include "fem/bordered_tangent.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "fem/dense_algebra.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,7 @@ constexpr double round_off = 1e-12;
 
 int negative_eigenvalues(const Eigen::MatrixXd& symmetric) {
   if (symmetric.size() == 0) return 0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, Eigen::EigenvaluesOnly);
-  return static_cast<int>((solver.eigenvalues().array() < -round_off).count());
+  return static_cast<int>((symmetric_eigen(symmetric).values.array() < -round_off).count());
 }
 
 } // namespace
