@@ -17,8 +17,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* checkpoint_name = "checkpoint.cbor";
-
 /// Shorter runs are repeated faster than their checkpoints are written.
 constexpr std::chrono::seconds checkpoint_interval{2};
 
@@ -223,8 +221,6 @@ void Recorder::save_checkpoint() {
          {"analyses", analyses}}}});
   saved_ = std::chrono::steady_clock::now();
 }
-
-void Recorder::remove_checkpoint() { std::filesystem::remove(folder_ / checkpoint_name); }
 
 void Recorder::restore_checkpoint() try {
   if (!std::filesystem::exists(folder_ / checkpoint_name))

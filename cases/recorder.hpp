@@ -19,6 +19,9 @@ struct Snapshot {
   std::vector<double> field;                 ///< true electric field, V/m, per triangle
 };
 
+/// File of a run's checkpoint in its folder of results; removed when they are complete.
+inline constexpr const char* checkpoint_name = "checkpoint.cbor";
+
 /// What a run has gathered so far.
 struct Journal {
   std::vector<post::StepRecord> records;
@@ -44,8 +47,6 @@ class Recorder {
   void record_analysis(Analysis analysis, const fem::State& state);
   /// Writes the checkpoint now; the run can be resumed from it.
   void save_checkpoint();
-  /// The run is complete: there is nothing to resume.
-  void remove_checkpoint();
 
   const Journal& journal() const { return journal_; }
 

@@ -126,6 +126,7 @@ std::optional<ExitCode> finished(const Case& one, const post::ResultsFolder& fol
 ExitCode run_case(const Case& one, const RunSettings& settings) {
   post::ResultsFolder folder(settings.directory, "run");
   if (const auto ended = settings.resume ? finished(one, folder) : std::nullopt) {
+    std::filesystem::remove(folder / checkpoint_name); // a kill may have left it
     if (!settings.quiet) say("{}: has run to its end, nothing to resume\n", folder.path().string());
     return *ended;
   }
@@ -181,7 +182,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
                run_report(one, device, results, recorder.journal(), read_text(folder / "run.log")).html());
   folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
   folder.set_complete(static_cast<int>(code));
-  recorder.remove_checkpoint();
+  std::filesystem::remove(folder / checkpoint_name);
   return code;
 }
 
