@@ -148,8 +148,8 @@ struct Gravity {
 /// [chamber]: what is under the film and the plate, up to z = 0
 struct Chamber {
   std::optional<Waveform> pressure; ///< Pa
-  std::optional<Waveform> volume;   ///< m^3
-  double bulk_modulus = 0;          ///< of the liquid in it, Pa
+  std::optional<Waveform> volume;   ///< that is pumped in, m^3
+  double bulk_modulus = 0;          ///< of what fills it, Pa
 };
 
 /// [[spring]]: a linear spring between the centroids of two places, tension stiffness (distance -
@@ -248,6 +248,7 @@ enum class QuantityKind {
   current,
   pressure,
   volume,
+  pumped_volume,
   stiffness,
   natural_frequency,
   radial_stretch,

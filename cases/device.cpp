@@ -169,29 +169,34 @@ void carry_plate(const Plate& plate, const meshing::Mesh& mesh, fem::DofMap& dof
 void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   if (!one.chamber) return;
   const std::size_t port = model.electrodes.size();
-  model.chambers = {"chamber"};
+  model.chambers = {{"chamber", one.chamber->bulk_modulus}};
   model.blocks.push_back(fem::make_pressure_block(mesh, *mesh.film(), port));
-  fem::Lid lid{mesh.film()->nodes.front(), 0};
   if (const auto* annulus = std::get_if<Annulus>(&one.geometry); annulus && one.plate)
-    lid = {mesh.node_sets.at(one.plate->place).front(),
-           std::numbers::pi * annulus->inner_radius * annulus->inner_radius};
-  const double compliance = std::pow(model.extent, 3) / one.chamber->bulk_modulus;
-  model.blocks.push_back(fem::make_lid_block(mesh, lid, compliance, port));
+    model.blocks.push_back(
+        fem::make_lid_block(mesh,
+                            {mesh.node_sets.at(one.plate->place).front(),
+                             std::numbers::pi * annulus->inner_radius * annulus->inner_radius},
+                            port));
 }
 
 constexpr double typical_voltage = 1000; ///< V, that makes charges of order one
 
 void add_circuits(const Case& one, fem::Model& model) {
-  const std::vector<double> capacitance = model.charges(model.initial_state(), false).capacitance;
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     const auto found = one.circuits.find(one.electrodes[e].name);
     if (found == one.circuits.end()) continue;
     fem::Circuit circuit{.electrode = static_cast<int>(e), .resistance = found->second.resistance};
     if (found->second.leakage_resistance) circuit.leakage = 1 / *found->second.leakage_resistance;
     if (found->second.current_limit) circuit.current_limit = *found->second.current_limit;
-    circuit.charge_scale = typical_voltage * capacitance[e];
     model.circuits.push_back(circuit);
   }
+}
+
+/// The charges as drawn are known only when the model's histories are placed.
+void scale_charges(fem::Model& model) {
+  const std::vector<double> capacitance = model.charges(model.initial_state(), false).capacitance;
+  for (fem::Circuit& circuit : model.circuits)
+    circuit.charge_scale = typical_voltage * capacitance[static_cast<std::size_t>(circuit.electrode)];
 }
 
 void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
@@ -343,6 +348,7 @@ Device build_device(const Case& one) {
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
+  scale_charges(model);
 
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
   device.weight = weight_of(one, device.mesh, device.model);

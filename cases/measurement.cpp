@@ -194,10 +194,13 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   }
   case QuantityKind::current:
   case QuantityKind::pressure:
-  case QuantityKind::volume: {
+  case QuantityKind::volume:
+  case QuantityKind::pumped_volume: {
     const std::size_t electrodes = device_.model.electrodes.size();
     if (quantity.kind == QuantityKind::pressure) return state.voltage[electrodes];
     if (quantity.kind == QuantityKind::volume) return measured.charges.charge[electrodes];
+    if (quantity.kind == QuantityKind::pumped_volume)
+      return device_.model.chambers[0].pumped(measured.charges.charge[electrodes], state.voltage[electrodes]);
     const std::size_t e = electrode(quantity.of);
     const fem::Circuit* circuit = device_.model.circuit_of(e);
     return circuit && state.supply[e] == fem::Supply::circuit

@@ -68,6 +68,8 @@ std::string meaning(const Quantity& q) {
     return fmt::format("pressure in the chamber{}", at);
   case QuantityKind::volume:
     return fmt::format("volume of the chamber{}", at);
+  case QuantityKind::pumped_volume:
+    return fmt::format("volume pumped into the chamber, as it is without pressure{}", at);
   case QuantityKind::stiffness:
     return fmt::format("force on {} per displacement{}{}", q.of, along, at);
   case QuantityKind::natural_frequency:

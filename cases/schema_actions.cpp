@@ -234,11 +234,14 @@ Section chamber_section() {
       wave("pressure", "Pa", to(&Chamber::pressure),
            "pressure that the steps of kind \"pressure\" reach, and \"transient\" follows")
           .optional(),
-      wave("volume", "m^3", to(&Chamber::volume),
-           "volume that the steps of kind \"inflate\" reach: a pump sets it, the pressure follows")
+      wave(
+          "volume", "m^3", to(&Chamber::volume),
+          "pumped volume Q that the steps of kind \"inflate\" reach, measured without pressure: the pressure "
+          "follows, and the chamber's own volume is Q / (1 + pressure / bulk_modulus)")
           .at_least(0)
           .optional(),
-      measure("bulk_modulus", "Pa", to(&Chamber::bulk_modulus), "of the liquid that is pumped in")
+      measure("bulk_modulus", "Pa", to(&Chamber::bulk_modulus),
+              "of the liquid that fills the chamber; of a gas the pressure outside")
           .at_least(1)
           .otherwise("2.2 GPa"),
   };

@@ -47,7 +47,7 @@ void StepLoads::connect_chamber(const Step& step, const fem::Charges& held, fem:
   if (step.kind == StepKind::pressure) state.supply[port] = fem::Supply::voltage;
   if (step.kind != StepKind::inflate) return;
   state.supply[port] = fem::Supply::charge;
-  state.charge[port] = held.charge[port];
+  state.charge[port] = device_.model.chambers[0].pumped(held.charge[port], state.voltage[port]);
 }
 
 void StepLoads::begin(int number, fem::State& state) const {
