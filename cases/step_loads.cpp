@@ -164,11 +164,12 @@ fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
 
 fem::RampOptions StepLoads::options(int number) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
-  fem::RampOptions options{.newton = {case_.solver.tolerance, case_.solver.max_iterations},
-                           .increments = step.increments,
-                           .smallest_increment = case_.solver.smallest_increment,
-                           .instantaneous = step.response == Response::instantaneous,
-                           .time_tolerance = case_.solver.time_tolerance};
+  fem::RampOptions options{
+      .newton = {case_.solver.tolerance, case_.solver.max_iterations, case_.film.tension_field},
+      .increments = step.increments,
+      .smallest_increment = case_.solver.smallest_increment,
+      .instantaneous = step.response == Response::instantaneous,
+      .time_tolerance = case_.solver.time_tolerance};
   if (!step.duration) return options;
   options.duration = *step.duration;
   options.inertia = step.inertia && device_.model.inertia.mass.nonZeros() > 0;

@@ -221,6 +221,16 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
 
 NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& options,
                                          const std::function<void(const Iteration&)>& log) {
+  NewtonResult result = newton(state, options, log);
+  if (result.outcome == Outcome::converged || !options.wrinkles) return result;
+  const int iterations = result.iterations;
+  result = descend(state, options, log);
+  result.iterations += iterations;
+  return result;
+}
+
+NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
+                                 const std::function<void(const Iteration&)>& log) {
   NewtonResult result;
   const auto end = [&result](Outcome outcome) {
     result.outcome = outcome;
@@ -277,7 +287,7 @@ NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& opti
     if (stiffened) stale_tangent = infinity;
     indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
     step_length =
-        backtrack(state, current, step, stiffened ? 2 * most_halvings : most_halvings);
+        backtrack(state, current, step, stiffened || options.wrinkles ? 2 * most_halvings : most_halvings);
     if (step_length == 0) {
       const bool rounded = current.norm <= round_off_ || step_size(step) <= rounded_step;
       return end(rounded ? Outcome::converged : Outcome::not_converged);

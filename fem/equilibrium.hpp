@@ -20,6 +20,7 @@ struct NewtonOptions {
   double tolerance = 1e-9; ///< on |R_free| over the largest norm of a block's nodal forces (of the reactions,
                            ///< where one block is held)
   int max_iterations = 25;
+  bool wrinkles = false; ///< film carries no compression: where Newton's method fails damped steps go on
 };
 
 enum class Outcome {
@@ -80,6 +81,9 @@ class Equilibrium {
   NewtonResult solve(State& state, const NewtonOptions& options,
                      const std::function<void(const Iteration&)>& log = {});
 
+  /// Whether the film carries no tension: the tangent tells of rounding there, and no path leads on.
+  bool is_slack(const State& state) const;
+
   /// Lets the voltages of sheets follow, at fixed displacements.
   void conduct(State& state) {
     if (conduction_) conduction_->solve(state);
@@ -119,6 +123,10 @@ class Equilibrium {
  private:
   NewtonResult balance_forces(State& state, const NewtonOptions& options,
                               const std::function<void(const Iteration&)>& log);
+  NewtonResult newton(State& state, const NewtonOptions& options,
+                      const std::function<void(const Iteration&)>& log);
+  NewtonResult descend(State& state, const NewtonOptions& options,
+                       const std::function<void(const Iteration&)>& log);
   double weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const;
   /// How the pressure of a closed chamber is found.
   enum class Pressure { follows, is_unknown };

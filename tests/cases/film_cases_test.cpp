@@ -28,6 +28,27 @@ TEST_F(FilmCases, a_tension_field_may_have_branches) {
       }
 }
 
+// A side without stress is neither taut nor wrinkled: next to it the tangent of wrinkled film leads far off.
+TEST_F(FilmCases, a_slack_patch_can_be_pulled) {
+  const double stress = 20e3, mu = 50e3;
+  for (const std::string& law : laws(50)) {
+    const Ran ran = run(tension_field(law, "[1.5, 1.1]") +
+                        "[patch]\nstress_x = \"20 kPa\"\n[drive]\nvoltage = \"1 kV\"\n"
+                        "[[step]]\nkind = \"voltage\"\n[[step]]\nkind = \"force\"\n" +
+                        plain);
+    EXPECT_NEAR(ran.last("stress_x"), stress, 1e-6 * stress);
+    EXPECT_NEAR(ran.last("stress_y"), 0, 1e-6 * stress);
+  }
+  // without a field in closed form: s = mu (l - 1/l^2)
+  for (const char* prestretch : {"1", "1.2", "[1.3, 1.1]"}) {
+    const Ran ran =
+        run(tension_field(laws(50).front(), prestretch) + "[patch]\nstress_x = \"20 kPa\"\n" + plain);
+    const double l = ran.last("stretch_x");
+    EXPECT_NEAR(mu * (l - 1 / (l * l)), stress, 1e-6 * stress) << prestretch;
+    EXPECT_NEAR(ran.last("stretch_y"), 1 / std::sqrt(l), 1e-6) << prestretch;
+  }
+}
+
 std::string disc(const std::string& chamber, const std::string& steps, const std::string& rest = "") {
   return "[film]\nthickness = \"1 mm\"\n[film.material]\nlaw = \"neo-hookean\"\nshear_modulus = \"40 kPa\"\n"
          "permittivity = \"4e-11 F/m\"\n[disc]\nradius = \"20 mm\"\nelectrode_radius = \"10 mm\"\n"
