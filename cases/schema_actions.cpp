@@ -116,10 +116,12 @@ Section spring_section() {
 }
 
 Section linkage_section() {
-  Section section = list_section("linkage",
-                                 "a weight P on a linkage; with l = distance + offset it pulls two places "
-                                 "apart by P (arm^2 + l^2 - strut^2) / (2 arm l)",
-                                 each(&Case::linkages));
+  Section section = list_section(
+      "linkage",
+      "a weight P on a linkage; with l = distance + offset it pulls two places "
+      "apart by P (arm^2 + l^2 - strut^2) / (2 arm l); its potential, but for a constant, is part of "
+      "the elastic energy",
+      each(&Case::linkages));
   section.keys = distance_keys<Linkage>();
   section.keys.push_back(measure("force", "N", to(&Linkage::force), "the weight P"));
   section.keys.push_back(
@@ -158,7 +160,8 @@ Section circuit_section() {
       measure("resistance", "Ohm", to(&Circuit::resistance), "between the source and the electrode")
           .at_least(smallest_resistance),
       measure("leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
-              "through the film under the whole electrode; without it none leaks")
+              "through the film under the whole electrode; without it none leaks. In steps without a "
+              "duration it divides the voltage as it does in the long run")
           .at_least(smallest_resistance)
           .optional(),
       measure("current_limit", "A", to(&Circuit::current_limit),

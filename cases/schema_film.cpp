@@ -69,10 +69,12 @@ Section branch_section() {
             {"nominal", "resists the rate of the viscous stretches along x and y"}},
            to(&Branch::dashpot), "what the dashpot resists")
           .otherwise("log"));
-  section.keys.push_back(word("directions", {{"x", "along x"}, {"y", "along y"}}, directions,
-                              "directions in which a nominal dashpot flows")
-                             .values(1, 2)
-                             .otherwise("[\"x\", \"y\"]"));
+  section.keys.push_back(
+      word("directions", {{"x", "along x"}, {"y", "along y"}}, directions,
+           "directions in which a nominal dashpot flows; along the other the spring is free of "
+           "stress at stretch 1")
+          .values(1, 2)
+          .otherwise("[\"x\", \"y\"]"));
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& branch = *static_cast<const Branch*>(object);
     if (branch.dashpot == materials::Dashpot::log && !(branch.directions[0] && branch.directions[1]))

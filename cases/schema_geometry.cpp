@@ -194,7 +194,7 @@ Section patch_section() {
           .otherwise_as("length"),
       word("mode",
            {{"biaxial", "x and y move independently"},
-            {"equal-biaxial", "x and y are stretched alike"},
+            {"equal-biaxial", "x and y are stretched alike; of the stresses only the sum is given"},
             {"pure-shear", "y is held at the prestretch"}},
            to(&Patch::mode), "how the sides move")
           .otherwise("biaxial"),

@@ -55,8 +55,9 @@ Section quantity_section() {
       of("the electrode").only({"capacitance", "charge", "current"}).refers_to(Reference::electrode),
       word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
       word("of",
-           {{"electrical_work", "done by the sources: sum of int Phi dQ"},
-            {"mechanical_work", "done by loads and moved supports"},
+           {{"electrical_work", "done on the film's electrodes: sum of int Phi dQ"},
+            {"mechanical_work", "done by loads, moved supports and the pressure in a chamber; where several "
+                                "loads jump at once they do so along a straight line"},
             {"stored", "elastic, branches, electric and kinetic together"},
             {"elastic", "stored by the equilibrium law, walls and springs"},
             {"branches", "stored by the springs of the branches"},

@@ -80,7 +80,8 @@ Section step_section() {
           .only(moving),
       word("control",
            {{"voltage", "the electrodes stay connected to their sources"},
-            {"charge", "the electrodes are isolated, or follow their charges"}},
+            {"charge", "the electrodes are isolated, or follow their charges; a source that is connected "
+                       "again takes up at the voltage that it needs to keep the electrode's"}},
            to(&Step::control), "what the electrodes keep")
           .otherwise("voltage")
           .only({"force", "move", "weight", "pressure", "inflate", "transient", "hold", "modes"}),
