@@ -169,7 +169,11 @@ std::string waves_text() {
          "  voltage = { wave = \"sine\", amplitude = \"4 kV\", frequency = \"0.5 Hz\" }\n"
          "Steps of kind \"transient\" follow them; t counts from the start of the step. Ramps lead to their "
          "value\n"
-         "at t = 0.\n" +
+         "at t = 0; where a wave jumps there (a step or square at 0 s, a trapezoid without rise), to the "
+         "value\n"
+         "before the jump, `from`: the transient that follows begins with the jump. A CSV file has no jumps: "
+         "a\n"
+         "ramp leads to its value at 0 s. The column of a CSV file ends in its unit, as in voltage_kV.\n" +
          choices_text(wave_section("V"));
 }
 

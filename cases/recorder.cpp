@@ -31,7 +31,8 @@ json archive(const post::StepRecord& record) {
           {"iterations", record.iterations},
           {"residual", record.residual},
           {"unstable_modes", record.unstable_modes},
-          {"events", std::move(events)}};
+          {"events", std::move(events)},
+          {"jumped", record.jumped}};
 }
 
 post::StepRecord restore_record(const json& archived) {
@@ -40,6 +41,7 @@ post::StepRecord restore_record(const json& archived) {
                           archived.at("residual"), archived.at("unstable_modes"), {}};
   for (const json& event : archived.at("events"))
     record.events.push_back({event.at(0), event.at(1), event.at(2)});
+  record.jumped = archived.at("jumped");
   return record;
 }
 
@@ -86,9 +88,15 @@ std::vector<double> history_row(const post::StepRecord& record, const std::vecto
   std::vector<double> row{record.load_factor, record.time};
   row.insert(row.end(), record.voltages.begin(), record.voltages.end());
   row.insert(row.end(), quantities.begin(), quantities.end());
-  for (const double number : {double(record.iterations), record.residual, double(record.unstable_modes)})
+  for (const double number :
+       {double(record.iterations), record.residual, double(record.unstable_modes), double(record.jumped)})
     row.push_back(number);
   return row;
+}
+
+/// How an electrode's voltage is called in tables and series.
+std::string voltage_name(const Case& one, std::size_t electrode) {
+  return one.electrodes.size() == 1 ? "voltage" : "voltage_" + one.electrodes[electrode].name;
 }
 
 /// A step's name as that of a file.
@@ -102,11 +110,11 @@ std::string file_name(std::string step) {
 
 std::vector<post::Column> history_columns(const Case& one) {
   std::vector<post::Column> columns{{"load_factor", "1"}, {"time", "s"}};
-  for (const Electrode& electrode : one.electrodes)
-    columns.push_back({one.electrodes.size() == 1 ? "voltage" : "voltage_" + electrode.name, "V"});
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) columns.push_back({voltage_name(one, e), "V"});
   for (const Quantity& quantity : one.quantities)
     columns.push_back({quantity.name, unit_of(quantity, one.quantities)});
-  for (const char* solver : {"iterations", "residual", "unstable_modes"}) columns.push_back({solver, "1"});
+  for (const char* solver : {"iterations", "residual", "unstable_modes", "jumped"})
+    columns.push_back({solver, "1"});
   return columns;
 }
 

@@ -125,7 +125,7 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   std::vector<post::Section> sections{{"Shape",
                                        {post::Image{post::render_png(device.mesh, shapes),
                                                     "Before and after the last step, to one scale."}}}};
-  if (last.voltage > 0) {
+  if (last.voltage != 0) {
     post::Picture field{.quantity = "True electric field", .unit = "V/m", .wall_width = shapes.wall_width};
     field.panels.push_back(panel(device, last, last.field));
     sections.push_back(
@@ -141,7 +141,7 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
   std::map<std::string, std::size_t> by_label;
   const auto& records = journal.records;
   const auto charged = std::find_if(records.begin(), records.end(), [](const post::StepRecord& record) {
-    return record.largest_voltage() > 0;
+    return record.largest_voltage() != 0;
   });
   const bool electric = charged != records.end();
   const bool timed = records.back().time > 0;

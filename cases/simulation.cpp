@@ -105,7 +105,8 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
       .iterations = newton.iterations,
       .residual = newton.residual,
       .unstable_modes = newton.unstable_modes,
-      .events = std::move(events)};
+      .events = std::move(events),
+      .jumped = increment.jumped};
   return !observer.on_accept || observer.on_accept({record, measured, values, ends});
 }
 

@@ -8,6 +8,12 @@ namespace dielast::cases {
 
 namespace {
 
+/// Breaks of several waves that are closer, in load factors, are one.
+constexpr double same_break = 1e-9;
+
+/// Where ramps lead: a wave that jumps at t = 0 jumps in the transient that follows it.
+constexpr StepLoads::Instant just_before_start{0, true};
+
 /// Shortest relaxation time of the film's branches and of its circuits, s; infinite without.
 double shortest_relaxation(const materials::Material& material, const fem::Model& model) {
   double shortest = std::numeric_limits<double>::infinity();
@@ -75,7 +81,7 @@ bool StepLoads::happened(int step, StepKind kind) const {
 }
 
 /// The frame's forces until a release, the loads from the first step that applies them.
-Eigen::VectorXd StepLoads::dead_force(int step, double t) const {
+Eigen::VectorXd StepLoads::dead_force(int step, Instant t) const {
   const fem::DofMap& dofs = device_.model.dofs;
   Eigen::VectorXd force = frame_force_;
   if (happened(step, StepKind::release)) force.setZero();
@@ -86,23 +92,23 @@ Eigen::VectorXd StepLoads::dead_force(int step, double t) const {
     for (int c = 0; c < 3; ++c)
       for (const int node : nodes)
         if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
-          force[e] += load.force[static_cast<std::size_t>(c)].at(t) / static_cast<double>(nodes.size());
+          force[e] += t.of(load.force[static_cast<std::size_t>(c)]) / static_cast<double>(nodes.size());
   }
   return force;
 }
 
-void StepLoads::move(Eigen::VectorXd& held, double t) const {
+void StepLoads::move(Eigen::VectorXd& held, Instant t) const {
   const fem::DofMap& dofs = device_.model.dofs;
   for (const Support& support : case_.supports)
     for (int c = 0; c < 3; ++c)
       if (const auto& motion = support.motion[static_cast<std::size_t>(c)])
         for (const int node : device_.mesh.node_sets.at(support.place))
           if (const int e = dofs.equation(node, c); e >= dofs.free_count())
-            held[e - dofs.free_count()] = motion->at(t);
+            held[e - dofs.free_count()] = t.of(*motion);
 }
 
-/// The loads that the step leads to (a ramp, t = 0) or has at t (a transient).
-fem::Loads StepLoads::at(int number, const fem::Loads& start, double t) const {
+/// The loads that the step leads to (a ramp: just before t = 0) or has at t (a transient).
+fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   fem::Loads loads = start;
   const auto does = [&step](StepKind kind) { return step.kind == kind || step.kind == StepKind::transient; };
@@ -114,17 +120,17 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, double t) const {
     if (!source) continue;
     const bool isolated = supply(step, e) == fem::Supply::charge;
     if (does(StepKind::voltage) && source->voltage && !isolated) {
-      loads.source[e] = source->voltage->at(t);
+      loads.source[e] = t.of(*source->voltage);
       const fem::Circuit* circuit = device_.model.circuit_of(e);
       loads.voltage[e] = loads.source[e] * (circuit ? circuit->steady_share() : 1);
     }
-    if (does(StepKind::charge) && source->charge && isolated) loads.charge[e] = source->charge->at(t);
+    if (does(StepKind::charge) && source->charge && isolated) loads.charge[e] = t.of(*source->charge);
   }
   if (case_.chamber) {
     const std::size_t port = case_.electrodes.size();
     if (does(StepKind::pressure) && case_.chamber->pressure)
-      loads.voltage[port] = case_.chamber->pressure->at(t);
-    if (does(StepKind::inflate) && case_.chamber->volume) loads.charge[port] = case_.chamber->volume->at(t);
+      loads.voltage[port] = t.of(*case_.chamber->pressure);
+    if (does(StepKind::inflate) && case_.chamber->volume) loads.charge[port] = t.of(*case_.chamber->volume);
   }
   return loads;
 }
@@ -146,18 +152,21 @@ std::vector<double> StepLoads::kinks(const Step& step) const {
     for (const auto& wave : {case_.chamber->pressure, case_.chamber->volume})
       if (wave) add(*wave);
   std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  const auto same = [](double a, double b) { return b - a <= same_break; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
   return all;
 }
 
 fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   if (step.kind != StepKind::transient)
-    return fem::linear_path(device_.model.dofs, start, at(number, start, 0));
-  fem::LoadPath path;
-  path.apply = [this, number, start, duration = *step.duration](fem::State& state, double s) {
-    at(number, start, s * duration).apply(state, device_.model.dofs);
+    return fem::linear_path(device_.model.dofs, start, at(number, start, just_before_start));
+  const auto apply = [this, number, start, duration = *step.duration](bool before) {
+    return [=, this](fem::State& state, double s) {
+      at(number, start, {s * duration, before}).apply(state, device_.model.dofs);
+    };
   };
+  fem::LoadPath path{.apply = apply(false), .apply_before = apply(true)};
   path.breaks = kinks(step);
   return path;
 }

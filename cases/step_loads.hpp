@@ -8,6 +8,14 @@ namespace dielast::cases {
 /// What the steps of a case do to the loads of its device.
 class StepLoads {
  public:
+  /// A time of a step, or the moment before it.
+  struct Instant {
+    double t = 0; ///< s
+    bool before = false;
+
+    double of(const Waveform& wave) const { return before ? wave.before(t) : wave.at(t); }
+  };
+
   /// `frame_force`: dead forces by which a frame holds the free nodes as drawn, until a step releases them.
   StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps,
             Eigen::VectorXd frame_force);
@@ -25,9 +33,9 @@ class StepLoads {
   const Drive* drive(std::size_t electrode) const;
   /// Kinds of the steps up to this one.
   bool happened(int step, StepKind kind) const;
-  Eigen::VectorXd dead_force(int step, double t) const;
-  void move(Eigen::VectorXd& held, double t) const;
-  fem::Loads at(int step, const fem::Loads& start, double t) const;
+  Eigen::VectorXd dead_force(int step, Instant t) const;
+  void move(Eigen::VectorXd& held, Instant t) const;
+  fem::Loads at(int step, const fem::Loads& start, Instant t) const;
   std::vector<double> kinks(const Step& step) const;
 
   const Case& case_;

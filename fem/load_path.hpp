@@ -23,12 +23,24 @@ struct Loads {
 
 /// The loads of one step as functions of its load factor s in 0..1.
 struct LoadPath {
-  /// Sets everything that is prescribed at s.
+  /// Sets everything that is prescribed at s; where it jumps, that after the jump.
   std::function<void(State&, double s)> apply;
+  /// Sets what is prescribed just before s. Left out: what `apply` says a little earlier.
+  std::function<void(State&, double s)> apply_before{};
   /// Monotonic in s: the parameter in which states are extrapolated.
   std::function<double(double s)> parameter = [](double s) { return s; };
-  /// Load factors at which a load jumps or turns; just before them the loads of the left side hold.
+  /// Load factors at which a load jumps or turns.
   std::vector<double> breaks;
+
+  void apply_at(State& state, double s, bool before) const {
+    constexpr double earlier = 1e-13;
+    if (!before)
+      apply(state, s);
+    else if (apply_before)
+      apply_before(state, s);
+    else
+      apply(state, s - earlier);
+  }
 };
 
 /// Loads that grow linearly with s. The parameter is the largest Phi^2, in which the film's energy is linear,

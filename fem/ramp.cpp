@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t most_points = 4; ///< of the predictor
 constexpr double round_off = 1e-9;     ///< in load factors
-constexpr double left_side = 1e-13;    ///< before a break, in load factors: the loads that hold until it
 constexpr double most_growth = 2;      ///< of a time step: BDF2 is stable below 2.41
 constexpr double safety = 0.9;
 constexpr int jump_parts = 8;              ///< of loads that jump
@@ -51,7 +50,8 @@ class Ramp {
   static double time_error(const History& past, const History& next);
   double motion_error(const GeneralisedAlpha& scheme, const Motion& past, const Motion& next) const;
   bool accept(State state, double s);
-  bool notify(bool lands, double length, int unstable_before = -1);
+  bool notify(bool lands, double length, bool jumped = false);
+  bool jumps(const Loads& before, const Loads& after) const;
 
   Equilibrium& equilibrium_;
   const LoadPath& path_;
@@ -61,6 +61,7 @@ class Ramp {
   double largest_, landing_, smallest_;
   NewtonResult newton_;
   std::optional<PathSlope> slope_; ///< at the trial state
+  int unstable_before_ = -1;       ///< unstable modes before the increment that is being accepted
   bool jumped_ = false;            ///< at the last break
   double last_part_ = 0;           ///< of that jump
 };
@@ -89,7 +90,7 @@ materials::TimeScheme Ramp::scheme(double dt) const {
 
 State Ramp::solve(State state, double s) {
   const bool ends_at_break = std::abs(s - next_break()) < round_off && s < 1;
-  path_.apply(state, ends_at_break || (timed() && s >= 1) ? s - left_side : s);
+  path_.apply_at(state, s, ends_at_break || (timed() && s >= 1));
   const double dt = (s - progress_.load_factor) * options_.duration;
   state.history = last().history;
   state.time = last().time + dt;
@@ -113,7 +114,7 @@ LoadPath Ramp::within(double s) const {
   LoadPath path;
   path.apply = [this, s](State& state, double part) {
     const double s0 = progress_.load_factor;
-    path_.apply(state, s0 + part * (s - s0) - (timed() && part >= 1 ? left_side : 0));
+    path_.apply_at(state, s0 + part * (s - s0), timed() && part >= 1);
     state.scheme = scheme(part * (s - s0) * options_.duration);
   };
   return path;
@@ -182,6 +183,31 @@ bool Ramp::detour(const LoadPath& path, State start, const RampOptions& options,
   return false;
 }
 
+/// Whether loads differ by more than rounding, over what they have been at the last states: where a wave only
+/// turns, both sides of the break are computed, by other terms.
+bool Ramp::jumps(const Loads& before, const Loads& after) const {
+  constexpr double rounding = 1e-10;
+  std::vector<Loads> recent{before, after};
+  for (const PathPoint& point : progress_.points)
+    recent.push_back(Loads::of(point.state, equilibrium_.model().dofs));
+  const auto differ = [&](auto&& part) {
+    for (Eigen::Index i = 0; i < part(before).size(); ++i) {
+      double largest = 0;
+      for (const Loads& loads : recent) largest = std::max(largest, std::abs(part(loads)[i]));
+      if (std::abs(part(after)[i] - part(before)[i]) > rounding * largest) return true;
+    }
+    return false;
+  };
+  const auto ports = [](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  return differ([&](const Loads& loads) { return ports(loads.voltage); }) ||
+         differ([&](const Loads& loads) { return ports(loads.charge); }) ||
+         differ([&](const Loads& loads) { return ports(loads.source); }) ||
+         differ([](const Loads& loads) -> const Eigen::VectorXd& { return loads.dead_force; }) ||
+         differ([](const Loads& loads) -> const Eigen::VectorXd& { return loads.held; });
+}
+
 /// Forgets the past, in which the loads went elsewhere, and lets loads that jump here act at once, in parts.
 /// False where even the smallest part does not converge.
 bool Ramp::pass_break() {
@@ -207,8 +233,8 @@ bool Ramp::pass_break() {
   const Loads after = Loads::of(goal, dofs);
   state.scheme = materials::TimeScheme::frozen();
   const double at = parameter(progress_.load_factor);
+  jumped_ = jumps(before, after);
   progress_.points = {{at, state}};
-  jumped_ = before != after;
   if (!jumped_) return true;
   const LoadPath jump = linear_path(dofs, before, after);
   if (!options_.inertia)
@@ -288,16 +314,22 @@ bool Ramp::accept(State state, double s) {
   const bool lands = !timed() || std::abs(s / landing_ - std::round(s / landing_)) < round_off || s >= 1;
   const double length = s - progress_.load_factor;
   progress_.load_factor = s;
-  const int before = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
+  unstable_before_ = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
   progress_.slope = std::exchange(slope_, std::nullopt);
   progress_.points.push_back({parameter(s), std::move(state)});
   if (progress_.points.size() > most_points) progress_.points.erase(progress_.points.begin());
-  return notify(lands, length, before);
+  return notify(lands, length);
 }
 
 /// Tells the observer; false when it wants to stop.
-bool Ramp::notify(bool lands, double length, int unstable_before) {
-  const Increment increment{progress_.load_factor, newton_, lands, length, progress_.turns, unstable_before};
+bool Ramp::notify(bool lands, double length, bool jumped) {
+  const Increment increment{progress_.load_factor,
+                            newton_,
+                            lands,
+                            length,
+                            progress_.turns,
+                            jumped,
+                            std::exchange(unstable_before_, -1)};
   progress_.turns = false;
   return !observer_.on_accept || observer_.on_accept(progress_, increment);
 }
@@ -310,7 +342,7 @@ RampResult Ramp::run() {
     if (timed() && progress_.at_break) {
       if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
       if (jumped_) {
-        const bool goes_on = notify(true, last_part_);
+        const bool goes_on = notify(true, last_part_, true);
         progress_.turns = true;
         if (!goes_on) return {RampEnd::stopped};
       }
