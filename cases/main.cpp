@@ -73,7 +73,7 @@ ExitCode mesh(const Arguments& arguments) {
   folder.begin();
   const fem::State drawn = device.model.initial_state();
   post::VtkSeries(folder, one.source.stem().string() + "-mesh", device.mesh)
-      .write(0, "drawn", drawn.displacement, device.model.sample(drawn));
+      .write({0, "drawn"}, drawn.displacement, device.model.sample(drawn));
   folder.set_complete(static_cast<int>(ExitCode::ok));
   cases::say("{}places:\n", meshing::format(meshing::quality(device.mesh)));
   for (const auto& [name, nodes] : device.mesh.node_sets) {

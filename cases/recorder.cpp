@@ -136,23 +136,46 @@ void Recorder::open_series(std::optional<post::VtkSeries>& series, const char* s
                  std::move(entries));
 }
 
-/// Time where it passes; otherwise the steps that have ended and the load factor, or, as that goes back along
-/// a followed path, the number of the record.
-double Recorder::series_time(const post::StepRecord& record) const {
-  if (std::ranges::any_of(case_.steps, [](const Step& step) { return step.duration.has_value(); }))
-    return record.time;
-  if (std::ranges::any_of(case_.steps,
-                          [](const Step& step) { return step.on_instability == OnInstability::follow; }))
-    return record.index;
-  return steps_ended_ + record.load_factor;
+/// A time for every state, none twice: ParaView shows all states of a time at once. Where time passes it is
+/// time, with steps before time starts counted backwards from 0, one unit each; without time it is the steps
+/// that have ended and the load factor, or, as that goes back along a followed path, the number of the
+/// record. A state at the time of the one before (behind a jump, in a ramp between two steps that take time)
+/// comes a billionth of a step later.
+double Recorder::series_time(const post::StepRecord& record) {
+  const std::vector<Step>& steps = simulation_.steps();
+  const auto timed = std::ranges::find_if(steps, [](const Step& step) { return step.duration.has_value(); });
+  const bool follows = std::ranges::any_of(
+      steps, [](const Step& step) { return step.on_instability == OnInstability::follow; });
+  double time = steps_ended_ + record.load_factor, unit = 1;
+  if (timed != steps.end()) {
+    const auto before =
+        std::count_if(steps.begin(), timed, [](const Step& step) { return !step.is_analysis(); });
+    time = steps_ended_ < before ? time - static_cast<double>(before) : record.time;
+    unit = *timed->duration;
+  } else if (follows) {
+    time = record.index;
+  }
+  constexpr double smallest_gap = 1e-9;
+  if (series_time_ && time <= *series_time_)
+    time = *series_time_ + smallest_gap * std::max(unit, std::abs(*series_time_));
+  series_time_ = time;
+  return time;
+}
+
+post::SeriesStep Recorder::series_step(double time, const std::string& name, double load_factor,
+                                       std::span<const double> voltages) const {
+  post::SeriesStep step{time, name, load_factor, {}};
+  for (std::size_t e = 0; e < case_.electrodes.size() && e < voltages.size(); ++e)
+    step.voltages.push_back({voltage_name(case_, e), voltages[e]});
+  return step;
 }
 
 void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event& event) {
   if (!case_.fields) return;
   const Device& device = simulation_.device();
   if (!modes_) open_series(modes_, "-modes");
-  modes_->write(journal_.modes++, event.message, critical.state.displacement,
-                device.model.sample(critical.state),
+  modes_->write(series_step(journal_.modes++, event.message, critical.load_factor, critical.state.voltage),
+                critical.state.displacement, device.model.sample(critical.state),
                 fem::displacements(device.model.dofs, critical.mode.direction));
 }
 
@@ -166,8 +189,8 @@ void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
                            device.mesh);
     const fem::Samples samples = device.model.sample(state);
     for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
-      series.write(static_cast<double>(i), analysis.shapes[i].name, state.displacement, samples,
-                   analysis.shapes[i].displacement);
+      series.write(series_step(static_cast<double>(i), analysis.shapes[i].name, 1, state.voltage),
+                   state.displacement, samples, analysis.shapes[i].displacement);
   }
   analysis.shapes.clear();
   journal_.analyses.push_back(std::move(analysis));
@@ -177,8 +200,8 @@ void Recorder::record(const Frame& frame) {
   const post::StepRecord& record = frame.record;
   history_->append(record.step, history_row(record, frame.values));
   if (series_)
-    series_->write(series_time(record), record.step, frame.measured.state.displacement,
-                   frame.measured.samples);
+    series_->write(series_step(series_time(record), record.step, record.load_factor, record.voltages),
+                   frame.measured.state.displacement, frame.measured.samples);
 
   const Device& device = simulation_.device();
   const int triangles = device.mesh.film()->size();
@@ -219,6 +242,7 @@ void Recorder::save_checkpoint() {
        {"active_events", progress.active_events},
        {"results", post::pack(simulation_.results())},
        {"steps_ended", steps_ended_},
+       {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
        {"series", entries(series_)},
        {"modes_series", entries(modes_)},
        {"journal",
@@ -252,6 +276,7 @@ void Recorder::restore_checkpoint() try {
                       saved.at("active_events")});
   simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
   steps_ended_ = saved.at("steps_ended");
+  if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();
   const json& journal = saved.at("journal");
   journal_.modes = journal.at("modes");
   for (const json& analysis : journal.at("analyses")) journal_.analyses.push_back(restore_analysis(analysis));

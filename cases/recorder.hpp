@@ -51,7 +51,9 @@ class Recorder {
   const Journal& journal() const { return journal_; }
 
  private:
-  double series_time(const post::StepRecord& record) const;
+  double series_time(const post::StepRecord& record);
+  post::SeriesStep series_step(double time, const std::string& name, double load_factor,
+                               std::span<const double> voltages) const;
   void restore_checkpoint();
   /// The series `<case><suffix>`, behind the `entries` of its list that are kept.
   void open_series(std::optional<post::VtkSeries>& series, const char* suffix,
@@ -63,6 +65,7 @@ class Recorder {
   std::string fingerprint_; ///< the resolved case
   Journal journal_;
   int steps_ended_ = 0;
+  std::optional<double> series_time_; ///< of the last state
   std::optional<post::History> history_;
   std::optional<post::VtkSeries> series_, modes_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
