@@ -229,6 +229,7 @@ struct Step {
   Sweep sweep{}; ///< of harmonic
   std::string
       response_of{}; ///< of harmonic: a quantity of kind displacement; empty: the first with a direction
+  std::vector<std::string> driven{}; ///< of harmonic: electrodes whose sources swing; empty: see driven_ports
 
   bool is_analysis() const { return kind == StepKind::modes || kind == StepKind::harmonic; }
 };
@@ -311,7 +312,9 @@ struct Linearise {
   int order = 0;
   std::string output; ///< a quantity of kind displacement; empty: the first with a direction
   Sweep sweep;        ///< over which it is compared with the full response
+  std::vector<std::string> driven; ///< electrodes whose sources swing together; empty: see driven_ports
   std::vector<TransferFunction> compare;
+  bool written = false; ///< the case has a section [linearise]
 };
 
 /// Everything the user asked for: validated, complete, in SI. No type of the file format gets past the

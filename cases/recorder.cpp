@@ -70,15 +70,13 @@ Snapshot restore_snapshot(const json& archived, const meshing::Mesh& mesh) {
 json archive(const Analysis& analysis) {
   json rows = json::array();
   for (const auto& row : analysis.rows) rows.push_back(post::pack(row));
-  return {{"kind", analysis.kind},
-          {"step", analysis.step},
-          {"of", analysis.of},
-          {"columns", analysis.columns},
-          {"rows", std::move(rows)}};
+  return {{"kind", analysis.kind},     {"step", analysis.step},       {"of", analysis.of},
+          {"driven", analysis.driven}, {"columns", analysis.columns}, {"rows", std::move(rows)}};
 }
 
 Analysis restore_analysis(const json& archived) {
-  Analysis analysis{archived.at("kind"), archived.at("step"), archived.at("of"), archived.at("columns"), {}};
+  Analysis analysis{archived.at("kind"),   archived.at("step"),    archived.at("of"),
+                    archived.at("driven"), archived.at("columns"), {}};
   for (const json& row : archived.at("rows"))
     analysis.rows.push_back(post::unpack(row, analysis.columns.size()));
   return analysis;

@@ -65,8 +65,9 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
         log.info("    mode {:.0f}  {:>10.6g} Hz  {:>10.6g} rad/s{}", row[0], row[1], row[2],
                  row[3] < 0 ? "  unstable" : "");
     else
-      log.info("    {} frequencies, {} per volt {:.5g} to {:.5g} m/V", analysis.rows.size(), analysis.of,
-               analysis.rows.front()[1], analysis.rows.back()[1]);
+      log.info("    {} frequencies, source of {}: {} per volt {:.5g} to {:.5g} m/V", analysis.rows.size(),
+               fmt::join(analysis.driven, ", "), analysis.of, analysis.rows.front()[1],
+               analysis.rows.back()[1]);
     recorder.record_analysis(analysis, state);
   };
   observer.on_pass = [] { return !interrupted(); };

@@ -21,29 +21,32 @@ Section quantity_section() {
   const auto of = [](std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); };
   section.keys = {
       text("name", to(&Quantity::name), "its name in results").distinct(),
-      word("kind",
-           {{"distance", "between the centroids of two places (m)"},
-            {"elongation", "relative change of the distance between two places (-)"},
-            {"stretch", "distance between two places over that of the unstretched film (-)"},
-            {"size", "of the box around a place (m)"},
-            {"growth", "relative change of the size of a place (-)"},
-            {"displacement", "of the centroid of a place (m)"},
-            {"radius", "mean distance of a place's nodes from their centroid (m)"},
-            {"force", "reaction at a support (N)"},
-            {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
-            {"capacitance", "of an electrode (F)"},
-            {"charge", "of an electrode (C)"},
-            {"current", "that the source of an electrode's [circuit] gives (A)"},
-            {"pressure", "in the chamber (Pa)"},
-            {"volume", "of the chamber itself (m^3)"},
-            {"pumped volume", "that was pumped into the chamber, as it is without pressure (m^3)"},
-            {"stiffness", "force on a place per displacement along an axis, branches relaxed (N/m)"},
-            {"natural frequency", "of small vibrations about the state, branches relaxed (rad/s)"},
-            {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
-            {"energy", "part of the energy balance (J)"},
-            {"extreme", "smallest or largest value of a field"},
-            {"peak", "smallest or largest value of another quantity so far"}},
-           to(&Quantity::kind), "what is measured"),
+      word(
+          "kind",
+          {{"distance", "between the centroids of two places (m)"},
+           {"elongation", "relative change of the distance between two places (-)"},
+           {"stretch", "distance between two places over that of the unstretched film (-)"},
+           {"size", "of the box around a place (m)"},
+           {"growth", "relative change of the size of a place (-)"},
+           {"displacement", "of the centroid of a place (m)"},
+           {"radius", "mean distance of a place's nodes from their centroid (m)"},
+           {"force", "reaction at a support (N)"},
+           {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
+           {"capacitance", "of an electrode (F)"},
+           {"charge", "of an electrode (C)"},
+           {"current", "that the source of an electrode's [circuit] gives (A)"},
+           {"pressure", "in the chamber (Pa)"},
+           {"volume", "of the chamber itself (m^3)"},
+           {"pumped volume", "that was pumped into the chamber, as it is without pressure (m^3)"},
+           {"stiffness", "force on a place per displacement along an axis, branches relaxed; none while they "
+                         "flow (N/m)"},
+           {"natural frequency", "of small vibrations about the state, branches relaxed; none while they "
+                                 "flow (rad/s)"},
+           {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
+           {"energy", "part of the energy balance (J)"},
+           {"extreme", "smallest or largest value of a field"},
+           {"peak", "smallest or largest value of another quantity so far"}},
+          to(&Quantity::kind), "what is measured"),
       text("between", to(&Quantity::between), "the two places")
           .values(2, 2)
           .only({"distance", "elongation", "stretch"})
@@ -192,6 +195,10 @@ Section linearise_section() {
            "quantity of kind \"displacement\"; without it the first that has a direction")
           .optional()
           .refers_to(Reference::quantity),
+      text("driven", to(&Linearise::driven), driven_meaning)
+          .values(1, 1000)
+          .optional()
+          .refers_to(Reference::electrode),
   };
   for (Key& key :
        sweep_keys(&Linearise::sweep, " at which it is compared with the full response", "0.01 Hz", "50 Hz"))

@@ -95,6 +95,11 @@ Section step_section() {
           .optional()
           .refers_to(Reference::quantity)
           .only({"harmonic"}),
+      text("driven", to(&Step::driven), driven_meaning)
+          .values(1, 1000)
+          .optional()
+          .refers_to(Reference::electrode)
+          .only({"harmonic"}),
       flag("inertia", to(&Step::inertia),
            "what has a mass resists acceleration; with [plate] or [[point_mass]] the default is true")
           .otherwise("false")
