@@ -149,6 +149,12 @@ double relaxed_invariant(const materials::Branch& branch, const std::array<doubl
 std::optional<Conflict> prestretch_conflict(const void* object) {
   const auto& film = *static_cast<const Film*>(object);
   const double x = film.prestretch[0], y = film.prestretch[1];
+  const double c = film.material.dielectric.electrostriction;
+  if (const double share = 1 + c * (x + y - 2); !(share > 0))
+    return Conflict{"prestretch",
+                    fmt::format("with electrostriction = {:.6g} the permittivity is not positive: "
+                                "1 + c (l1 + l2 - 2) = {:.4g}",
+                                c, share)};
   const auto beyond = [](const std::string& whose, const materials::ElasticLaw& law,
                          double invariant) -> std::optional<Conflict> {
     if (materials::admits(law, invariant)) return std::nullopt;

@@ -66,8 +66,30 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     energy_.add(std::move(point));
 }
 
+/// The smallest permittivity of film under an electrode, over that of the undeformed film.
+double Simulation::smallest_permittivity(const fem::State& state) const {
+  const materials::Dielectric& dielectric = case_.film.material.dielectric;
+  double smallest = std::numeric_limits<double>::infinity();
+  if (dielectric.electrostriction == 0) return smallest;
+  for (const fem::MembraneSample& at : device_.model.sample(state).film) {
+    if (at.electrode < 0) continue;
+    const Eigen::Matrix2d C = at.F.transpose() * at.F;
+    const double det = C.determinant() * at.widening * at.widening;
+    smallest = std::min(smallest, dielectric.permittivity_at(C.trace(), det) / dielectric.permittivity);
+  }
+  return smallest;
+}
+
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
+  if (const double left = smallest_permittivity(state); !(left > 0)) {
+    refusal_ = {
+        Ending::gave_up, "loss of permittivity",
+        fmt::format("step \"{}\" stopped: at load factor {:.4g} electrostriction = {:.6g} would make the "
+                    "permittivity of film under an electrode negative, {:.3g} of the undeformed film's",
+                    step.name, increment.load_factor, case_.film.material.dielectric.electrostriction, left)};
+    return false;
+  }
   account(state, increment, reached);
   if (increment.lands) return record(observer, step, state, increment, reached);
   unrecorded_ = increment;
@@ -143,6 +165,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
           return accept(observer, step, state, increment, reached);
         }};
     const Outcome outcome = StepRun(equilibrium_, step, path, options, in_step_, watcher).run();
+    if (refusal_) return *std::exchange(refusal_, std::nullopt);
     if (outcome.ending == Ending::gave_up && unrecorded_)
       record(observer, step, state(), *unrecorded_, Reached::along_path);
     if (outcome.ending != Ending::complete) return outcome;
