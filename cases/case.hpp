@@ -75,7 +75,7 @@ using Geometry = std::variant<Honeycomb, Disc, Annulus, Balloon, Patch, MeshFile
 
 /// [mesh]
 struct MeshOptions {
-  double unit = 1;       ///< m per unit of length of a user's own mesh
+  std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
   int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
   int wall_elements = 8; ///< beams per wall (honeycomb)
   double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
@@ -346,6 +346,7 @@ struct Case {
   bool error_estimate = true;  ///< [output] error_estimate: solve once more on a coarser mesh
   bool fields = true;          ///< [output] fields: write the VTK series
   std::vector<Mention> places; ///< every place that the case names, for check_places
+  std::vector<Diagnostic> warnings{};
 };
 
 } // namespace dielast::cases

@@ -12,6 +12,9 @@
 #include "meshing/mesh_error.hpp"
 #include "meshing/patch.hpp"
 #include "meshing/rings.hpp"
+#include "post/engineering.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +61,17 @@ meshing::Mesh film_of(meshing::Mesh mesh, double unit) {
     for (auto& [name, set] : mesh.cell_sets) set.block -= set.block > b;
   }
   return mesh;
+}
+
+/// A user's own mesh has no unit in its file: what is taken for a metre may have been a millimetre.
+std::vector<std::string> size_warnings(const Case& one, const Eigen::Vector3d& size) {
+  constexpr double largest = 1; // m, of the templates' dimensions
+  if (!std::holds_alternative<MeshFile>(one.geometry)) return {};
+  const std::string found =
+      fmt::format("the film is {} x {}", post::engineering(size.x(), "m"), post::engineering(size.y(), "m"));
+  if (!one.mesh.unit) return {"mesh.unit is missing, one unit of the mesh file is taken for 1 m: " + found};
+  if (size.maxCoeff() > largest) return {"mesh.unit: " + found};
+  return {};
 }
 
 /// Says which [[load]] cannot act.
@@ -268,7 +282,9 @@ meshing::Mesh build_mesh(const Case& one) {
             [&](const Patch& p) {
               return meshing::patch_mesh(p.length * one.film.prestretch[0], p.width * one.film.prestretch[1]);
             },
-            [&](const MeshFile& file) { return film_of(meshing::read_gmsh(file.path), options.unit); },
+            [&](const MeshFile& file) {
+              return film_of(meshing::read_gmsh(file.path), options.unit.value_or(1));
+            },
         },
         one.geometry);
   } catch (const std::invalid_argument& error) {
@@ -298,6 +314,7 @@ Device build_device(const Case& one) {
   model.drawn = mesh.nodes;
   model.corners = fem::element_corners(mesh);
 
+  std::vector<std::string> warnings = size_warnings(one, high - low);
   const bool of_revolution = dimension == fem::Dimension::axisymmetric;
   if (!of_revolution && high.z() - low.z() > 1e-9 * model.extent)
     throw meshing::MeshError("the film must lie in a plane of constant z");
@@ -355,6 +372,7 @@ Device build_device(const Case& one) {
   require_loads_that_act(one, device);
   device.tension_field = one.film.tension_field;
   if (lattice) device.wall_width = lattice->wall_width;
+  device.warnings = std::move(warnings);
   return device;
 }
 

@@ -16,6 +16,7 @@ struct Device {
   bool tension_field = false;       ///< the film wrinkles where it would be compressed
   bool free_body = false;           ///< no support: pinned against rigid motion only, without reactions
   Eigen::VectorXd weight;           ///< dead forces of gravity, per equation, N
+  std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each
 };
 
 /// The mesh that the case asks for. Throws meshing::MeshError.

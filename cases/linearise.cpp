@@ -169,6 +169,7 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
   post::ResultsFolder folder(settings.directory, "linearise");
   folder.begin();
   Simulation simulation(one, settings.threads);
+  for (const std::string& warning : simulation.warnings()) say(stderr, "{}\n", warning);
   const Outcome outcome = simulation.run({});
   if (outcome.ending != Ending::complete) {
     say(stderr, "error: {}\n", outcome.message);

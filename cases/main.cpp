@@ -47,6 +47,8 @@ ExitCode check(const Arguments& arguments) {
   const cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
   const cases::Device device = cases::build_device(one);
   const auto quality = meshing::quality(device.mesh);
+  for (const cases::Diagnostic& warning : one.warnings) cases::say(stderr, "{}\n", warning.text());
+  for (const std::string& warning : device.warnings) cases::say(stderr, "{}\n", warning);
   cases::say("{}: valid\n{}unknowns: {} free, {} held{}\n", arguments.case_file, meshing::format(quality),
              device.model.dofs.free_count(), device.model.dofs.count() - device.model.dofs.free_count(),
              device.free_body ? " (a free body, pinned against rigid motion)" : "");

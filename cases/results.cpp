@@ -189,7 +189,7 @@ bool Results::checks_passed() const {
 
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
                         const std::vector<double>& errors) {
-  Results results{.outcome = outcome};
+  Results results{.outcome = outcome, .warnings = simulation.warnings()};
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,
@@ -258,6 +258,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                       {"message", results.outcome.message}});
   }
   summary["events"] = events;
+  summary["warnings"] = results.warnings;
   json analyses = json::array();
   for (const Analysis& analysis : journal.analyses)
     analyses.push_back({{"step", analysis.step}, {"columns", analysis.columns}, {"rows", analysis.rows}});
@@ -291,6 +292,11 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   if (!results.outcome.message.empty())
     report.sections.push_back({"How it ended", {post::Paragraph{results.outcome.message}}});
 
+  if (!results.warnings.empty()) {
+    report.sections.push_back({"Warnings", {}});
+    for (const std::string& warning : results.warnings)
+      report.sections.back().blocks.push_back(post::Paragraph{warning});
+  }
   for (post::Section& section : picture_sections(device, journal))
     report.sections.push_back(std::move(section));
 

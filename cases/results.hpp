@@ -12,6 +12,7 @@ struct Results {
   Outcome outcome;
   std::vector<post::QuantityRow> quantities; ///< in the case's order
   std::vector<post::CheckRow> checks;
+  std::vector<std::string> warnings{}; ///< before the run: keys without effect, a film of odd size
 
   bool checks_passed() const;
 };
@@ -21,8 +22,8 @@ struct Results {
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
                         const std::vector<double>& errors);
 
-/// summary.json: status, quantities.<name>.{value, unit, error_estimate}, checks, events, mesh. Nothing in it
-/// depends on the machine or the time.
+/// summary.json: status, quantities.<name>.{value, unit, error_estimate}, checks, events, warnings, mesh.
+/// Nothing in it depends on the machine or the time.
 nlohmann::json summary_json(const Case& one, const Device& device, const Results& results,
                             const Journal& journal);
 

@@ -143,6 +143,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.info("{} triangles, {} beams, {} unknowns; smallest angle {:.1f} deg", device.mesh.film()->size(),
              device.mesh.walls() ? device.mesh.walls()->size() : 0, unknowns,
              meshing::quality(device.mesh).smallest_angle);
+  for (const std::string& warning : simulation.warnings()) log.warn("{}", warning);
   if (!recorder.journal().records.empty())
     log.info("resumed behind {} accepted states", recorder.journal().records.size());
 

@@ -1,3 +1,4 @@
+#include "cases/conditions.hpp"
 #include "cases/parameter_keys.hpp"
 #include "materials/catalog.hpp"
 
@@ -36,6 +37,7 @@ Section branch_section() {
                     },
                     [](void* parent) { static_cast<Film*>(parent)->material.branches.clear(); }};
   section.selector = "law";
+  section.acts = when::branches_flow();
   add_law_keys<Branch>(
       section.keys, [](auto& branch) -> auto& { return branch.law; }, "law of the spring");
   const Binding relaxation_time{[](void* object, const Value& value) {
@@ -117,6 +119,8 @@ Section material_section() {
       "equilibrium law (energy per undeformed volume)");
   add_parameter_keys<Film, materials::Dielectric>(section.keys,
                                                   [](auto& film) { return &film.material.dielectric; });
+  for (Key& key : section.keys)
+    if (key.name == "electrostriction" || key.name.starts_with("breakdown")) key.acts = when::electrodes();
   const Binding relative{[](void* object, const Value& value) {
                            static_cast<Film*>(object)->material.dielectric.permittivity =
                                value.at(0).number * vacuum_permittivity;
@@ -130,7 +134,8 @@ Section material_section() {
                                  to_part<Film>([](auto& film) -> auto& { return film.material.density; }),
                                  "mass per volume")
                              .at_least(0)
-                             .otherwise("960 kg/m^3"));
+                             .otherwise("960 kg/m^3")
+                             .only_with(when::masses_matter()));
   section.sections.push_back(branch_section());
   section.check = [](const void* object) {
     return law_conflict(static_cast<const Film*>(object)->material.law);

@@ -1,3 +1,4 @@
+#include "cases/conditions.hpp"
 #include "cases/quantities.hpp"
 #include "cases/sweep_keys.hpp"
 
@@ -79,12 +80,16 @@ Section quantity_section() {
       word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
+          .only_with(when::moves_along_it())
           .only({"distance", "elongation", "size", "growth", "force"}),
       word("along", {{"x", ""}, {"y", ""}, {"z", ""}, {"gravity", "-z"}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
+          .only_with(when::moves_along_it())
           .only({"displacement"}),
-      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "direction").only({"stiffness"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "direction")
+          .only_with(when::moves_along_it())
+          .only({"stiffness"}),
       integer("mode", to(&Quantity::mode), "its number, from the lowest frequency")
           .at_least(1)
           .at_most(100)
@@ -155,7 +160,8 @@ Section solver_section() {
              "relative error of the branches that a time step may add")
           .at_least(1e-12)
           .at_most(0.1)
-          .otherwise("1e-6"),
+          .otherwise("1e-6")
+          .only_with(when::time_steps_matter()),
   };
   return section;
 }

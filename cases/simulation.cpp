@@ -26,8 +26,15 @@ Simulation::Simulation(const Case& one, int threads)
   const double film_force = equilibrium_.assembler().block_residuals().front().norm();
   const bool at_rest = frame.norm() <= std::max(balanced * film_force, equilibrium_.round_off());
   // A film drawn in tension with free edges must find its equilibrium before it can be driven.
-  if (!at_rest && (steps_.empty() || steps_.front().kind != StepKind::release))
-    steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
+  const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
+  if (settles) steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
+  for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
+  for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
+  if (settles && !std::holds_alternative<Patch>(one.geometry))
+    warnings_.push_back(
+        fmt::format("the film is not held in its prestretch{}: a step \"settle\" before the first cuts it "
+                    "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",
+                    one.supports.empty() ? ", there is no [[support]]" : ""));
   fem::State drawn_state = device_.model.initial_state();
   drawn_state.dead_force = frame;
   in_step_.ramp.points = {{0, std::move(drawn_state)}};

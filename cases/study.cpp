@@ -151,6 +151,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
                                                        : std::max(1U, std::thread::hardware_concurrency());
   say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
       settings.directory.string());
+  for (const Diagnostic& warning : read_case(study.base).warnings) say(stderr, "{}\n", warning.text());
   ProgressLine progress(points.size());
   struct Waiting {
     const StudyPoint* point;
