@@ -142,10 +142,10 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   const std::vector<StudyPoint> points = study_points(study, settings.directory);
   std::vector<std::string> names;
   for (const StudyPoint& point : points) names.push_back(point.directory.filename());
-  std::vector<std::string> kept = names;
+  std::vector<std::string> keep = names;
   for (const std::string& name : folder.names())
-    if (name.starts_with(target_folder)) kept.push_back(name);
-  folder.begin(settings.resume ? std::move(kept) : std::vector<std::string>{});
+    if (name.starts_with(target_folder)) keep.push_back(name);
+  folder.begin(settings.resume ? std::move(keep) : std::vector<std::string>{});
   for (const std::string& name : names) folder.add(name);
   const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
                                                        : std::max(1U, std::thread::hardware_concurrency());
