@@ -76,6 +76,7 @@ using Geometry = std::variant<Honeycomb, Disc, Annulus, Balloon, Patch, MeshFile
 /// [mesh]
 struct MeshOptions {
   std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
+  int refine = 0;               ///< how often each triangle of a user's own mesh is split into four
   int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
   int wall_elements = 8; ///< beams per wall (honeycomb)
   double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
@@ -310,8 +311,8 @@ struct TransferFunction {
 /// [linearise]: the linear model that `dielast linearise` makes about the state at the end of the steps
 struct Linearise {
   int order = 0;
-  std::string output; ///< a quantity of kind displacement; empty: the first with a direction
-  Sweep sweep;        ///< over which it is compared with the full response
+  std::string output;              ///< a quantity of kind displacement; empty: the first with a direction
+  Sweep sweep;                     ///< over which it is compared with the full response
   std::vector<std::string> driven; ///< electrodes whose sources swing together; empty: see driven_ports
   std::vector<TransferFunction> compare;
   bool written = false; ///< the case has a section [linearise]
@@ -343,7 +344,7 @@ struct Case {
   int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
   SolverOptions solver;
   Linearise linearise;
-  bool error_estimate = true;  ///< [output] error_estimate: solve once more on a coarser mesh
+  bool error_estimate = true;  ///< [output] error_estimate: solve again with other elements and steps
   bool fields = true;          ///< [output] fields: write the VTK series
   std::vector<Mention> places; ///< every place that the case names, for check_places
   std::vector<Diagnostic> warnings{};

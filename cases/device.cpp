@@ -11,6 +11,7 @@
 #include "meshing/meridian.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/patch.hpp"
+#include "meshing/refine.hpp"
 #include "meshing/rings.hpp"
 #include "post/engineering.hpp"
 
@@ -283,7 +284,9 @@ meshing::Mesh build_mesh(const Case& one) {
               return meshing::patch_mesh(p.length * one.film.prestretch[0], p.width * one.film.prestretch[1]);
             },
             [&](const MeshFile& file) {
-              return film_of(meshing::read_gmsh(file.path), options.unit.value_or(1));
+              meshing::Mesh mesh = meshing::read_gmsh(file.path);
+              for (int i = 0; i < options.refine; ++i) mesh = meshing::refined(std::move(mesh));
+              return film_of(std::move(mesh), options.unit.value_or(1));
             },
         },
         one.geometry);

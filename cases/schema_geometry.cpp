@@ -257,6 +257,12 @@ Section mesh_section() {
           .above(0)
           .optional()
           .only({"file"}),
+      integer("refine", mesh_option(&MeshOptions::refine),
+              "how often each triangle of the file is split into four")
+          .at_least(0)
+          .at_most(6)
+          .otherwise("0")
+          .only({"file"}),
       integer("order", mesh_option(&MeshOptions::order),
               "1: 3-node triangles, 2-node beams and meridians; 2: 6-node and 3-node")
           .at_least(1)
