@@ -379,20 +379,4 @@ Device build_device(const Case& one) {
   return device;
 }
 
-std::optional<Coarser> coarser(const Case& one) {
-  const auto halve = [&one](int MeshOptions::*elements, int fewest) -> std::optional<Coarser> {
-    const int fine = one.mesh.*elements;
-    if (fine / 2 < fewest) return std::nullopt;
-    Coarser result{one, static_cast<double>(fine) / (fine / 2)};
-    result.coarse.mesh.*elements = fine / 2;
-    return result;
-  };
-  return std::visit(Overloaded{[&](const Honeycomb&) { return halve(&MeshOptions::wall_elements, 1); },
-                               [](const Patch&) -> std::optional<Coarser> { return std::nullopt; },
-                               [&](const Balloon&) { return halve(&MeshOptions::rings, 4); },
-                               [](const MeshFile&) -> std::optional<Coarser> { return std::nullopt; },
-                               [&](const auto& /*rings*/) { return halve(&MeshOptions::rings, 2); }},
-                    one.geometry);
-}
-
 } // namespace dielast::cases

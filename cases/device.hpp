@@ -28,14 +28,4 @@ std::vector<std::string> places_of(const meshing::Mesh& mesh);
 /// Mesh and model. Throws meshing::MeshError, and CaseError when the case names a place that the mesh lacks.
 Device build_device(const Case& one);
 
-/// A case on a coarser mesh.
-struct Coarser {
-  Case coarse;
-  double ratio = 2; ///< of the element sizes
-};
-
-/// The same case with elements about twice as large, for the estimate of the discretisation error; nothing
-/// for a user's own mesh, and where the mesh is the coarsest already.
-std::optional<Coarser> coarser(const Case& one);
-
 } // namespace dielast::cases

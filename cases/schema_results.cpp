@@ -173,7 +173,7 @@ Section output_section() {
   section.access = same_object();
   section.keys = {
       flag("error_estimate", to(&Case::error_estimate),
-           "solve once more on a coarser mesh to estimate the error")
+           "solve again with other elements and time steps to estimate the error")
           .otherwise("true"),
       flag("fields", to(&Case::fields), "write the series of fields for ParaView").otherwise("true"),
   };
