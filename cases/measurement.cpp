@@ -28,27 +28,31 @@ double component(const Eigen::Vector3d& vector, const std::optional<int>& along)
 }
 
 /// A part of the energy balance; the reader admits no other word.
-double energy(const std::string& part, const fem::EnergyBalance& balance, const fem::Work& work) {
-  const fem::EnergyParts& stored = balance.record().window.back().energy;
+double energy(const std::string& part, const fem::EnergyBalance& balance) {
+  const fem::EnergyParts& stored = balance.parts();
+  const fem::Work& work = balance.work();
   if (part == "electrical_work") return work.electrical;
   if (part == "mechanical_work") return work.mechanical;
   if (part == "dissipated") return work.dissipated;
   if (part == "released") return work.released;
+  if (part == "source_work") return work.source();
+  if (part == "resistance_heat") return work.resistance;
+  if (part == "leak_heat") return work.leak;
   if (part == "stored") return balance.stored();
   if (part == "elastic") return stored.elastic;
   if (part == "branches") return stored.branches;
   if (part == "electric") return stored.electric;
   if (part == "kinetic") return stored.kinetic;
   if (part == "wrinkle_regularisation") return stored.regularised;
-  return balance.error(work);
+  return balance.error();
 }
 
 } // namespace
 
 Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::State& at,
-                   const fem::EnergyBalance& balance)
-    : equilibrium(solver), state(at), samples(device.model.sample(at)), extremes(samples),
-      charges(device.model.charges(at, false)), energy(balance), work(balance.work()) {
+                   const fem::EnergyBalance& balance, bool with_fields)
+    : equilibrium(solver), state(at), samples(with_fields ? device.model.sample(at) : fem::Samples{}),
+      extremes(samples), charges(device.model.charges(at, false)), energy(balance) {
   equilibrium.internal_force(at, internal_force);
 }
 
@@ -189,7 +193,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     return volume > 0 ? sum / volume : unknown;
   }
   case QuantityKind::energy:
-    return energy(quantity.of, measured.energy, measured.work);
+    return energy(quantity.of, measured.energy);
   case QuantityKind::capacitance:
   case QuantityKind::charge: {
     return (quantity.kind == QuantityKind::charge ? measured.charges.charge
@@ -231,15 +235,41 @@ std::vector<double> Measurement::all(const Measured& measured) {
   for (const Quantity& quantity : case_.quantities) values.push_back(evaluate(quantity, measured));
   for (std::size_t q = 0; q < values.size(); ++q) {
     const Quantity& quantity = case_.quantities[q];
-    if (quantity.kind != QuantityKind::peak) continue;
-    const auto of = std::ranges::find(case_.quantities, quantity.of, &Quantity::name);
-    const double now = values[static_cast<std::size_t>(of - case_.quantities.begin())];
-    const auto [peak, first] = references.try_emplace(quantity.name, now);
-    const bool beyond = quantity.extreme == post::Extreme::minimum ? now < peak->second : now > peak->second;
-    if (beyond || std::isnan(peak->second)) peak->second = now;
-    values[q] = peak->second;
+    if (quantity.kind == QuantityKind::peak)
+      values[q] =
+          peak(quantity, values[static_cast<std::size_t>(&subject(quantity) - case_.quantities.data())]);
   }
   return values;
+}
+
+const Quantity& Measurement::subject(const Quantity& peak) const {
+  return *std::ranges::find(case_.quantities, peak.of, &Quantity::name);
+}
+
+/// The peak so far, now that its subject has this value.
+double Measurement::peak(const Quantity& quantity, double now) {
+  double& peak = references.try_emplace(quantity.name, now).first->second;
+  const bool beyond = quantity.extreme == post::Extreme::minimum ? now < peak : now > peak;
+  if (beyond || std::isnan(peak)) peak = now;
+  return peak;
+}
+
+void Measurement::pass(const Measured& measured) {
+  for (const Quantity& quantity : case_.quantities)
+    if (quantity.kind == QuantityKind::peak) peak(quantity, evaluate(subject(quantity), measured));
+}
+
+bool Measurement::has_peaks() const {
+  return std::ranges::count(case_.quantities, QuantityKind::peak, &Quantity::kind) > 0;
+}
+
+bool Measurement::has_peaks_of_fields() const {
+  return std::ranges::any_of(case_.quantities, [this](const Quantity& quantity) {
+    if (quantity.kind != QuantityKind::peak) return false;
+    const QuantityKind kind = subject(quantity).kind;
+    return kind == QuantityKind::extreme || kind == QuantityKind::nominal_stress ||
+           kind == QuantityKind::radial_stretch;
+  });
 }
 
 void Measurement::step_ended(const std::string& step, const Measured& measured) {

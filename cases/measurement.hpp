@@ -11,8 +11,9 @@ namespace dielast::cases {
 
 /// A state, with what is needed to measure it.
 struct Measured {
+  /// Without fields, samples and extremes are empty.
   Measured(const Device& device, fem::Equilibrium& equilibrium, const fem::State& state,
-           const fem::EnergyBalance& energy);
+           const fem::EnergyBalance& energy, bool with_fields = true);
 
   fem::Equilibrium& equilibrium;
   bool at_rest = true; ///< the device does not move: it can be asked for its stiffness and vibrations
@@ -23,7 +24,6 @@ struct Measured {
   Eigen::VectorXd internal_force; ///< per equation, N; at held equations the reaction on the support
   fem::Charges charges;
   const fem::EnergyBalance& energy;
-  fem::Work work;
 };
 
 /// Evaluates the quantities of a case on the states of a device.
@@ -35,6 +35,12 @@ class Measurement {
   /// step that has not ended).
   std::vector<double> all(const Measured& measured);
 
+  /// Sees a state that is not recorded: for peaks.
+  void pass(const Measured& measured);
+  bool has_peaks() const;
+  /// Whether peaks are of quantities that are measured on fields.
+  bool has_peaks_of_fields() const;
+
   /// Says that a step ended in this state: elongations and displacements since it start here.
   void step_ended(const std::string& step, const Measured& measured);
 
@@ -43,6 +49,8 @@ class Measurement {
   std::map<std::string, double> references;
 
  private:
+  const Quantity& subject(const Quantity& peak) const;
+  double peak(const Quantity& quantity, double now);
   double evaluate(const Quantity& quantity, const Measured& measured) const;
   double length(const Quantity& quantity, const fem::State& state) const;
   double displacement(const Quantity& quantity, const fem::State& state) const;

@@ -238,6 +238,7 @@ void Recorder::save_checkpoint() {
        {"energy", post::archive(progress.energy)},
        {"references", progress.references},
        {"active_events", progress.active_events},
+       {"time_error", progress.time_error},
        {"results", post::pack(simulation_.results())},
        {"steps_ended", steps_ended_},
        {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
@@ -271,7 +272,7 @@ void Recorder::restore_checkpoint() try {
     in_step.followed = post::restore_continuation(followed, sizes);
   simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
                       post::restore_energy(saved.at("energy"), sizes), saved.at("references"),
-                      saved.at("active_events")});
+                      saved.at("active_events"), saved.at("time_error")});
   simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
   steps_ended_ = saved.at("steps_ended");
   if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();

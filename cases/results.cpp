@@ -213,7 +213,8 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
   Results results{.outcome = outcome,
                   .warnings = simulation.warnings(),
                   .no_errors_because = estimates.reason,
-                  .event_remarks = estimates.events};
+                  .event_remarks = estimates.events,
+                  .time_error = simulation.time_error()};
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,
@@ -237,6 +238,9 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
     results.checks.push_back({check.quantity, value, check.value, check.tolerance, row->unit, row->ratio,
                               check.source, std::abs(value - check.value) <= check.tolerance});
   }
+  if (const auto& energy = simulation.energy().worst(); energy.is_poor())
+    results.checks.push_back({"energy error", energy.error, 0, 0.01 * energy.exchanged, "J",
+                              post::Ratio::plain, "every run: 1 % of the energy that was exchanged", false});
   return results;
 }
 
@@ -264,6 +268,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                       {"passed", check.passed},
                       {"source", check.source}});
   summary["checks"] = checks;
+  if (results.time_error > 0) summary["time_error"] = results.time_error;
   json events = json::array();
   for (const auto& record : journal.records)
     for (const auto& event : record.events)

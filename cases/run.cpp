@@ -154,6 +154,9 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   if (one.skipped_checks > 0)
     log.info("  {} check{} left out: --set changed the device that they are for", one.skipped_checks,
              one.skipped_checks == 1 ? "" : "s");
+  if (results.time_error > 0)
+    log.info("time steps: their errors of internal variables and motion add up to {:.1e}, relative",
+             results.time_error);
   const fem::Timings& t = simulation.timings();
   log.info("{} Newton iterations; CPU {:.2f} s: residual {:.2f}, tangent {:.2f}, factor {:.2f}, solve {:.2f}",
            t.iterations, static_cast<double>(std::clock()) / CLOCKS_PER_SEC, t.residual, t.tangent, t.factor,

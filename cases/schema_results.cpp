@@ -67,10 +67,14 @@ Section quantity_section() {
             {"branches", "stored by the springs of the branches"},
             {"electric", "stored by the field"},
             {"kinetic", "of everything that has a mass"},
-            {"dissipated", "turned into heat by dashpots and dampers"},
+            {"dissipated", "turned into heat by dashpots, dampers and resistive electrodes"},
+            {"source_work", "given by the sources: electrical_work, resistance_heat and leak_heat"},
+            {"resistance_heat", "turned into heat by the resistances and limits of current of circuits"},
+            {"leak_heat", "turned into heat by the current that leaks through the film"},
             {"released", "set free when the device is cut free or jumps to another state"},
             {"wrinkle_regularisation", "part of `elastic` that only keeps wrinkled film from being singular"},
-            {"error", "work - change of stored - dissipated - released: 0 if all were resolved"}},
+            {"error",
+             "estimate of the error of works and heat; beyond 1 % of them the run ends with exit code 5"}},
            to(&Quantity::of), "the part")
           .only({"energy"}),
       word("extreme", {{"minimum", "smallest value"}, {"maximum", "largest value"}}, to(&Quantity::extreme),
@@ -157,7 +161,8 @@ Section solver_section() {
           .at_most(1)
           .otherwise("1e-3"),
       number("time_tolerance", to(&SolverOptions::time_tolerance),
-             "relative error of the branches that a time step may add")
+             "relative error of dashpots, charges and motion that one time step may add; run.log and "
+             "summary.json tell the sum over the steps")
           .at_least(1e-12)
           .at_most(0.1)
           .otherwise("1e-6")

@@ -16,6 +16,14 @@ constexpr double balanced = 1e-9;
 
 const std::string drawn = "drawn"; ///< name of the state before the first step
 
+post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step& step) {
+  return {"unresolved energy", "",
+          fmt::format("works and heat are known to {} only, of {} that were exchanged: give the step \"{}\" "
+                      "more increments{}",
+                      post::engineering(energy.error, "J"), post::engineering(energy.exchanged, "J"),
+                      step.name, step.duration ? " or [solver] a smaller time_tolerance" : "")};
+}
+
 } // namespace
 
 Simulation::Simulation(const Case& one, int threads)
@@ -49,7 +57,7 @@ Eigen::VectorXd Simulation::frame_force() {
 }
 
 SimulationProgress Simulation::progress() const {
-  return {step_, records_, in_step_, energy_.record(), measurement_.references, watch_.active};
+  return {step_, records_, in_step_, energy_.record(), measurement_.references, watch_.active, time_error_};
 }
 
 void Simulation::resume(const SimulationProgress& progress) {
@@ -57,14 +65,18 @@ void Simulation::resume(const SimulationProgress& progress) {
   records_ = progress.records;
   in_step_ = progress.in_step;
   energy_ = fem::EnergyBalance(progress.energy);
+  accounted_ = state();
   measurement_.references = progress.references;
   watch_.active = progress.active_events;
+  time_error_ = progress.time_error;
 }
 
 void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {
   if (increment.turns) energy_.corner();
-  const double parameter = energy_.empty() ? 0 : energy_.record().window.back().parameter + increment.length;
-  fem::EnergyPoint point = fem::energy_point(equilibrium_, state, parameter);
+  fem::EnergyPoint point = fem::energy_point(equilibrium_, state, increment.length);
+  if (!energy_.empty()) point.flow = fem::flow_heat(equilibrium_, accounted_, state);
+  accounted_ = state;
+  time_error_ += increment.time_error;
   if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release)
     energy_.add_cut_free(std::move(point));
   else if (reached == Reached::by_jump)
@@ -100,6 +112,8 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   account(state, increment, reached);
   if (increment.lands) return record(observer, step, state, increment, reached);
   unrecorded_ = increment;
+  if (measurement_.has_peaks())
+    measurement_.pass({device_, equilibrium_, state, energy_, measurement_.has_peaks_of_fields()});
   return !observer.on_pass || observer.on_pass();
 }
 
@@ -121,7 +135,8 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
   if (reached == Reached::by_jump)
     events.push_back({"jump", "",
                       fmt::format("jumped to another stable state; {} were released",
-                                  post::engineering(measured.work.released, "J"))});
+                                  post::engineering(energy_.work().released, "J"))});
+  if (energy_.turns_poor()) events.push_back(poor_energy(energy_.worst(), step));
   for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes))
     events.push_back(std::move(event));
   const post::StepRecord record{

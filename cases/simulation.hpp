@@ -18,6 +18,7 @@ struct SimulationProgress {
   fem::EnergyBalance::Record energy;
   std::map<std::string, double> references;
   std::set<std::string> active_events;
+  double time_error = 0; ///< sum over the time steps
 };
 
 /// An accepted state.
@@ -66,6 +67,10 @@ class Simulation {
   const std::vector<Step>& steps() const { return steps_; }
   /// Values of the quantities, each at the end of the step that it is read at; NaN where that did not happen.
   const std::vector<double>& results() const { return results_; }
+  /// Works, heat and how well they are resolved.
+  const fem::EnergyBalance& energy() const { return energy_; }
+  /// Sum of the errors that the time steps may have added to internal variables and motion, relative.
+  double time_error() const { return time_error_; }
   void set_results(std::vector<double> results) { results_ = std::move(results); }
 
  private:
@@ -92,6 +97,8 @@ class Simulation {
   std::vector<post::Event> news_; ///< for the next record
   fem::EnergyBalance energy_;
   std::optional<fem::Increment> unrecorded_; ///< that led to the last accepted state
+  double time_error_ = 0;
+  fem::State accounted_; ///< the last state in energy_
 };
 
 } // namespace dielast::cases

@@ -2,19 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace dielast::cases {
 
 namespace {
 
-/// Breaks of several waves that are closer, in load factors, are one.
-constexpr double same_break = 1e-9;
+/// Kinks closer than this part of the step are one break.
+constexpr double same_break = 2e-9;
 
 /// Where ramps lead: a wave that jumps at t = 0 jumps in the transient that follows it.
 constexpr StepLoads::Instant just_before_start{0, true};
 
-/// Shortest relaxation time of the film's branches and of its circuits, s; infinite without.
+/// Shortest relaxation time of the film's branches, of its circuits and of its sheets, s; infinite without.
 double shortest_relaxation(const materials::Material& material, const fem::Model& model) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const materials::Branch& branch : material.branches)
@@ -23,6 +24,9 @@ double shortest_relaxation(const materials::Material& material, const fem::Model
   for (const fem::Circuit& circuit : model.circuits)
     shortest = std::min(shortest,
                         circuit.resistance * drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
+  for (const fem::Sheet& sheet : model.sheets)
+    shortest =
+        std::min(shortest, sheet.resistance * drawn.capacitance[static_cast<std::size_t>(sheet.electrode)]);
   return shortest;
 }
 
@@ -135,10 +139,11 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   return loads;
 }
 
-std::vector<double> StepLoads::kinks(const Step& step) const {
-  std::vector<double> all;
+std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
+  std::vector<double> all{0.0, *step.duration};
   const auto add = [&](const Waveform& wave) {
-    for (const double t : wave.kinks(0, *step.duration)) all.push_back(t / *step.duration);
+    const std::vector<double> kinks = wave.kinks(0, *step.duration);
+    all.insert(all.end(), kinks.begin(), kinks.end());
   };
   for (const auto& [name, source] : case_.drives)
     for (const auto& wave : {source.voltage, source.charge})
@@ -151,23 +156,38 @@ std::vector<double> StepLoads::kinks(const Step& step) const {
   if (case_.chamber)
     for (const auto& wave : {case_.chamber->pressure, case_.chamber->volume})
       if (wave) add(*wave);
-  std::sort(all.begin(), all.end());
-  const auto same = [](double a, double b) { return b - a <= same_break; };
-  all.erase(std::unique(all.begin(), all.end(), same), all.end());
-  return all;
+  std::ranges::sort(all);
+  std::vector<Break> breaks;
+  for (const double t : all)
+    if (breaks.empty() || t - breaks.back().first > same_break * *step.duration)
+      breaks.push_back({t, t});
+    else
+      breaks.back().last = t;
+  return breaks;
 }
 
 fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   if (step.kind != StepKind::transient)
     return fem::linear_path(device_.model.dofs, start, at(number, start, just_before_start));
-  const auto apply = [this, number, start, duration = *step.duration](bool before) {
-    return [=, this](fem::State& state, double s) {
-      at(number, start, {s * duration, before}).apply(state, device_.model.dofs);
-    };
+  fem::LoadPath path;
+  const double duration = *step.duration;
+  const std::vector<Break> all = breaks(step);
+  const auto apply = [this, number, start](fem::State& state, Instant instant) {
+    at(number, start, instant).apply(state, device_.model.dofs);
   };
-  fem::LoadPath path{.apply = apply(false), .apply_before = apply(true)};
-  path.breaks = kinks(step);
+  // Beside a break waves are taken on the side of t, whatever they take for the same time.
+  const auto instant = [all, duration](double s, bool before) {
+    const double t = s * duration, tolerance = same_break / 2 * duration;
+    const auto next = std::ranges::lower_bound(all, t - tolerance, {}, &Break::first);
+    if (next == all.end()) return Instant{t, before};
+    if (next->first <= t + tolerance) return Instant{before ? next->first : next->last, before};
+    return Instant{t, next != all.begin() && next->first - t < t - std::prev(next)->last};
+  };
+  path.apply = [apply, instant](fem::State& state, double s) { apply(state, instant(s, false)); };
+  path.apply_before = [apply, instant](fem::State& state, double s) { apply(state, instant(s, true)); };
+  for (const Break& b : all)
+    if (b.first > 0 && b.last < duration) path.breaks.push_back(b.first / duration);
   return path;
 }
 

@@ -36,7 +36,12 @@ class StepLoads {
   Eigen::VectorXd dead_force(int step, Instant t) const;
   void move(Eigen::VectorXd& held, Instant t) const;
   fem::Loads at(int step, const fem::Loads& start, Instant t) const;
-  std::vector<double> kinks(const Step& step) const;
+  /// Kinks of waves that are as good as one, s.
+  struct Break {
+    double first = 0, last = 0;
+  };
+  /// All of them in a step that takes time, in order; the first begins with it, the last ends with it.
+  std::vector<Break> breaks(const Step& step) const;
 
   const Case& case_;
   const Device& device_;

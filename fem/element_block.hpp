@@ -62,7 +62,7 @@ struct EnergyParts {
   double electric = 0;    ///< of the field: sum of Q Phi / 2, J
   double kinetic = 0;     ///< of everything that has a mass, J
   double regularised = 0; ///< part of `elastic` that only keeps wrinkled film from being singular, J
-  double dissipation = 0; ///< power that dashpots and dampers turn into heat, W
+  double dissipation = 0; ///< power that dashpots turn into heat by their flow rules, W
 };
 
 /// A factor for each rate of relaxation, 1/s.

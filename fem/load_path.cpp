@@ -15,6 +15,16 @@ Loads Loads::of(const State& state, const DofMap& dofs) {
   return loads;
 }
 
+Eigen::VectorXd Loads::values() const {
+  Eigen::VectorXd all(std::ssize(voltage) + std::ssize(charge) + std::ssize(source) + dead_force.size() +
+                      held.size());
+  const auto of = [](const std::vector<double>& part) {
+    return Eigen::Map<const Eigen::VectorXd>(part.data(), std::ssize(part));
+  };
+  all << of(voltage), of(charge), of(source), dead_force, held;
+  return all;
+}
+
 void Loads::apply(State& state, const DofMap& dofs) const {
   for (std::size_t e = 0; e < voltage.size(); ++e) switch (state.supply[e]) {
     case Supply::voltage:
@@ -36,6 +46,9 @@ void Loads::apply(State& state, const DofMap& dofs) const {
 
 namespace {
 
+constexpr double left_side = 1e-13; ///< before a break, in load factors
+constexpr double beside = 1e-9; ///< a break, in load factors: loads that only turn change little until there
+
 std::vector<double> mix(const std::vector<double>& from, const std::vector<double>& to, double s) {
   std::vector<double> between(from.size());
   for (std::size_t i = 0; i < from.size(); ++i) between[i] = (1 - s) * from[i] + s * to[i];
@@ -56,6 +69,30 @@ std::optional<std::size_t> leading_electrode(const Loads& from, const Loads& to)
 }
 
 } // namespace
+
+void LoadPath::before(State& state, double s) const {
+  if (apply_before)
+    apply_before(state, s);
+  else
+    apply(state, s - left_side);
+}
+
+bool LoadPath::jumps(const DofMap& dofs, const State& state, double s) const {
+  const auto behind = [&](double place) {
+    State there = state;
+    apply(there, place);
+    return Loads::of(there, dofs).values();
+  };
+  const auto ahead = [&](double place) {
+    State there = state;
+    before(there, place);
+    return Loads::of(there, dofs).values();
+  };
+  const Eigen::VectorXd left = ahead(s), right = behind(s);
+  const Eigen::VectorXd turn =
+      (left - ahead(s - beside)).cwiseAbs() + (behind(s + beside) - right).cwiseAbs();
+  return ((right - left).cwiseAbs().array() > turn.array()).any();
+}
 
 LoadPath linear_path(const DofMap& dofs, Loads from, Loads to) {
   LoadPath path;

@@ -18,29 +18,26 @@ struct Loads {
 
   static Loads of(const State& state, const DofMap& dofs);
   bool operator==(const Loads&) const = default;
+  /// All of them in one vector.
+  Eigen::VectorXd values() const;
   void apply(State& state, const DofMap& dofs) const;
 };
 
 /// The loads of one step as functions of its load factor s in 0..1.
 struct LoadPath {
-  /// Sets everything that is prescribed at s; where it jumps, that after the jump.
+  /// Sets everything that is prescribed at s, at a break what holds behind it.
   std::function<void(State&, double s)> apply;
-  /// Sets what is prescribed just before s. Left out: what `apply` says a little earlier.
-  std::function<void(State&, double s)> apply_before{};
+  /// Sets what holds before a break at s; without it, what `apply` sets just before s.
+  std::function<void(State&, double s)> apply_before;
   /// Monotonic in s: the parameter in which states are extrapolated.
   std::function<double(double s)> parameter = [](double s) { return s; };
-  /// Load factors at which a load jumps or turns.
+  /// Load factors at which a load jumps or turns, 1e-9 or more apart.
   std::vector<double> breaks;
 
-  void apply_at(State& state, double s, bool before) const {
-    constexpr double earlier = 1e-13;
-    if (!before)
-      apply(state, s);
-    else if (apply_before)
-      apply_before(state, s);
-    else
-      apply(state, s - earlier);
-  }
+  /// Sets the loads that lead to s from below.
+  void before(State& state, double s) const;
+  /// Whether a load jumps at s, rather than turns.
+  bool jumps(const DofMap& dofs, const State& state, double s) const;
 };
 
 /// Loads that grow linearly with s. The parameter is the largest Phi^2, in which the film's energy is linear,

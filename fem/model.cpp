@@ -196,15 +196,11 @@ EnergyParts Model::energies(const State& state) const {
       const SheetPoint& point = sheet_points[static_cast<std::size_t>(a)];
       const double voltage = state.voltage[static_cast<std::size_t>(point.electrode)] - drop[a];
       parts.electric -= matrices.capacitance[a] * voltage * drop[a] / 2;
-      parts.dissipation -= point.leakage * voltage * drop[a]; // sources are not charged for what leaks
     }
-    for (const auto& entry : matrices.conductance)
-      parts.dissipation += drop[entry.row()] * entry.value() * drop[entry.col()];
   }
   if (state.motion) {
     const Eigen::VectorXd& velocity = state.motion->velocity;
     parts.kinetic = velocity.dot(inertia.mass * velocity) / 2;
-    parts.dissipation += velocity.dot(inertia.damping * velocity);
   }
   return parts;
 }

@@ -21,6 +21,13 @@ constexpr double first_moment = 1e-3;      ///< of an increment in time: its sta
 constexpr double tiny = 1e-300;
 constexpr double typical_motion = 1e-2; ///< of the extent, to which errors of the motion are compared
 
+/// Whether internal variables have changed by more than rounding.
+bool differs(const std::vector<double>& one, const std::vector<double>& other) {
+  return !std::ranges::equal(one, other, [](double a, double b) {
+    return std::abs(a - b) <= round_off * std::max(1.0, std::abs(b));
+  });
+}
+
 /// One step under load control.
 class Ramp {
  public:
@@ -64,19 +71,20 @@ class Ramp {
   int unstable_before_ = -1;       ///< unstable modes before the increment that is being accepted
   bool jumped_ = false;            ///< at the last break
   double last_part_ = 0;           ///< of that jump
+  double time_error_ = 0;          ///< of the last time step
 };
 
 double Ramp::next_break() const {
-  for (const double at : path_.breaks)
-    if (at > progress_.load_factor + round_off) return std::min(at, 1.0);
-  return 1;
+  const auto next = std::ranges::upper_bound(path_.breaks, progress_.load_factor + round_off);
+  return next == path_.breaks.end() ? 1.0 : std::min(*next, 1.0);
 }
 
 /// Steps end where results are wanted and at breaks; equal parts lead there, so that no sliver is left.
 double Ramp::next_load_factor() const {
   const double s = progress_.load_factor;
-  const double landing = (std::floor(s / landing_ + round_off) + 1) * landing_;
-  const double goal = std::min(landing > 1 - round_off ? 1.0 : landing, next_break());
+  const double landing = (std::floor((s + round_off) / landing_) + 1) * landing_;
+  const double stop = next_break();
+  const double goal = landing > stop - round_off ? stop : landing;
   const double parts = std::ceil((goal - s) / progress_.increment - round_off);
   return parts <= 1 ? goal : s + (goal - s) / parts;
 }
@@ -90,7 +98,10 @@ materials::TimeScheme Ramp::scheme(double dt) const {
 
 State Ramp::solve(State state, double s) {
   const bool ends_at_break = std::abs(s - next_break()) < round_off && s < 1;
-  path_.apply_at(state, s, ends_at_break || (timed() && s >= 1));
+  if (ends_at_break || (timed() && s >= 1))
+    path_.before(state, s);
+  else
+    path_.apply(state, s);
   const double dt = (s - progress_.load_factor) * options_.duration;
   state.history = last().history;
   state.time = last().time + dt;
@@ -114,7 +125,10 @@ LoadPath Ramp::within(double s) const {
   LoadPath path;
   path.apply = [this, s](State& state, double part) {
     const double s0 = progress_.load_factor;
-    path_.apply_at(state, s0 + part * (s - s0), timed() && part >= 1);
+    if (timed() && part >= 1)
+      path_.before(state, s);
+    else
+      path_.apply(state, s0 + part * (s - s0));
     state.scheme = scheme(part * (s - s0) * options_.duration);
   };
   return path;
@@ -226,14 +240,16 @@ bool Ramp::pass_break() {
     state.motion = std::make_shared<const Motion>(std::move(motion));
   }
   if (options_.first_time_step > 0)
-    progress_.increment = std::min(largest_, options_.first_time_step / options_.duration);
+    progress_.increment =
+        std::clamp(options_.first_time_step / options_.duration, std::min(smallest_, largest_), largest_);
   const Loads before = Loads::of(state, dofs);
   State goal = state;
   path_.apply(goal, progress_.load_factor);
   const Loads after = Loads::of(goal, dofs);
   state.scheme = materials::TimeScheme::frozen();
   const double at = parameter(progress_.load_factor);
-  jumped_ = jumps(before, after);
+  jumped_ =
+      jumps(before, after) && (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
   progress_.points = {{at, state}};
   if (!jumped_) return true;
   const LoadPath jump = linear_path(dofs, before, after);
@@ -259,13 +275,22 @@ bool Ramp::pass_break() {
 /// taken away in parts. False where that leads to no equilibrium.
 bool Ramp::flow() {
   State state = last();
-  if (timed() || options_.instantaneous || !state.history) return true;
+  if (timed() || options_.instantaneous || !state.history || state.scheme.is_relaxed()) return true;
   state.scheme = scheme(0);
   Balance relaxed;
   equilibrium_.balance(state, relaxed);
   const Eigen::Index free = equilibrium_.model().dofs.free_count();
-  if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off()))
+  if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
+    equilibrium_.conduct(state);
+    State flown = equilibrium_.model().settled(std::move(state));
+    if (!differs(flown.history->now, last().history->now)) return true;
+    progress_.points = {{parameter(progress_.load_factor), std::move(flown)}}; // the shape is held
+    newton_ = {};
+    newton_.unstable_modes = std::max(0, progress_.unstable_modes);
+    notify(false, 1);
+    progress_.turns = true;
     return true;
+  }
   Eigen::VectorXd lost = Eigen::VectorXd::Zero(relaxed.force.size());
   lost.head(free) = relaxed.force.head(free);
   LoadPath path;
@@ -311,7 +336,7 @@ double Ramp::motion_error(const GeneralisedAlpha& scheme, const Motion& past, co
 
 bool Ramp::accept(State state, double s) {
   progress_.at_break = timed() && s < 1 && std::abs(s - next_break()) < round_off;
-  const bool lands = !timed() || std::abs(s / landing_ - std::round(s / landing_)) < round_off || s >= 1;
+  const bool lands = !timed() || std::abs(s - std::round(s / landing_) * landing_) < round_off || s >= 1;
   const double length = s - progress_.load_factor;
   progress_.load_factor = s;
   unstable_before_ = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
@@ -329,7 +354,8 @@ bool Ramp::notify(bool lands, double length, bool jumped) {
                             length,
                             progress_.turns,
                             jumped,
-                            std::exchange(unstable_before_, -1)};
+                            std::exchange(unstable_before_, -1),
+                            std::exchange(time_error_, 0.0)};
   progress_.turns = false;
   return !observer_.on_accept || observer_.on_accept(progress_, increment);
 }
@@ -374,6 +400,8 @@ RampResult Ramp::run() {
       const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, tiny));
       progress_.increment = std::min(largest_, tried * std::clamp(growth, 0.2, most_growth));
       if (error > options_.time_tolerance && tried > smallest_) continue;
+      const bool flows = trial.history && trial.history->now != arrived.history->now;
+      time_error_ = error == 0 && flows ? options_.time_tolerance : error;
     }
     if (!accept(std::move(arrived), s)) return {RampEnd::stopped};
   }

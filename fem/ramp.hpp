@@ -30,6 +30,8 @@ struct Increment {
   bool turns = false;  ///< the path had a corner at the last accepted state
   bool jumped = false; ///< the loads have jumped here, at once: the state before is of the same time
   int unstable_before = -1; ///< unstable modes of the last accepted state; -1: unknown
+  double time_error = 0; ///< that the time step may have added, relative; of the first ones after a break the
+                         ///< tolerance
 };
 
 /// Where a ramp stands between two increments. A value: stored with the state it lets a run go on bit for

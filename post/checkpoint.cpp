@@ -1,5 +1,6 @@
 #include "post/checkpoint.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -118,27 +119,40 @@ fem::PathSlope restore_slope(const json& archived, std::size_t free) {
   return {optional_vector(archived.at("displacement"), free), archived.at("potential"), archived.at("power")};
 }
 
+json archive(const fem::Conjugates& pair) { return {pack(pair.force), pack(pair.coordinate)}; }
+
+fem::Conjugates restore_conjugates(const json& archived, std::size_t size) {
+  return {vector(archived.at(0), size), vector(archived.at(1), size)};
+}
+
 json archive(const fem::EnergyPoint& point) {
   const fem::EnergyParts& e = point.energy;
-  return {{"place", post::pack(std::array{point.parameter, point.time})},
-          {"force", pack(point.force)},
-          {"position", pack(point.position)},
-          {"voltage", post::pack(point.voltage)},
-          {"charge", post::pack(point.charge)},
+  return {{"place", post::pack(std::array{point.length, point.time})},
+          {"moves", point.moves},
+          {"mechanical", archive(point.mechanical)},
+          {"electrical", archive(point.electrical)},
+          {"resistance", archive(point.resistance)},
+          {"sheet", archive(point.sheet)},
+          {"power", post::pack(point.power)},
           {"energy", post::pack(std::array{e.elastic, e.branches, e.electric, e.kinetic, e.regularised,
                                            e.dissipation})}};
 }
 
 fem::EnergyPoint restore_point(const json& archived, const StateSizes& sizes) {
+  fem::EnergyPoint point;
   const std::vector<double> place = unpack(archived.at("place"), 2),
+                            power = unpack(archived.at("power"), point.power.size()),
                             energy = unpack(archived.at("energy"), 6);
-  return {place[0],
-          place[1],
-          vector(archived.at("force"), sizes.equations + sizes.chambers),
-          vector(archived.at("position"), sizes.equations + sizes.chambers),
-          unpack(archived.at("voltage"), sizes.electrodes),
-          unpack(archived.at("charge"), sizes.electrodes),
-          {energy[0], energy[1], energy[2], energy[3], energy[4], energy[5]}};
+  point.length = place[0];
+  point.time = place[1];
+  point.moves = archived.at("moves");
+  point.mechanical = restore_conjugates(archived.at("mechanical"), sizes.equations + sizes.chambers);
+  point.electrical = restore_conjugates(archived.at("electrical"), sizes.electrodes);
+  point.resistance = restore_conjugates(archived.at("resistance"), sizes.electrodes);
+  point.sheet = restore_conjugates(archived.at("sheet"), sizes.sheet_points);
+  std::ranges::copy(power, point.power.begin());
+  point.energy = {energy[0], energy[1], energy[2], energy[3], energy[4], energy[5]};
+  return point;
 }
 
 } // namespace
@@ -248,23 +262,28 @@ fem::ContinuationProgress restore_continuation(const json& archived, const State
 }
 
 json archive(const fem::EnergyBalance::Record& record) {
-  const fem::Work& w = record.settled;
-  json window = json::array();
-  for (const fem::EnergyPoint& point : record.window) window.push_back(archive(point));
-  return {{"settled", post::pack(std::array{w.electrical, w.mechanical, w.dissipated, w.released})},
-          {"stored_at_start", record.stored_at_start},
-          {"first_settled", record.first_settled},
-          {"window", std::move(window)}};
+  const fem::Work& w = record.work;
+  json points = json::array();
+  for (const fem::EnergyPoint& point : record.points) points.push_back(archive(point));
+  return {{"work", post::pack(std::array{w.electrical, w.mechanical, w.dissipated, w.released, w.resistance,
+                                         w.leak})},
+          {"account", post::pack(std::array{record.stored_at_start, record.exchanged, record.doubt,
+                                            record.rest, record.worst.error, record.worst.exchanged})},
+          {"points", std::move(points)}};
 }
 
 fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes& sizes) {
   try {
-    const std::vector<double> settled = unpack(archived.at("settled"), 4);
-    fem::EnergyBalance::Record record{{settled[0], settled[1], settled[2], settled[3]},
-                                      archived.at("stored_at_start"),
-                                      archived.at("first_settled"),
+    const std::vector<double> w = unpack(archived.at("work"), 6), account = unpack(archived.at("account"), 6);
+    fem::EnergyBalance::Record record{{w[0], w[1], w[2], w[3], w[4], w[5]},
+                                      account[0],
+                                      account[1],
+                                      account[2],
+                                      account[3],
+                                      {account[4], account[5]},
                                       {}};
-    for (const json& point : archived.at("window")) record.window.push_back(restore_point(point, sizes));
+    for (const json& point : archived.at("points")) record.points.push_back(restore_point(point, sizes));
+    if (record.points.empty() || record.points.size() > 2) mismatch();
     return record;
   } catch (const json::exception&) {
     mismatch();

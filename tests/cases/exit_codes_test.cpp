@@ -137,6 +137,26 @@ TEST_F(ExitCodes, FourBeyondTheLimitPointAndEveryAcceptedStateIsKept) {
   EXPECT_TRUE(summary["quantities"]["eps_y"]["value"].is_number());
 }
 
+TEST_F(ExitCodes, FiveForWorksThatTheIncrementsDoNotResolve) {
+  write("creep.toml",
+        "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\npermittivity = \"4e-11 "
+        "F/m\"\n"
+        "[[film.material.branch]]\nshear_modulus = \"60 kPa\"\nrelaxation_time = \"0.1 s\"\n"
+        "[patch]\nmode = \"pure-shear\"\n"
+        "stress_x = { wave = \"unipolar sine\", amplitude = \"20 kPa\", frequency = \"1 Hz\" }\n"
+        "[[step]]\nkind = \"transient\"\nduration = \"3 s\"\nincrements = 12\n"
+        "[solver]\ntime_tolerance = 0.1\n");
+  const Ended ended = dielast({"run", "creep.toml", "-o", "coarse"});
+  EXPECT_EQ(ended.exit_code, 5) << ended.err;
+  EXPECT_NE(ended.out.find("unresolved energy"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("more increments or [solver] a smaller time_tolerance"), std::string::npos);
+  const nlohmann::json checks = json_of("coarse/summary.json")["checks"];
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks[0]["quantity"], "energy error");
+  EXPECT_EQ(checks[0]["passed"], false);
+  EXPECT_EQ(dielast({"run", "creep.toml", "-o", "fine", "--set", "solver.time_tolerance=1e-6"}).exit_code, 0);
+}
+
 TEST_F(ExitCodes, FiveForAFailedCheck) {
   const std::string check =
       "[[check]]\nquantity = \"eps_y\"\nvalue = 5\ntolerance = \"1 %\"\nsource = \"nobody\"\n";

@@ -2,6 +2,7 @@
 #include "fem/ramp.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"
+#include "tests/fem/timed_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,11 +48,11 @@ class CreepingFilm : public testing::Test {
     balance = EnergyBalance();
     balance.add(energy_point(equilibrium, model->initial_state(), 0));
     RampObserver observer;
+    State last = model->initial_state();
     observer.on_accept = [&](const RampProgress& at, const Increment& increment) {
       const State& state = at.points.back().state;
-      if (increment.turns) balance.corner();
-      balance.add(
-          energy_point(equilibrium, state, balance.record().window.back().parameter + increment.length));
+      test::account(balance, equilibrium, last, state, increment);
+      last = state;
       if (stretches) (*stretches)[state.time] = stretch(state);
       ++accepted;
       return true;

@@ -15,6 +15,15 @@ struct TimedRun {
   const State& end() const { return states.back(); }
 };
 
+/// Takes the next accepted state into the account.
+inline void account(EnergyBalance& balance, Equilibrium& equilibrium, const State& from, const State& to,
+                    const Increment& increment) {
+  if (increment.turns) balance.corner();
+  EnergyPoint point = energy_point(equilibrium, to, increment.length);
+  point.flow = flow_heat(equilibrium, from, to);
+  balance.add(std::move(point));
+}
+
 inline TimedRun run_in_time(Equilibrium& equilibrium, const State& start, const LoadPath& path,
                             const RampOptions& options) {
   TimedRun run{{start}, {}};
@@ -23,9 +32,7 @@ inline TimedRun run_in_time(Equilibrium& equilibrium, const State& start, const 
   RampObserver observer;
   observer.on_accept = [&](const RampProgress& at, const Increment& increment) {
     const State& state = at.points.back().state;
-    if (increment.turns) run.balance.corner();
-    run.balance.add(
-        energy_point(equilibrium, state, run.balance.record().window.back().parameter + increment.length));
+    account(run.balance, equilibrium, run.states.back(), state, increment);
     if (run.states.back().time == state.time) run.states.pop_back();
     run.states.push_back(state);
     return true;

@@ -56,6 +56,21 @@ fem::RampProgress sample_progress(int points = 3) {
   return progress;
 }
 
+fem::EnergyPoint sample_energy_point() {
+  const auto pair = [](std::size_t size) {
+    const auto n = static_cast<Eigen::Index>(size);
+    return fem::Conjugates{Eigen::VectorXd::LinSpaced(n, 1.0 / 3, 2), Eigen::VectorXd::Random(n)};
+  };
+  return {.length = 0.1,
+          .time = 0.2,
+          .moves = true,
+          .mechanical = pair(equations + sizes.chambers),
+          .electrical = pair(sizes.electrodes),
+          .resistance = pair(sizes.electrodes),
+          .sheet = pair(sizes.sheet_points),
+          .power = {1.0 / 3, 2, 3, 4, 5}};
+}
+
 void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
   EXPECT_EQ(one.start.voltage, other.start.voltage);
   EXPECT_EQ(one.start.dead_force, other.start.dead_force);
@@ -159,18 +174,43 @@ TEST(Checkpoint, VectorsOfAnotherLengthAreRefused) {
   EXPECT_THROW(restore_ramp(other, sizes), CheckpointError);
 }
 
-TEST(Checkpoint, EnergyWindowsOfAnotherLengthAreRefused) {
-  fem::EnergyPoint point{.force = Eigen::VectorXd::Ones(equations),
-                         .position = Eigen::VectorXd::Ones(equations),
-                         .voltage = {1, 2},
-                         .charge = {3, 4}};
-  const json archived = archive(fem::EnergyBalance::Record{.window = {point}});
+TEST(Checkpoint, EnergiesAreKeptToTheLastBit) {
+  const fem::EnergyPoint point = sample_energy_point();
+  const fem::EnergyBalance::Record record{.work = {1.0 / 3, 2, 3, 4, 5, -1.0 / 7},
+                                          .stored_at_start = 0.1,
+                                          .exchanged = 0.2,
+                                          .doubt = 0.3,
+                                          .rest = -0.4,
+                                          .worst = {0.5, 0.6},
+                                          .points = {point, point}};
+  const json archived = archive(record);
+  const fem::EnergyBalance::Record restored = restore_energy(archived, sizes);
+  EXPECT_EQ(archive(restored), archived);
+  EXPECT_EQ(restored.work.leak, record.work.leak);
+  EXPECT_EQ(restored.rest, record.rest);
+  EXPECT_EQ(restored.worst.exchanged, 0.6);
+  ASSERT_EQ(restored.points.size(), 2u);
+  EXPECT_EQ(restored.points[1].power, point.power);
+  EXPECT_EQ(restored.points[1].sheet.coordinate, point.sheet.coordinate);
+}
+
+TEST(Checkpoint, EnergiesOfAnotherLengthAreRefused) {
+  const json archived = archive(fem::EnergyBalance::Record{.points = {sample_energy_point()}});
   EXPECT_NO_THROW(restore_energy(archived, sizes));
-  for (const char* part : {"force", "position", "voltage", "charge", "energy", "place"}) {
+  for (const char* part : {"energy", "place", "power"}) {
     json other = archived;
-    other["window"][0][part] = pack(std::array{1.0});
+    other["points"][0][part] = pack(std::array{1.0});
     EXPECT_THROW(restore_energy(other, sizes), CheckpointError) << part;
   }
+  for (const char* part : {"mechanical", "electrical", "resistance", "sheet"})
+    for (const int of : {0, 1}) {
+      json other = archived;
+      other["points"][0][part][of] = pack(std::array{1.0});
+      EXPECT_THROW(restore_energy(other, sizes), CheckpointError) << part;
+    }
+  json none = archived;
+  none["points"] = json::array();
+  EXPECT_THROW(restore_energy(none, sizes), CheckpointError);
 }
 
 TEST(Checkpoint, DamageIsRefused) {

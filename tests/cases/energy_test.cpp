@@ -1,0 +1,184 @@
+#include "cases/reader.hpp"
+#include "cases/simulation.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+// Works, heat and peaks of runs in which they once were wrong in silence. Works and heat of random transients
+// are in works_test.cpp.
+
+namespace dielast::cases {
+namespace {
+
+constexpr double volume = 1e-7; ///< of the patch, m^3
+
+class Energy : public test::ScratchTest {
+ protected:
+  using Row = std::map<std::string, double>;
+
+  /// Time and quantities of every recorded state.
+  std::vector<Row> run(const std::string& text) {
+    write("case.toml", "[output]\nfields = false\nerror_estimate = false\n" + text);
+    const Case one = read_case(directory / "case.toml");
+    std::vector<Row> rows;
+    Simulation simulation(one, 1);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      Row& row = rows.emplace_back();
+      row["time"] = frame.record.time;
+      for (std::size_t q = 0; q < one.quantities.size(); ++q) row[one.quantities[q].name] = frame.values[q];
+      return true;
+    };
+    const Outcome outcome = simulation.run(observer);
+    EXPECT_EQ(outcome.ending, Ending::complete) << outcome.message;
+    EXPECT_FALSE(simulation.energy().worst().is_poor());
+    return rows;
+  }
+  static std::string film(double modulus, const std::string& rest = "") {
+    return fmt::format("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = {}\npermittivity = "
+                       "\"4e-11 F/m\"\n{}",
+                       modulus, rest);
+  }
+  static std::string branch(double modulus, double time) {
+    return fmt::format("[[film.material.branch]]\nshear_modulus = {}\nrelaxation_time = {}\n", modulus, time);
+  }
+};
+
+// The film is held at 1.5 x 1: all that its branch stores at once becomes heat; charges follow the voltage.
+TEST_F(Energy, square_wave_beside_a_dashpot) {
+  const auto rows =
+      run(film(50e3, branch(50e3, 1)) +
+          "[patch]\nmode = \"pure-shear\"\nstretch_x = 1.5\n"
+          "[drive]\nvoltage = { wave = \"square\", to = \"2 kV\", frequency = \"0.2846 Hz\", duty = 0.77 }\n"
+          "[[step]]\nkind = \"transient\"\nduration = \"10.832 s\"\nincrements = 50\n");
+  const double strain = (1.5 * 1.5 + 1 / (1.5 * 1.5) - 2) / 2;
+  const Row& end = rows.back();
+  EXPECT_NEAR(end.at("dissipated_energy"), 50e3 * strain * volume, 1e-4 * 50e3 * strain * volume);
+  EXPECT_NEAR(end.at("mechanical_work") + end.at("electrical_work"),
+              100e3 * strain * volume + end.at("charge") * 2e3 / 2, 1e-9);
+  EXPECT_NEAR(end.at("mechanical_work"), 3.47e-3, 0.01e-3);
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    EXPECT_GE(rows[i].at("dissipated_energy"), rows[i - 1].at("dissipated_energy"));
+  // before and behind each of seven jumps
+  EXPECT_EQ(rows.size(), 51u + 7u);
+}
+
+TEST_F(Energy, a_hold_in_which_nothing_moves_does_no_work) {
+  const auto rows =
+      run(film(10e3, branch(20e3, 4)) +
+          "[patch]\nmode = \"pure-shear\"\n[drive]\nvoltage = \"5 kV\"\n[[step]]\nkind = \"voltage\"\n"
+          "increments = 8\n[[step]]\nkind = \"hold\"\nduration = \"2.5 s\"\nincrements = 5\n"
+          "[solver]\ntime_tolerance = 1e-8\n");
+  const double work = rows[8].at("electrical_work");
+  EXPECT_NEAR(work, rows[8].at("stored_energy"), 1e-12 * work);
+  for (std::size_t i = 9; i < rows.size(); ++i) EXPECT_NEAR(rows[i].at("electrical_work"), work, 1e-9 * work);
+}
+
+// Kinks beside the ends of increments, by any distance.
+TEST_F(Energy, tables_beside_the_increments_do_the_work_that_is_stored) {
+  for (const int decimals : {4, 8, 10, 12})
+    for (const int increments : {15, 30, 60, 90}) {
+      std::string table = "time_s,voltage_V\n";
+      for (int row = 0; row <= 31; ++row)
+        table += fmt::format("{:.{}f},{}\n", row / 30.0, decimals, 6e3 * std::sin(row / 25.0));
+      write("table.csv", table);
+      const auto rows = run(
+          film(40e3) +
+          "[patch]\nmode = \"equal-biaxial\"\n"
+          "[drive]\nvoltage = { wave = \"file\", file = \"table.csv\" }\n" +
+          fmt::format("[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = {}\n", increments));
+      EXPECT_EQ(rows.size(), static_cast<std::size_t>(increments) + 1);
+      for (const Row& row : rows)
+        EXPECT_NEAR(row.at("electrical_work"), row.at("stored_energy"),
+                    1e-9 * rows.back().at("stored_energy"));
+    }
+}
+
+TEST_F(Energy, kinks_that_are_ends_of_increments_but_for_rounding_make_no_rows) {
+  constexpr double duration = 4.4879202653859736;
+  std::string table = "time_s,voltage_V\n";
+  for (int row = 0; row <= 120; ++row)
+    table += fmt::format("{:.17g},{}\n", row * duration / 120, 4e3 * std::sin(row / 25.0));
+  write("table.csv", table);
+  const auto rows = run(
+      film(40e3, branch(20e3, 1)) +
+      "[patch]\nmode = \"equal-biaxial\"\n[drive]\nvoltage = { wave = \"file\", file = \"table.csv\" }\n" +
+      fmt::format("[[step]]\nkind = \"transient\"\nduration = {:.17g}\nincrements = 120\n", duration));
+  EXPECT_EQ(rows.size(), 121u);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_GT(rows[i].at("time"), rows[i - 1].at("time"));
+    EXPECT_TRUE(std::isfinite(rows[i].at("electrical_work")));
+  }
+}
+
+// Each work is exact from the potential, however few the increments.
+TEST_F(Energy, static_works_do_not_depend_on_the_increments) {
+  std::vector<Row> ends;
+  for (const int increments : {1, 2, 7, 60})
+    ends.push_back(run(film(40e3) +
+                       "[patch]\nmode = \"biaxial\"\nstretch_y = 1.3\nstress_x = \"30 "
+                       "kPa\"\n[drive]\nvoltage = \"6 kV\"\n" +
+                       fmt::format("[[step]]\nkind = \"move\"\nincrements = {0}\n[[step]]\nkind = \"force\"\n"
+                                   "increments = {0}\n[[step]]\nkind = \"voltage\"\nincrements = {0}\n",
+                                   increments))
+                       .back());
+  for (const Row& end : ends)
+    for (const char* work : {"electrical_work", "mechanical_work"})
+      EXPECT_NEAR(end.at(work), ends.back().at(work), 1e-8 * ends.back().at("stored_energy")) << work;
+}
+
+// Branches that have been frozen flow at once in the relaxed step behind, under the loads as they are.
+TEST_F(Energy, heat_of_a_relaxed_step_behind_an_instantaneous_one) {
+  for (const int increments : {1, 40}) {
+    const auto ramps = [&](const char* kind) {
+      return fmt::format("[[step]]\nkind = \"{}\"\nincrements = {}\nresponse = \"instantaneous\"\n"
+                         "[[step]]\nkind = \"voltage\"\nincrements = {}\n",
+                         kind, increments, increments);
+    };
+    const auto pulled =
+        run(film(50e3, branch(50e3, 1)) +
+            "[patch]\nmode = \"equal-biaxial\"\nstress_x = \"40 kPa\"\n[drive]\nvoltage = \"1 V\"\n" +
+            ramps("force"));
+    // dead loads give all, the spring of the law keeps its part
+    const double pull = 2 * 40e3 * volume;
+    const Row &at_once = pulled[static_cast<std::size_t>(increments)], &end = pulled.back();
+    EXPECT_NEAR(end.at("mechanical_work") - at_once.at("mechanical_work"),
+                pull * (end.at("stretch_x") - at_once.at("stretch_x")), 1e-10);
+    EXPECT_NEAR(end.at("dissipated_energy"), 393.5223e-6, 1e-10);
+    EXPECT_NEAR(end.at("mechanical_work") - end.at("stored_energy"), end.at("dissipated_energy"), 1e-10);
+    EXPECT_LT(end.at("energy_error"), 1e-12);
+
+    const auto held =
+        run(film(50e3, branch(50e3, 1)) +
+            "[patch]\nmode = \"pure-shear\"\nstretch_x = 1.5\n[drive]\nvoltage = \"1 kV\"\n" + ramps("move"));
+    const double strain = (1.5 * 1.5 + 1 / (1.5 * 1.5) - 2) / 2;
+    EXPECT_NEAR(held.back().at("dissipated_energy"), 50e3 * strain * volume, 1e-10);
+    EXPECT_NEAR(held.back().at("mechanical_work"), 100e3 * strain * volume, 1e-10);
+  }
+}
+
+TEST_F(Energy, peaks_do_not_depend_on_what_is_recorded) {
+  std::vector<Row> ends;
+  for (const char* record : {"", "record = \"0.4 s\"\n"})
+    ends.push_back(
+        run(film(40e3) +
+            "[patch]\nmode = \"equal-biaxial\"\n[drive]\nvoltage = { wave = \"trapezoid\", to = \"10 kV\", "
+            "rise = "
+            "\"0.1 s\", hold = \"0.1 s\", fall = \"0.1 s\" }\n[[step]]\nkind = \"transient\"\nduration = \"1 "
+            "s\"\n"
+            "increments = 200\n" +
+            std::string(record) +
+            "[[quantity]]\nname = \"widest\"\nkind = \"peak\"\nof = \"stretch_x\"\nextreme = \"maximum\"\n"
+            "[[quantity]]\nname = \"strongest\"\nkind = \"peak\"\nof = \"max_field\"\nextreme = "
+            "\"maximum\"\n")
+            .back());
+  for (const char* peak : {"widest", "strongest"}) EXPECT_EQ(ends[0].at(peak), ends[1].at(peak)) << peak;
+  EXPECT_NEAR(ends[1].at("widest"), 1.018417, 1e-6);
+}
+
+} // namespace
+} // namespace dielast::cases

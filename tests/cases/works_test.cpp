@@ -1,0 +1,292 @@
+#include "cases/reader.hpp"
+#include "cases/simulation.hpp"
+#include "tests/cases/patch_oracle.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+
+// Works and heat of random transients of patches, row by row, against an independent integration: every wave,
+// jumps, kinks beside the ends of increments, dashpots, circuits, given charges.
+
+#ifndef WORKS_CASES
+#define WORKS_CASES 60
+#endif
+
+namespace dielast::cases {
+namespace {
+
+using test::PatchOracle;
+
+struct Row {
+  double time, electrical, mechanical, dissipated, source;
+};
+
+class RandomTransient {
+ public:
+  RandomTransient(std::filesystem::path directory, unsigned seed)
+      : directory_(std::move(directory)), random_(seed) {}
+
+  /// A case file's text.
+  std::string text() {
+    duration_ = std::pow(10, uniform(-1, 1.3));
+    increments_ = integer(26, 120);
+    std::string film = fmt::format(
+        "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = {}\npermittivity = \"4e-11 F/m\"\n",
+        uniform(25e3, 60e3));
+    for (int b = integer(0, 2); b > 0; --b)
+      film += fmt::format(
+          "[[film.material.branch]]\nshear_modulus = {}\nrelaxation_time = {}\ndashpot = \"{}\"\n",
+          uniform(5e3, 60e3), duration_ * std::pow(10, uniform(-1.5, 0.5)), chance(0.25) ? "nominal" : "log");
+    static constexpr const char* modes[] = {"equal-biaxial", "pure-shear", "biaxial", "pure-shear"};
+    const int mode = integer(0, 3);
+    std::string patch = fmt::format("[patch]\nmode = \"{}\"\n", modes[mode]);
+    if (mode >= 2)
+      patch += "stretch_x = " + (chance(0.3) ? fmt::format("{}", uniform(1.05, 1.6)) : wave(1.05, 1.6, ""));
+    else if (chance(0.7))
+      patch += "stress_x = " + wave(0, uniform(1e3, 8e3), " Pa");
+    std::string electric;
+    const double choice = uniform(0, 1);
+    std::string control;
+    if (choice < 0.12) {
+      electric = "[drive]\ncharge = " + wave(0, uniform(1e-9, 3e-8), " C");
+      control = "control = \"charge\"\n";
+    } else {
+      electric = "[drive]\nvoltage = " + wave(chance(0.2) ? -2e3 : 0, uniform(500, 7e3), " V");
+    }
+    if (choice > 0.75) {
+      const double resistance = duration_ * std::pow(10, uniform(-1.7, -0.3)) / 4e-12;
+      electric += fmt::format("\n[circuit]\nresistance = {}\n", resistance);
+      if (chance(0.5)) electric += fmt::format("leakage_resistance = {}\n", resistance * uniform(3, 50));
+      if (chance(0.3)) electric += fmt::format("current_limit = {}\n", 5e3 / resistance * uniform(0.2, 1));
+    }
+    return fmt::format(
+        "{}{}\n{}\n[output]\nfields = false\nerror_estimate = false\n[[step]]\nkind = "
+        "\"transient\"\nduration = {}\nincrements = {}\n{}[[quantity]]\nname = \"source_work\"\n"
+        "kind = \"energy\"\nof = \"source_work\"\n",
+        film, patch, electric, duration_, increments_, control);
+  }
+
+ private:
+  double uniform(double from, double to) { return std::uniform_real_distribution(from, to)(random_); }
+  int integer(int from, int to) { return std::uniform_int_distribution(from, to)(random_); }
+  bool chance(double part) { return uniform(0, 1) < part; }
+
+  /// A time: any, or beside the end of an increment.
+  double moment(double least, double most) {
+    const double t = uniform(least, most) * duration_, h = duration_ / increments_;
+    if (chance(0.6)) return t;
+    const double end = h * std::max(1.0, std::round(t / h));
+    return end * (1 + (chance(0.5) ? 0 : std::pow(10, uniform(-16, -5)) * (chance(0.5) ? 1 : -1)));
+  }
+  std::string wave(double from, double to, const std::string& unit) {
+    const auto value = [&](double v) {
+      return unit.empty() ? fmt::format("{}", v) : fmt::format("\"{}{}\"", v, unit);
+    };
+    const std::string ends = fmt::format("from = {}, to = {}", value(from), value(to));
+    const double swing = (to - from) / 2, mean = (to + from) / 2;
+    const auto frequency = [&] { return uniform(0.3, 6) / duration_; };
+    switch (integer(0, 8)) {
+    case 0:
+      return fmt::format("{{ wave = \"step\", {}, at = {} }}", ends, chance(0.3) ? 0 : moment(0.1, 0.8));
+    case 1: {
+      const double start = chance(0.3) ? 0 : moment(0.1, 0.4);
+      return fmt::format("{{ wave = \"ramp\", {}, at = {}, duration = {} }}", ends, start, moment(0.05, 0.8));
+    }
+    case 2: {
+      const double rise = chance(0.3) ? 0 : moment(0.01, 0.1), fall = chance(0.3) ? 0 : moment(0.01, 0.1);
+      const double hold = moment(0.05, 0.3);
+      return fmt::format(
+          "{{ wave = \"trapezoid\", {}, at = {}, rise = {}, hold = {}, fall = {}, period = {} }}", ends,
+          chance(0.5) ? 0 : moment(0.01, 0.3), rise, hold, fall,
+          chance(0.4) ? 0 : (rise + hold + fall) * uniform(1, 2));
+    }
+    case 3:
+      return fmt::format("{{ wave = \"sine\", mean = {}, amplitude = {}, frequency = {} }}", value(mean),
+                         value(swing), frequency());
+    case 4:
+      return fmt::format("{{ wave = \"unipolar sine\", from = {}, amplitude = {}, frequency = {} }}",
+                         value(from), value(2 * swing), frequency());
+    case 5:
+    case 6:
+      return fmt::format("{{ wave = \"square\", {}, frequency = {}, duty = {} }}", ends,
+                         chance(0.3) ? increments_ / (integer(4, 9) * duration_) : frequency(),
+                         uniform(0.1, 0.9));
+    case 7:
+      return fmt::format("{{ wave = \"sweep\", mean = {}, amplitude = {}, frequency = {}, end_frequency = "
+                         "{}, duration = {} }}",
+                         value(mean), value(swing), 1 / duration_, frequency(),
+                         duration_ * uniform(0.5, 1.2));
+    default: {
+      const std::string file = fmt::format("wave{}.csv", files_++);
+      std::ofstream table(directory_ / file);
+      table << "time_s,value" << (unit.empty() ? "" : "_" + unit.substr(1)) << "\n";
+      const int rows = integer(3, 40), decimals = integer(4, 12);
+      double last = -1;
+      for (int row = 0; row <= rows; ++row) {
+        const double t = std::stod(fmt::format("{:.{}f}", duration_ * row / rows, decimals));
+        if (t <= last) continue;
+        table << fmt::format("{},{}\n", t, uniform(from, to));
+        last = t;
+      }
+      return fmt::format("{{ wave = \"file\", file = \"{}\" }}", file);
+    }
+    }
+  }
+
+  std::filesystem::path directory_;
+  std::mt19937 random_;
+  double duration_ = 0;
+  int increments_ = 0, files_ = 0;
+};
+
+/// The film, its branches and what is prescribed, from the case.
+PatchOracle oracle_of(const Case& one) {
+  const auto& patch = std::get<Patch>(one.geometry);
+  PatchOracle oracle;
+  oracle.modulus = materials::initial_shear_modulus(one.film.material.law);
+  oracle.permittivity = one.film.material.dielectric.permittivity;
+  for (const materials::Branch& branch : one.film.material.branches) {
+    const double modulus = materials::initial_shear_modulus(branch.law);
+    oracle.branches.push_back(
+        {modulus, branch.viscosity / modulus, branch.dashpot == materials::Dashpot::nominal});
+  }
+  oracle.alike = patch.mode == PatchMode::equal_biaxial;
+  oracle.held = {patch.stretch_x.has_value(), patch.mode == PatchMode::pure_shear};
+  if (one.drives.begin()->second.charge) oracle.supply = PatchOracle::Supply::charge;
+  if (!one.circuits.empty() && !one.drives.begin()->second.charge) {
+    oracle.supply = PatchOracle::Supply::circuit;
+    const auto& circuit = one.circuits.begin()->second;
+    oracle.resistance = circuit.resistance;
+    if (circuit.leakage_resistance) oracle.leakage = 1 / *circuit.leakage_resistance;
+    if (circuit.current_limit) oracle.current_limit = *circuit.current_limit;
+  }
+  oracle.begin();
+  return oracle;
+}
+
+/// What the oracle says at the times of `rows`.
+std::vector<Row> reference(const Case& one, const std::vector<Row>& rows) {
+  const auto& patch = std::get<Patch>(one.geometry);
+  const Drive& drive = one.drives.begin()->second;
+  std::vector<const Waveform*> waves{drive.charge ? &*drive.charge : &*drive.voltage};
+  if (patch.stretch_x) waves.push_back(&*patch.stretch_x);
+  if (patch.stress_x) waves.push_back(&*patch.stress_x);
+  const double duration = *one.steps.front().duration;
+  PatchOracle oracle = oracle_of(one);
+  const auto loads = [&](auto value) {
+    PatchOracle::Loads all{{0, oracle.held[1] ? 1.0 : 0.0}, value(*waves.front())};
+    if (waves.size() > 1) {
+      all.along[0] = value(*waves[1]);
+      if (patch.mode == PatchMode::equal_biaxial) all.along[1] = all.along[0];
+    }
+    return all;
+  };
+  const auto at = [&](double t) { return loads([t](const Waveform& wave) { return wave.at(t); }); };
+  const auto before = [&](double t) { return loads([t](const Waveform& wave) { return wave.before(t); }); };
+
+  const auto row_at = [&](double t) {
+    const test::Account& a = oracle.account;
+    return Row{t, a.electrical, a.mechanical, a.dissipated, a.electrical + a.resistance + a.leak};
+  };
+  std::vector<double> times{0, duration};
+  for (const Waveform* wave : waves)
+    for (const double t : wave->kinks(0, duration)) times.push_back(t);
+  for (const Row& row : rows) times.push_back(std::min(row.time, duration));
+  std::ranges::sort(times);
+  const auto same = [&](double a, double b) { return std::abs(b - a) <= 1e-9 * duration; };
+
+  std::vector<Row> found{row_at(0)};
+  const PatchOracle::Loads none{{oracle.held[0] ? 1.0 : 0.0, oracle.held[1] ? 1.0 : 0.0}, 0};
+  oracle.jump(none, at(0));
+  std::size_t next = 1;
+  if (rows.size() > 1 && rows[1].time == 0) found.push_back(row_at(0)), ++next;
+  double t = 0;
+  PatchOracle::Loads behind = at(0);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (same(times[i], t)) continue;
+    const double end = times[i];
+    std::size_t last = i; // of the kinks that are as good as one
+    while (last + 1 < times.size() && same(times[last + 1], end)) ++last;
+    const auto inside = [&](double when) {
+      const double beside = 1e-6 * (end - t); // of rounding, and of what a wave takes for the same time
+      return when <= t + beside ? behind : when >= end - beside ? before(end) : at(when);
+    };
+    oracle.pass(inside, t, end, std::max(8, static_cast<int>(3000 * (end - t) / duration)));
+    const Row left = row_at(end);
+    t = end;
+    behind = at(times[last]);
+    const bool ends = same(end, duration);
+    if (!ends) oracle.jump(before(end), behind);
+    const bool twice = next + 1 < rows.size() && same(rows[next].time, end) && same(rows[next + 1].time, end);
+    if (twice) found.push_back(left), ++next;
+    if (next < rows.size() && same(rows[next].time, end)) found.push_back(ends ? left : row_at(end)), ++next;
+  }
+  return found;
+}
+
+class Works : public test::ScratchTest {};
+
+TEST_F(Works, of_random_transients_agree_with_an_independent_integration) {
+  int poor = 0, not_complete = 0;
+  double worst = 0;
+  for (unsigned seed = 1; seed <= WORKS_CASES; ++seed) {
+    const std::string text = RandomTransient(directory, seed).text();
+    write("case.toml", text);
+    SCOPED_TRACE(fmt::format("seed {}\n{}", seed, text));
+    Case one;
+    ASSERT_NO_THROW(one = read_case(directory / "case.toml"));
+    const auto place = [&](const char* name) {
+      return static_cast<std::size_t>(std::ranges::find(one.quantities, name, &Quantity::name) -
+                                      one.quantities.begin());
+    };
+    const std::size_t electrical = place("electrical_work"), mechanical = place("mechanical_work"),
+                      dissipated = place("dissipated_energy"), source = place("source_work");
+    std::vector<Row> rows;
+    Simulation simulation(one, 1);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      const auto& v = frame.values;
+      rows.push_back({frame.record.time, v[electrical], v[mechanical], v[dissipated], v[source]});
+      return true;
+    };
+    if (simulation.run(observer).ending != Ending::complete) {
+      ++not_complete;
+      continue;
+    }
+    for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_GE(rows[i].dissipated, rows[i - 1].dissipated) << i;
+    if (simulation.energy().worst().is_poor()) {
+      ++poor;
+      continue;
+    }
+    const std::vector<Row> expected = reference(one, rows);
+    ASSERT_EQ(rows.size(), expected.size());
+    double exchanged = 1e-15, off = 0;
+    std::size_t where = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Row &a = rows[i], &b = expected[i];
+      for (const double energy : {b.electrical, b.mechanical, b.dissipated, b.source})
+        exchanged = std::max(exchanged, std::abs(energy));
+      for (const double difference : {a.electrical - b.electrical, a.mechanical - b.mechanical,
+                                      a.dissipated - b.dissipated, a.source - b.source})
+        if (std::abs(difference) > off * exchanged) off = std::abs(difference) / exchanged, where = i;
+    }
+    const auto text_of = [](const Row& row) {
+      return fmt::format("t = {:.9g}: electrical {:.4e}, mechanical {:.4e}, dissipated {:.4e}, source {:.4e}",
+                         row.time, row.electrical, row.mechanical, row.dissipated, row.source);
+    };
+    EXPECT_LT(off, 0.01) << text_of(rows[where]) << "\nshould be " << text_of(expected[where])
+                         << "\nestimate " << simulation.energy().worst().error << " of "
+                         << simulation.energy().worst().exchanged;
+    worst = std::max(worst, off);
+  }
+  fmt::print("{} cases: largest difference {:.2e}, {} told to be poor, {} not complete\n", WORKS_CASES, worst,
+             poor, not_complete);
+  EXPECT_LE(poor, WORKS_CASES / 20);
+  EXPECT_LE(not_complete, WORKS_CASES / 20);
+}
+
+} // namespace
+} // namespace dielast::cases
