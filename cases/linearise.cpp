@@ -181,12 +181,10 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
     folder.write("report.html", report_of(one, found).html());
     folder.write("linear_model.json", model_json(one, found).dump(2) + "\n");
     folder.set_complete(static_cast<int>(ExitCode::ok));
-    say("order {}, largest error {:.3g} of the full response, static gain {:.6g} m/V of the source of {}
-",
+    say("order {}, largest error {:.3g} of the full response, static gain {:.6g} m/V of the source of {}\n",
         found.model.order(), found.error, found.model.transfer(0)(0, 0).real(),
         fmt::format("{}", fmt::join(found.driven, ", ")));
-    say("written to {}
-", settings.directory.string());
+    say("written to {}\n", settings.directory.string());
     return ExitCode::ok;
   } catch (const AnalysisError& error) {
     say(stderr, "error: {}\n", error.what());
