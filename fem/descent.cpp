@@ -35,7 +35,7 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
   const Eigen::Index free = model_.dofs.free_count();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   NewtonResult result{.outcome = Outcome::not_converged};
-  double damping = first_damping, previous_norm = infinity, last_step = infinity, length = 0;
+  double damping = first_damping, previous_norm = infinity, length = 0;
   Balance current, there;
   Eigen::VectorXd step;
   balance(state, current, Pressure::is_unknown);
@@ -44,7 +44,8 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
     if (!current.feasible) return result;
     result.residual = current.scale > 0 ? current.norm / current.scale : 0;
     if (log) log({result.iterations, result.residual, length, result.negative_pivots});
-    if (balanced(current, options.tolerance, previous_norm, last_step)) {
+    // How far a damped step goes tells nothing of how near the equilibrium is.
+    if (balanced(current, options.tolerance, previous_norm, infinity)) {
       if (!factor(state)) return result;
       result.negative_pivots = tangent_.negative_pivots();
       result.unstable_modes = tangent_.unstable_modes();
@@ -80,7 +81,6 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
     if (share > well) damping = std::max(least_damping, damping * less);
     if (share < badly) damping *= more;
     previous_norm = current.norm;
-    last_step = step_size(step);
     length = 1;
     state = std::move(trial);
     std::swap(current, there);

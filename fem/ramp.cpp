@@ -157,8 +157,11 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   slope_.reset();
   const Model& model = equilibrium_.model();
   if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
-  if (options_.inertia) return true;                                          // motion has no other branch
-  if (options_.newton.wrinkles && equilibrium_.is_slack(last())) return true; // no path leads there
+  if (options_.inertia) return true; // motion has no other branch
+  // No path leads away from slack film, and the slope of a hardly compressible filling is that of its
+  // pressure.
+  if (options_.newton.wrinkles && equilibrium_.is_slack(last())) return true;
+  if (model.closed_chamber(trial)) return true;
   const auto size = [this](const State& from, const State& to) {
     const Eigen::VectorXd u = equilibrium_.model().dofs.increment(from, to);
     return std::sqrt(u.dot(equilibrium_.stiffness().cwiseProduct(u)));

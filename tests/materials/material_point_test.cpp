@@ -12,9 +12,9 @@ namespace dielast::materials {
 namespace {
 
 /// A material point that remembers its steps of time, from rest at t = 0.
-class Test {
+class TimedPoint {
  public:
-  Test(const Material& material, Mode mode) : point_(material, mode) {}
+  TimedPoint(const Material& material, Mode mode) : point_(material, mode) {}
 
   /// Nominal stress at the stretch l, dt after the last accepted time.
   double stress(double l, double dt) { return point_.stress(l, scheme(dt)); }
@@ -72,7 +72,7 @@ TEST(MaterialPoint, vhb_4910_in_uniaxial_cycles_at_three_rates) {
   const auto named = std::ranges::find(named_films(), "VHB 4910", &NamedFilm::name);
   ASSERT_NE(named, named_films().end());
   for (const Cycle& cycle : cycles) {
-    Test vhb(named->material, Mode::uniaxial);
+    TimedPoint vhb(named->material, Mode::uniaxial);
     const int steps = 400; // between two rows
     const double dt = 0.25 / cycle.rate / steps;
     double l = 1;
@@ -118,8 +118,9 @@ TEST(MaterialPoint, creep_under_voltage_of_the_standard_solid_with_gent_springs)
                                    {20, 1.0723302, 1.0721104}}}};
   for (const Creep& creep : cases) {
     const double mu_b = 1 - creep.mu_a, k = creep.Vt * creep.Vt;
-    Test film({.law = Gent{creep.mu_a, creep.J_a}, .branches = {{Gent{mu_b, creep.J_b}, Dashpot::log, mu_b}}},
-              Mode::equal_biaxial);
+    TimedPoint film(
+        {.law = Gent{creep.mu_a, creep.J_a}, .branches = {{Gent{mu_b, creep.J_b}, Dashpot::log, mu_b}}},
+        Mode::equal_biaxial);
     const double dt = 0.005;
     double l = film.balanced(k, 1, 0);
     int n = 0;
@@ -142,7 +143,7 @@ TEST(MaterialPoint, relaxation_of_the_rolled_muscles_branch) {
                                                  {0.5, 1.3572867, 0.26844055}, {1, 1.4463801, 0.097158049},
                                                  {2, 1.4913373, 0.015445297},  {5, 1.4999585, 7.3714319e-05}};
   const Branch branch{Gent{1, 200}, Dashpot::nominal, 1, {true, false}};
-  Test film({.law = NeoHookean{0}, .branches = {branch}}, Mode::pure_shear);
+  TimedPoint film({.law = NeoHookean{0}, .branches = {branch}}, Mode::pure_shear);
   const double dt = 2e-4;
   double stress = film.stress(1.5, 0);
   int n = 0;
@@ -188,7 +189,7 @@ TEST(MaterialPoint, equal_biaxial_pull_in_with_and_without_stiffening) {
 TEST(MaterialPoint, gent_film_snaps_to_its_stiff_side) {
   for (const auto& [J, nominal_field, snapped] : {std::array{100.0, 0.6893632220278523, 7.026280627848488},
                                                   {120.0, 0.689025355403234, 7.705271906881713}}) {
-    Test film({.law = Gent{1, J}}, Mode::equal_biaxial);
+    TimedPoint film({.law = Gent{1, J}}, Mode::equal_biaxial);
     EXPECT_NEAR(film.balanced(nominal_field * nominal_field, snapped + 0.05, 0), snapped, 1e-8);
   }
 }
