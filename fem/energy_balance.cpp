@@ -33,8 +33,9 @@ struct Integral {
 class Interval {
  public:
   Interval(const std::vector<EnergyPoint>& points, const EnergyPoint& end)
-      : before_(points.size() > 1 && end.length <= most_growth * points.back().length ? &points.front()
-                                                                                      : nullptr),
+      : before_(points.size() > 1 && end.length > 0 && end.length <= most_growth * points.back().length
+                    ? &points.front()
+                    : nullptr),
         begin_(points.back()), end_(end) {
     const double h = end.length, h1 = begin_.length;
     if (before_) weight_ = h * h / (6 * h1 * (h1 + h));

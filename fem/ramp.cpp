@@ -172,7 +172,9 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
   const PathSlope start = slope_of_start(increment, length);
   progress_.slope = start.per(length);
-  const Steadiness steadiness = length > longest_kinked ? Steadiness::resolved() : Steadiness::kinked();
+  const Steadiness steadiness = options_.newton.wrinkles  ? Steadiness::wrinkled()
+                                : length > longest_kinked ? Steadiness::resolved()
+                                                          : Steadiness::kinked();
   if (!is_joined(equilibrium_, last(), start, trial, end, steadiness)) return false;
   slope_ = end.per(length);
   return true;

@@ -83,7 +83,7 @@ TEST_F(FilmCases, a_soft_filling_gives_way_by_its_own_volume) {
   const std::string steps = "[[step]]\nkind = \"inflate\"\n", rings = "[mesh]\nrings = 8\n";
   const Ran pumped = run(disc(chamber, steps, rings));
   const double p = pumped.last("pressure");
-  EXPECT_GT(p, 2e3);
+  EXPECT_GT(p, 500);
   EXPECT_NEAR(pumped.last("volume") * (1 + p / 100e3), 5e-6, 1e-14);
   const Ran pressed = run(disc(fmt::format("bulk_modulus = \"100 kPa\"\npressure = \"{:.17g} Pa\"\n", p),
                                "[[step]]\nkind = \"pressure\"\n", rings));

@@ -180,8 +180,9 @@ TEST_F(LimitPoints, of_random_films_are_found_whatever_the_increments) {
     limits += limit;
     EXPECT_EQ(found.outcome.ending == Ending::gave_up, limit) << found.outcome.message;
     EXPECT_EQ(found.outcome.kind, limit ? "limit point" : "") << found.outcome.message;
-    EXPECT_NEAR(found.load_factor, truth.load_factor, 2e-6);
-    EXPECT_NEAR(found.stretch, truth.stretch, (limit ? 2e-3 : 1e-6) * truth.stretch);
+    // in time the last state is that of the last step that was small enough
+    EXPECT_NEAR(found.load_factor, truth.load_factor, timed ? 1e-5 : 2e-6);
+    EXPECT_NEAR(found.stretch, truth.stretch, (limit ? timed ? 5e-3 : 2e-3 : 1e-6) * truth.stretch);
   }
   EXPECT_GT(limits, DIELAST_LIMIT_CASES / 5);
 }

@@ -113,7 +113,7 @@ increments = 2
     if (rows[r][2] == rows[r - 1][2])
       EXPECT_TRUE(rows[r].back() == "1" || rows[r][0] == "voltage" || rows[r][0] == "force") << r;
   }
-  EXPECT_EQ(jumps, 1);
+  EXPECT_EQ(jumps, 2); // the load as time starts, the voltage after half a second
 }
 
 TEST_F(Outputs, WarningsAreInLogSummaryAndReport) {
