@@ -1,6 +1,5 @@
 #include "cases/analysis.hpp"
 
-#include "fem/harmonic.hpp"
 #include "fem/instability.hpp"
 #include "fem/modal.hpp"
 
@@ -20,6 +19,9 @@ Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State s
     state.charge = device.model.charges(state, false).charge;
     std::fill_n(state.supply.begin(), device.model.electrodes.size(), fem::Supply::charge);
   }
+  if (flows(device.model, state))
+    throw AnalysisError("there are no modes about a state whose dashpots flow; let them relax before, by a "
+                        "hold or a step with response = \"relaxed\"");
   const auto found = fem::vibration_modes(equilibrium, state, {.count = step.count});
   if (!found) throw AnalysisError("no modes found: the device is at a critical point");
   Analysis analysis{.kind = step.kind,
@@ -49,27 +51,36 @@ void append_polar(std::vector<double>& row, std::complex<double> value) {
 Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
                   const fem::State& state, const Step& step) {
   const Quantity& quantity = *response_quantity(one, step.response_of);
-  Analysis analysis{.kind = step.kind,
-                    .step = step.name,
-                    .of = quantity.name,
-                    .columns = {"frequency[Hz]", quantity.name + "_per_volt[m/V]",
-                                quantity.name + "_phase[deg]", "voltage_per_volt[V/V]", "voltage_phase[deg]",
-                                "admittance[S]", "admittance_phase[deg]", "impedance[Ohm]",
-                                "impedance_phase[deg]"}};
+  Analysis analysis{
+      .kind = step.kind,
+      .step = step.name,
+      .of = quantity.name,
+      .columns = {"frequency[Hz]", quantity.name + "_per_volt[m/V]", quantity.name + "_phase[deg]"}};
+  const std::vector<std::size_t> driven = driven_ports(one, step.driven);
+  for (const std::size_t port : driven) {
+    const std::string& name = analysis.driven.emplace_back(one.electrodes[port].name);
+    const std::string of = one.electrodes.size() > 1 ? "_" + name : "";
+    analysis.columns.push_back(fmt::format("voltage{}_per_volt[V/V]", of));
+    analysis.columns.push_back(fmt::format("voltage{}_phase[deg]", of));
+  }
+  for (const char* of_all :
+       {"admittance[S]", "admittance_phase[deg]", "impedance[Ohm]", "impedance_phase[deg]"})
+    analysis.columns.emplace_back(of_all);
   const std::vector<double> hertz = frequencies(step.sweep);
   std::vector<double> omega = hertz;
   for (double& w : omega) w *= 2 * std::numbers::pi;
   const Eigen::VectorXd output = response_row(device, quantity);
-  const fem::Linearisation linear(equilibrium, operating_point(device, state));
-  const auto responses =
-      fem::harmonic_response(linear, fem::HarmonicDrive::at_port(device.model, driven_electrode), omega);
+  const fem::State at_rest = operating_point(device, state);
+  const fem::Linearisation linear(equilibrium, at_rest);
+  const auto responses = fem::harmonic_response(linear, common_drive(device, at_rest, driven), omega);
   std::size_t strongest = 0;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const fem::HarmonicResponse& at = responses[i];
-    const std::complex<double> current = at.current[driven_electrode];
+    std::complex<double> current = 0; // of all driven electrodes together
+    for (const std::size_t port : driven) current += at.current[static_cast<Eigen::Index>(port)];
     std::vector<double> row{hertz[i]};
     append_polar(row, (output.transpose() * at.displacement).value());
-    append_polar(row, at.voltage[driven_electrode]);
+    for (const std::size_t port : driven) append_polar(row, at.voltage[static_cast<Eigen::Index>(port)]);
     append_polar(row, current);
     append_polar(row, 1.0 / current);
     analysis.rows.push_back(std::move(row));
@@ -111,6 +122,46 @@ const Quantity* response_quantity(const Case& one, const std::string& name) {
         (name.empty() || quantity.name == name))
       return &quantity;
   return nullptr;
+}
+
+bool flows(const fem::Model& model, const fem::State& state) {
+  constexpr double still = 1e-4;
+  if (!state.history) return false;
+  fem::State rest = state;
+  rest.scheme = materials::TimeScheme::relaxed();
+  const std::vector<double>& now = state.history->now;
+  const std::vector<double> end = model.advanced_history(rest)->now;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (std::abs(end[i] - now[i]) > still * std::max(1.0, std::abs(now[i]))) return true;
+  return false;
+}
+
+std::vector<std::size_t> driven_ports(const Case& one, const std::vector<std::string>& names) {
+  const auto ports_with = [&](auto&& swings) {
+    std::vector<std::size_t> ports;
+    for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+      if (swings(one.electrodes[e].name)) ports.push_back(e);
+    return ports;
+  };
+  if (!names.empty())
+    return ports_with([&](const std::string& name) { return std::ranges::find(names, name) != names.end(); });
+  const auto driven = ports_with([&](const std::string& name) {
+    const auto drive = one.drives.find(name);
+    return drive != one.drives.end() && drive->second.voltage;
+  });
+  return driven.empty() ? ports_with([](const std::string&) { return true; }) : driven;
+}
+
+fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
+                                const std::vector<std::size_t>& ports) {
+  fem::HarmonicDrive drive = fem::HarmonicDrive::at_port(device.model, ports.front());
+  for (const std::size_t port : ports) {
+    if (at.supply[port] == fem::Supply::charge)
+      throw AnalysisError(fmt::format("electrode \"{}\" is isolated: there is no source that could swing",
+                                      device.model.electrodes[port]));
+    drive.source[static_cast<Eigen::Index>(port)] = 1;
+  }
+  return drive;
 }
 
 Eigen::VectorXd response_row(const Device& device, const Quantity& quantity) {

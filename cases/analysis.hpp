@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/device.hpp"
-#include "fem/equilibrium.hpp"
+#include "fem/harmonic.hpp"
 
 #include <complex>
 
@@ -12,6 +12,7 @@ struct Analysis {
   StepKind kind{};
   std::string step;                 ///< its name
   std::string of;                   ///< harmonic: the quantity that responds
+  std::vector<std::string> driven;  ///< harmonic: the electrodes whose sources swing
   std::vector<std::string> columns; ///< with units, as in history.csv
   std::vector<std::vector<double>> rows;
   /// A shape and its name, a vector per mesh node: displacement of a mode, scaled to one, or of a sine of 1 V
@@ -40,8 +41,18 @@ Eigen::VectorXd response_row(const Device& device, const Quantity& quantity);
 /// The state that small vibrations go about: sources behind their circuits, branches relaxed.
 fem::State operating_point(const Device& device, fem::State state);
 
-/// Number of the electrode whose source swings: the first.
-constexpr std::size_t driven_electrode = 0;
+/// Whether dashpots are away from where they come to rest at this shape, by more than 1e-4 of their internal
+/// variables, which are of order one: then neither the relaxed nor the instantaneous tangent is that of the
+/// state.
+bool flows(const fem::Model& model, const fem::State& state);
+
+/// Numbers of the electrodes whose sources swing together: the named ones, without names all whose [drive]
+/// has a voltage, without any such all.
+std::vector<std::size_t> driven_ports(const Case& one, const std::vector<std::string>& names);
+
+/// Their sources swing by 1 V each. Throws AnalysisError where one is isolated: it has no source.
+fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
+                                const std::vector<std::size_t>& ports);
 
 /// Small vibrations about a state. Throws AnalysisError where there are none to be found.
 Analysis analyse(const Case& one, const Device& device, fem::Equilibrium& equilibrium,

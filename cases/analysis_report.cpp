@@ -28,9 +28,13 @@ post::Section analysis_section(const Analysis& analysis) {
     std::size_t column;
   };
   std::vector<post::Plot> plots;
-  for (const Curve& curve : {Curve{analysis.of, analysis.of + " [m/V]", 1},
-                             Curve{"Voltage at the electrode", "per volt of the source [V/V]", 3},
-                             Curve{"Impedance seen by the source", "impedance [Ohm]", 7}}) {
+  std::vector<Curve> curves{{analysis.of, analysis.of + " [m/V]", 1}};
+  const std::size_t count = analysis.driven.size();
+  for (std::size_t d = 0; d < count; ++d)
+    curves.push_back({count > 1 ? "Voltage at electrode " + analysis.driven[d] : "Voltage at the electrode",
+                      "per volt of the source [V/V]", 3 + 2 * d});
+  curves.push_back({"Impedance seen by the source", "impedance [Ohm]", 5 + 2 * count});
+  for (const Curve& curve : curves) {
     const post::FrequencyResponse response{"", analysis.column(0), analysis.values(curve.column)};
     for (post::Plot& plot : post::bode(curve.title, curve.label, std::span(&response, 1)))
       plots.push_back(std::move(plot));

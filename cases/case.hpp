@@ -75,7 +75,8 @@ using Geometry = std::variant<Honeycomb, Disc, Annulus, Balloon, Patch, MeshFile
 
 /// [mesh]
 struct MeshOptions {
-  double unit = 1;       ///< m per unit of length of a user's own mesh
+  std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
+  int refine = 0;               ///< how often each triangle of a user's own mesh is split into four
   int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
   int wall_elements = 8; ///< beams per wall (honeycomb)
   double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
@@ -148,8 +149,8 @@ struct Gravity {
 /// [chamber]: what is under the film and the plate, up to z = 0
 struct Chamber {
   std::optional<Waveform> pressure; ///< Pa
-  std::optional<Waveform> volume;   ///< m^3
-  double bulk_modulus = 0;          ///< of the liquid in it, Pa
+  std::optional<Waveform> volume;   ///< that is pumped in, m^3
+  double bulk_modulus = 0;          ///< of what fills it, Pa
 };
 
 /// [[spring]]: a linear spring between the centroids of two places, tension stiffness (distance -
@@ -229,6 +230,7 @@ struct Step {
   Sweep sweep{}; ///< of harmonic
   std::string
       response_of{}; ///< of harmonic: a quantity of kind displacement; empty: the first with a direction
+  std::vector<std::string> driven{}; ///< of harmonic: electrodes whose sources swing; empty: see driven_ports
 
   bool is_analysis() const { return kind == StepKind::modes || kind == StepKind::harmonic; }
 };
@@ -248,6 +250,7 @@ enum class QuantityKind {
   current,
   pressure,
   volume,
+  pumped_volume,
   stiffness,
   natural_frequency,
   radial_stretch,
@@ -308,9 +311,11 @@ struct TransferFunction {
 /// [linearise]: the linear model that `dielast linearise` makes about the state at the end of the steps
 struct Linearise {
   int order = 0;
-  std::string output; ///< a quantity of kind displacement; empty: the first with a direction
-  Sweep sweep;        ///< over which it is compared with the full response
+  std::string output;              ///< a quantity of kind displacement; empty: the first with a direction
+  Sweep sweep;                     ///< over which it is compared with the full response
+  std::vector<std::string> driven; ///< electrodes whose sources swing together; empty: see driven_ports
   std::vector<TransferFunction> compare;
+  bool written = false; ///< the case has a section [linearise]
 };
 
 /// Everything the user asked for: validated, complete, in SI. No type of the file format gets past the
@@ -339,9 +344,10 @@ struct Case {
   int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
   SolverOptions solver;
   Linearise linearise;
-  bool error_estimate = true;  ///< [output] error_estimate: solve once more on a coarser mesh
+  bool error_estimate = true;  ///< [output] error_estimate: solve again with other elements and steps
   bool fields = true;          ///< [output] fields: write the VTK series
   std::vector<Mention> places; ///< every place that the case names, for check_places
+  std::vector<Diagnostic> warnings{};
 };
 
 } // namespace dielast::cases

@@ -1,6 +1,7 @@
 #include "cases/case_tree.hpp"
 
 #include "cases/fit_reader.hpp"
+#include "cases/idle_keys.hpp"
 #include "cases/patch.hpp"
 #include "cases/quantities.hpp"
 #include "cases/rules.hpp"
@@ -21,15 +22,11 @@ std::vector<std::string> names_of(const List& list, Name name) {
   return names;
 }
 
-bool is_standard(const Source& source) {
-  return source.line == 0 && !source.file.text().starts_with("--set");
-}
-
 void require_known(SectionReader& reader, Reference kind, const std::string& noun,
                    const std::vector<std::string>& known) {
   for (const Mention& mention : reader.mentions(kind))
     // what a template brings can only miss something that the user is told about anyway
-    if (!is_standard(mention.source) && std::find(known.begin(), known.end(), mention.name) == known.end())
+    if (mention.source.is_written() && std::find(known.begin(), known.end(), mention.name) == known.end())
       reader.report(mention.source, mention.key,
                     fmt::format("found {}: no such {}{}{}", toml_string(mention.name), noun,
                                 known.empty() ? "; the case has none" : ", allowed " + listed(known),
@@ -113,6 +110,9 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   locate_mesh(reader, tree, one);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   one.places = reader.mentions(Reference::place);
+  one.linearise.written = tree.find("linearise");
+  one.warnings = reader.warnings();
+  for (Diagnostic& idle : idle_keys(tree, one)) one.warnings.push_back(std::move(idle));
   return one;
 }
 

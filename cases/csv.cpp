@@ -98,15 +98,20 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
   return table;
 }
 
-std::vector<double> si_column(const CsvTable& table, int column, std::string_view si_unit) {
+std::optional<double> factor_to_si(const CsvTable& table, int column, std::string_view si_unit) {
+  if (si_unit == "1") return 1;
   const std::string& name = table.names.at(static_cast<std::size_t>(column));
-  double factor = 1;
-  if (const auto unit = name.rfind('_'); unit != std::string::npos && si_unit != "1") {
-    try {
-      factor = parse_measure("1 " + name.substr(unit + 1), si_unit).value;
-    } catch (const UnitError&) { // a word, not a unit
-    }
+  const auto unit = name.rfind('_');
+  if (unit == std::string::npos) return std::nullopt;
+  try {
+    return parse_measure("1 " + name.substr(unit + 1), si_unit).value;
+  } catch (const UnitError&) { // a word, not a unit
+    return std::nullopt;
   }
+}
+
+std::vector<double> si_column(const CsvTable& table, int column, std::string_view si_unit) {
+  const double factor = factor_to_si(table, column, si_unit).value_or(1);
   std::vector<double> values = table.columns.at(static_cast<std::size_t>(column));
   for (double& value : values) value *= factor;
   return values;

@@ -3,6 +3,7 @@
 #include "cases/diagnostics.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,10 @@ struct CsvTable {
 /// cell, a row with more or fewer cells than names, fewer than `least_rows` rows; a thousand errors end it.
 /// Throws FileError when the file cannot be read.
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong);
+
+/// What the numbers of the column are multiplied by to be SI: its name ends in a unit of the dimension of
+/// `si_unit`. Nothing where the name has no such unit; 1 for a pure number.
+std::optional<double> factor_to_si(const CsvTable& table, int column, std::string_view si_unit);
 
 /// The column in SI: its name ends in a unit of the dimension of `si_unit`, or its numbers are SI already.
 std::vector<double> si_column(const CsvTable& table, int column, std::string_view si_unit);

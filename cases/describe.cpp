@@ -26,6 +26,7 @@ std::string key_text(const Key& key) {
     rules += "; default: its " + key.fallback_key;
   else
     rules += key.required ? "; required" : "; optional";
+  if (!key.acts.needs.empty()) rules += "; acts only with " + key.acts.needs;
   std::string text = fmt::format("  {:<22}{}\n{:24}{}\n", key.name, key.meaning, "", rules);
   if (key.type == Type::word)
     for (const Choice& choice : key.choices)
@@ -36,6 +37,7 @@ std::string key_text(const Key& key) {
 std::string section_text(const Section& section, const std::string& path) {
   std::string text = path.empty() ? "at the top of the file\n"
                                   : fmt::format("\n{}  {}\n", section.heading(path), section.meaning);
+  if (!section.acts.needs.empty()) text += fmt::format("  (acts only with {})\n", section.acts.needs);
   for (const Key& key : section.keys) {
     if (key.only_for.empty()) {
       text += key_text(key);
@@ -169,7 +171,11 @@ std::string waves_text() {
          "  voltage = { wave = \"sine\", amplitude = \"4 kV\", frequency = \"0.5 Hz\" }\n"
          "Steps of kind \"transient\" follow them; t counts from the start of the step. Ramps lead to their "
          "value\n"
-         "at t = 0.\n" +
+         "at t = 0; where a wave jumps there (a step or square at 0 s, a trapezoid without rise), to the "
+         "value\n"
+         "before the jump, `from`: the transient that follows begins with the jump. A CSV file has no jumps: "
+         "a\n"
+         "ramp leads to its value at 0 s. The column of a CSV file ends in its unit, as in voltage_kV.\n" +
          choices_text(wave_section("V"));
 }
 

@@ -11,7 +11,11 @@
 #include "meshing/meridian.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/patch.hpp"
+#include "meshing/refine.hpp"
 #include "meshing/rings.hpp"
+#include "post/engineering.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +62,17 @@ meshing::Mesh film_of(meshing::Mesh mesh, double unit) {
     for (auto& [name, set] : mesh.cell_sets) set.block -= set.block > b;
   }
   return mesh;
+}
+
+/// A user's own mesh has no unit in its file: what is taken for a metre may have been a millimetre.
+std::vector<std::string> size_warnings(const Case& one, const Eigen::Vector3d& size) {
+  constexpr double largest = 1; // m, of the templates' dimensions
+  if (!std::holds_alternative<MeshFile>(one.geometry)) return {};
+  const std::string found =
+      fmt::format("the film is {} x {}", post::engineering(size.x(), "m"), post::engineering(size.y(), "m"));
+  if (!one.mesh.unit) return {"mesh.unit is missing, one unit of the mesh file is taken for 1 m: " + found};
+  if (size.maxCoeff() > largest) return {"mesh.unit: " + found};
+  return {};
 }
 
 /// Says which [[load]] cannot act.
@@ -169,29 +184,34 @@ void carry_plate(const Plate& plate, const meshing::Mesh& mesh, fem::DofMap& dof
 void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   if (!one.chamber) return;
   const std::size_t port = model.electrodes.size();
-  model.chambers = {"chamber"};
+  model.chambers = {{"chamber", one.chamber->bulk_modulus}};
   model.blocks.push_back(fem::make_pressure_block(mesh, *mesh.film(), port));
-  fem::Lid lid{mesh.film()->nodes.front(), 0};
   if (const auto* annulus = std::get_if<Annulus>(&one.geometry); annulus && one.plate)
-    lid = {mesh.node_sets.at(one.plate->place).front(),
-           std::numbers::pi * annulus->inner_radius * annulus->inner_radius};
-  const double compliance = std::pow(model.extent, 3) / one.chamber->bulk_modulus;
-  model.blocks.push_back(fem::make_lid_block(mesh, lid, compliance, port));
+    model.blocks.push_back(
+        fem::make_lid_block(mesh,
+                            {mesh.node_sets.at(one.plate->place).front(),
+                             std::numbers::pi * annulus->inner_radius * annulus->inner_radius},
+                            port));
 }
 
 constexpr double typical_voltage = 1000; ///< V, that makes charges of order one
 
 void add_circuits(const Case& one, fem::Model& model) {
-  const std::vector<double> capacitance = model.charges(model.initial_state(), false).capacitance;
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     const auto found = one.circuits.find(one.electrodes[e].name);
     if (found == one.circuits.end()) continue;
     fem::Circuit circuit{.electrode = static_cast<int>(e), .resistance = found->second.resistance};
     if (found->second.leakage_resistance) circuit.leakage = 1 / *found->second.leakage_resistance;
     if (found->second.current_limit) circuit.current_limit = *found->second.current_limit;
-    circuit.charge_scale = typical_voltage * capacitance[e];
     model.circuits.push_back(circuit);
   }
+}
+
+/// The charges as drawn are known only when the model's histories are placed.
+void scale_charges(fem::Model& model) {
+  const std::vector<double> capacitance = model.charges(model.initial_state(), false).capacitance;
+  for (fem::Circuit& circuit : model.circuits)
+    circuit.charge_scale = typical_voltage * capacitance[static_cast<std::size_t>(circuit.electrode)];
 }
 
 void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
@@ -263,7 +283,11 @@ meshing::Mesh build_mesh(const Case& one) {
             [&](const Patch& p) {
               return meshing::patch_mesh(p.length * one.film.prestretch[0], p.width * one.film.prestretch[1]);
             },
-            [&](const MeshFile& file) { return film_of(meshing::read_gmsh(file.path), options.unit); },
+            [&](const MeshFile& file) {
+              meshing::Mesh mesh = meshing::read_gmsh(file.path);
+              for (int i = 0; i < options.refine; ++i) mesh = meshing::refined(std::move(mesh));
+              return film_of(std::move(mesh), options.unit.value_or(1));
+            },
         },
         one.geometry);
   } catch (const std::invalid_argument& error) {
@@ -293,6 +317,7 @@ Device build_device(const Case& one) {
   model.drawn = mesh.nodes;
   model.corners = fem::element_corners(mesh);
 
+  std::vector<std::string> warnings = size_warnings(one, high - low);
   const bool of_revolution = dimension == fem::Dimension::axisymmetric;
   if (!of_revolution && high.z() - low.z() > 1e-9 * model.extent)
     throw meshing::MeshError("the film must lie in a plane of constant z");
@@ -336,36 +361,22 @@ Device build_device(const Case& one) {
   if (const auto* patch = std::get_if<Patch>(&one.geometry)) keep_homogeneous(*patch, mesh, model.dofs);
   model.dofs.number();
   model.inertia = fem::Inertia::of(model.blocks, model.dofs);
+  add_circuits(one, model);
   add_sheets(one, mesh, model);
   try {
     model.place_histories();
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
-  add_circuits(one, model); // film that wrinkles needs its history to tell its capacitance
+  scale_charges(model);
 
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
   device.weight = weight_of(one, device.mesh, device.model);
   require_loads_that_act(one, device);
   device.tension_field = one.film.tension_field;
   if (lattice) device.wall_width = lattice->wall_width;
+  device.warnings = std::move(warnings);
   return device;
-}
-
-std::optional<Coarser> coarser(const Case& one) {
-  const auto halve = [&one](int MeshOptions::*elements, int fewest) -> std::optional<Coarser> {
-    const int fine = one.mesh.*elements;
-    if (fine / 2 < fewest) return std::nullopt;
-    Coarser result{one, static_cast<double>(fine) / (fine / 2)};
-    result.coarse.mesh.*elements = fine / 2;
-    return result;
-  };
-  return std::visit(Overloaded{[&](const Honeycomb&) { return halve(&MeshOptions::wall_elements, 1); },
-                               [](const Patch&) -> std::optional<Coarser> { return std::nullopt; },
-                               [&](const Balloon&) { return halve(&MeshOptions::rings, 4); },
-                               [](const MeshFile&) -> std::optional<Coarser> { return std::nullopt; },
-                               [&](const auto& /*rings*/) { return halve(&MeshOptions::rings, 2); }},
-                    one.geometry);
 }
 
 } // namespace dielast::cases

@@ -16,6 +16,7 @@ struct Device {
   bool tension_field = false;       ///< the film wrinkles where it would be compressed
   bool free_body = false;           ///< no support: pinned against rigid motion only, without reactions
   Eigen::VectorXd weight;           ///< dead forces of gravity, per equation, N
+  std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each
 };
 
 /// The mesh that the case asks for. Throws meshing::MeshError.
@@ -26,15 +27,5 @@ std::vector<std::string> places_of(const meshing::Mesh& mesh);
 
 /// Mesh and model. Throws meshing::MeshError, and CaseError when the case names a place that the mesh lacks.
 Device build_device(const Case& one);
-
-/// A case on a coarser mesh.
-struct Coarser {
-  Case coarse;
-  double ratio = 2; ///< of the element sizes
-};
-
-/// The same case with elements about twice as large, for the estimate of the discretisation error; nothing
-/// for a user's own mesh, and where the mesh is the coarsest already.
-std::optional<Coarser> coarser(const Case& one);
 
 } // namespace dielast::cases

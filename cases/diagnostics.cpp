@@ -58,7 +58,8 @@ const std::string& FileName::text() const {
 std::string Diagnostic::text() const {
   std::string place = source.file.text();
   if (source.line > 0) place += fmt::format(":{}:{}", source.line, source.column);
-  return fmt::format("{}: error: {}{}{}", place, key, key.empty() ? "" : ": ", message);
+  return fmt::format("{}: {}: {}{}{}", place, severity == Severity::error ? "error" : "warning", key,
+                     key.empty() ? "" : ": ", message);
 }
 
 CaseError::CaseError(std::vector<Diagnostic> diagnostics, std::size_t more)

@@ -24,6 +24,14 @@ class FileName {
 struct Source {
   FileName file;
   int line = 0, column = 0;
+
+  /// By the user, in the file or after --set; otherwise a template has brought it.
+  bool is_written() const { return line > 0 || file.text().starts_with("--set"); }
+};
+
+enum class Severity {
+  error,   ///< the case is refused
+  warning, ///< the case runs, and its results repeat the message
 };
 
 /// One thing wrong with a case.
@@ -31,8 +39,9 @@ struct Diagnostic {
   Source source;
   std::string key; ///< path of the key, e.g. "film.thickness"; empty: the file as a whole
   std::string message;
+  Severity severity = Severity::error;
 
-  /// "file:line:column: error: key: message"
+  /// "file:line:column: error: key: message", or "... warning: ..."
   std::string text() const;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "materials/line.hpp"
-#include "materials/material.hpp"
+#include "materials/material_point.hpp"
 
 #include <vector>
 
@@ -11,15 +10,13 @@ namespace dielast::cases {
 /// undeformed and relaxed until t = 0, or until the first row when that is earlier.
 struct StretchHistory {
   materials::Mode mode{};
-  std::vector<double> time; ///< s, growing; empty: infinitely slow, the branches carry nothing
+  std::vector<double> time; ///< s, growing; empty: infinitely slow, the branches are relaxed
   std::vector<double> stretch;
 };
 
-/// Nominal stress at every row, Pa:
-///   P = (dW/dl + sum_b dW_b/dl at the viscous stretch xi_b) / (axes that are pulled),
-/// with xi_b from the flow rule (materials/line.hpp) in `steps` equal steps of time between two rows: BDF2,
-/// or backward Euler where a step is more than twice the one before. Not finite from where the law cannot be
-/// on.
+/// Nominal stress at every row, Pa, of a point of film (materials/material_point.hpp), which goes in `steps`
+/// equal steps of time between two rows: BDF2, or backward Euler where a step is more than twice the one
+/// before. Not finite from where the law cannot be on.
 std::vector<double> nominal_stress(const materials::Material& material, const StretchHistory& history,
                                    int steps);
 

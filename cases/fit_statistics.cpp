@@ -1,6 +1,7 @@
 #include "cases/fit_statistics.hpp"
 
-#include <Eigen/SVD>
+#include "fem/dense_algebra.hpp"
+
 #include <boost/math/distributions/students_t.hpp>
 
 #include <cmath>
@@ -16,14 +17,14 @@ FitStatistics fit_statistics(const Eigen::MatrixXd& J, const Eigen::VectorXd& r)
   const auto active = (size.array() > 0).count();
   for (double& one : size)
     if (one == 0) one = 1;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J * size.cwiseInverse().asDiagonal(), Eigen::ComputeThinV);
+  const fem::SingularValues svd = fem::singular_values(J * size.cwiseInverse().asDiagonal());
 
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(k, k);
   Eigen::Array<bool, Eigen::Dynamic, 1> known = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(k, true);
   for (Eigen::Index i = 0; i < k; ++i) {
-    const Eigen::VectorXd v = svd.matrixV().col(i);
-    const double s = svd.singularValues()[i];
-    if (s > singular * svd.singularValues()[0])
+    const Eigen::VectorXd v = svd.V.col(i);
+    const double s = svd.values[i];
+    if (s > singular * svd.values[0])
       inverse += v * v.transpose() / (s * s);
     else
       known = known && v.array().abs() < takes_part;

@@ -47,6 +47,8 @@ ExitCode check(const Arguments& arguments) {
   const cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
   const cases::Device device = cases::build_device(one);
   const auto quality = meshing::quality(device.mesh);
+  for (const cases::Diagnostic& warning : one.warnings) cases::say(stderr, "{}\n", warning.text());
+  for (const std::string& warning : device.warnings) cases::say(stderr, "{}\n", warning);
   cases::say("{}: valid\n{}unknowns: {} free, {} held{}\n", arguments.case_file, meshing::format(quality),
              device.model.dofs.free_count(), device.model.dofs.count() - device.model.dofs.free_count(),
              device.free_body ? " (a free body, pinned against rigid motion)" : "");
@@ -73,7 +75,7 @@ ExitCode mesh(const Arguments& arguments) {
   folder.begin();
   const fem::State drawn = device.model.initial_state();
   post::VtkSeries(folder, one.source.stem().string() + "-mesh", device.mesh)
-      .write(0, "drawn", drawn.displacement, device.model.sample(drawn));
+      .write({0, "drawn"}, drawn.displacement, device.model.sample(drawn));
   folder.set_complete(static_cast<int>(ExitCode::ok));
   cases::say("{}places:\n", meshing::format(meshing::quality(device.mesh)));
   for (const auto& [name, nodes] : device.mesh.node_sets) {

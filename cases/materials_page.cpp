@@ -77,7 +77,9 @@ std::string materials_page() {
       "# Materials\n\nMade by `dielast info materials.md` from the tables that the program itself reads; "
       "`dielast info laws` and `dielast info materials` show the same on the terminal.\n\n"
       "Stresses and moduli are per undeformed film; I1, I2 are the invariants of the right Cauchy-Green "
-      "tensor, l1, l2, l3 the principal stretches. Laws are incompressible unless they say otherwise.\n\n"
+      "tensor, l1, l2, l3 the principal stretches. Laws are incompressible unless they say otherwise. "
+      "Thickness, field and capacitance take every film as if it kept its volume, l3 = 1/(l1 l2), one of a "
+      "compressible law (St. Venant-Kirchhoff), too.\n\n"
       "## Equilibrium laws (`[film.material] law`, and those of branches)\n\n";
   text += laws_text(std::make_index_sequence<std::variant_size_v<materials::ElasticLaw>>());
   text += "## Dielectric\n\n"
@@ -89,7 +91,9 @@ std::string materials_page() {
       "## Branches (`[[film.material.branch]]`)\n\n"
       "A spring (any of the laws) in series with a dashpot, beside the law. It stores the law's energy at "
       "the elastic deformation C Cv^-1. `relaxation_time` is viscosity over the law's shear modulus at "
-      "small strain; give one of the two.\n\n"
+      "small strain; give one of the two. As drawn branches are relaxed; along an axis in which its dashpot "
+      "does not flow a branch's spring is free of stress at the stretch 1, not at the prestretch. Fits and "
+      "runs go by the same flow rules.\n\n"
       "| dashpot | flow rule | source |\n|---|---|---|\n"
       "| `log` | `eta Cv' = 2 dW/dG - alpha Cv, G = Cv^-1, det Cv = 1` | Reese & Govindjee 1998; Foo, Cai, "
       "Koh, Bauer & Suo 2012 |\n"

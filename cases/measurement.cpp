@@ -1,5 +1,6 @@
 #include "cases/measurement.hpp"
 
+#include "cases/analysis.hpp"
 #include "cases/radial_stretch.hpp"
 #include "fem/modal.hpp"
 
@@ -105,7 +106,8 @@ double Measurement::displacement(const Quantity& quantity, const fem::State& sta
                    quantity.along);
 }
 
-/// The inverse of the mean displacement of a place under a unit force that is spread evenly over it.
+/// The inverse of the mean displacement of a place under a unit force that is spread evenly over it. NaN
+/// where dashpots flow.
 double Measurement::stiffness(const Quantity& quantity, const Measured& measured) const {
   const fem::DofMap& dofs = device_.model.dofs;
   const auto& nodes = device_.mesh.node_sets.at(quantity.of);
@@ -113,15 +115,16 @@ double Measurement::stiffness(const Quantity& quantity, const Measured& measured
   for (const int node : nodes)
     if (const int e = dofs.equation(node, *quantity.along); e >= 0 && e < dofs.free_count())
       unit[e] += 1 / static_cast<double>(nodes.size());
-  if (unit.isZero() || !measured.at_rest || !measured.equilibrium.factor(relaxed(measured.state)))
+  if (unit.isZero() || !measured.at_rest || flows(device_.model, measured.state) ||
+      !measured.equilibrium.factor(relaxed(measured.state)))
     return unknown;
   measured.equilibrium.tangent().solve(unit, flexibility);
   return 1 / unit.dot(flexibility);
 }
 
-/// NaN where nothing has a mass, or the state is unstable.
+/// NaN where nothing has a mass, the state is unstable, or dashpots flow.
 double Measurement::natural_frequency(const Quantity& quantity, const Measured& measured) const {
-  if (!measured.at_rest) return unknown;
+  if (!measured.at_rest || flows(device_.model, measured.state)) return unknown;
   const auto modes = fem::vibration_modes(measured.equilibrium, measured.state, {.count = quantity.mode});
   if (!modes || std::ssize(*modes) < quantity.mode) return unknown;
   const fem::VibrationMode& mode = (*modes)[static_cast<std::size_t>(quantity.mode) - 1];
@@ -198,10 +201,13 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   }
   case QuantityKind::current:
   case QuantityKind::pressure:
-  case QuantityKind::volume: {
+  case QuantityKind::volume:
+  case QuantityKind::pumped_volume: {
     const std::size_t electrodes = device_.model.electrodes.size();
     if (quantity.kind == QuantityKind::pressure) return state.voltage[electrodes];
     if (quantity.kind == QuantityKind::volume) return measured.charges.charge[electrodes];
+    if (quantity.kind == QuantityKind::pumped_volume)
+      return device_.model.chambers[0].pumped(measured.charges.charge[electrodes], state.voltage[electrodes]);
     const std::size_t e = electrode(quantity.of);
     const fem::Circuit* circuit = device_.model.circuit_of(e);
     return circuit && state.supply[e] == fem::Supply::circuit

@@ -19,6 +19,7 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
   case QuantityKind::pressure:
     return "Pa";
   case QuantityKind::volume:
+  case QuantityKind::pumped_volume:
     return "m^3";
   case QuantityKind::stiffness:
     return "N/m";

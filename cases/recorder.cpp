@@ -17,8 +17,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* checkpoint_name = "checkpoint.cbor";
-
 /// Shorter runs are repeated faster than their checkpoints are written.
 constexpr std::chrono::seconds checkpoint_interval{2};
 
@@ -33,7 +31,8 @@ json archive(const post::StepRecord& record) {
           {"iterations", record.iterations},
           {"residual", record.residual},
           {"unstable_modes", record.unstable_modes},
-          {"events", std::move(events)}};
+          {"events", std::move(events)},
+          {"jumped", record.jumped}};
 }
 
 post::StepRecord restore_record(const json& archived) {
@@ -42,6 +41,7 @@ post::StepRecord restore_record(const json& archived) {
                           archived.at("residual"), archived.at("unstable_modes"), {}};
   for (const json& event : archived.at("events"))
     record.events.push_back({event.at(0), event.at(1), event.at(2)});
+  record.jumped = archived.at("jumped");
   return record;
 }
 
@@ -70,15 +70,13 @@ Snapshot restore_snapshot(const json& archived, const meshing::Mesh& mesh) {
 json archive(const Analysis& analysis) {
   json rows = json::array();
   for (const auto& row : analysis.rows) rows.push_back(post::pack(row));
-  return {{"kind", analysis.kind},
-          {"step", analysis.step},
-          {"of", analysis.of},
-          {"columns", analysis.columns},
-          {"rows", std::move(rows)}};
+  return {{"kind", analysis.kind},     {"step", analysis.step},       {"of", analysis.of},
+          {"driven", analysis.driven}, {"columns", analysis.columns}, {"rows", std::move(rows)}};
 }
 
 Analysis restore_analysis(const json& archived) {
-  Analysis analysis{archived.at("kind"), archived.at("step"), archived.at("of"), archived.at("columns"), {}};
+  Analysis analysis{archived.at("kind"),   archived.at("step"),    archived.at("of"),
+                    archived.at("driven"), archived.at("columns"), {}};
   for (const json& row : archived.at("rows"))
     analysis.rows.push_back(post::unpack(row, analysis.columns.size()));
   return analysis;
@@ -88,9 +86,15 @@ std::vector<double> history_row(const post::StepRecord& record, const std::vecto
   std::vector<double> row{record.load_factor, record.time};
   row.insert(row.end(), record.voltages.begin(), record.voltages.end());
   row.insert(row.end(), quantities.begin(), quantities.end());
-  for (const double number : {double(record.iterations), record.residual, double(record.unstable_modes)})
+  for (const double number :
+       {double(record.iterations), record.residual, double(record.unstable_modes), double(record.jumped)})
     row.push_back(number);
   return row;
+}
+
+/// How an electrode's voltage is called in tables and series.
+std::string voltage_name(const Case& one, std::size_t electrode) {
+  return one.electrodes.size() == 1 ? "voltage" : "voltage_" + one.electrodes[electrode].name;
 }
 
 /// A step's name as that of a file.
@@ -104,11 +108,11 @@ std::string file_name(std::string step) {
 
 std::vector<post::Column> history_columns(const Case& one) {
   std::vector<post::Column> columns{{"load_factor", "1"}, {"time", "s"}};
-  for (const Electrode& electrode : one.electrodes)
-    columns.push_back({one.electrodes.size() == 1 ? "voltage" : "voltage_" + electrode.name, "V"});
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) columns.push_back({voltage_name(one, e), "V"});
   for (const Quantity& quantity : one.quantities)
     columns.push_back({quantity.name, unit_of(quantity, one.quantities)});
-  for (const char* solver : {"iterations", "residual", "unstable_modes"}) columns.push_back({solver, "1"});
+  for (const char* solver : {"iterations", "residual", "unstable_modes", "jumped"})
+    columns.push_back({solver, "1"});
   return columns;
 }
 
@@ -130,23 +134,46 @@ void Recorder::open_series(std::optional<post::VtkSeries>& series, const char* s
                  std::move(entries));
 }
 
-/// Time where it passes; otherwise the steps that have ended and the load factor, or, as that goes back along
-/// a followed path, the number of the record.
-double Recorder::series_time(const post::StepRecord& record) const {
-  if (std::ranges::any_of(case_.steps, [](const Step& step) { return step.duration.has_value(); }))
-    return record.time;
-  if (std::ranges::any_of(case_.steps,
-                          [](const Step& step) { return step.on_instability == OnInstability::follow; }))
-    return record.index;
-  return steps_ended_ + record.load_factor;
+/// A time for every state, none twice: ParaView shows all states of a time at once. Where time passes it is
+/// time, with steps before time starts counted backwards from 0, one unit each; without time it is the steps
+/// that have ended and the load factor, or, as that goes back along a followed path, the number of the
+/// record. A state at the time of the one before (behind a jump, in a ramp between two steps that take time)
+/// comes a billionth of a step later.
+double Recorder::series_time(const post::StepRecord& record) {
+  const std::vector<Step>& steps = simulation_.steps();
+  const auto timed = std::ranges::find_if(steps, [](const Step& step) { return step.duration.has_value(); });
+  const bool follows = std::ranges::any_of(
+      steps, [](const Step& step) { return step.on_instability == OnInstability::follow; });
+  double time = steps_ended_ + record.load_factor, unit = 1;
+  if (timed != steps.end()) {
+    const auto before =
+        std::count_if(steps.begin(), timed, [](const Step& step) { return !step.is_analysis(); });
+    time = steps_ended_ < before ? time - static_cast<double>(before) : record.time;
+    unit = *timed->duration;
+  } else if (follows) {
+    time = record.index;
+  }
+  constexpr double smallest_gap = 1e-9;
+  if (series_time_ && time <= *series_time_)
+    time = *series_time_ + smallest_gap * std::max(unit, std::abs(*series_time_));
+  series_time_ = time;
+  return time;
+}
+
+post::SeriesStep Recorder::series_step(double time, const std::string& name, double load_factor,
+                                       std::span<const double> voltages) const {
+  post::SeriesStep step{time, name, load_factor, {}};
+  for (std::size_t e = 0; e < case_.electrodes.size() && e < voltages.size(); ++e)
+    step.voltages.push_back({voltage_name(case_, e), voltages[e]});
+  return step;
 }
 
 void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event& event) {
   if (!case_.fields) return;
   const Device& device = simulation_.device();
   if (!modes_) open_series(modes_, "-modes");
-  modes_->write(journal_.modes++, event.message, critical.state.displacement,
-                device.model.sample(critical.state),
+  modes_->write(series_step(journal_.modes++, event.message, critical.load_factor, critical.state.voltage),
+                critical.state.displacement, device.model.sample(critical.state),
                 fem::displacements(device.model.dofs, critical.mode.direction));
 }
 
@@ -160,8 +187,8 @@ void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
                            device.mesh);
     const fem::Samples samples = device.model.sample(state);
     for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
-      series.write(static_cast<double>(i), analysis.shapes[i].name, state.displacement, samples,
-                   analysis.shapes[i].displacement);
+      series.write(series_step(static_cast<double>(i), analysis.shapes[i].name, 1, state.voltage),
+                   state.displacement, samples, analysis.shapes[i].displacement);
   }
   analysis.shapes.clear();
   journal_.analyses.push_back(std::move(analysis));
@@ -171,8 +198,8 @@ void Recorder::record(const Frame& frame) {
   const post::StepRecord& record = frame.record;
   history_->append(record.step, history_row(record, frame.values));
   if (series_)
-    series_->write(series_time(record), record.step, frame.measured.state.displacement,
-                   frame.measured.samples);
+    series_->write(series_step(series_time(record), record.step, record.load_factor, record.voltages),
+                   frame.measured.state.displacement, frame.measured.samples);
 
   const Device& device = simulation_.device();
   const int triangles = device.mesh.film()->size();
@@ -214,6 +241,7 @@ void Recorder::save_checkpoint() {
        {"time_error", progress.time_error},
        {"results", post::pack(simulation_.results())},
        {"steps_ended", steps_ended_},
+       {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
        {"series", entries(series_)},
        {"modes_series", entries(modes_)},
        {"journal",
@@ -224,8 +252,6 @@ void Recorder::save_checkpoint() {
          {"analyses", analyses}}}});
   saved_ = std::chrono::steady_clock::now();
 }
-
-void Recorder::remove_checkpoint() { std::filesystem::remove(folder_ / checkpoint_name); }
 
 void Recorder::restore_checkpoint() try {
   if (!std::filesystem::exists(folder_ / checkpoint_name))
@@ -249,6 +275,7 @@ void Recorder::restore_checkpoint() try {
                       saved.at("active_events"), saved.at("time_error")});
   simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
   steps_ended_ = saved.at("steps_ended");
+  if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();
   const json& journal = saved.at("journal");
   journal_.modes = journal.at("modes");
   for (const json& analysis : journal.at("analyses")) journal_.analyses.push_back(restore_analysis(analysis));

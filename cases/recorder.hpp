@@ -19,6 +19,9 @@ struct Snapshot {
   std::vector<double> field;                 ///< true electric field, V/m, per triangle
 };
 
+/// File of a run's checkpoint in its folder of results; removed when they are complete.
+inline constexpr const char* checkpoint_name = "checkpoint.cbor";
+
 /// What a run has gathered so far.
 struct Journal {
   std::vector<post::StepRecord> records;
@@ -44,13 +47,13 @@ class Recorder {
   void record_analysis(Analysis analysis, const fem::State& state);
   /// Writes the checkpoint now; the run can be resumed from it.
   void save_checkpoint();
-  /// The run is complete: there is nothing to resume.
-  void remove_checkpoint();
 
   const Journal& journal() const { return journal_; }
 
  private:
-  double series_time(const post::StepRecord& record) const;
+  double series_time(const post::StepRecord& record);
+  post::SeriesStep series_step(double time, const std::string& name, double load_factor,
+                               std::span<const double> voltages) const;
   void restore_checkpoint();
   /// The series `<case><suffix>`, behind the `entries` of its list that are kept.
   void open_series(std::optional<post::VtkSeries>& series, const char* suffix,
@@ -62,6 +65,7 @@ class Recorder {
   std::string fingerprint_; ///< the resolved case
   Journal journal_;
   int steps_ended_ = 0;
+  std::optional<double> series_time_; ///< of the last state
   std::optional<post::History> history_;
   std::optional<post::VtkSeries> series_, modes_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();

@@ -13,7 +13,6 @@
 #include <sstream>
 
 namespace dielast::cases {
-namespace {
 
 std::string geometry_name(const Case& one) {
   for (const Section& section : case_schema().sections)
@@ -21,6 +20,8 @@ std::string geometry_name(const Case& one) {
       return section.name;
   return "file";
 }
+
+namespace {
 
 void write_section(const Section& section, const void* object, const std::string& path,
                    const std::string& geometry, std::ostream& out) {

@@ -68,6 +68,8 @@ std::string meaning(const Quantity& q) {
     return fmt::format("pressure in the chamber{}", at);
   case QuantityKind::volume:
     return fmt::format("volume of the chamber{}", at);
+  case QuantityKind::pumped_volume:
+    return fmt::format("volume pumped into the chamber, as it is without pressure{}", at);
   case QuantityKind::stiffness:
     return fmt::format("force on {} per displacement{}{}", q.of, along, at);
   case QuantityKind::natural_frequency:
@@ -123,7 +125,7 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   std::vector<post::Section> sections{{"Shape",
                                        {post::Image{post::render_png(device.mesh, shapes),
                                                     "Before and after the last step, to one scale."}}}};
-  if (last.voltage > 0) {
+  if (last.voltage != 0) {
     post::Picture field{.quantity = "True electric field", .unit = "V/m", .wall_width = shapes.wall_width};
     field.panels.push_back(panel(device, last, last.field));
     sections.push_back(
@@ -139,7 +141,7 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
   std::map<std::string, std::size_t> by_label;
   const auto& records = journal.records;
   const auto charged = std::find_if(records.begin(), records.end(), [](const post::StepRecord& record) {
-    return record.largest_voltage() > 0;
+    return record.largest_voltage() != 0;
   });
   const bool electric = charged != records.end();
   const bool timed = records.back().time > 0;
@@ -179,6 +181,27 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
   return plots;
 }
 
+/// What happened, and whether it depends on the mesh.
+std::string message_of(const post::Event& event, const Results& results) {
+  const auto remark = std::ranges::find(results.event_remarks, event.kind, &EventRemark::kind);
+  return remark == results.event_remarks.end() ? event.message
+                                               : fmt::format("{}; this {}", event.message, remark->remark);
+}
+
+std::vector<post::StepRecord> with_remarks(std::vector<post::StepRecord> records, const Results& results) {
+  for (post::StepRecord& record : records)
+    for (post::Event& event : record.events) event.message = message_of(event, results);
+  return records;
+}
+
+std::string error_paragraph(const Results& results) {
+  if (!results.no_errors_because.empty())
+    return fmt::format("No estimate of the errors: {}.", results.no_errors_because);
+  return "Errors are estimates of what elements and time steps leave: from solutions with both about two and "
+         "four times as large (or elements half as large), by the order of convergence that is seen, with a "
+         "safety factor; for extremes of fields at least what the field changes over one element there.";
+}
+
 } // namespace
 
 bool Results::checks_passed() const {
@@ -186,8 +209,12 @@ bool Results::checks_passed() const {
 }
 
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
-                        const std::vector<double>& errors) {
-  Results results{.outcome = outcome, .time_error = simulation.time_error()};
+                        const Estimates& estimates) {
+  Results results{.outcome = outcome,
+                  .warnings = simulation.warnings(),
+                  .no_errors_because = estimates.reason,
+                  .event_remarks = estimates.events,
+                  .time_error = simulation.time_error()};
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,
@@ -195,7 +222,10 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                           .unit = unit_of(quantity, one.quantities),
                           .ratio = ratio_of(quantity),
                           .meaning = meaning(quantity)};
-    if (q < errors.size() && std::isfinite(errors[q])) row.error = errors[q];
+    if (q < estimates.quantities.size()) {
+      row.error = estimates.quantities[q].error;
+      row.error_remark = estimates.quantities[q].remark;
+    }
     results.quantities.push_back(std::move(row));
   }
   for (const Check& check : one.checks) {
@@ -225,8 +255,10 @@ json summary_json(const Case& one, const Device& device, const Results& results,
     quantities[row.name] = {{"value", number(row.value)},
                             {"unit", row.unit},
                             {"error_estimate", row.error ? number(*row.error) : json(nullptr)},
+                            {"error_remark", row.error_remark},
                             {"meaning", row.meaning}};
   summary["quantities"] = quantities;
+  summary["no_error_estimate_because"] = results.no_errors_because;
   json checks = json::array();
   for (const auto& check : results.checks)
     checks.push_back({{"quantity", check.quantity},
@@ -246,7 +278,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                         {"load_factor", record.load_factor},
                         {"voltages", record.voltages},
                         {"place", event.place},
-                        {"message", event.message}});
+                        {"message", message_of(event, results)}});
   const auto tells = [&](const post::Event& event) { return event.kind == results.outcome.kind; };
   if (!results.outcome.kind.empty() && !journal.records.empty() &&
       std::ranges::none_of(journal.records.back().events, tells)) {
@@ -260,6 +292,11 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                       {"message", results.outcome.message}});
   }
   summary["events"] = events;
+  summary["warnings"] = results.warnings;
+  json remarks = json::array();
+  for (const EventRemark& event : results.event_remarks)
+    remarks.push_back({{"kind", event.kind}, {"remark", event.remark}});
+  summary["event_remarks"] = remarks;
   json analyses = json::array();
   for (const Analysis& analysis : journal.analyses)
     analyses.push_back({{"step", analysis.step}, {"columns", analysis.columns}, {"rows", analysis.rows}});
@@ -293,6 +330,11 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   if (!results.outcome.message.empty())
     report.sections.push_back({"How it ended", {post::Paragraph{results.outcome.message}}});
 
+  if (!results.warnings.empty()) {
+    report.sections.push_back({"Warnings", {}});
+    for (const std::string& warning : results.warnings)
+      report.sections.back().blocks.push_back(post::Paragraph{warning});
+  }
   for (post::Section& section : picture_sections(device, journal))
     report.sections.push_back(std::move(section));
 
@@ -304,15 +346,16 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
 
   for (const Analysis& analysis : journal.analyses) report.sections.push_back(analysis_section(analysis));
   report.sections.push_back(
-      {"Quantities",
-       {post::quantity_table(results.quantities),
-        post::Paragraph{"Errors are estimates of what is left of the discretisation, from a second solution "
-                        "with elements "
-                        "about twice as large: a third of the difference (second order), for extremes of "
-                        "fields all of it (first order)."}}});
+      {"Quantities", {post::quantity_table(results.quantities), post::Paragraph{error_paragraph(results)}}});
   if (!results.checks.empty()) report.sections.push_back({"Checks", {post::check_table(results.checks)}});
-  if (post::Table events = post::event_table(journal.records); !events.rows.empty())
+  if (post::Table events = post::event_table(with_remarks(journal.records, results)); !events.rows.empty())
     report.sections.push_back({"Events", {std::move(events)}});
+  if (!results.event_remarks.empty()) {
+    post::Section section{"Events that depend on the mesh", {}};
+    for (const EventRemark& event : results.event_remarks)
+      section.blocks.push_back(post::Paragraph{fmt::format("{}: {}.", event.kind, event.remark)});
+    report.sections.push_back(std::move(section));
+  }
   report.sections.push_back({"Increments", {post::increment_table(journal.records)}});
   report.sections.push_back({"Mesh", {post::Listing{meshing_summary(device)}}});
   if (!log.empty()) report.sections.push_back({"Log", {post::Listing{log}}});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/error_estimate.hpp"
 #include "cases/recorder.hpp"
 #include "post/report_tables.hpp"
 
@@ -12,18 +13,21 @@ struct Results {
   Outcome outcome;
   std::vector<post::QuantityRow> quantities; ///< in the case's order
   std::vector<post::CheckRow> checks;
+  std::vector<std::string> warnings{}; ///< before the run: keys without effect, a film of odd size
+  std::string no_errors_because;       ///< why no quantity has an error estimate; empty otherwise
+  std::vector<EventRemark> event_remarks;
   double time_error = 0; ///< see Simulation::time_error()
 
   bool checks_passed() const;
 };
 
-/// Values and checks of a run. `errors`: estimated discretisation error of each quantity, NaN where unknown;
-/// may be empty.
+/// Values and checks of a run.
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
-                        const std::vector<double>& errors);
+                        const Estimates& estimates);
 
-/// summary.json: status, quantities.<name>.{value, unit, error_estimate}, checks, events, mesh. Nothing in it
-/// depends on the machine or the time.
+/// summary.json: status, quantities.<name>.{value, unit, error_estimate, error_remark}, checks, events,
+/// warnings, mesh.
+/// Nothing in it depends on the machine or the time.
 nlohmann::json summary_json(const Case& one, const Device& device, const Results& results,
                             const Journal& journal);
 

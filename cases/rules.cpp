@@ -1,10 +1,12 @@
 #include "cases/rules.hpp"
 
 #include "cases/analysis.hpp"
+#include "cases/conditions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace dielast::cases {
@@ -23,14 +25,15 @@ struct Place {
   Source source;
 };
 
+/// Items of a list that the user has written; those of the template stand in front.
+std::size_t written_items(const Node& list) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(list.items, [](const Node& item) { return item.source.is_written(); }));
+}
+
 Place place_of_step(const Node& tree, std::size_t number) {
   const Node& item = tree.find("step")->items.at(number);
   return {item.source.line > 0 ? fmt::format("step[{}]", number + 1) : "step", item.source};
-}
-
-bool has_step(const Case& one, std::initializer_list<StepKind> kinds) {
-  return std::ranges::any_of(
-      one.steps, [&](const Step& step) { return std::ranges::find(kinds, step.kind) != kinds.end(); });
 }
 
 void check_loads(SectionReader& reader, const Node& tree, const Case& one) {
@@ -54,6 +57,11 @@ void check_motions(SectionReader& reader, const Node& tree, const Case& one) {
 }
 
 void check_drives(SectionReader& reader, const Node& tree, const Case& one) {
+  if (one.electrodes.empty())
+    for (const char* section : {"drive", "circuit"})
+      if (const Node* written = tree.find(section); written && !written->items.empty())
+        reader.report(written->source, section,
+                      "there is no electrode for it; add an [[electrode]] with a name and a place");
   const bool voltage =
       std::ranges::any_of(one.drives, [](const auto& d) { return d.second.voltage.has_value(); });
   const bool charge =
@@ -83,7 +91,25 @@ bool follows(const Step& step, const WrittenWave& written) {
   return !written.key.starts_with("drive") || drives_charge(written) == (step.control == Control::charge);
 }
 
+/// Longest time that a step follows the wave, s.
+double followed_time(const Case& one, const WrittenWave& written) {
+  double longest = 0;
+  for (const Step& step : one.steps)
+    if (follows(step, written)) longest = std::max(longest, *step.duration);
+  return longest;
+}
+
 void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
+  for (const WrittenWave& written : reader.waves()) {
+    using enum Waveform::Kind;
+    const Waveform& wave = written.wave;
+    const bool starts = wave.kind == ramp || wave.kind == step || wave.kind == trapezoid;
+    if (const double end = followed_time(one, written); end > 0 && starts && wave.start >= end)
+      reader.warn(written.source, written.key,
+                  fmt::format("has no effect here: it begins at {:.6g} s, and the step that follows it ends "
+                              "at {:.6g} s",
+                              wave.start, end));
+  }
   for (const WrittenWave& written : reader.waves())
     if (std::ranges::none_of(one.steps, [&](const Step& step) { return follows(step, written); }))
       reader.report(
@@ -126,12 +152,6 @@ void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
-bool has_mass(const Case& one) {
-  const auto heavy = [](const auto& body) { return body.mass > 0; };
-  return one.film.material.density > 0 || (one.plate && heavy(*one.plate)) ||
-         std::ranges::any_of(one.point_masses, heavy);
-}
-
 void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
   for (std::size_t s = 0; s < one.steps.size(); ++s) {
     const Step& step = one.steps[s];
@@ -160,6 +180,59 @@ void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   };
   need(StepKind::pressure, "pressure", one.chamber && one.chamber->pressure);
   need(StepKind::inflate, "volume", one.chamber && one.chamber->volume);
+}
+
+/// What is measured must be there.
+void check_quantities(SectionReader& reader, const Node& tree, const Case& one) {
+  const Node* list = tree.find("quantity");
+  const std::size_t standard = list ? list->items.size() - written_items(*list) : 0;
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    if (!list || q >= list->items.size() || !list->items[q].source.is_written()) continue;
+    const Quantity& quantity = one.quantities[q];
+    const Source& source = list->items[q].source;
+    const std::string key = fmt::format("quantity[{}]", q - standard + 1);
+    const bool of_chamber = quantity.kind == QuantityKind::pressure || quantity.kind == QuantityKind::volume;
+    if (of_chamber && !one.chamber) reader.report(source, key, "there is no chamber; add [chamber]");
+    if (quantity.kind == QuantityKind::current && !one.circuits.contains(quantity.of))
+      reader.warn(source, key,
+                  "has no value here: the current is that through a [circuit], and there is none");
+    if (quantity.kind == QuantityKind::natural_frequency && !has_mass(one))
+      reader.warn(source, key, "has no value here: nothing has a mass");
+    for (const auto& [name, step] : {std::pair{"at", quantity.at}, {"since", quantity.since}})
+      if (const auto named = std::ranges::find(one.steps, step, &Step::name);
+          named != one.steps.end() && named->is_analysis())
+        reader.report(
+            list->items[q].find(name)->source, key + "." + name,
+            fmt::format("found \"{}\": a step of this kind leaves the state as it is; name the step "
+                        "before it",
+                        step));
+  }
+}
+
+/// What moves along an axis needs a model that moves along it.
+void check_axes(SectionReader& reader, const Node& tree, const Case& one) {
+  constexpr std::array names{"x", "y", "z"};
+  const auto check = [&](const Node* node, const std::string& key, int axis) {
+    if (node && node->source.is_written() && !fem::moves(one.dimension, axis))
+      reader.report(node->source, key,
+                    fmt::format("found {}: {} model does not move along {}", text_of(*node),
+                                one.dimension == fem::Dimension::planar ? "a planar" : "an axisymmetric",
+                                names[static_cast<std::size_t>(axis)]));
+  };
+  const Node* supports = tree.find("support");
+  for (std::size_t i = 0; supports && i < supports->items.size(); ++i)
+    if (const Node* motion = supports->items[i].find("displacement"))
+      for (int axis = 0; axis < 3; ++axis) {
+        const char* name = names[static_cast<std::size_t>(axis)];
+        check(motion->find(name), fmt::format("support[{}].displacement.{}", i + 1, name), axis);
+      }
+  const auto check_list = [&](const char* section, const auto& objects) {
+    const Node* list = tree.find(section);
+    for (std::size_t i = 0; list && i < list->items.size() && i < objects.size(); ++i)
+      check(list->items[i].find("along"), fmt::format("{}[{}].along", section, i + 1), objects[i].along);
+  };
+  check_list("spring", one.springs);
+  check_list("linkage", one.linkages);
 }
 
 /// What moves out of its plane, or has none.
@@ -203,6 +276,8 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_rows(reader, tree, one);
   check_masses(reader, tree, one);
   check_chamber(reader, tree, one);
+  check_quantities(reader, tree, one);
+  check_axes(reader, tree, one);
   check_dimension(reader, tree, one);
   check_patch(reader, tree, one);
 }

@@ -65,8 +65,9 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
         log.info("    mode {:.0f}  {:>10.6g} Hz  {:>10.6g} rad/s{}", row[0], row[1], row[2],
                  row[3] < 0 ? "  unstable" : "");
     else
-      log.info("    {} frequencies, {} per volt {:.5g} to {:.5g} m/V", analysis.rows.size(), analysis.of,
-               analysis.rows.front()[1], analysis.rows.back()[1]);
+      log.info("    {} frequencies, source of {}: {} per volt {:.5g} to {:.5g} m/V", analysis.rows.size(),
+               fmt::join(analysis.driven, ", "), analysis.of, analysis.rows.front()[1],
+               analysis.rows.back()[1]);
     recorder.record_analysis(analysis, state);
   };
   observer.on_pass = [] { return !interrupted(); };
@@ -87,27 +88,6 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
   return observer;
 }
 
-/// Richardson's estimate from a second solution with coarser elements, as for convergence of second order;
-/// extremes of fields sit at the lattice's corners, where only first order can be hoped for.
-std::vector<double> estimate_errors(const Case& one, const Simulation& fine, int threads,
-                                    spdlog::logger& log) {
-  std::optional<Coarser> second = coarser(one);
-  if (!second) return {};
-  for (Step& step : second->coarse.steps) step.increments = (step.increments + 2) / 3;
-  Simulation simulation(second->coarse, threads);
-  if (simulation.run({}).ending != Ending::complete) {
-    log.warn("no error estimate: the coarser mesh found no equilibrium");
-    return {};
-  }
-  std::vector<double> errors;
-  for (std::size_t q = 0; q < fine.results().size(); ++q) {
-    const int order = one.quantities[q].kind == QuantityKind::extreme ? 1 : 2;
-    errors.push_back(std::abs(fine.results()[q] - simulation.results()[q]) /
-                     (std::pow(second->ratio, order) - 1));
-  }
-  return errors;
-}
-
 /// How the run ended whose results the folder holds; nothing when there is something left to do. Throws
 /// FileError when they are of another case.
 std::optional<ExitCode> finished(const Case& one, const post::ResultsFolder& folder) {
@@ -126,6 +106,7 @@ std::optional<ExitCode> finished(const Case& one, const post::ResultsFolder& fol
 ExitCode run_case(const Case& one, const RunSettings& settings) {
   post::ResultsFolder folder(settings.directory, "run");
   if (const auto ended = settings.resume ? finished(one, folder) : std::nullopt) {
+    std::filesystem::remove(folder / checkpoint_name); // a kill may have left it
     if (!settings.quiet) say("{}: has run to its end, nothing to resume\n", folder.path().string());
     return *ended;
   }
@@ -141,6 +122,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.info("{} triangles, {} beams, {} unknowns; smallest angle {:.1f} deg", device.mesh.film()->size(),
              device.mesh.walls() ? device.mesh.walls()->size() : 0, unknowns,
              meshing::quality(device.mesh).smallest_angle);
+  for (const std::string& warning : simulation.warnings()) log.warn("{}", warning);
   if (!recorder.journal().records.empty())
     log.info("resumed behind {} accepted states", recorder.journal().records.size());
 
@@ -151,14 +133,19 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
              recorder.journal().records.size(), settings.directory.string());
     return ExitCode::interrupted;
   }
-  std::vector<double> errors;
-  if (one.error_estimate && outcome.ending == Ending::complete)
-    errors = estimate_errors(one, simulation, settings.threads, log);
-  const Results results = collect_results(one, simulation, outcome, errors);
+  Estimates estimates{.reason = "left out: output.error_estimate = false"};
+  if (outcome.ending != Ending::complete)
+    estimates.reason = "the run did not reach its end";
+  else if (one.error_estimate)
+    estimates = estimate_errors(one, simulation, recorder.journal().records, settings.threads);
+  const Results results = collect_results(one, simulation, outcome, estimates);
 
   log.info("results");
   for (const post::QuantityRow& row : results.quantities)
     log.info("  {:<24} {}", row.name, post::with_error(row));
+  if (one.error_estimate && outcome.ending == Ending::complete && !estimates.reason.empty())
+    log.warn("  no error estimate: {}", estimates.reason);
+  for (const EventRemark& event : estimates.events) log.warn("  {}: {}", event.kind, event.remark);
   for (const post::CheckRow& check : results.checks)
     log.info("  check {:<18} {}: {} expected {} ± {}", check.quantity, check.passed ? "passed" : "FAILED",
              post::engineering(check.value, check.unit, check.ratio, 6),
@@ -184,7 +171,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
                run_report(one, device, results, recorder.journal(), read_text(folder / "run.log")).html());
   folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
   folder.set_complete(static_cast<int>(code));
-  recorder.remove_checkpoint();
+  std::filesystem::remove(folder / checkpoint_name);
   return code;
 }
 

@@ -85,6 +85,10 @@ Key Key::refers_to(Reference what) && {
   refers = what;
   return std::move(*this);
 }
+Key Key::only_with(Condition condition) && {
+  acts = std::move(condition);
+  return std::move(*this);
+}
 Key Key::checked(std::function<std::string(const Value&)> rule) && {
   check = std::move(rule);
   return std::move(*this);

@@ -55,6 +55,13 @@ struct Range {
   bool low_open = false, high_open = false;
 };
 
+/// When a key, or a section, does something: a question to the whole case and to the object of the section.
+/// Empty: always.
+struct Condition {
+  std::string needs; ///< in words: "a step with a duration"
+  std::function<bool(const Case&, const void* object)> met{};
+};
+
 /// One key: everything that is known about it, once. Made by the functions below; `with...` members refine
 /// it.
 struct Key {
@@ -76,6 +83,7 @@ struct Key {
   std::string instead_of; ///< another way to give this key: exactly one of the two
   bool unique = false;    ///< no two entries of the section's list may share the value
   Reference refers = Reference::none;
+  Condition acts; ///< otherwise it is read and does nothing, which the user is told
   std::function<std::string(const Value&)> check; ///< says what is wrong, "" if nothing
 
   bool is_list() const { return most > 1; }
@@ -97,6 +105,7 @@ struct Key {
   Key replacing(std::string other_key) &&;
   Key distinct() &&;
   Key refers_to(Reference what) &&;
+  Key only_with(Condition condition) &&;
   Key checked(std::function<std::string(const Value&)> rule) &&;
 };
 
@@ -143,6 +152,7 @@ struct Section {
   /// Fills the object with a named thing; false when there is none of that name.
   std::function<bool(void* object, const std::string& name)> start;
   std::function<std::optional<Conflict>(const void* object)> check;
+  Condition acts{}; ///< of all its keys
 
   /// "[path]" or "[[path]]"
   std::string heading(const std::string& path) const;

@@ -1,4 +1,4 @@
-#include "cases/schema.hpp"
+#include "cases/conditions.hpp"
 
 namespace dielast::cases {
 namespace {
@@ -16,7 +16,8 @@ Section electrode_section() {
               "per square of the deformed film, both faces together; without it the voltage is the same "
               "everywhere")
           .at_least(smallest_resistance)
-          .optional(),
+          .optional()
+          .only_with(when::time_passes()),
       text("terminal", to(&Electrode::terminal),
            "place where an electrode with a sheet_resistance is connected")
           .optional()
@@ -116,10 +117,12 @@ Section spring_section() {
 }
 
 Section linkage_section() {
-  Section section = list_section("linkage",
-                                 "a weight P on a linkage; with l = distance + offset it pulls two places "
-                                 "apart by P (arm^2 + l^2 - strut^2) / (2 arm l)",
-                                 each(&Case::linkages));
+  Section section = list_section(
+      "linkage",
+      "a weight P on a linkage; with l = distance + offset it pulls two places "
+      "apart by P (arm^2 + l^2 - strut^2) / (2 arm l); its potential, but for a constant, is part of "
+      "the elastic energy",
+      each(&Case::linkages));
   section.keys = distance_keys<Linkage>();
   section.keys.push_back(measure("force", "N", to(&Linkage::force), "the weight P"));
   section.keys.push_back(
@@ -154,17 +157,20 @@ Section circuit_section() {
   section.presence = Section::Presence::optional;
   section.shape = Section::Shape::by_electrode;
   section.access = of_electrodes(&Case::circuits);
+  section.acts = when::circuits_matter();
   section.keys = {
       measure("resistance", "Ohm", to(&Circuit::resistance), "between the source and the electrode")
           .at_least(smallest_resistance),
       measure("leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
-              "through the film under the whole electrode; without it none leaks")
+              "through the film under the whole electrode; without it none leaks. In steps without a "
+              "duration it divides the voltage as it does in the long run")
           .at_least(smallest_resistance)
           .optional(),
       measure("current_limit", "A", to(&Circuit::current_limit),
               "current that the source gives or takes at most")
           .above(0)
-          .optional(),
+          .optional()
+          .only_with(when::time_passes()),
   };
   return section;
 }
@@ -186,7 +192,8 @@ std::vector<Key> mass_keys() {
   return {measure("mass", "kg", to(&T::mass), "its mass").at_least(0),
           measure("damping", "N s/m", to(&T::damping), "of a damper between it and the ground")
               .at_least(0)
-              .otherwise("0 N.s/m")};
+              .otherwise("0 N.s/m")
+              .only_with(when::dampers_matter())};
 }
 
 Section plate_section() {
@@ -216,11 +223,13 @@ Section gravity_section() {
   section.name = "gravity";
   section.meaning = "what the steps of kind \"weight\" apply, along -z";
   section.access = member(&Case::gravity);
-  section.keys = {
-      measure("acceleration", "m/s^2", to(&Gravity::acceleration), "of free fall")
-          .at_least(0)
-          .otherwise("9.81 m/s^2"),
-      flag("film", to(&Gravity::film), "whether the film's own weight counts").otherwise("false")};
+  section.keys = {measure("acceleration", "m/s^2", to(&Gravity::acceleration), "of free fall")
+                      .at_least(0)
+                      .otherwise("9.81 m/s^2")
+                      .only_with(when::weight()),
+                  flag("film", to(&Gravity::film), "whether the film's own weight counts")
+                      .otherwise("false")
+                      .only_with(when::weight())};
   return section;
 }
 
@@ -233,14 +242,20 @@ Section chamber_section() {
   section.keys = {
       wave("pressure", "Pa", to(&Chamber::pressure),
            "pressure that the steps of kind \"pressure\" reach, and \"transient\" follows")
-          .optional(),
-      wave("volume", "m^3", to(&Chamber::volume),
-           "volume that the steps of kind \"inflate\" reach: a pump sets it, the pressure follows")
+          .optional()
+          .only_with(when::chamber_is_open()),
+      wave(
+          "volume", "m^3", to(&Chamber::volume),
+          "pumped volume Q that the steps of kind \"inflate\" reach, measured without pressure: the pressure "
+          "follows, and the chamber's own volume is Q / (1 + pressure / bulk_modulus)")
           .at_least(0)
-          .optional(),
-      measure("bulk_modulus", "Pa", to(&Chamber::bulk_modulus), "of the liquid that is pumped in")
+          .optional()
+          .only_with(when::chamber_is_closed()),
+      measure("bulk_modulus", "Pa", to(&Chamber::bulk_modulus),
+              "of the liquid that fills the chamber; of a gas the pressure outside")
           .at_least(1)
-          .otherwise("2.2 GPa"),
+          .otherwise("2.2 GPa")
+          .only_with(when::chamber_is_closed()),
   };
   return section;
 }
@@ -254,12 +269,11 @@ Section drive_section() {
   section.keys = {
       wave("voltage", "V", to(&Drive::voltage),
            "voltage that the steps of kind \"voltage\" reach, and \"transient\" follow")
-          .at_least(0)
-          .optional(),
+          .optional()
+          .only_with(when::voltage_applies()),
       wave("charge", "C", to(&Drive::charge),
            "charge that the steps of kind \"charge\" reach, and \"transient\" with control = \"charge\" "
            "follow")
-          .at_least(0)
           .optional(),
   };
   return section;

@@ -1,3 +1,4 @@
+#include "cases/conditions.hpp"
 #include "cases/parameter_keys.hpp"
 #include "materials/catalog.hpp"
 
@@ -36,6 +37,7 @@ Section branch_section() {
                     },
                     [](void* parent) { static_cast<Film*>(parent)->material.branches.clear(); }};
   section.selector = "law";
+  section.acts = when::branches_flow();
   add_law_keys<Branch>(
       section.keys, [](auto& branch) -> auto& { return branch.law; }, "law of the spring");
   const Binding relaxation_time{[](void* object, const Value& value) {
@@ -69,10 +71,12 @@ Section branch_section() {
             {"nominal", "resists the rate of the viscous stretches along x and y"}},
            to(&Branch::dashpot), "what the dashpot resists")
           .otherwise("log"));
-  section.keys.push_back(word("directions", {{"x", "along x"}, {"y", "along y"}}, directions,
-                              "directions in which a nominal dashpot flows")
-                             .values(1, 2)
-                             .otherwise("[\"x\", \"y\"]"));
+  section.keys.push_back(
+      word("directions", {{"x", "along x"}, {"y", "along y"}}, directions,
+           "directions in which a nominal dashpot flows; along the other the spring is free of "
+           "stress at stretch 1")
+          .values(1, 2)
+          .otherwise("[\"x\", \"y\"]"));
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& branch = *static_cast<const Branch*>(object);
     if (branch.dashpot == materials::Dashpot::log && !(branch.directions[0] && branch.directions[1]))
@@ -115,6 +119,8 @@ Section material_section() {
       "equilibrium law (energy per undeformed volume)");
   add_parameter_keys<Film, materials::Dielectric>(section.keys,
                                                   [](auto& film) { return &film.material.dielectric; });
+  for (Key& key : section.keys)
+    if (key.name == "electrostriction" || key.name.starts_with("breakdown")) key.acts = when::electrodes();
   const Binding relative{[](void* object, const Value& value) {
                            static_cast<Film*>(object)->material.dielectric.permittivity =
                                value.at(0).number * vacuum_permittivity;
@@ -128,7 +134,8 @@ Section material_section() {
                                  to_part<Film>([](auto& film) -> auto& { return film.material.density; }),
                                  "mass per volume")
                              .at_least(0)
-                             .otherwise("960 kg/m^3"));
+                             .otherwise("960 kg/m^3")
+                             .only_with(when::masses_matter()));
   section.sections.push_back(branch_section());
   section.check = [](const void* object) {
     return law_conflict(static_cast<const Film*>(object)->material.law);
@@ -147,6 +154,12 @@ double relaxed_invariant(const materials::Branch& branch, const std::array<doubl
 std::optional<Conflict> prestretch_conflict(const void* object) {
   const auto& film = *static_cast<const Film*>(object);
   const double x = film.prestretch[0], y = film.prestretch[1];
+  const double c = film.material.dielectric.electrostriction;
+  if (const double share = 1 + c * (x + y - 2); !(share > 0))
+    return Conflict{"prestretch",
+                    fmt::format("with electrostriction = {:.6g} the permittivity is not positive: "
+                                "1 + c (l1 + l2 - 2) = {:.4g}",
+                                c, share)};
   const auto beyond = [](const std::string& whose, const materials::ElasticLaw& law,
                          double invariant) -> std::optional<Conflict> {
     if (materials::admits(law, invariant)) return std::nullopt;

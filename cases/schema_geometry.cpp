@@ -1,3 +1,4 @@
+#include "cases/conditions.hpp"
 #include "cases/parameter_keys.hpp"
 #include "materials/catalog.hpp"
 
@@ -194,7 +195,7 @@ Section patch_section() {
           .otherwise_as("length"),
       word("mode",
            {{"biaxial", "x and y move independently"},
-            {"equal-biaxial", "x and y are stretched alike"},
+            {"equal-biaxial", "x and y are stretched alike; of the stresses only the sum is given"},
             {"pure-shear", "y is held at the prestretch"}},
            to(&Patch::mode), "how the sides move")
           .otherwise("biaxial"),
@@ -234,6 +235,7 @@ Section mesh_section() {
                    "integration points of a 6-node triangle: 3 or 6")
         .at_least(3)
         .at_most(6)
+        .only_with(when::curved_triangles())
         .checked([](const Value& value) {
           const double count = value.at(0).number;
           return count == 3 || count == 6 ? "" : fmt::format("found {}, allowed 3 or 6", count);
@@ -248,9 +250,18 @@ Section mesh_section() {
       text("file", mesh_file(),
            "the user's own gmsh mesh (MSH 4.1 or 2.2), beside the case file; physical names are places")
           .only({"file"}),
-      measure("unit", "m", mesh_option(&MeshOptions::unit), "what one unit of length of the file stands for")
+      measure(
+          "unit", "m", mesh_option(&MeshOptions::unit),
+          "what one unit of length of the file stands for; without it 1 m, and a warning says how large the "
+          "film is")
           .above(0)
-          .otherwise("1 m")
+          .optional()
+          .only({"file"}),
+      integer("refine", mesh_option(&MeshOptions::refine),
+              "how often each triangle of the file is split into four")
+          .at_least(0)
+          .at_most(6)
+          .otherwise("0")
           .only({"file"}),
       integer("order", mesh_option(&MeshOptions::order),
               "1: 3-node triangles, 2-node beams and meridians; 2: 6-node and 3-node")

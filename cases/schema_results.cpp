@@ -1,3 +1,4 @@
+#include "cases/conditions.hpp"
 #include "cases/quantities.hpp"
 #include "cases/sweep_keys.hpp"
 
@@ -21,28 +22,32 @@ Section quantity_section() {
   const auto of = [](std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); };
   section.keys = {
       text("name", to(&Quantity::name), "its name in results").distinct(),
-      word("kind",
-           {{"distance", "between the centroids of two places (m)"},
-            {"elongation", "relative change of the distance between two places (-)"},
-            {"stretch", "distance between two places over that of the unstretched film (-)"},
-            {"size", "of the box around a place (m)"},
-            {"growth", "relative change of the size of a place (-)"},
-            {"displacement", "of the centroid of a place (m)"},
-            {"radius", "mean distance of a place's nodes from their centroid (m)"},
-            {"force", "reaction at a support (N)"},
-            {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
-            {"capacitance", "of an electrode (F)"},
-            {"charge", "of an electrode (C)"},
-            {"current", "that the source of an electrode's [circuit] gives (A)"},
-            {"pressure", "in the chamber (Pa)"},
-            {"volume", "of the chamber (m^3)"},
-            {"stiffness", "force on a place per displacement along an axis, branches relaxed (N/m)"},
-            {"natural frequency", "of small vibrations about the state, branches relaxed (rad/s)"},
-            {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
-            {"energy", "part of the energy balance (J)"},
-            {"extreme", "smallest or largest value of a field"},
-            {"peak", "smallest or largest value of another quantity so far"}},
-           to(&Quantity::kind), "what is measured"),
+      word(
+          "kind",
+          {{"distance", "between the centroids of two places (m)"},
+           {"elongation", "relative change of the distance between two places (-)"},
+           {"stretch", "distance between two places over that of the unstretched film (-)"},
+           {"size", "of the box around a place (m)"},
+           {"growth", "relative change of the size of a place (-)"},
+           {"displacement", "of the centroid of a place (m)"},
+           {"radius", "mean distance of a place's nodes from their centroid (m)"},
+           {"force", "reaction at a support (N)"},
+           {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
+           {"capacitance", "of an electrode (F)"},
+           {"charge", "of an electrode (C)"},
+           {"current", "that the source of an electrode's [circuit] gives (A)"},
+           {"pressure", "in the chamber (Pa)"},
+           {"volume", "of the chamber itself (m^3)"},
+           {"pumped volume", "that was pumped into the chamber, as it is without pressure (m^3)"},
+           {"stiffness", "force on a place per displacement along an axis, branches relaxed; none while they "
+                         "flow (N/m)"},
+           {"natural frequency", "of small vibrations about the state, branches relaxed; none while they "
+                                 "flow (rad/s)"},
+           {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
+           {"energy", "part of the energy balance (J)"},
+           {"extreme", "smallest or largest value of a field"},
+           {"peak", "smallest or largest value of another quantity so far"}},
+          to(&Quantity::kind), "what is measured"),
       text("between", to(&Quantity::between), "the two places")
           .values(2, 2)
           .only({"distance", "elongation", "stretch"})
@@ -54,8 +59,9 @@ Section quantity_section() {
       of("the electrode").only({"capacitance", "charge", "current"}).refers_to(Reference::electrode),
       word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
       word("of",
-           {{"electrical_work", "done by the sources: sum of int Phi dQ"},
-            {"mechanical_work", "done by loads and moved supports"},
+           {{"electrical_work", "done on the film's electrodes: sum of int Phi dQ"},
+            {"mechanical_work", "done by loads, moved supports and the pressure in a chamber; where several "
+                                "loads jump at once they do so along a straight line"},
             {"stored", "elastic, branches, electric and kinetic together"},
             {"elastic", "stored by the equilibrium law, walls and springs"},
             {"branches", "stored by the springs of the branches"},
@@ -78,12 +84,16 @@ Section quantity_section() {
       word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
+          .only_with(when::moves_along_it())
           .only({"distance", "elongation", "size", "growth", "force"}),
       word("along", {{"x", ""}, {"y", ""}, {"z", ""}, {"gravity", "-z"}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
+          .only_with(when::moves_along_it())
           .only({"displacement"}),
-      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "direction").only({"stiffness"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "direction")
+          .only_with(when::moves_along_it())
+          .only({"stiffness"}),
       integer("mode", to(&Quantity::mode), "its number, from the lowest frequency")
           .at_least(1)
           .at_most(100)
@@ -155,7 +165,8 @@ Section solver_section() {
              "summary.json tell the sum over the steps")
           .at_least(1e-12)
           .at_most(0.1)
-          .otherwise("1e-6"),
+          .otherwise("1e-6")
+          .only_with(when::time_steps_matter()),
   };
   return section;
 }
@@ -167,7 +178,7 @@ Section output_section() {
   section.access = same_object();
   section.keys = {
       flag("error_estimate", to(&Case::error_estimate),
-           "solve once more on a coarser mesh to estimate the error")
+           "solve again with other elements and time steps to estimate the error")
           .otherwise("true"),
       flag("fields", to(&Case::fields), "write the series of fields for ParaView").otherwise("true"),
   };
@@ -195,6 +206,10 @@ Section linearise_section() {
            "quantity of kind \"displacement\"; without it the first that has a direction")
           .optional()
           .refers_to(Reference::quantity),
+      text("driven", to(&Linearise::driven), driven_meaning)
+          .values(1, 1000)
+          .optional()
+          .refers_to(Reference::electrode),
   };
   for (Key& key :
        sweep_keys(&Linearise::sweep, " at which it is compared with the full response", "0.01 Hz", "50 Hz"))
@@ -219,10 +234,23 @@ Section study_section() {
       text("group", to(&StudyPlot::group), "a varied key: one curve for each of its values").optional(),
   };
   Section target = list_section(
-      "target", "asks at which value of the one varied key a quantity has this value", each(&Study::targets));
+      "target", "asks at which value of the one varied key a quantity has this value: found by further runs",
+      each(&Study::targets));
+  Binding tolerance = to(&StudyTarget::tolerance);
+  tolerance.set = [](void* object, const Value& value) {
+    StudyTarget& asked = *static_cast<StudyTarget*>(object);
+    const Scalar& scalar = value.at(0);
+    asked.tolerance = scalar.number * (scalar.text == "%" ? std::abs(asked.value) : 1.0);
+  };
+  Key allowance =
+      text("tolerance", tolerance,
+           "difference at which it counts as found: \"0.1 %\" of the value, or in the quantity's "
+           "unit; without it 0.01 % of the value, or of its change between two points of the study");
+  allowance.type = Type::tolerance;
   target.keys = {
       text("quantity", to(&StudyTarget::quantity), "name of the quantity"),
       measure("value", "", to(&StudyTarget::value), "value that it is to have, in the quantity's unit"),
+      std::move(allowance).above(0).optional(),
   };
   Section section;
   section.name = "study";

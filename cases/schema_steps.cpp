@@ -1,3 +1,4 @@
+#include "cases/conditions.hpp"
 #include "cases/sweep_keys.hpp"
 
 namespace dielast::cases {
@@ -71,6 +72,7 @@ Section step_section() {
             {"instantaneous", "the branches have no time to flow"}},
            response, "what the branches of the film do in a ramp without a duration")
           .otherwise("relaxed")
+          .only_with(when::branches())
           .replacing("duration")
           .only(ramps),
       measure("record", "s", to(&Step::record),
@@ -80,9 +82,11 @@ Section step_section() {
           .only(moving),
       word("control",
            {{"voltage", "the electrodes stay connected to their sources"},
-            {"charge", "the electrodes are isolated, or follow their charges"}},
+            {"charge", "the electrodes are isolated, or follow their charges; a source that is connected "
+                       "again takes up at the voltage that it needs to keep the electrode's"}},
            to(&Step::control), "what the electrodes keep")
           .otherwise("voltage")
+          .only_with(when::electrodes())
           .only({"force", "move", "weight", "pressure", "inflate", "transient", "hold", "modes"}),
       integer("count", to(&Step::count), "number of modes")
           .at_least(1)
@@ -94,9 +98,15 @@ Section step_section() {
           .optional()
           .refers_to(Reference::quantity)
           .only({"harmonic"}),
+      text("driven", to(&Step::driven), driven_meaning)
+          .values(1, 1000)
+          .optional()
+          .refers_to(Reference::electrode)
+          .only({"harmonic"}),
       flag("inertia", to(&Step::inertia),
            "what has a mass resists acceleration; with [plate] or [[point_mass]] the default is true")
           .otherwise("false")
+          .only_with(when::has_mass())
           .only(timed),
       word("on_instability",
            {{"stop", "the step ends at a limit point"},
@@ -109,6 +119,7 @@ Section step_section() {
            {{"follow", "along the path it is on"}, {"switch", "onto the branch that is stable"}},
            to(&Step::on_bifurcation), "what happens where another path branches off")
           .otherwise("follow")
+          .only_with(when::without_duration())
           .only(moving),
   };
   for (Key& key : sweep_keys(&Step::sweep, "", "0.1 Hz", "100 Hz"))

@@ -19,7 +19,7 @@ Section wave_section(std::string_view unit) {
   section.name = "wave";
   section.meaning =
       "how a quantity goes with the time t from the start of a step of kind \"transient\"; ramps "
-      "lead to its value at t = 0";
+      "lead to its value at t = 0, where it jumps there to the one before the jump";
   section.selector = "wave";
   section.keys = {
       word("wave",

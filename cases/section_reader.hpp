@@ -38,6 +38,10 @@ class SectionReader {
     diagnostics_.push_back({source, std::move(key), std::move(message)});
   }
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+  void warn(const Source& source, std::string key, std::string message) {
+    warnings_.push_back({source, std::move(key), std::move(message), Severity::warning});
+  }
+  const std::vector<Diagnostic>& warnings() const { return warnings_; }
   /// Every name of that kind that the case mentions.
   const std::vector<Mention>& mentions(Reference kind) { return mentions_[kind]; }
   const std::vector<WrittenWave>& waves() const { return waves_; }
@@ -55,7 +59,7 @@ class SectionReader {
   std::optional<std::string> unit_of(const Key& key, const Node& table) const;
 
   Surroundings surroundings_;
-  std::vector<Diagnostic> diagnostics_;
+  std::vector<Diagnostic> diagnostics_, warnings_;
   std::size_t unread_ = 0; ///< keys that could not be understood because of an error elsewhere
   std::map<Reference, std::vector<Mention>> mentions_;
   std::vector<WrittenWave> waves_;

@@ -34,8 +34,15 @@ Simulation::Simulation(const Case& one, int threads)
   const double film_force = equilibrium_.assembler().block_residuals().front().norm();
   const bool at_rest = frame.norm() <= std::max(balanced * film_force, equilibrium_.round_off());
   // A film drawn in tension with free edges must find its equilibrium before it can be driven.
-  if (!at_rest && (steps_.empty() || steps_.front().kind != StepKind::release))
-    steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
+  const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
+  if (settles) steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
+  for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
+  for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
+  if (settles && !std::holds_alternative<Patch>(one.geometry))
+    warnings_.push_back(
+        fmt::format("the film is not held in its prestretch{}: a step \"settle\" before the first cuts it "
+                    "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",
+                    one.supports.empty() ? ", there is no [[support]]" : ""));
   fem::State drawn_state = device_.model.initial_state();
   drawn_state.dead_force = frame;
   in_step_.ramp.points = {{0, std::move(drawn_state)}};
@@ -78,8 +85,30 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     energy_.add(std::move(point));
 }
 
+/// The smallest permittivity of film under an electrode, over that of the undeformed film.
+double Simulation::smallest_permittivity(const fem::State& state) const {
+  const materials::Dielectric& dielectric = case_.film.material.dielectric;
+  double smallest = std::numeric_limits<double>::infinity();
+  if (dielectric.electrostriction == 0) return smallest;
+  for (const fem::MembraneSample& at : device_.model.sample(state).film) {
+    if (at.electrode < 0) continue;
+    const Eigen::Matrix2d C = at.F.transpose() * at.F;
+    const double det = C.determinant() * at.widening * at.widening;
+    smallest = std::min(smallest, dielectric.permittivity_at(C.trace(), det) / dielectric.permittivity);
+  }
+  return smallest;
+}
+
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
+  if (const double left = smallest_permittivity(state); !(left > 0)) {
+    refusal_ = {
+        Ending::gave_up, "loss of permittivity",
+        fmt::format("step \"{}\" stopped: at load factor {:.4g} electrostriction = {:.6g} would make the "
+                    "permittivity of film under an electrode negative, {:.3g} of the undeformed film's",
+                    step.name, increment.load_factor, case_.film.material.dielectric.electrostriction, left)};
+    return false;
+  }
   account(state, increment, reached);
   if (increment.lands) return record(observer, step, state, increment, reached);
   unrecorded_ = increment;
@@ -120,7 +149,8 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
       .iterations = newton.iterations,
       .residual = newton.residual,
       .unstable_modes = newton.unstable_modes,
-      .events = std::move(events)};
+      .events = std::move(events),
+      .jumped = increment.jumped};
   return !observer.on_accept || observer.on_accept({record, measured, values, ends});
 }
 
@@ -157,6 +187,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
           return accept(observer, step, state, increment, reached);
         }};
     const Outcome outcome = StepRun(equilibrium_, step, path, options, in_step_, watcher).run();
+    if (refusal_) return *std::exchange(refusal_, std::nullopt);
     if (outcome.ending == Ending::gave_up && unrecorded_)
       record(observer, step, state(), *unrecorded_, Reached::along_path);
     if (outcome.ending != Ending::complete) return outcome;

@@ -61,6 +61,10 @@ class Simulation {
   const fem::Timings& timings() const { return equilibrium_.timings(); }
   SimulationProgress progress() const;
   void resume(const SimulationProgress& progress);
+  /// What the user should know before looking at results, one sentence each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// The steps that are taken, one that nobody wrote included.
+  const std::vector<Step>& steps() const { return steps_; }
   /// Values of the quantities, each at the end of the step that it is read at; NaN where that did not happen.
   const std::vector<double>& results() const { return results_; }
   /// Works, heat and how well they are resolved.
@@ -71,6 +75,7 @@ class Simulation {
 
  private:
   Eigen::VectorXd frame_force();
+  double smallest_permittivity(const fem::State& state) const;
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
               const fem::Increment& increment, Reached reached);
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);
@@ -83,6 +88,8 @@ class Simulation {
   Measurement measurement_;
   Watch watch_;
   std::vector<Step> steps_;
+  std::vector<std::string> warnings_;
+  std::optional<Outcome> refusal_; ///< of a state that no physics allows
   std::optional<StepLoads> loads_;
   std::vector<double> results_;
   int step_ = 0, records_ = 0;

@@ -12,6 +12,9 @@ namespace {
 /// Kinks closer than this part of the step are one break.
 constexpr double same_break = 2e-9;
 
+/// Where ramps lead: a wave that jumps at t = 0 jumps in the transient that follows it.
+constexpr StepLoads::Instant just_before_start{0, true};
+
 /// Shortest relaxation time of the film's branches, of its circuits and of its sheets, s; infinite without.
 double shortest_relaxation(const materials::Material& material, const fem::Model& model) {
   double shortest = std::numeric_limits<double>::infinity();
@@ -54,7 +57,7 @@ void StepLoads::connect_chamber(const Step& step, const fem::Charges& held, fem:
   if (step.kind == StepKind::pressure) state.supply[port] = fem::Supply::voltage;
   if (step.kind != StepKind::inflate) return;
   state.supply[port] = fem::Supply::charge;
-  state.charge[port] = held.charge[port];
+  state.charge[port] = device_.model.chambers[0].pumped(held.charge[port], state.voltage[port]);
 }
 
 void StepLoads::begin(int number, fem::State& state) const {
@@ -108,7 +111,7 @@ void StepLoads::move(Eigen::VectorXd& held, Instant t) const {
             held[e - dofs.free_count()] = t.of(*motion);
 }
 
-/// The loads that the step leads to (a ramp, t = 0) or has at t (a transient).
+/// The loads that the step leads to (a ramp: just before t = 0) or has at t (a transient).
 fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   fem::Loads loads = start;
@@ -166,7 +169,7 @@ std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
 fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   if (step.kind != StepKind::transient)
-    return fem::linear_path(device_.model.dofs, start, at(number, start, {}));
+    return fem::linear_path(device_.model.dofs, start, at(number, start, just_before_start));
   fem::LoadPath path;
   const double duration = *step.duration;
   const std::vector<Break> all = breaks(step);
@@ -190,11 +193,12 @@ fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
 
 fem::RampOptions StepLoads::options(int number) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
-  fem::RampOptions options{.newton = {case_.solver.tolerance, case_.solver.max_iterations},
-                           .increments = step.increments,
-                           .smallest_increment = case_.solver.smallest_increment,
-                           .instantaneous = step.response == Response::instantaneous,
-                           .time_tolerance = case_.solver.time_tolerance};
+  fem::RampOptions options{
+      .newton = {case_.solver.tolerance, case_.solver.max_iterations, case_.film.tension_field},
+      .increments = step.increments,
+      .smallest_increment = case_.solver.smallest_increment,
+      .instantaneous = step.response == Response::instantaneous,
+      .time_tolerance = case_.solver.time_tolerance};
   if (!step.duration) return options;
   options.duration = *step.duration;
   options.inertia = step.inertia && device_.model.inertia.mass.nonZeros() > 0;

@@ -146,7 +146,8 @@ Outcome StepRun::run() {
       trouble = *std::exchange(leaving_, std::nullopt);
     } else if (timed()) {
       if (!options_.inertia) trouble.critical = limit_in_time();
-    } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows()) {
+    } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows() &&
+               !equilibrium_.is_slack(last())) {
       trouble.critical = locate(trouble.ramp.failed_at);
     }
     if (trouble.critical) announce(*trouble.critical);
@@ -285,6 +286,15 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                 "{} integration points at {}), whatever its wrinkles take up. Lower the drive or stretch the "
                 "film more",
                 step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
+  if (!trouble.critical && !timed() && equilibrium_.is_slack(last()))
+    return {
+        Ending::gave_up, "slack film",
+        fmt::format("slack film: step \"{}\" stopped at {}, where the film carries no tension, and no state "
+                    "was found in which it carries the loads at {}. {}",
+                    step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
+                    options_.newton.wrinkles ? "Stretch it a little"
+                                             : "Let it wrinkle (wrinkling = \"tension field\") or stretch it "
+                                               "a little")};
   const std::string more =
       " Lower the drive, or stiffen the device or stretch the film more, to stay below it; "
       "or let the step go on with on_instability = ";

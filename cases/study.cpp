@@ -4,12 +4,15 @@
 #include "cases/resolved.hpp"
 #include "cases/run.hpp"
 #include "cases/study_report.hpp"
+#include "cases/study_targets.hpp"
 #include "cases/terminal.hpp"
 #include "meshing/mesh_error.hpp"
 #include "post/results_folder.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -62,6 +65,37 @@ bool is_current(const Study& study, const StudyPoint& point) {
   }
 }
 
+/// Takes up how the process of a point ended; returns its exit code, -signal when it crashed.
+int exit_code_of(const StudyPoint& point, int status) {
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  if (code < 0 && !interrupted()) mark_done(point, code, fmt::format("crashed (signal {})", -code));
+  return code;
+}
+
+pid_t start(const Study& study, const StudyPoint& point, bool resume) {
+  std::fflush(nullptr); // or every child would print it again
+  const pid_t child = fork();
+  if (child == 0) run_point(study, point, resume);
+  if (child < 0) throw FileError("cannot start another process for the study's points");
+  return child;
+}
+
+/// What is there of a point before it runs.
+struct Kept {
+  std::optional<PointResult> result; ///< it need not run
+  bool resume = false;               ///< otherwise: it goes on where it was stopped
+};
+
+/// A point that has crashed or could not write its files is run again.
+Kept kept_of(const Study& study, const StudyPoint& point, bool resume) {
+  const bool current = resume && is_current(study, point);
+  auto result = current ? result_of(study, point) : std::nullopt;
+  if (result && result->exit_code >= 0 && result->exit_code != static_cast<int>(ExitCode::usage_or_file))
+    return {std::move(result)};
+  if (!current) std::filesystem::remove(point.directory / "point.json");
+  return {std::nullopt, current && !std::filesystem::exists(point.directory / "summary.json")};
+}
+
 /// One line that says how far the study is: rewritten in place on a terminal, one per point in a pipe.
 class ProgressLine {
  public:
@@ -108,12 +142,16 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   const std::vector<StudyPoint> points = study_points(study, settings.directory);
   std::vector<std::string> names;
   for (const StudyPoint& point : points) names.push_back(point.directory.filename());
-  folder.begin(settings.resume ? names : std::vector<std::string>{});
+  std::vector<std::string> keep = names;
+  for (const std::string& name : folder.names())
+    if (name.starts_with(target_folder)) keep.push_back(name);
+  folder.begin(settings.resume ? std::move(keep) : std::vector<std::string>{});
   for (const std::string& name : names) folder.add(name);
   const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
                                                        : std::max(1U, std::thread::hardware_concurrency());
   say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
       settings.directory.string());
+  for (const Diagnostic& warning : read_case(study.base).warnings) say(stderr, "{}\n", warning.text());
   ProgressLine progress(points.size());
   struct Waiting {
     const StudyPoint* point;
@@ -121,27 +159,19 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   };
   std::vector<Waiting> waiting;
   for (const StudyPoint& point : points) {
-    const bool current = settings.resume && is_current(study, point);
-    const auto result = current ? result_of(study, point) : std::nullopt;
-    if (result && result->exit_code != static_cast<int>(ExitCode::usage_or_file) &&
-        result->exit_code >= 0) { // one that crashed or could not write its files is tried again
+    const Kept kept = kept_of(study, point, settings.resume);
+    if (kept.result)
       progress.skipped();
-      continue;
-    }
-    if (!current) std::filesystem::remove(point.directory / "point.json");
-    waiting.push_back({&point, current && !std::filesystem::exists(point.directory / "summary.json")});
+    else
+      waiting.push_back({&point, kept.resume});
   }
   progress.show();
-  std::fflush(nullptr); // or every child would print it again
 
   std::map<pid_t, const StudyPoint*> running;
   for (std::size_t next = 0; next < waiting.size() || !running.empty();) {
     while (next < waiting.size() && running.size() < processes && !interrupted()) {
       const auto& [point, resume] = waiting[next++];
-      const pid_t child = fork();
-      if (child == 0) run_point(study, *point, resume);
-      if (child < 0) throw FileError("cannot start another process for the study's points");
-      running[child] = point;
+      running[start(study, *point, resume)] = point;
     }
     if (running.empty()) break; // interrupted
     int status = 0;
@@ -150,8 +180,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     if (found == running.end()) continue;
     const StudyPoint& point = *found->second;
     running.erase(found);
-    int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    if (code < 0 && !interrupted()) mark_done(point, code, fmt::format("crashed (signal {})", -code));
+    const int code = exit_code_of(point, status);
     if (code != static_cast<int>(ExitCode::interrupted)) progress.done(point, code);
     folder.write("study.csv", study_table(study, points));
   }
@@ -161,7 +190,26 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     return ExitCode::interrupted;
   }
   folder.write("study.csv", study_table(study, points));
-  folder.write("report.html", study_report(study, points).html());
+  const auto solutions = solve_targets(
+      study, points, settings.directory, [&](const StudyPoint& point) -> std::optional<PointResult> {
+        folder.add(point.directory.filename());
+        const Kept kept = kept_of(study, point, settings.resume);
+        if (kept.result || interrupted()) return kept.result;
+        int status = 0;
+        const pid_t child = start(study, point, kept.resume);
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        }
+        const int code = exit_code_of(point, status);
+        if (code == static_cast<int>(ExitCode::interrupted)) return std::nullopt;
+        say("target: {}  exit {}\n", fmt::join(point.overrides, "  "), code);
+        return result_of(study, point);
+      });
+  if (interrupted()) {
+    say("interrupted; go on with --resume\n");
+    return ExitCode::interrupted;
+  }
+  const std::vector<std::string> targets = target_lines(study, points, solutions);
+  folder.write("report.html", study_report(study, points, targets).html());
 
   int failed = 0;
   for (const StudyPoint& point : points)
@@ -169,10 +217,12 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       ++failed;
       say("failed: {}: {}\n", fmt::join(point.overrides, "  "), result ? result->message : "not finished");
     }
-  for (const std::string& line : target_lines(study, points)) say("{}\n", line);
+  for (const std::string& line : targets) say("{}\n", line);
   say("{} of {} points in {}\n", points.size() - static_cast<std::size_t>(failed), points.size(),
       (settings.directory / "study.csv").string());
-  const ExitCode code = failed ? ExitCode::not_converged : ExitCode::ok;
+  const bool solved =
+      std::ranges::all_of(solutions, [](const TargetSolution& one) { return one.problem.empty(); });
+  const ExitCode code = failed || !solved ? ExitCode::not_converged : ExitCode::ok;
   folder.set_complete(static_cast<int>(code));
   return code;
 }

@@ -166,6 +166,9 @@ void check_targets(SectionReader& reader, const Node& section, const Study& stud
     if (study.axes.size() != 1 || study.axes[0].values.size() < 2 ||
         !std::ranges::all_of(study.axes[0].values, [](const auto& v) { return axis_number(v).has_value(); }))
       reader.report(item.source, path, "a target needs a study of one key with two or more numbers");
+    else if (const std::string unit = axis_number(study.axes[0].values[0])->unit; !std::ranges::all_of(
+                 study.axes[0].values, [&](const auto& v) { return axis_number(v)->unit == unit; }))
+      reader.report(item.source, path, "a target needs values of the key that are all written in one unit");
   }
 }
 

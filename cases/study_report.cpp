@@ -4,14 +4,12 @@
 #include "post/history.hpp"
 #include "post/plot.hpp"
 
-#include <boost/math/tools/roots.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <span>
 
 namespace dielast::cases {
 
@@ -95,22 +93,6 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
   return plot;
 }
 
-/// Zero of the polynomial through these points between numbers `i` and i + 1 of them.
-double root_between(std::span<const std::pair<double, double>> points, std::size_t i) {
-  const auto polynomial = [&](double x) { // Neville's scheme
-    std::vector<double> value;
-    for (const auto& point : points) value.push_back(point.second);
-    for (std::size_t order = 1; order < points.size(); ++order)
-      for (std::size_t k = 0; k + order < points.size(); ++k)
-        value[k] = ((x - points[k].first) * value[k + 1] - (x - points[k + order].first) * value[k]) /
-                   (points[k + order].first - points[k].first);
-    return value[0];
-  };
-  const auto bracket = boost::math::tools::bisect(polynomial, points[i].first, points[i + 1].first,
-                                                  boost::math::tools::eps_tolerance<double>(45));
-  return (bracket.first + bracket.second) / 2;
-}
-
 } // namespace
 
 std::string study_table(const Study& study, const std::vector<StudyPoint>& points) {
@@ -136,33 +118,8 @@ std::string study_table(const Study& study, const std::vector<StudyPoint>& point
   return table;
 }
 
-std::vector<std::string> target_lines(const Study& study, const std::vector<StudyPoint>& points) {
-  const Collected collected(study, points);
-  std::vector<std::string> lines;
-  for (const StudyTarget& target : study.targets) {
-    const std::size_t q = *position(study.collect, target.quantity);
-    const std::string wanted =
-        fmt::format("{} = {}", target.quantity, post::engineering(target.value, collected.units[q]));
-    std::vector<std::pair<double, double>> curve; // of the key and the quantity, along the key
-    for (std::size_t p = 0; p < points.size(); ++p)
-      if (const double y = collected.value(p, q); std::isfinite(y))
-        curve.emplace_back(axis_number(points[p].values[0])->number, y - target.value);
-    std::sort(curve.begin(), curve.end());
-    const std::string unit = axis_number(points[0].values[0])->unit;
-    const std::size_t before = lines.size();
-    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
-      if (!(curve[i].second * curve[i + 1].second <= 0) || curve[i + 1].second == 0) continue;
-      const std::size_t first = i > 0 ? i - 1 : 0, last = std::min(i + 3, curve.size());
-      lines.push_back(fmt::format("{} at {} = {:.6g} {}", wanted, study.axes[0].key,
-                                  root_between(std::span(curve).subspan(first, last - first), i - first),
-                                  unit));
-    }
-    if (lines.size() == before) lines.push_back(wanted + ": not within the values varied");
-  }
-  return lines;
-}
-
-post::Report study_report(const Study& study, const std::vector<StudyPoint>& points) {
+post::Report study_report(const Study& study, const std::vector<StudyPoint>& points,
+                          const std::vector<std::string>& targets) {
   const Collected collected(study, points);
   post::Report report{
       .title = study.title,
@@ -172,9 +129,9 @@ post::Report study_report(const Study& study, const std::vector<StudyPoint>& poi
                                     [](const auto& result) { return !result || result->exit_code != 0; });
   report.status = failed ? post::Cell{fmt::format("{} points failed", failed), post::Tone::warning}
                          : post::Cell{"complete", post::Tone::good};
-  if (!study.targets.empty()) {
+  if (!targets.empty()) {
     post::Section found{"Targets", {}};
-    for (const std::string& line : target_lines(study, points)) found.blocks.push_back(post::Paragraph{line});
+    for (const std::string& line : targets) found.blocks.push_back(post::Paragraph{line});
     report.sections.push_back(std::move(found));
   }
   std::vector<post::Plot> plots;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct StudyPlot {
 struct StudyTarget {
   std::string quantity;
   double value = 0; ///< SI
+  std::optional<double> tolerance{}; ///< SI; absent: see solve_targets
 };
 
 /// [study]: a full grid over its axes

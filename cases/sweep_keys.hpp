@@ -4,6 +4,10 @@
 
 namespace dielast::cases {
 
+inline constexpr const char* driven_meaning = "electrodes whose sources swing together, by 1 V each; without "
+                                              "it all that [drive] gives a voltage, or all "
+                                              "when it gives none";
+
 /// Keys of a sweep over frequencies; `purpose` ends their meanings, `from` and `to` are defaults.
 template<class T>
 std::vector<Key> sweep_keys(Sweep T::*sweep, const std::string& purpose, std::string from, std::string to) {

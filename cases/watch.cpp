@@ -11,9 +11,6 @@ namespace dielast::cases {
 
 namespace {
 
-/// Below this a stress is round-off (Pa); moduli are thousands.
-constexpr double smallest_stress = 1e-3;
-
 bool is_cell(const std::string& place) { return place.starts_with("cell["); }
 
 } // namespace

@@ -11,6 +11,9 @@
 
 namespace dielast::cases {
 
+/// Below this a stress is round-off (Pa); moduli are thousands.
+constexpr double smallest_stress = 1e-3;
+
 /// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
 /// that touch, unstable equilibrium. An event is told when its condition begins, not again while it lasts.
 class Watch {

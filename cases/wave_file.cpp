@@ -1,6 +1,7 @@
 #include "cases/wave_file.hpp"
 
 #include "cases/csv.hpp"
+#include "cases/units.hpp"
 
 #include <fmt/format.h>
 
@@ -47,6 +48,14 @@ void load_samples(Waveform& wave, std::string_view unit, const std::filesystem::
     require_growing(csv, time, wrong);
     const int column = value_column(csv, wave, table, path, wrong);
     if (wrong.size() > errors_before) return;
+    if (!factor_to_si(csv, column, unit)) {
+      const std::string& name = csv.names[static_cast<std::size_t>(column)];
+      wrong.push_back({{csv.file, csv.header_line, 1},
+                       name,
+                       fmt::format("there is no unit; allowed a name that ends in one of {}, such as {}_{}",
+                                   dimension(unit).usual, name, dimension(unit).shown)});
+      return;
+    }
     const auto& times = csv.columns[static_cast<std::size_t>(time)];
     const auto values = si_column(csv, column, unit);
     wave.samples.clear();

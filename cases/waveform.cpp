@@ -10,6 +10,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Times closer than this part of a wave's own length are the same: t = n / f is never exact.
 constexpr double same_time = 1e-9;
+constexpr double rounding = 1e-15; ///< of times that were computed in other ways
 
 double turn(double cycles) { return 2 * std::numbers::pi * cycles; }
 
@@ -42,9 +43,10 @@ double Waveform::value(double t, double side) const {
   case Kind::ramp:
     return from + (to - from) * std::clamp((t - start) / duration, 0.0, 1.0);
   case Kind::step:
-    return t - start + side * std::max(start, 1.0) >= 0 ? to : from;
+    return (side > 0 ? t >= start * (1 - side) : t > start * (1 - side)) ? to : from;
   case Kind::trapezoid: {
-    const double length = rise + hold + fall, shift = side * length;
+    const double length = rise + hold + fall;
+    const double shift = side * length + std::copysign(rounding * std::max(std::abs(t), start), side);
     double since = t - start;
     if (since + shift < 0) return from;
     if (repeat > 0) since -= std::floor((since + shift) / repeat) * repeat;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tbb/parallel_for.h>
 #include <thread>
+#include <vector>
 
 namespace dielast::fem {
 
@@ -15,6 +16,24 @@ constexpr int chunk_size = 64;
 
 /// Below this many elements waking and waiting for threads costs more than they save.
 constexpr int worth_threads = 16000;
+
+/// f(0) ... f(count - 1), in any order.
+template<class Function>
+void in_parallel(tbb::task_arena& arena, std::size_t count, const Function& f) {
+#ifdef DIELAST_PLAIN_THREADS // the thread sanitizer does not see how TBB, which is not compiled with it,
+                             // orders tasks
+  const auto of_thread = [&](std::size_t first, std::size_t step) {
+    for (std::size_t i = first; i < count; i += step) f(i);
+  };
+  const auto threads = static_cast<std::size_t>(arena.max_concurrency());
+  std::vector<std::thread> others;
+  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(of_thread, t, threads);
+  of_thread(0, threads);
+  for (std::thread& other : others) other.join();
+#else
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, f); });
+#endif
+}
 
 } // namespace
 
@@ -168,7 +187,7 @@ Evaluation Assembler::run(const State& state, bool want_residual, bool want_tang
       parts[c] = model_.blocks[b]->evaluate(state, first, last, scatter);
     };
     if (threads_ > 1)
-      arena_.execute([&] { tbb::parallel_for(std::size_t{0}, colour.size(), evaluate); });
+      in_parallel(arena_, colour.size(), evaluate);
     else
       for (std::size_t c = 0; c < colour.size(); ++c) evaluate(c);
     for (const Evaluation& part : parts) {

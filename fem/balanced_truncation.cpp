@@ -1,9 +1,7 @@
 #include "fem/balanced_truncation.hpp"
 
+#include "fem/dense_algebra.hpp"
 #include "fem/orientation.hpp"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <stdexcept>
@@ -18,8 +16,8 @@ constexpr double round_off =
 
 /// R with R R^T = X, A X + X A^T + F F^T = 0: by columns in the Schur form A = U T U^H (Bartels & Stewart
 /// 1972).
-Eigen::MatrixXd gramian_root(const Eigen::ComplexSchur<Eigen::MatrixXcd>& schur, const Eigen::MatrixXd& F) {
-  const Eigen::MatrixXcd &T = schur.matrixT(), &U = schur.matrixU();
+Eigen::MatrixXd gramian_root(const ComplexSchur& schur, const Eigen::MatrixXd& F) {
+  const auto& [T, U] = schur;
   const Eigen::MatrixXcd G = U.adjoint() * F;
   Eigen::MatrixXcd Y = -G * G.adjoint();
   for (Eigen::Index j = T.rows() - 1; j >= 0; --j) {
@@ -29,35 +27,33 @@ Eigen::MatrixXd gramian_root(const Eigen::ComplexSchur<Eigen::MatrixXcd>& schur,
     Y.col(j) = shifted.triangularView<Eigen::Upper>().solve(Y.col(j)).eval();
   }
   const Eigen::MatrixXd X = (U * Y * U.adjoint()).real();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((X + X.transpose()) / 2);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const SymmetricEigen eigen = symmetric_eigen((X + X.transpose()) / 2);
+  return eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 } // namespace
 
 StateSpace balanced_truncation(const StateSpace& model, int order) {
   if (model.order() == 0) return model;
-  const Eigen::VectorXcd poles = model.A.eigenvalues();
+  const Eigen::VectorXcd poles = eigenvalues(model.A);
   const double slowest = poles.cwiseAbs().minCoeff(), fastest = poles.cwiseAbs().maxCoeff();
   if (!(slowest > 0) || poles.real().maxCoeff() > round_off * fastest)
     throw std::domain_error("the linear model is not stable");
   Eigen::MatrixXcd A = model.A.cast<std::complex<double>>();
   A.diagonal().array() -= least_decay * slowest;
-  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A), transposed(Eigen::MatrixXcd(A.transpose()));
-  const Eigen::MatrixXd reached = gramian_root(schur, model.B);
+  const Eigen::MatrixXd reached = gramian_root(complex_schur(A), model.B);
   const Eigen::VectorXd sizes = (model.C * reached).rowwise().norm();
   const Eigen::MatrixXd C = (sizes.array() > 0).select(sizes, 1).cwiseInverse().asDiagonal() * model.C;
-  const Eigen::MatrixXd seen = gramian_root(transposed, C.transpose());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(seen.transpose() * reached,
-                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::VectorXd sigma = svd.singularValues();
+  const Eigen::MatrixXd seen = gramian_root(complex_schur(A.transpose()), C.transpose());
+  const SingularValues svd = singular_values(seen.transpose() * reached);
+  Eigen::VectorXd sigma = svd.values;
   const Eigen::Index told = (sigma.array() > round_off * sigma[0]).count();
   const auto scale = sigma.head(told).cwiseSqrt().cwiseInverse().asDiagonal();
   // States are oriented, before some are left out, by how they are seen, and by how their rates are. What
   // leads to and from them turns along.
   const Eigen::Index n = model.order(), outputs = C.rows();
   Eigen::MatrixXd states(2 * (n + outputs), told);
-  states << reached * svd.matrixV().leftCols(told) * scale, seen * svd.matrixU().leftCols(told) * scale,
+  states << reached * svd.V.leftCols(told) * scale, seen * svd.U.leftCols(told) * scale,
       Eigen::MatrixXd::Zero(2 * outputs, told);
   states.middleRows(2 * n, outputs) = C * states.topRows(n);
   states.bottomRows(outputs) = C * model.A * states.topRows(n) / fastest;

@@ -1,6 +1,6 @@
 #include "fem/bordered_tangent.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "fem/dense_algebra.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,7 @@ constexpr double round_off = 1e-12;
 
 int negative_eigenvalues(const Eigen::MatrixXd& symmetric) {
   if (symmetric.size() == 0) return 0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, Eigen::EigenvaluesOnly);
-  return static_cast<int>((solver.eigenvalues().array() < -round_off).count());
+  return static_cast<int>((symmetric_eigen(symmetric).values.array() < -round_off).count());
 }
 
 } // namespace
@@ -45,17 +44,19 @@ void BorderedTangent::set_borders(const State& state, const PathBorder* path) {
   columns_.resize(matrix_.size, 0);
   rows_.resize(matrix_.size, 0);
   corner_.resize(0);
-  electrodes_ = 0;
+  following_.clear();
   paths_ = path ? 1 : 0;
   if (path) append_border(path->column, path->row, path->corner);
   if (!any_follows(state)) return;
   const Charges charges = model_.surplus(state, true);
+  root_capacitance_.resize(static_cast<Eigen::Index>(state.supply.size()));
   for (std::size_t e = 0; e < state.supply.size(); ++e) {
     if (state.supply[e] == Supply::voltage) continue;
-    const Eigen::VectorXd column =
-        -charges.coupling[e].head(matrix_.size) / std::sqrt(charges.capacitance[e]);
+    const double root = std::sqrt(charges.capacitance[e]);
+    const Eigen::VectorXd column = -charges.coupling[e].head(matrix_.size) / root;
     append_border(column, column, -1);
-    ++electrodes_;
+    root_capacitance_[std::ssize(following_)] = root;
+    following_.push_back(e);
   }
 }
 
@@ -96,8 +97,8 @@ bool BorderedTangent::shift(int equation, const Eigen::VectorXd* added) {
 void BorderedTangent::count_modes(bool shifted) {
   const Eigen::Index symmetric = columns_.cols() - paths_;
   negative_pivots_ = solver_.negative_pivots();
-  unstable_modes_ =
-      negative_pivots_ + negative_eigenvalues(schur_.bottomRightCorner(symmetric, symmetric)) - electrodes_;
+  unstable_modes_ = negative_pivots_ + negative_eigenvalues(schur_.bottomRightCorner(symmetric, symmetric)) -
+                    static_cast<int>(following_.size());
   if (shifted) negative_pivots_ += negative_eigenvalues(schur_.bottomRightCorner(1, 1));
 }
 
@@ -128,9 +129,19 @@ double BorderedTangent::solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, dou
   if (columns_.cols() == 0) return 0;
   Eigen::VectorXd right = -rows_.transpose() * du;
   if (paths_) right[0] += g;
-  const Eigen::VectorXd y = lu_.solve(right);
-  du -= solved_ * y;
-  return paths_ ? y[0] : 0.0;
+  border_unknowns_ = lu_.solve(right);
+  du -= solved_ * border_unknowns_;
+  return paths_ ? border_unknowns_[0] : 0.0;
+}
+
+double BorderedTangent::voltage_step(std::size_t port) const {
+  const Eigen::Index i = std::ranges::find(following_, port) - following_.begin();
+  return border_unknowns_[paths_ + i] / root_capacitance_[i];
+}
+
+Eigen::VectorXd BorderedTangent::response(std::size_t port) const {
+  const Eigen::Index i = std::ranges::find(following_, port) - following_.begin();
+  return -root_capacitance_[i] * solved_.col(paths_ + i);
 }
 
 } // namespace dielast::fem

@@ -46,6 +46,10 @@ class BorderedTangent {
 
   /// du for forces f; returns ds (0 without a path). Requires a successful factor().
   double solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g = 0);
+  /// dPhi of a port that follows, by the last solve().
+  double voltage_step(std::size_t port) const;
+  /// K^-1 B of a port that follows: displacements per voltage (pressure) at fixed other ones.
+  Eigen::VectorXd response(std::size_t port) const;
 
  private:
   void set_borders(const State& state, const PathBorder* path);
@@ -59,7 +63,10 @@ class BorderedTangent {
   const SparseSymmetric& matrix_;
   const Eigen::VectorXd& stiffness_;
   SymmetricSolver solver_;
-  int electrodes_ = 0, paths_ = 0;       ///< borders: the path, the electrodes that follow, the shift
+  int paths_ = 0;                        ///< borders: the path, the electrodes that follow, the shift
+  std::vector<std::size_t> following_;   ///< ports that follow
+  Eigen::VectorXd root_capacitance_;     ///< theirs
+  Eigen::VectorXd border_unknowns_;      ///< of the last solve
   Eigen::MatrixXd columns_, rows_;       ///< each scaled so that a symmetric border's corner is -1 or 1
   Eigen::VectorXd corner_;               ///< diagonal
   Eigen::MatrixXd solved_;               ///< K^-1 columns

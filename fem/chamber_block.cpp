@@ -151,9 +151,8 @@ class PressureBlock final : public ElementBlock {
 
 class LidBlock final : public ElementBlock {
  public:
-  LidBlock(const meshing::Mesh& mesh, const Lid& lid, double compliance, std::size_t port)
-      : lid_(lid), drawn_(mesh.nodes[static_cast<std::size_t>(lid.node)].z()), compliance_(compliance),
-        port_(port) {}
+  LidBlock(const meshing::Mesh& mesh, const Lid& lid, std::size_t port)
+      : lid_(lid), drawn_(mesh.nodes[static_cast<std::size_t>(lid.node)].z()), port_(port) {}
 
   int element_count() const override { return 1; }
   int dofs_per_element() const override { return 1; }
@@ -165,18 +164,15 @@ class LidBlock final : public ElementBlock {
     if (first >= last) return {};
     const double p = state.voltage[port_];
     if (scatter.residual) scatter.add_residual(0, std::array{-p * lid_.area});
-    return {-p * lid_.area * height(state) - compliance_ * p * p / 2, true};
+    return {-p * lid_.area * height(state), true};
   }
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
   void add_charges(const State& state, const DofMap* dofs, Charges& charges) const override {
-    charges.charge[port_] += lid_.area * height(state) + compliance_ * state.voltage[port_];
-    charges.capacitance[port_] += compliance_;
+    charges.charge[port_] += lid_.area * height(state);
     if (!dofs) return;
     if (const int e = dofs->equation(lid_.node, 2); e >= 0) charges.coupling[port_][e] += lid_.area;
   }
-  void add_energies(const State& state, EnergyParts& parts) const override {
-    parts.elastic += compliance_ * state.voltage[port_] * state.voltage[port_] / 2;
-  }
+  void add_energies(const State& /*state*/, EnergyParts& /*the load stores none*/) const override {}
 
  private:
   double height(const State& state) const {
@@ -185,7 +181,6 @@ class LidBlock final : public ElementBlock {
 
   Lid lid_;
   double drawn_;
-  double compliance_;
   std::size_t port_;
 };
 
@@ -205,9 +200,8 @@ std::unique_ptr<ElementBlock> make_pressure_block(const meshing::Mesh& mesh, con
   }
 }
 
-std::unique_ptr<ElementBlock> make_lid_block(const meshing::Mesh& mesh, const Lid& lid, double compliance,
-                                             std::size_t port) {
-  return std::make_unique<LidBlock>(mesh, lid, compliance, port);
+std::unique_ptr<ElementBlock> make_lid_block(const meshing::Mesh& mesh, const Lid& lid, std::size_t port) {
+  return std::make_unique<LidBlock>(mesh, lid, port);
 }
 
 } // namespace dielast::fem

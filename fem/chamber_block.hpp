@@ -20,9 +20,7 @@ struct Lid {
   double area = 0; ///< m^2; 0: the film closes the chamber alone
 };
 
-/// E = -p A (z_lid) - c p^2 / 2: the lid's share of the volume and what the chamber takes for the pressure
-/// alone, its compliance c > 0 (m^3/Pa), such as that of the liquid in it.
-std::unique_ptr<ElementBlock> make_lid_block(const meshing::Mesh& mesh, const Lid& lid, double compliance,
-                                             std::size_t port);
+/// E = -p A z_lid: the lid's share of the volume.
+std::unique_ptr<ElementBlock> make_lid_block(const meshing::Mesh& mesh, const Lid& lid, std::size_t port);
 
 } // namespace dielast::fem

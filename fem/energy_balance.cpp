@@ -33,8 +33,7 @@ struct Integral {
 class Interval {
  public:
   Interval(const std::vector<EnergyPoint>& points, const EnergyPoint& end)
-      : before_(points.size() > 1 && points.back().length > 0 &&
-                        end.length <= most_growth * points.back().length
+      : before_(points.size() > 1 && end.length > 0 && end.length <= most_growth * points.back().length
                     ? &points.front()
                     : nullptr),
         begin_(points.back()), end_(end) {

@@ -76,12 +76,19 @@ double Equilibrium::weighted_norm(const Eigen::VectorXd& force, Eigen::Index cou
 
 /// Phi at which no electrode has a surplus of charge. One correction is enough where charges are proportional
 /// to voltages; the natural width of wrinkled film and sources at their limit take a little more.
-bool Equilibrium::follow_charges(State& state) const {
+bool Equilibrium::follow_charges(State& state, Pressure pressure) const {
+  const auto follows = [&](std::size_t port) {
+    return state.supply[port] != Supply::voltage &&
+           !(pressure == Pressure::is_unknown && model_.chamber_of(port));
+  };
+  bool any = false;
+  for (std::size_t e = 0; e < state.supply.size(); ++e) any = any || follows(e);
+  if (!any) return true;
   for (int correction = 0; correction <= most_voltage_corrections; ++correction) {
     const Charges surplus = model_.surplus(state, false);
     bool balanced = true;
     for (std::size_t e = 0; e < state.supply.size(); ++e) {
-      if (state.supply[e] == Supply::voltage) continue;
+      if (!follows(e)) continue;
       const double change = -surplus.charge[e] / surplus.capacitance[e];
       state.voltage[e] += change;
       if (!std::isfinite(state.voltage[e])) return false;
@@ -93,9 +100,13 @@ bool Equilibrium::follow_charges(State& state) const {
 }
 
 void Equilibrium::balance(State& state, Balance& balance) {
+  this->balance(state, balance, Pressure::follows);
+}
+
+void Equilibrium::balance(State& state, Balance& balance, Pressure pressure) {
   const Stopwatch watch(timings_.residual, model_);
   const bool follows = any_follows(state);
-  if (follows && !follow_charges(state)) {
+  if (follows && !follow_charges(state, pressure)) {
     balance.feasible = false;
     return;
   }
@@ -144,12 +155,19 @@ double Equilibrium::backtrack(State& state, Balance& current, const Eigen::Vecto
   const bool definite = tangent_.unstable_modes() == 0;
   const double slope = current.force.head(free).dot(step);
   const double dead_work = state.dead_force.head(free).dot(step);
+  const auto chamber = model_.closed_chamber(state);
+  Eigen::VectorXd response;
+  if (chamber) response = tangent_.response(*chamber);
   Balance there;
   double length = 1;
   for (int halving = 0; halving <= halvings; ++halving, length *= 0.5) {
     State trial = state;
     model_.dofs.advance(trial, step, length);
-    balance(trial, there);
+    if (chamber) {
+      trial.voltage[*chamber] += length * tangent_.voltage_step(*chamber);
+      if (!model_.fill(trial, response)) continue;
+    }
+    balance(trial, there, Pressure::is_unknown);
     if (!there.feasible) continue;
     const double energy_change = there.energy - current.energy - length * dead_work;
     const bool descends = definite && energy_change <= sufficient_decrease * length * slope;
@@ -166,6 +184,14 @@ State Equilibrium::widened(State state, double strain) const {
   for (std::size_t n = 0; n < model_.drawn.size(); ++n)
     state.displacement[n] += strain * (model_.drawn[n] + state.displacement[n]);
   return state;
+}
+
+/// Gives a closed chamber its volume; false where it cannot have it.
+bool Equilibrium::fill(State& state) {
+  const auto chamber = model_.closed_chamber(state);
+  if (!chamber || model_.fill(state, Eigen::VectorXd::Zero(model_.dofs.free_count()))) return true;
+  if (!factor(state) && !factor(widened(state, first_widening))) return false;
+  return model_.fill(state, tangent_.response(*chamber));
 }
 
 NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
@@ -195,6 +221,16 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
 
 NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& options,
                                          const std::function<void(const Iteration&)>& log) {
+  NewtonResult result = newton(state, options, log);
+  if (result.outcome == Outcome::converged || !options.wrinkles) return result;
+  const int iterations = result.iterations;
+  result = descend(state, options, log);
+  result.iterations += iterations;
+  return result;
+}
+
+NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
+                                 const std::function<void(const Iteration&)>& log) {
   NewtonResult result;
   const auto end = [&result](Outcome outcome) {
     result.outcome = outcome;
@@ -210,7 +246,8 @@ NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& opti
   };
   Balance current;
   Eigen::VectorXd step;
-  balance(state, current);
+  if (!fill(state)) return end(Outcome::infeasible);
+  balance(state, current, Pressure::is_unknown);
   const double first_norm = current.norm;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double previous_norm = infinity;
@@ -249,7 +286,8 @@ NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& opti
     if (stiffened && !find_widened_step()) return end(Outcome::singular);
     if (stiffened) stale_tangent = infinity;
     indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
-    step_length = backtrack(state, current, step, stiffened ? 2 * most_halvings : most_halvings);
+    step_length =
+        backtrack(state, current, step, stiffened || options.wrinkles ? 2 * most_halvings : most_halvings);
     if (step_length == 0) {
       const bool rounded = current.norm <= round_off_ || step_size(step) <= rounded_step;
       return end(rounded ? Outcome::converged : Outcome::not_converged);

@@ -20,6 +20,7 @@ struct NewtonOptions {
   double tolerance = 1e-9; ///< on |R_free| over the largest norm of a block's nodal forces (of the reactions,
                            ///< where one block is held)
   int max_iterations = 25;
+  bool wrinkles = false; ///< film carries no compression: where Newton's method fails damped steps go on
 };
 
 enum class Outcome {
@@ -63,6 +64,10 @@ struct Timings {
 /// function of u with the tangent K + B C^-1 B^T (see BorderedTangent). Over a time step a circuit is the
 /// same with more capacitance (see Circuit), and inertia one more quadratic energy (see InertialForce).
 ///
+/// A closed chamber's pressure would follow a hardly compressible filling by orders of magnitude: there the
+/// pressure is an unknown beside u, and every trial state is moved along the response to the pressure until
+/// it has the volume that the filling takes (Model::fill).
+///
 /// Sheets: forces are balanced at fixed drops of voltage, then the drops follow the film (SheetConduction),
 /// in turns, until the latter change no voltage by more than the tolerance; relaxed as in Aitken's method. So
 /// stability is that at fixed drops.
@@ -75,6 +80,9 @@ class Equilibrium {
   /// `state` is where the iteration stopped.
   NewtonResult solve(State& state, const NewtonOptions& options,
                      const std::function<void(const Iteration&)>& log = {});
+
+  /// Whether the film carries no tension: the tangent tells of rounding there, and no path leads on.
+  bool is_slack(const State& state) const;
 
   /// Lets the voltages of sheets follow, at fixed displacements.
   void conduct(State& state) {
@@ -115,8 +123,16 @@ class Equilibrium {
  private:
   NewtonResult balance_forces(State& state, const NewtonOptions& options,
                               const std::function<void(const Iteration&)>& log);
+  NewtonResult newton(State& state, const NewtonOptions& options,
+                      const std::function<void(const Iteration&)>& log);
+  NewtonResult descend(State& state, const NewtonOptions& options,
+                       const std::function<void(const Iteration&)>& log);
   double weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const;
-  bool follow_charges(State& state) const;
+  /// How the pressure of a closed chamber is found.
+  enum class Pressure { follows, is_unknown };
+  void balance(State& state, Balance& balance, Pressure pressure);
+  bool follow_charges(State& state, Pressure pressure) const;
+  bool fill(State& state);
   State widened(State state, double strain) const;
   double backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings);
 

@@ -1,6 +1,6 @@
 #include "fem/harmonic.hpp"
 
-#include <Eigen/LU>
+#include "fem/dense_algebra.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -73,7 +73,7 @@ std::vector<HarmonicResponse> harmonic_response(const Linearisation& at, const H
       b[p] /= size;
     }
     HarmonicResponse response{.frequency = omega};
-    response.voltage = count > 0 ? Eigen::VectorXcd(A.partialPivLu().solve(b)) : b;
+    response.voltage = count > 0 ? Eigen::VectorXcd(solve_dense(A, b)) : b;
     response.displacement = X.leftCols(count) * response.voltage + X.col(count);
     response.charge = held * response.voltage + pressed;
     response.current = s * response.charge + leakage.cwiseProduct(response.voltage);

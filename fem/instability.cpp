@@ -1,9 +1,7 @@
 #include "fem/instability.hpp"
 
+#include "fem/dense_algebra.hpp"
 #include "fem/orientation.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -72,20 +70,19 @@ std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {
   Eigen::VectorXd y;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const Eigen::MatrixXd gram = X.transpose() * D.asDiagonal() * X;
-    const Eigen::LLT<Eigen::MatrixXd> root(gram);
-    root.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(X); // orthonormal in D
+    cholesky_factor(gram).triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(
+        X); // orthonormal in D
     for (Eigen::Index i = 0; i < width; ++i) {
       equilibrium.tangent().solve(D.cwiseProduct(X.col(i)), y);
       Y.col(i) = y;
     }
     const Eigen::MatrixXd inverse = X.transpose() * D.asDiagonal() * Y;
     if (!inverse.allFinite()) return std::nullopt;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(inverse);
-    const Eigen::VectorXd& theta = ritz.eigenvalues(); // inverse eigenvalues
+    const auto [theta, ritz] = symmetric_eigen(inverse); // theta: inverse eigenvalues
     Eigen::Index lowest = 0;
     const double tolerance = eigen_tolerance * theta.cwiseAbs().maxCoeff(&lowest);
-    const Eigen::MatrixXd images = Y * ritz.eigenvectors();
-    const Eigen::MatrixXd residuals = images - X * ritz.eigenvectors() * theta.asDiagonal();
+    const Eigen::MatrixXd images = Y * ritz;
+    const Eigen::MatrixXd residuals = images - X * ritz * theta.asDiagonal();
     const Eigen::VectorXd error = (residuals.transpose() * D.asDiagonal() * residuals).diagonal().cwiseSqrt();
     // All that share the lowest eigenvalue are needed to orient one. Whether another vector does, its error
     // must tell.

@@ -52,6 +52,8 @@ void Linearisation::add_ports() {
   const Charges charges = model().charges(state_, true);
   for (std::size_t p = 0; p < model().port_count(); ++p) {
     Port port{state_.supply[p], charges.coupling[p].head(stiffness_.size), charges.capacitance[p]};
+    if (const Chamber* chamber = model().chamber_of(p))
+      port.capacitance = chamber->compliance(charges.charge[p], state_.voltage[p]);
     if (port.supply == Supply::circuit) {
       const Circuit& circuit = *model().circuit_of(p);
       const double drop = state_.source[p] - state_.voltage[p];

@@ -1,8 +1,7 @@
 #include "fem/modal.hpp"
 
+#include "fem/dense_algebra.hpp"
 #include "fem/orientation.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -105,15 +104,15 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
     if (V.cols() == 0) return std::nullopt; // the tangent's numbers are beyond double precision
     const Eigen::MatrixXd inverse = V.transpose() * (M * W);
     if (!inverse.allFinite()) return std::nullopt;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz((inverse + inverse.transpose()) / 2);
-    const Eigen::VectorXd& theta = ritz.eigenvalues(); // 1/(omega^2 + shift)
+    const SymmetricEigen ritz = symmetric_eigen((inverse + inverse.transpose()) / 2);
+    const Eigen::VectorXd& theta = ritz.values; // 1/(omega^2 + shift)
     std::vector<Eigen::Index> order(static_cast<std::size_t>(theta.size()));
     std::iota(order.begin(), order.end(), Eigen::Index{0});
     std::ranges::sort(order, std::greater{}, [&](Eigen::Index i) { return std::abs(theta[i]); });
     order.resize(std::min(order.size(), static_cast<std::size_t>(width)));
 
-    X = W * ritz.eigenvectors()(Eigen::all, order); // massless unknowns have followed
-    const Eigen::MatrixXd before = V * ritz.eigenvectors()(Eigen::all, order);
+    X = W * ritz.vectors(Eigen::all, order); // massless unknowns have followed
+    const Eigen::MatrixXd before = V * ritz.vectors(Eigen::all, order);
     Eigen::VectorXd stiffness = theta(order).cwiseInverse().array() - shift;
     // Those wanted and what shares the last one's frequency: only all of them together can be oriented.
     const Eigen::Index last = std::min(wanted, X.cols()) - 1;

@@ -83,6 +83,8 @@ const Circuit* Model::circuit_of(std::size_t electrode) const {
 }
 
 double Model::given_charge(const State& state, std::size_t port) const {
+  if (const Chamber* chamber = chamber_of(port))
+    return chamber->filled(state.charge[port], state.voltage[port]);
   if (state.supply[port] != Supply::circuit) return state.charge[port];
   const Circuit* circuit = circuit_of(port);
   const std::size_t place = circuit_history + static_cast<std::size_t>(circuit - circuits.data());
@@ -97,11 +99,49 @@ double Model::given_charge(const State& state, std::size_t port) const {
   return given;
 }
 
+std::optional<std::size_t> Model::closed_chamber(const State& state) const {
+  for (std::size_t port = electrodes.size(); port < port_count(); ++port)
+    if (state.supply[port] == Supply::charge) return port;
+  return std::nullopt;
+}
+
+bool Model::fill(State& state, const Eigen::VectorXd& direction) const {
+  constexpr double exact = 1e-14, good = 1e-11; // of the volume
+  constexpr int most_steps = 30;
+  const std::size_t port = *closed_chamber(state);
+  const double wanted = given_charge(state, port);
+  const double scale = std::max(std::abs(wanted), least_volume());
+  const auto gap = [&](const State& at) { return wanted - charges(at, false).charge[port]; };
+  double missing = gap(state);
+  if (std::abs(missing) <= good * scale) return true;
+  if (direction.isZero(0)) return false;
+  // secants, from the slope here
+  double slope = charges(state, true).coupling[port].head(direction.size()).dot(direction);
+  for (int i = 0; i < most_steps; ++i) {
+    const double step = missing / slope;
+    if (!std::isfinite(step)) return false;
+    State there = state;
+    dofs.advance(there, direction, step);
+    const double left = gap(there);
+    slope = (missing - left) / step;
+    const bool closer = std::abs(left) < std::abs(missing);
+    if (closer) {
+      state = std::move(there);
+      missing = left;
+    }
+    if (std::abs(missing) <= exact * scale || (!closer && std::abs(missing) <= good * scale)) return true;
+  }
+  return std::abs(missing) <= good * scale;
+}
+
 Charges Model::surplus(const State& state, bool with_coupling) const {
   Charges surplus = charges(state, with_coupling);
   for (std::size_t e = 0; e < port_count(); ++e) {
     if (state.supply[e] == Supply::voltage) continue;
-    surplus.charge[e] -= given_charge(state, e);
+    const double given = given_charge(state, e);
+    surplus.charge[e] -= given;
+    if (const Chamber* chamber = chamber_of(e))
+      surplus.capacitance[e] += chamber->compliance(std::max(given, least_volume()), state.voltage[e]);
     if (state.supply[e] != Supply::circuit) continue;
     const Circuit::Drawn drawn = circuit_of(e)->drawn(state.source[e], state.voltage[e], state.scheme);
     surplus.charge[e] += drawn.charge;
@@ -114,7 +154,9 @@ double Model::supply_energy(const State& state) const {
   double energy = 0;
   for (std::size_t e = 0; e < port_count(); ++e) {
     if (state.supply[e] == Supply::voltage) continue;
-    energy += given_charge(state, e) * state.voltage[e];
+    const Chamber* chamber = chamber_of(e);
+    energy += chamber ? chamber->energy(state.charge[e], state.voltage[e])
+                      : given_charge(state, e) * state.voltage[e];
     if (state.supply[e] == Supply::circuit)
       energy -= circuit_of(e)->drawn(state.source[e], state.voltage[e], state.scheme).energy;
   }

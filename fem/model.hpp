@@ -1,11 +1,13 @@
 #pragma once
 
+#include "fem/chamber.hpp"
 #include "fem/circuit.hpp"
 #include "fem/element_block.hpp"
 #include "fem/inertia.hpp"
 #include "fem/turnover.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +18,10 @@ struct Model {
   DofMap dofs;
   std::vector<std::unique_ptr<ElementBlock>> blocks;
   std::vector<std::string> electrodes; ///< names; a state has one voltage for each
-  std::vector<std::string> chambers;   ///< names; a state has one pressure for each, behind the voltages
-  std::vector<Circuit> circuits;       ///< at most one per electrode
-  std::vector<Sheet> sheets;           ///< at most one per electrode
-  Inertia inertia;                     ///< Inertia::of(blocks, dofs), where something has a mass
+  std::vector<Chamber> chambers; ///< at most one; a state has one pressure for each, behind the voltages
+  std::vector<Circuit> circuits; ///< at most one per electrode
+  std::vector<Sheet> sheets;     ///< at most one per electrode
+  Inertia inertia;               ///< Inertia::of(blocks, dofs), where something has a mass
   double length_scale = 1; ///< m, an element's size: makes moments comparable with forces in residual norms
   double extent = 1;       ///< m, the whole mesh's: tells which forces are round-off
   std::vector<Eigen::Vector3d>
@@ -55,12 +57,24 @@ struct Model {
   /// A converged state as the next increment starts from it: with that history, its dashpots frozen, and the
   /// motion that it has arrived with.
   State settled(State state) const;
-  /// What an electrode or chamber must hold, with what its circuit has drawn, C or m^3.
+  /// What an electrode must hold, with what its circuit has drawn, C; the own volume that a chamber of a
+  /// given pumped volume must have at the state's pressure, m^3.
   double given_charge(const State& state, std::size_t port) const;
+  /// Port of the chamber whose pumped volume is given; nothing: there is none, or its pressure is.
+  std::optional<std::size_t> closed_chamber(const State& state) const;
+  /// Moves the free unknowns along `direction` until the closed chamber has the volume that it must have at
+  /// the state's pressure, to rounding. False where there is no such place.
+  [[nodiscard]] bool fill(State& state, const Eigen::VectorXd& direction) const;
+  /// Null: the port is an electrode.
+  const Chamber* chamber_of(std::size_t port) const {
+    return port < electrodes.size() ? nullptr : &chambers[port - electrodes.size()];
+  }
 
  private:
   std::size_t sheet_history() const { return circuit_history + circuits.size(); }
   void weigh_sheets();
+  /// m^3, below which a chamber's compliance stays as it is: an empty one's is none.
+  double least_volume() const { return 1e-12 * extent * extent * extent; }
 };
 
 } // namespace dielast::fem

@@ -53,13 +53,14 @@ bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlop
   const double missing =
       std::abs(slope_to.potential - slope_from.potential - (slope_from.power + slope_to.power) / 2);
   const double round_off = rounding * (std::abs(slope_from.potential) + std::abs(slope_to.potential));
-  const double energy = n1 > n0 ? steadiness.energy_of_faster : steadiness.part;
+  const double energy = n1 > n0 ? steadiness.energy_of_faster : steadiness.energy;
   if (missing > energy * std::abs(slope_to.power - slope_from.power) + round_off) return false;
+  if (std::isinf(steadiness.chord)) return true;
   if (singular_start) return product(chord, v1) > 0; // of it only the energy is known
   const Eigen::VectorXd half = (v1 - v0) / 2;
   const double length = product(half, half);
   const double part = n1 > n0 && length > 0 ? std::clamp(product(chord - v0, half) / length, 0.0, 1.0) : 1.0;
-  return norm(chord - v0 - part * half) <= steadiness.part * std::max(n0, n1) + least;
+  return norm(chord - v0 - part * half) <= steadiness.chord * std::max(n0, n1) + least;
 }
 
 } // namespace dielast::fem

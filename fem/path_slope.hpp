@@ -3,6 +3,8 @@
 #include "fem/equilibrium.hpp"
 #include "fem/load_path.hpp"
 
+#include <limits>
+
 namespace dielast::fem {
 
 /// How an equilibrium path u(s) goes on from a converged state, to first order.
@@ -23,20 +25,22 @@ PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& 
 
 /// How far an increment may be from what the slopes at its ends tell of it; see is_joined().
 struct Steadiness {
-  double part, energy_of_faster;
-  static constexpr Steadiness resolved() { return {0.1, 0.25}; }
+  double chord, energy, energy_of_faster;
+  static constexpr Steadiness resolved() { return {0.1, 0.1, 0.25}; }
   /// For increments so short that they may hold a kink of the path, where wrinkles begin, but no other
   /// branch.
-  static constexpr Steadiness kinked() { return {0.5, 0.5}; }
+  static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5}; }
+  /// For film that wrinkles: across them it may be anywhere, so that only the energy tells.
+  static constexpr Steadiness wrinkled() { return {std::numeric_limits<double>::infinity(), 0.5, 0.5}; }
 };
 
 /// Whether the state `to` lies on the path that goes through `from`, where s is 1 less: Newton's method may
 /// have found a state of another branch beyond a limit point. In the norm of Equilibrium::stiffness(), the
 /// chord c = u1 - u0 is compared with the mean v of the slopes v0, v1 at both ends, and the change of the
 /// potential P with its power p = dP/ds at fixed u:
-///   |c - v| <= part max(|v0|, |v1|)  and  |P1 - P0 - (p0 + p1)/2| <= part |p1 - p0|.
+///   |c - v| <= chord max(|v0|, |v1|)  and  |P1 - P0 - (p0 + p1)/2| <= energy |p1 - p0|.
 /// Where the path gets faster, |v1| > |v0|, it may do so up to the square root at a limit point: c may be
-/// near any point between v0 and v, and the energy miss more by `energy_of_faster`. What a film has set free
+/// near any point between v0 and v, and the energy may miss `energy_of_faster`. What a film has set free
 /// on its way to another branch is missing from the energy; on another branch it is mostly slower. An
 /// increment that fails may just be too long. `slope_to` must not be that of a singular tangent.
 bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,

@@ -57,7 +57,8 @@ class Ramp {
   static double time_error(const History& past, const History& next);
   double motion_error(const GeneralisedAlpha& scheme, const Motion& past, const Motion& next) const;
   bool accept(State state, double s);
-  bool notify(bool lands, double length, int unstable_before = -1);
+  bool notify(bool lands, double length, bool jumped = false);
+  bool jumps(const Loads& before, const Loads& after) const;
 
   Equilibrium& equilibrium_;
   const LoadPath& path_;
@@ -67,6 +68,7 @@ class Ramp {
   double largest_, landing_, smallest_;
   NewtonResult newton_;
   std::optional<PathSlope> slope_; ///< at the trial state
+  int unstable_before_ = -1;       ///< unstable modes before the increment that is being accepted
   bool jumped_ = false;            ///< at the last break
   double last_part_ = 0;           ///< of that jump
   double time_error_ = 0;          ///< of the last time step
@@ -156,6 +158,10 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const Model& model = equilibrium_.model();
   if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
   if (options_.inertia) return true; // motion has no other branch
+  // No path leads away from slack film, and the slope of a hardly compressible filling is that of its
+  // pressure.
+  if (options_.newton.wrinkles && equilibrium_.is_slack(last())) return true;
+  if (model.closed_chamber(trial)) return true;
   const auto size = [this](const State& from, const State& to) {
     const Eigen::VectorXd u = equilibrium_.model().dofs.increment(from, to);
     return std::sqrt(u.dot(equilibrium_.stiffness().cwiseProduct(u)));
@@ -166,7 +172,9 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
   const PathSlope start = slope_of_start(increment, length);
   progress_.slope = start.per(length);
-  const Steadiness steadiness = length > longest_kinked ? Steadiness::resolved() : Steadiness::kinked();
+  const Steadiness steadiness = options_.newton.wrinkles  ? Steadiness::wrinkled()
+                                : length > longest_kinked ? Steadiness::resolved()
+                                                          : Steadiness::kinked();
   if (!is_joined(equilibrium_, last(), start, trial, end, steadiness)) return false;
   slope_ = end.per(length);
   return true;
@@ -192,6 +200,31 @@ bool Ramp::detour(const LoadPath& path, State start, const RampOptions& options,
   if (result.end == RampEnd::complete) return true;
   newton_ = result.failure;
   return false;
+}
+
+/// Whether loads differ by more than rounding, over what they have been at the last states: where a wave only
+/// turns, both sides of the break are computed, by other terms.
+bool Ramp::jumps(const Loads& before, const Loads& after) const {
+  constexpr double rounding = 1e-10;
+  std::vector<Loads> recent{before, after};
+  for (const PathPoint& point : progress_.points)
+    recent.push_back(Loads::of(point.state, equilibrium_.model().dofs));
+  const auto differ = [&](auto&& part) {
+    for (Eigen::Index i = 0; i < part(before).size(); ++i) {
+      double largest = 0;
+      for (const Loads& loads : recent) largest = std::max(largest, std::abs(part(loads)[i]));
+      if (std::abs(part(after)[i] - part(before)[i]) > rounding * largest) return true;
+    }
+    return false;
+  };
+  const auto ports = [](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  return differ([&](const Loads& loads) { return ports(loads.voltage); }) ||
+         differ([&](const Loads& loads) { return ports(loads.charge); }) ||
+         differ([&](const Loads& loads) { return ports(loads.source); }) ||
+         differ([](const Loads& loads) -> const Eigen::VectorXd& { return loads.dead_force; }) ||
+         differ([](const Loads& loads) -> const Eigen::VectorXd& { return loads.held; });
 }
 
 /// Forgets the past, in which the loads went elsewhere, and lets loads that jump here act at once, in parts.
@@ -220,8 +253,9 @@ bool Ramp::pass_break() {
   const Loads after = Loads::of(goal, dofs);
   state.scheme = materials::TimeScheme::frozen();
   const double at = parameter(progress_.load_factor);
+  jumped_ =
+      jumps(before, after) && (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
   progress_.points = {{at, state}};
-  jumped_ = before != after && (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
   if (!jumped_) return true;
   const LoadPath jump = linear_path(dofs, before, after);
   if (!options_.inertia)
@@ -310,18 +344,23 @@ bool Ramp::accept(State state, double s) {
   const bool lands = !timed() || std::abs(s - std::round(s / landing_) * landing_) < round_off || s >= 1;
   const double length = s - progress_.load_factor;
   progress_.load_factor = s;
-  const int before = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
+  unstable_before_ = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
   progress_.slope = std::exchange(slope_, std::nullopt);
   progress_.points.push_back({parameter(s), std::move(state)});
   if (progress_.points.size() > most_points) progress_.points.erase(progress_.points.begin());
-  return notify(lands, length, before);
+  return notify(lands, length);
 }
 
 /// Tells the observer; false when it wants to stop.
-bool Ramp::notify(bool lands, double length, int unstable_before) {
-  const Increment increment{
-      progress_.load_factor,          newton_, lands, length, progress_.turns, unstable_before,
-      std::exchange(time_error_, 0.0)};
+bool Ramp::notify(bool lands, double length, bool jumped) {
+  const Increment increment{progress_.load_factor,
+                            newton_,
+                            lands,
+                            length,
+                            progress_.turns,
+                            jumped,
+                            std::exchange(unstable_before_, -1),
+                            std::exchange(time_error_, 0.0)};
   progress_.turns = false;
   return !observer_.on_accept || observer_.on_accept(progress_, increment);
 }
@@ -334,7 +373,7 @@ RampResult Ramp::run() {
     if (timed() && progress_.at_break) {
       if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
       if (jumped_) {
-        const bool goes_on = notify(true, last_part_);
+        const bool goes_on = notify(true, last_part_, true);
         progress_.turns = true;
         if (!goes_on) return {RampEnd::stopped};
       }

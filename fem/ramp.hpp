@@ -25,9 +25,10 @@ struct RampOptions {
 struct Increment {
   double load_factor = 0;
   NewtonResult newton;
-  bool lands = true;  ///< a result was wanted here
-  double length = 1;  ///< of the path from the last accepted state, in a parameter in which it is smooth
-  bool turns = false; ///< the path had a corner at the last accepted state
+  bool lands = true;   ///< a result was wanted here
+  double length = 1;   ///< of the path from the last accepted state, in a parameter in which it is smooth
+  bool turns = false;  ///< the path had a corner at the last accepted state
+  bool jumped = false; ///< the loads have jumped here, at once: the state before is of the same time
   int unstable_before = -1; ///< unstable modes of the last accepted state; -1: unknown
   double time_error = 0; ///< that the time step may have added, relative; of the first ones after a break the
                          ///< tolerance

@@ -42,7 +42,7 @@ struct State {
   std::vector<double> voltage;              ///< per electrode, V; then per chamber, its pressure, Pa
   Eigen::VectorXd dead_force;               ///< per equation (see DofMap): N, or N m for rotations
   std::vector<Supply> supply;               ///< likewise: what is given
-  std::vector<double> charge;               ///< likewise: the given charge, C, or volume, m^3
+  std::vector<double> charge;               ///< likewise: the given charge, C, or pumped volume, m^3
   std::vector<double> source;               ///< likewise: voltage of the circuit's source, V
   Eigen::VectorXd sheet_drop; ///< per Model::sheet_points, the electrode's voltage less the sheet's there, V;
                               ///< empty: none

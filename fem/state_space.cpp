@@ -1,12 +1,11 @@
 #include "fem/state_space.hpp"
 
+#include "fem/dense_algebra.hpp"
 #include "fem/harmonic.hpp"
 #include "fem/modal.hpp"
 #include "fem/orientation.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -39,11 +38,11 @@ Eigen::MatrixXd residual_responses(const Linearisation& linear, const Eigen::Mat
   const Eigen::MatrixXd shares =
       projected(K, linear.mass(), both).topRightCorner(modes.cols(), responses.cols());
   responses -= modes * shares;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> energy(projected(K, K.values, responses));
-  const Eigen::Index kept = (energy.eigenvalues().array() > negligible).count(); // ascending: the last ones
-  Eigen::VectorXd energies = energy.eigenvalues().tail(kept);
+  const SymmetricEigen energy = symmetric_eigen(projected(K, K.values, responses));
+  const Eigen::Index kept = (energy.values.array() > negligible).count(); // ascending: the last ones
+  Eigen::VectorXd energies = energy.values.tail(kept);
   Eigen::MatrixXd residual =
-      responses * energy.eigenvectors().rightCols(kept) * energies.cwiseSqrt().cwiseInverse().asDiagonal();
+      responses * energy.vectors.rightCols(kept) * energies.cwiseSqrt().cwiseInverse().asDiagonal();
   orient(residual, energies, round_off, weight);
   return residual;
 }
@@ -98,7 +97,7 @@ struct Linear {
 Eigen::MatrixXcd StateSpace::transfer(std::complex<double> s) const {
   Eigen::MatrixXcd resolvent = -A.cast<std::complex<double>>();
   resolvent.diagonal().array() += s;
-  return C * resolvent.partialPivLu().solve(B.cast<std::complex<double>>()) + D;
+  return C * solve_dense(resolvent, B.cast<std::complex<double>>()) + D;
 }
 
 StateSpace state_space(Equilibrium& equilibrium, const State& state, const Channels& channels,

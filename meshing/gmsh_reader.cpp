@@ -12,6 +12,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 namespace dielast::meshing {
@@ -73,9 +74,9 @@ class Converter {
       if (block == mesh_.blocks.end()) block = mesh_.blocks.insert(block, {*type, {}});
       // Tags for now; number_nodes() replaces them.
       std::vector<int>& cells = entity_cells_[{elements.dimension, elements.entity}];
-      const int count = static_cast<int>(elements.nodes.size()) / elements.nodes_each;
-      for (int c = 0; c < count; ++c) cells.push_back(block->size() + c);
-      block->nodes.insert(block->nodes.end(), elements.nodes.begin(), elements.nodes.end());
+      const auto each = static_cast<std::size_t>(elements.nodes_each);
+      for (std::size_t first = 0; first + each <= elements.nodes.size(); first += each)
+        cells.push_back(add_cell(*block, std::span(elements.nodes).subspan(first, each)));
     }
     if (std::ranges::none_of(mesh_.blocks, is_triangle))
       throw MeshError(
@@ -83,6 +84,16 @@ class Converter {
     if (orders.size() > 1)
       throw MeshError("it mixes elements of order 1 and 2; save the whole mesh with one order (gmsh -order 1 "
                       "or -order 2)");
+  }
+
+  /// Number of the cell in its block. Files of version 2.2 repeat a cell for each of its physical groups: it
+  /// is one cell of several places.
+  int add_cell(CellBlock& block, std::span<const std::size_t> tags) {
+    std::vector<std::size_t> key(tags.begin(), tags.end());
+    std::ranges::sort(key);
+    const auto [known, fresh] = cell_of_tags_.try_emplace(std::move(key), block.size());
+    if (fresh) block.nodes.insert(block.nodes.end(), tags.begin(), tags.end());
+    return known->second;
   }
 
   void number_nodes() {
@@ -138,6 +149,8 @@ class Converter {
       throw MeshError(fmt::format("the {} \"{}\" has no elements; remove the physical group or mesh it",
                                   dimension_names[group.dimension], name));
     std::ranges::sort(set.cells);
+    const auto repeated = std::ranges::unique(set.cells);
+    set.cells.erase(repeated.begin(), repeated.end());
     const auto block = std::ranges::find_if(
         mesh_.blocks, [&](const CellBlock& b) { return is_triangle(b) == (group.dimension == 2); });
     set.block = static_cast<int>(block - mesh_.blocks.begin());
@@ -169,6 +182,7 @@ class Converter {
 
   GmshContents contents_;
   Mesh mesh_;
+  std::map<std::vector<std::size_t>, int> cell_of_tags_;         ///< by a cell's node tags, ascending
   std::map<std::pair<int, int>, std::vector<int>> entity_cells_; ///< by (dimension, entity)
   std::unordered_map<std::size_t, int> node_number_;             ///< by tag
 };

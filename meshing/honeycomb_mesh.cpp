@@ -168,10 +168,18 @@ Mesh honeycomb_mesh(const HoneycombShape& shape, const MeshDensity& density) {
   const Honeycomb lattice = honeycomb(shape);
   Mesh mesh = Builder(lattice, density).take();
   if (density.order == 2) add_middle_nodes(mesh);
-  add_node_sets(mesh);
 
   const int columns = static_cast<int>(shape.columns.size());
+  const int centre_column = (columns - 1) / 2;
   const auto highest = [&](int column) { return shape.columns[column] - 1; };
+  const auto name_wall = [&](const char* place, int column, int row, Honeycomb::Side side) {
+    mesh.cell_sets[place] = mesh.cell_sets.at(fmt::format("wall[{}]", lattice.cell(column, row).walls[side]));
+  };
+  name_wall("corner_top_wall", 0, highest(0), Honeycomb::top);
+  name_wall("corner_bottom_wall", 0, 0, Honeycomb::bottom);
+  name_wall("top_wall", centre_column, highest(centre_column), Honeycomb::top);
+  name_wall("bottom_wall", centre_column, 0, Honeycomb::bottom);
+  add_node_sets(mesh);
   const auto middle = [&](int column, int row, Honeycomb::Side side) {
     return middle_of_wall(mesh, lattice.cell(column, row).walls[side]);
   };
@@ -179,7 +187,6 @@ Mesh honeycomb_mesh(const HoneycombShape& shape, const MeshDensity& density) {
   mesh.node_sets["right_apex"] = {lattice.cell(columns - 1, highest(columns - 1) / 2).right_apex()};
   mesh.node_sets["corner_top"] = middle(0, highest(0), Honeycomb::top);
   mesh.node_sets["corner_bottom"] = middle(0, 0, Honeycomb::bottom);
-  const int centre_column = (columns - 1) / 2;
   mesh.node_sets["top"] = middle(centre_column, highest(centre_column), Honeycomb::top);
   mesh.node_sets["bottom"] = middle(centre_column, 0, Honeycomb::bottom);
   mesh.node_sets["centre"] = {node_nearest_centroid(mesh)};

@@ -52,7 +52,7 @@ class Rings {
       if (i == circle) nodes.push_back(middle);
     });
     std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 
  private:

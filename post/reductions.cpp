@@ -1,6 +1,8 @@
 #include "post/reductions.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -60,7 +62,59 @@ auto with_scalar(const fem::Samples& samples, std::string_view name, Use&& use) 
   throw std::invalid_argument("unknown field '" + std::string(name) + "'");
 }
 
+/// Corners of a cell, or ends of a line.
+std::span<const int> corners(const meshing::CellBlock& block, int cell) {
+  const bool triangle = !meshing::is_line(block.type) && !meshing::is_meridian(block.type);
+  return block.cell(cell).first(triangle ? 3 : 2);
+}
+
+/// The cell and those next to it: triangles with a common side; lines and meridians whose common end has no
+/// third.
+std::vector<char> neighbourhood(const meshing::CellBlock& block, int cell) {
+  const std::span<const int> own = corners(block, cell);
+  const auto is_own = [&](int node) { return std::ranges::count(own, node) > 0; };
+  std::vector<char> near(static_cast<std::size_t>(block.size()));
+  std::array<int, 2> lines_at_end{};
+  for (int other = 0; other < block.size(); ++other) {
+    const std::span<const int> nodes = corners(block, other);
+    near[static_cast<std::size_t>(other)] = std::ranges::count_if(nodes, is_own) + 1 >= std::ssize(own);
+    if (own.size() == 2)
+      for (std::size_t end = 0; end < 2; ++end) lines_at_end[end] += std::ranges::count(nodes, own[end]) > 0;
+  }
+  for (int other = 0; own.size() == 2 && other < block.size(); ++other)
+    for (std::size_t end = 0; end < 2; ++end)
+      if (other != cell && lines_at_end[end] > 2 && std::ranges::count(corners(block, other), own[end]) > 0)
+        near[static_cast<std::size_t>(other)] = 0;
+  return near;
+}
+
+bool same_kind(const fem::MembraneSample& a, const fem::MembraneSample& b) {
+  return a.electrode == b.electrode;
+}
+bool same_kind(const fem::BeamSample&, const fem::BeamSample&) { return true; }
+
 } // namespace
+
+double rise_at(const Extremum& extremum, const fem::Samples& samples, const meshing::Mesh& mesh,
+               std::string_view scalar) {
+  const meshing::CellBlock& block = extremum.part == Part::film ? *mesh.film() : *mesh.walls();
+  const std::vector<char> near = neighbourhood(block, extremum.cell);
+  return with_scalar(samples, scalar,
+                     [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field,
+                                                    int component, Part) {
+                       const auto own = std::ranges::find(points, extremum.cell, &Sample::cell);
+                       std::array<double, widest_field> values;
+                       double rise = 0;
+                       for (const Sample& sample : points) {
+                         if (!near[static_cast<std::size_t>(sample.cell)] || !same_kind(sample, *own))
+                           continue;
+                         field.evaluate(Point(sample), values.data());
+                         rise = std::max(
+                             rise, std::abs(values[static_cast<std::size_t>(component)] - extremum.value));
+                       }
+                       return rise;
+                     });
+}
 
 std::vector<std::vector<double>> average(std::span<const fem::MembraneSample> samples,
                                          std::span<const FilmField> fields, int cell_count) {

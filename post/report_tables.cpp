@@ -14,7 +14,7 @@ constexpr double smallest_relative_error = 1e-6;
 
 /// The error in the unit in which the value is shown, to the two digits that it deserves.
 std::string error_text(const QuantityRow& row, const ScaledUnit& scaled) {
-  if (!row.error) return "-";
+  if (!row.error) return row.error_remark.empty() ? "-" : row.error_remark;
   const double shown = std::max(std::abs(*row.error), smallest_relative_error * std::abs(row.value));
   return (shown > std::abs(*row.error) ? "< " : "") + significant(shown * scaled.factor, 2);
 }
@@ -36,7 +36,9 @@ std::string load_text(const StepRecord& record) { return significant(record.load
 } // namespace
 
 std::string with_error(const QuantityRow& row) {
-  if (!row.error || std::isnan(row.value)) return engineering(row.value, row.unit, row.ratio);
+  if (!row.error || std::isnan(row.value))
+    return engineering(row.value, row.unit, row.ratio) +
+           (row.error_remark.empty() ? "" : fmt::format(" ({})", row.error_remark));
   const ScaledUnit scaled = scaled_unit(row.value, row.unit, row.ratio);
   return fmt::format("{} ± {}{}{}", value_text(row, scaled), error_text(row, scaled),
                      scaled.unit.empty() ? "" : " ", scaled.unit);

@@ -18,6 +18,7 @@ struct QuantityRow {
   Ratio ratio = Ratio::plain;  ///< percent for strains
   std::optional<double> error; ///< estimated discretisation error, in the quantity's unit
   std::string meaning;
+  std::string error_remark{}; ///< why there is no error; may be empty
 };
 
 /// A check of the case file and what came out.

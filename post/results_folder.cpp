@@ -125,12 +125,18 @@ Manifest read_manifest(int descriptor, const fs::path& folder) {
   return *std::move(manifest);
 }
 
+/// Removes what replace_file() leaves where it is killed.
+void remove_part(const fs::path& path) {
+  std::error_code gone;
+  fs::remove(path.string() + ".part", gone);
+}
+
 /// Removes a file, or an inner folder of results with what its manifest lists.
 void remove_results(const fs::path& path) {
   std::error_code gone;
   if (!fs::is_directory(fs::symlink_status(path, gone))) {
     fs::remove(path, gone);
-    fs::remove(path.string() + ".part", gone);
+    remove_part(path);
     return;
   }
   if (!fs::exists(path / manifest_name, gone)) return;
@@ -168,8 +174,10 @@ ResultsFolder::~ResultsFolder() { ::close(manifest_); }
 void ResultsFolder::begin(std::vector<std::string> kept) {
   exit_code_.reset();
   listed_ = {kept.begin(), kept.end()};
-  for (const std::string& name : names_)
+  for (const std::string& name : names_) {
     if (!listed_.contains(name)) remove_results(path_ / name);
+    remove_part(path_ / name);
+  }
   names_ = std::move(kept);
   std::string text = head_;
   for (const std::string& name : names_) text += line_of(name);

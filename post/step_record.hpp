@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,9 +25,14 @@ struct StepRecord {
   double residual = 0;          ///< relative norm on acceptance
   int unstable_modes = 0;       ///< under the control of the electrodes; 0 is a stable state
   std::vector<Event> events;
+  bool jumped = false; ///< the loads have jumped at this time: the record before is of the moment before
 
+  /// The voltage of the largest magnitude, with its sign; 0 without electrodes.
   double largest_voltage() const {
-    return voltages.empty() ? 0 : *std::max_element(voltages.begin(), voltages.end());
+    double largest = 0;
+    for (const double voltage : voltages)
+      if (std::abs(voltage) > std::abs(largest)) largest = voltage;
+    return largest;
   }
 };
 

@@ -88,6 +88,9 @@ class VtkSeries::PartFile {
     step_->SetName("step");
     step_->SetNumberOfValues(1);
     grid_->GetFieldData()->AddArray(step_);
+    load_factor_->SetName("load_factor");
+    load_factor_->SetNumberOfTuples(1);
+    grid_->GetFieldData()->AddArray(load_factor_);
 
     writer_->SetInputData(grid_);
     writer_->SetDataModeToAppended();
@@ -100,15 +103,22 @@ class VtkSeries::PartFile {
 
   std::string_view name() const { return part_ == Part::film ? "film" : "walls"; }
 
-  std::string content(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
+  std::string content(const SeriesStep& step, std::span<const Eigen::Vector3d> displacement,
                       const fem::Samples& samples, std::span<const Eigen::Vector3d> mode) {
     fill(displacement_, displacement);
     if (!mode.empty()) {
       fill(mode_, mode);
       grid_->GetPointData()->AddArray(mode_);
     }
-    time_->SetValue(0, time);
-    step_->SetValue(0, std::string(step));
+    time_->SetValue(0, step.time);
+    step_->SetValue(0, step.name);
+    load_factor_->SetValue(0, step.load_factor);
+    for (const SeriesStep::Voltage& voltage : step.voltages) {
+      vtkNew<vtkDoubleArray> array;
+      array->SetName((voltage.name + " [V]").c_str());
+      array->InsertNextValue(voltage.value);
+      grid_->GetFieldData()->AddArray(array); // replaces the last step's by its name
+    }
     if (part_ == Part::film)
       set_cell_data(samples.film, film_fields());
     else
@@ -117,10 +127,11 @@ class VtkSeries::PartFile {
     // A file must not tell of the one before: ranges that writing cached are dropped.
     time_->Modified();
     step_->Modified();
+    load_factor_->Modified();
     for (vtkAbstractArray* kept :
          {static_cast<vtkAbstractArray*>(grid_->GetPoints()->GetData()),
           static_cast<vtkAbstractArray*>(displacement_), static_cast<vtkAbstractArray*>(mode_),
-          static_cast<vtkAbstractArray*>(time_)})
+          static_cast<vtkAbstractArray*>(time_), static_cast<vtkAbstractArray*>(load_factor_)})
       kept->GetInformation()->Clear();
     if (writer_->Write() == 0) throw std::runtime_error("VTK could not encode a step");
     return writer_->GetOutputString();
@@ -177,7 +188,7 @@ class VtkSeries::PartFile {
   std::vector<int> mesh_cells_;    ///< per cell of the grid
   vtkNew<vtkUnstructuredGrid> grid_;
   vtkNew<vtkDoubleArray> displacement_, mode_;
-  vtkNew<vtkDoubleArray> time_;
+  vtkNew<vtkDoubleArray> time_, load_factor_;
   vtkNew<vtkStringArray> step_;
   vtkNew<vtkXMLUnstructuredGridWriter> writer_;
 };
@@ -204,14 +215,14 @@ int VtkSeries::steps() const {
   return static_cast<int>(entries_.size() / std::max<std::size_t>(parts_.size(), 1));
 }
 
-void VtkSeries::write(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
+void VtkSeries::write(const SeriesStep& step, std::span<const Eigen::Vector3d> displacement,
                       const fem::Samples& samples, std::span<const Eigen::Vector3d> mode) {
   const int index = steps();
   std::vector<std::string> entries;
   for (const auto& part : parts_) {
     const std::string file = file_name(part->name(), index);
-    folder_.write(file, part->content(time, step, displacement, samples, mode));
-    entries.push_back(fmt::format(R"(    <DataSet timestep="{}" part="{}" name="{}" file="{}"/>)", time,
+    folder_.write(file, part->content(step, displacement, samples, mode));
+    entries.push_back(fmt::format(R"(    <DataSet timestep="{}" part="{}" name="{}" file="{}"/>)", step.time,
                                   entries.size(), part->name(), escape_markup(file)));
   }
   entries_.insert(entries_.end(), entries.begin(), entries.end());

@@ -14,6 +14,18 @@
 
 namespace dielast::post {
 
+/// What a file says of the step that it shows, as field data.
+struct SeriesStep {
+  double time = 0;        ///< s, or a pseudo-time; larger than that of the step before. "TimeValue"
+  std::string name;       ///< "step"
+  double load_factor = 0; ///< "load_factor"
+  struct Voltage {
+    std::string name; ///< "<name> [V]"
+    double value;     ///< V
+  };
+  std::vector<Voltage> voltages{}; ///< of the electrodes
+};
+
 /// The ParaView series of a run: per accepted step `<name>_film_0000.vtu` and, where the mesh has lines,
 /// `<name>_walls_0000.vtu` (binary, compressed), and `<name>.pvd` that lists them by time with the parts film
 /// and walls.
@@ -32,9 +44,9 @@ class VtkSeries {
   ~VtkSeries();
   VtkSeries(VtkSeries&&) noexcept;
 
-  /// Adds a step. `time` in s, or a pseudo-time that grows with the steps; `displacement` per mesh node, m.
+  /// Adds a step. `displacement` per mesh node, m.
   /// `mode`, if any: a vector per mesh node, written as point data "mode". Throws WriteError.
-  void write(double time, std::string_view step, std::span<const Eigen::Vector3d> displacement,
+  void write(const SeriesStep& step, std::span<const Eigen::Vector3d> displacement,
              const fem::Samples& samples, std::span<const Eigen::Vector3d> mode = {});
 
   /// Lines of the list, one per step and part: what a checkpoint keeps.

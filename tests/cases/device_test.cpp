@@ -21,25 +21,6 @@ Case honeycomb(std::vector<std::string> overrides = {}) {
   return read_case(valid / "honeycomb.toml", overrides);
 }
 
-TEST(Coarser, HalvesTheMesh) {
-  EXPECT_EQ(coarser(honeycomb({"mesh.wall_elements=8"}))->coarse.mesh.wall_elements, 4);
-  EXPECT_EQ(coarser(honeycomb({"mesh.wall_elements=2"}))->coarse.mesh.wall_elements, 1);
-  EXPECT_FALSE(coarser(honeycomb({"mesh.wall_elements=1"})));
-  const Case disc = read_case(valid / "disc.toml");
-  EXPECT_EQ(coarser(disc)->coarse.mesh.rings, disc.mesh.rings / 2);
-  EXPECT_EQ(coarser(disc)->coarse.mesh.order, disc.mesh.order);
-  EXPECT_FALSE(coarser(read_case(valid / "disc.toml", {"mesh.rings=3"})));
-  EXPECT_FALSE(coarser(read_case(valid / "own_mesh.toml")));
-}
-
-// Half of an odd number of elements is more than twice as coarse: the estimate must know by how much.
-TEST(Coarser, TellsByHowMuch) {
-  for (const int elements : {2, 3, 5, 8}) {
-    const auto found = coarser(honeycomb({"mesh.wall_elements=" + std::to_string(elements)}));
-    EXPECT_DOUBLE_EQ(found->ratio * found->coarse.mesh.wall_elements, elements);
-  }
-}
-
 TEST(Device, PlacesAreThoseOfTheMesh) {
   const Device device = build_device(honeycomb());
   const auto places = places_of(device.mesh);
@@ -149,12 +130,6 @@ TEST(Patch, InEqualBiaxialTensionBothSidesCarryTheStress) {
   EXPECT_EQ(device.model.dofs.equation(1, 0), device.model.dofs.equation(2, 1));
   EXPECT_NEAR(led_to(one, device).dead_force[device.model.dofs.equation(1, 0)], 2 * 10e3 * 0.5e-3 * 10e-3,
               1e-15);
-}
-
-TEST(Device, WrinkledFilmWithBranches) {
-  const Device device = build_device(read_case(valid / "patch.toml"));
-  EXPECT_TRUE(device.tension_field);
-  EXPECT_TRUE(device.model.initial_state().history);
 }
 
 } // namespace

@@ -81,6 +81,22 @@ TEST(FitModel, TimeStepsAreOfSecondOrder) {
   EXPECT_NEAR(coarse / halved, 4, 0.5);
 }
 
+// In pure shear the viscous deformation flows across, too: as a film's at C = diag(l^2, 1).
+TEST(FitModel, BranchesInPureShearFlowAsThoseOfAFilm) {
+  const materials::Branch branch = neo_hookean_branch(5000, 1);
+  const Material material{.law = materials::NeoHookean{0}, .branches = {branch}};
+  const double l = 2;
+  const auto stress = nominal_stress(material, {Mode::pure_shear, {0, 0.5, 2}, {l, l, l}}, 512);
+  materials::Internal viscous = materials::undeformed();
+  const double dt = 1e-5;
+  const materials::InPlaneC<double> C{l * l, 1, 0};
+  for (int n = 0; n < 50000; ++n)
+    viscous = materials::advance(branch, C, materials::TimeScheme::backward_euler(dt), viscous, viscous);
+  EXPECT_GT(std::abs(viscous[1] - 1), 0.02);
+  const auto film = materials::branch_potential(branch, C, materials::TimeScheme::frozen(), viscous, viscous);
+  EXPECT_NEAR(stress[1], 2 * l * film.first[0], 1e-4 * stress[1]);
+}
+
 TEST(FitModel, BeyondTheLawThereIsNoStress) {
   const auto stress = nominal_stress({.law = materials::Gent{1000, 10}}, {Mode::uniaxial, {}, {2, 5}}, 1);
   EXPECT_TRUE(std::isfinite(stress[0]));

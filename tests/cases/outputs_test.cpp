@@ -64,6 +64,73 @@ TEST_F(Outputs, SeriesHasAStepForEveryRow) {
   }
 }
 
+// Ramps, a jump and a ramp between steps that take time: ParaView would show all states of one time at once.
+TEST_F(Outputs, SeriesHasOneStateForEachTime) {
+  write("timed.toml", R"([film]
+thickness = "1 mm"
+[film.material]
+shear_modulus = "40 kPa"
+permittivity = "4e-11 F/m"
+[patch]
+[drive]
+voltage = { wave = "step", from = "1 kV", to = "2 kV", at = "0.5 s" }
+[[load]]
+place = "right"
+force = ["1 mN", 0, 0]
+[[step]]
+kind = "voltage"
+increments = 4
+[[step]]
+kind = "transient"
+duration = "1 s"
+increments = 10
+[[step]]
+kind = "force"
+increments = 2
+[[step]]
+kind = "hold"
+duration = "2 s"
+increments = 2
+)");
+  const Ended ended = dielast({"run", "timed.toml", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+  const std::string list = content("out/timed.pvd");
+  std::vector<double> times;
+  const std::regex entry(R"re(timestep="([^"]+)")re");
+  for (std::sregex_iterator found(list.begin(), list.end(), entry), end; found != end; ++found)
+    times.push_back(std::stod((*found)[1]));
+  const auto rows = table_of(directory / "out/history.csv");
+  ASSERT_EQ(times.size(), rows.size() - 1);
+  for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GT(times[i], times[i - 1]) << i;
+  EXPECT_EQ(times.front(), -1); // drawn, one step before time starts
+  EXPECT_EQ(times.at(4), 0);    // the ramp's end
+  EXPECT_NEAR(times.back(), 3, 1e-6);
+  // the rows of one time are those of the jump, which says so, and those of the ramp between
+  ASSERT_EQ(rows[0].back(), "jumped[1]");
+  int jumps = 0;
+  for (std::size_t r = 2; r < rows.size(); ++r) {
+    jumps += rows[r].back() == "1";
+    if (rows[r][2] == rows[r - 1][2])
+      EXPECT_TRUE(rows[r].back() == "1" || rows[r][0] == "voltage" || rows[r][0] == "force") << r;
+  }
+  EXPECT_EQ(jumps, 2); // the load as time starts, the voltage after half a second
+}
+
+TEST_F(Outputs, WarningsAreInLogSummaryAndReport) {
+  const std::string said = "has no effect here: it acts only with a step with a duration";
+  const Ended ended = dielast({"run", "small.toml", "-o", "out", "--set", "solver.time_tolerance=1e-8"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_NE(ended.out.find(said), std::string::npos) << ended.out;
+  EXPECT_NE(content("out/run.log").find(said), std::string::npos);
+  EXPECT_NE(content("out/report.html").find(said), std::string::npos);
+  const nlohmann::json warnings = json_of("out/summary.json")["warnings"];
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].get<std::string>().find("solver.time_tolerance"), std::string::npos);
+  const Ended checked = dielast({"check", "small.toml", "--set", "solver.time_tolerance=1e-8"});
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_NE(checked.err.find(said), std::string::npos) << checked.err;
+}
+
 TEST_F(Outputs, FieldsCanBeLeftOut) {
   ASSERT_EQ(dielast({"run", "small.toml", "-o", "out", "--set", "output.fields=false"}).exit_code, 0);
   for (const auto& entry : std::filesystem::directory_iterator(directory / "out")) {

@@ -1,6 +1,7 @@
 #include "tests/cases/command.hpp"
 
 #include <map>
+#include <regex>
 
 namespace dielast::test {
 namespace {
@@ -101,6 +102,48 @@ TEST_F(StudyCommand, FailedPointsAreRecordedAndDoNotStopTheRest) {
   EXPECT_EQ(rows[3][4], "0");
   EXPECT_NE(content("out/study.csv").find("limit point near"), std::string::npos);
   EXPECT_NE(ended.out.find("2 of 3 points"), std::string::npos) << ended.out;
+}
+
+// eps_y of the honeycomb is far from straight between 2 and 6 kV: what the target says must be what a run at
+// that voltage finds.
+TEST_F(StudyCommand, TargetsAreRunUntilTheyAreMet) {
+  const auto write_target = [&](const std::string& tolerance) {
+    write("study.toml", "title = \"Voltage for a strain\"\ncase = \"small.toml\"\n[study]\n"
+                        "vary = { \"drive.voltage\" = [\"2 kV\", \"6 kV\"] }\n"
+                        "[[study.target]]\nquantity = \"eps_y\"\nvalue = 0.1\n" +
+                            tolerance);
+  };
+  write_target("tolerance = 1e-5\n");
+  const Ended ended = dielast(into("out"));
+  ASSERT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      ended.out, found, std::regex(R"re(eps_y = \S+ at drive.voltage = (\S+) kV \(run there: (\S+)\))re")))
+      << ended.out;
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "one", "--set", "drive.voltage=" + found[1].str() + " kV"})
+                .exit_code,
+            0);
+  EXPECT_NEAR(json_of("one/summary.json")["quantities"]["eps_y"]["value"].get<double>(), 0.1, 2e-5);
+  EXPECT_NE(content("out/report.html").find("run there"), std::string::npos);
+  EXPECT_EQ(table_of(directory / "out/study.csv").size(), 3u); // of the grid alone
+
+  // once more with what has been run already
+  const auto first_run = directory / "out/target-01-01/summary.json";
+  const auto written = std::filesystem::last_write_time(first_run);
+  const Ended again = dielast(into("out", {"--resume"}));
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(first_run), written);
+  EXPECT_NE(again.out.find(found[0].str()), std::string::npos) << again.out;
+}
+
+TEST_F(StudyCommand, TargetsThatCannotBeMetAreNotInterpolated) {
+  write("study.toml", "title = \"Elements for a strain\"\ncase = \"small.toml\"\n[study]\n"
+                      "vary = { \"mesh.wall_elements\" = [1, 3] }\n"
+                      "[[study.target]]\nquantity = \"eps_y\"\nvalue = 0.2555\ntolerance = 1e-9\n");
+  const Ended ended = dielast(into("out"));
+  ASSERT_EQ(dielast({"run", "small.toml", "-o", "one", "--set", "mesh.wall_elements=1"}).exit_code, 0);
+  EXPECT_EQ(ended.exit_code, 4) << ended.out << json_of("one/summary.json")["quantities"]["eps_y"].dump();
+  EXPECT_NE(ended.out.find("not solved: the run at"), std::string::npos) << ended.out;
 }
 
 TEST_F(StudyCommand, ImpossibleValuesAreRefusedBeforeAnythingRuns) {

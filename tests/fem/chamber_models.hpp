@@ -19,8 +19,8 @@ inline Dimension dimension_of(const meshing::Mesh& mesh) {
 /// The mesh's film, under one electrode or none, over a chamber, which is the last port; hold() and number()
 /// are left to the caller.
 inline std::unique_ptr<Model> inflatable(const meshing::Mesh& mesh, const MembraneSection& film,
-                                         double extent, const Lid& lid = {}, double compliance = 0,
-                                         bool electrode = false) {
+                                         double extent, const Lid& lid = {}, bool electrode = false,
+                                         double bulk_modulus = 2.2e9) {
   const meshing::CellBlock& cells = mesh.blocks[0];
   const bool linear =
       cells.type == meshing::CellType::meridian2 || cells.type == meshing::CellType::triangle3;
@@ -33,8 +33,8 @@ inline std::unique_ptr<Model> inflatable(const meshing::Mesh& mesh, const Membra
                           dimension_of(mesh), points),
       make_pressure_block(mesh, cells, chamber));
   if (!electrode) model->electrodes.clear();
-  model->chambers = {"inside"};
-  if (lid.area > 0 || compliance > 0) model->blocks.push_back(make_lid_block(mesh, lid, compliance, chamber));
+  model->chambers = {{"inside", bulk_modulus}};
+  if (lid.area > 0) model->blocks.push_back(make_lid_block(mesh, lid, chamber));
   model->length_scale = model->extent = extent;
   model->drawn = mesh.nodes;
   return model;

@@ -23,7 +23,7 @@ std::unique_ptr<Model> chamber(const meshing::Mesh& mesh) {
   auto model = test::free_model(mesh.node_count(), test::dimension_of(mesh),
                                 make_pressure_block(mesh, mesh.blocks[0], 0));
   model->electrodes.clear();
-  model->chambers = {"inside"};
+  model->chambers = {{"inside"}};
   return model;
 }
 
@@ -78,13 +78,12 @@ TEST(Chamber, a_frustum_closed_by_a_lid_has_its_volume) {
     return Eigen::Vector3d(X.x(), 0, (3 - X.x()) / 2);
   });
   auto model = chamber(mesh);
-  model->blocks.push_back(
-      make_lid_block(mesh, {.node = mesh.node_sets.at("inner").front(), .area = pi}, 1e-3, 0));
+  model->blocks.push_back(make_lid_block(mesh, {.node = mesh.node_sets.at("inner").front(), .area = pi}, 0));
   State state = model->initial_state();
   state.voltage = {20};
   const Charges held = model->charges(state, false);
-  EXPECT_NEAR(held.charge[0], pi * (1 + 3 + 9) / 3 + 1e-3 * 20, 1e-13);
-  EXPECT_EQ(held.capacitance[0], 1e-3);
+  EXPECT_NEAR(held.charge[0], pi * (1 + 3 + 9) / 3, 1e-13);
+  EXPECT_EQ(held.capacitance[0], 0);
 }
 
 class ChamberShape : public testing::TestWithParam<meshing::CellType> {
@@ -102,7 +101,7 @@ TEST_P(ChamberShape, forces_and_their_derivatives_are_those_of_the_volume) {
   });
   auto model = chamber(mesh);
   const int node = 1;
-  model->blocks.push_back(make_lid_block(mesh, {.node = node, .area = 0.3}, 0.2, 0));
+  model->blocks.push_back(make_lid_block(mesh, {.node = node, .area = 0.3}, 0));
   State state = model->initial_state();
   std::mt19937 random(4);
   for (int a = 0; a < mesh.node_count(); ++a)
@@ -116,7 +115,7 @@ TEST_P(ChamberShape, forces_and_their_derivatives_are_those_of_the_volume) {
   const Evaluation there = assembler.residual(state, force);
   const Charges held = model->charges(state, true);
   EXPECT_LT((force + 1.7 * held.coupling[0]).norm(), 1e-14 * force.norm());
-  EXPECT_NEAR(there.energy, -1.7 * held.charge[0] + 0.2 * 1.7 * 1.7 / 2, 1e-14);
+  EXPECT_NEAR(there.energy, -1.7 * held.charge[0], 1e-14);
 }
 
 // On a plane, whatever its slope, the load on an inner node is p n times the integral of its shape function.
@@ -188,12 +187,12 @@ INSTANTIATE_TEST_SUITE_P(, ChamberShape,
                                   std::to_string(nodes_per_cell(info.param));
                          });
 
-/// A clamped disc of 20 mm radius, drawn 1.1 times as large, over a chamber of 1e-9 m^3/Pa.
+/// A clamped disc of 20 mm radius, drawn 1.1 times as large, over a chamber.
 struct Drum {
   explicit Drum(bool revolved)
       : mesh(revolved ? meshing::disc_meridian(0.02, 0.01, 12, 2)
                       : meshing::disc_mesh(0.02, 0.01, 4, 2, true)) {
-    model = test::inflatable(mesh, test::vhb(1.1, 1.1), 0.02, {}, 1e-9);
+    model = test::inflatable(mesh, test::vhb(1.1, 1.1), 0.02);
     for (const int a : mesh.node_sets.at("rim"))
       for (int c = 0; c < 3; ++c) model->dofs.hold(a, c);
     centre = mesh.node_sets.at("centre").front();
@@ -220,7 +219,7 @@ TEST(Chamber, given_its_volume_takes_the_state_of_the_given_pressure) {
 
     State filled = drum.model->initial_state();
     filled.supply = {Supply::charge};
-    const double held = drum.model->charges(pumped, false).charge[0];
+    const double held = drum.model->chambers[0].pumped(drum.model->charges(pumped, false).charge[0], 600);
     for (const double part : {0.25, 0.5, 0.75, 1.0}) {
       filled.charge = {part * held};
       ASSERT_EQ(equilibrium.solve(filled, tight).outcome, Outcome::converged) << part;
@@ -238,7 +237,9 @@ TEST(Chamber, sealed_keeps_its_volume_under_a_load) {
     State state = drum.model->initial_state();
     state.voltage = {300};
     ASSERT_EQ(equilibrium.solve(state, tight).outcome, Outcome::converged);
-    const double held = drum.model->charges(state, false).charge[0], height = drum.height(state);
+    const double volume = drum.model->charges(state, false).charge[0], height = drum.height(state);
+    const Chamber& chamber = drum.model->chambers[0];
+    const double held = chamber.pumped(volume, 300);
     State open = state;
     state.supply = {Supply::charge};
     state.charge = {held};
@@ -249,9 +250,10 @@ TEST(Chamber, sealed_keeps_its_volume_under_a_load) {
             -0.02 / static_cast<double>(drum.mesh.node_sets.at("electrode").size());
       ASSERT_EQ(equilibrium.solve(*loaded, tight).outcome, Outcome::converged);
     }
-    EXPECT_NEAR(drum.model->charges(state, false).charge[0], held, 1e-12 * held);
+    EXPECT_NEAR(drum.model->charges(state, false).charge[0], chamber.filled(held, state.voltage[0]),
+                1e-11 * held);
     EXPECT_GT(state.voltage[0], 310);
-    EXPECT_LT(drum.model->charges(open, false).charge[0], 0.99 * held);
+    EXPECT_LT(drum.model->charges(open, false).charge[0], 0.99 * volume);
     EXPECT_LT(drum.height(open), drum.height(state));
     EXPECT_LT(drum.height(state), height);
   }
@@ -261,8 +263,7 @@ TEST(Chamber, a_lid_carries_pressure_times_its_area) {
   const double a = 5e-3, b = 20e-3;
   const meshing::Mesh mesh = meshing::annulus_meridian(a, b, 10, 2, 3);
   const int plate = mesh.node_sets.at("inner").front();
-  const auto model =
-      test::inflatable(mesh, test::vhb(1.5, 1.5), b, {.node = plate, .area = pi * a * a}, 1e-12);
+  const auto model = test::inflatable(mesh, test::vhb(1.5, 1.5), b, {.node = plate, .area = pi * a * a});
   model->dofs.hold(plate, 0);
   for (const int c : {0, 2}) model->dofs.hold(mesh.node_sets.at("outer").front(), c);
   model->dofs.number();

@@ -1,5 +1,4 @@
 #include "materials/branch.hpp"
-#include "materials/line.hpp"
 #include "tests/materials/law_examples.hpp"
 
 namespace dielast::materials::test {
@@ -150,39 +149,6 @@ TYPED_TEST(BranchContract, power_balances_what_a_held_branch_loses) {
       EXPECT_GE(power.dissipation, 0);
       EXPECT_DOUBLE_EQ(power.stored, branch_potential(branch, C, TimeScheme::frozen(), now, now).value);
     }
-}
-
-// The homogeneous tests are the film restricted to one stretch: their flow in three dimensions keeps the
-// class.
-TYPED_TEST(BranchContract, line_branches_are_film_branches_where_the_flow_keeps_the_class) {
-  for (int n = 0; n < states; ++n) {
-    const double l = this->uniform(0.8, 2), before = this->uniform(0.9, 1.4),
-                 now = before + this->uniform(-0.03, 0.03);
-    for (const TimeScheme& s : this->schemes())
-      for (const auto& [dashpot, mode] :
-           {std::pair{Dashpot::log, Mode::uniaxial}, std::pair{Dashpot::log, Mode::equal_biaxial},
-            std::pair{Dashpot::nominal, Mode::pure_shear},
-            std::pair{Dashpot::nominal, Mode::equal_biaxial}}) {
-        if (std::same_as<TypeParam, StVenantKirchhoff> && mode == Mode::uniaxial)
-          continue; // not incompressible
-        Branch branch = this->branch(dashpot);
-        branch.directions[1] = mode != Mode::pure_shear;
-        const double across = mode == Mode::uniaxial ? -0.5 : mode == Mode::pure_shear ? 0 : 1; // power of l
-        const double root = dashpot == Dashpot::log ? 2 : 1;
-        const auto internal = [&](double xi) {
-          return Internal{std::pow(xi, root), std::pow(xi, root * across), 0};
-        };
-        const InPlaneC<double> C{l * l, std::pow(l, 2 * across), 0};
-        const auto film = branch_potential(branch, C, s, internal(now), internal(before));
-        const auto line = line_branch_potential(branch, mode, l, s, now, before);
-        const double stress =
-            2 * l * film.first[0] + 2 * across * std::pow(l, 2 * across - 1) * film.first[1];
-        EXPECT_NEAR(line.value, film.value, 1e-9 * this->modulus());
-        EXPECT_NEAR(line.first, stress, 1e-9 * (this->modulus() + std::abs(stress)));
-        const double xi = line_branch_advance(branch, mode, l, s, now, before);
-        EXPECT_NEAR(internal(xi)[0], advance(branch, C, s, internal(now), internal(before))[0], 1e-9);
-      }
-  }
 }
 
 } // namespace

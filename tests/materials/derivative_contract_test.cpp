@@ -111,35 +111,8 @@ class DerivativeContract : public LawTest<Law> {
     expect<2>(p.value, {p.first[0], p.first[1]},
               Eigen::Matrix2d{{p.second[0], p.second[2]}, {p.second[2], p.second[1]}}, oracle);
   }
-  void expect(const LinePotential& p, const Dual<1>& oracle) const {
-    expect<1>(p.value, Eigen::Vector<double, 1>(p.first), Eigen::Matrix<double, 1, 1>(p.second), oracle);
-  }
   void expect(const SolidPotential& p, const Dual<6>& oracle) const {
     expect<6>(p.value, p.first, p.second, oracle);
-  }
-
-  void test_line(Mode mode) {
-    for (const Part& part : parts) {
-      SCOPED_TRACE(part.name);
-      for (int n = 0; n < states; ++n) {
-        const double l = this->uniform(0.6, 2.4);
-        if (!part.dashpot) {
-          expect(line_potential(this->law, mode, l), line_energy(this->law, mode, Dual<1>::variable(l, 0)));
-          continue;
-        }
-        const Branch branch = this->branch(part);
-        const TimeScheme s = scheme(part);
-        const double now = this->uniform(0.8, 1.5), before = now + this->uniform(-0.03, 0.03);
-        const LinePotential p = line_branch_potential(branch, mode, l, s, now, before);
-        if (part.time == Time::relaxed) {
-          expect(p, Dual<1>(0));
-          continue;
-        }
-        const double end = line_branch_advance(branch, mode, l, s, now, before);
-        const int flows = part.time == Time::frozen ? 0 : 1;
-        expect(p, minimum<1>(line_step(this->law, branch, mode, l, s, now, before, end), flows));
-      }
-    }
   }
 };
 
@@ -218,10 +191,6 @@ TYPED_TEST(DerivativeContract, axisymmetric) {
     }
   }
 }
-
-TYPED_TEST(DerivativeContract, uniaxial) { this->test_line(Mode::uniaxial); }
-TYPED_TEST(DerivativeContract, pure_shear) { this->test_line(Mode::pure_shear); }
-TYPED_TEST(DerivativeContract, equal_biaxial) { this->test_line(Mode::equal_biaxial); }
 
 TYPED_TEST(DerivativeContract, solid) {
   for (const Part& part : parts) {

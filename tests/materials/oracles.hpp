@@ -2,7 +2,6 @@
 
 #include "materials/axisymmetric.hpp"
 #include "materials/dual.hpp"
-#include "materials/line.hpp"
 #include "materials/solid_branch.hpp"
 
 #include <gtest/gtest.h>
@@ -77,44 +76,6 @@ Dual<K> film_step(const Law& law, const Branch& branch, const InPlaneC<Dual<K>>&
       h(1 / (now[0] * now[1] - now[2] * now[2]), 1 / (before[0] * before[1] - before[2] * before[2]));
   return energy(G) + weight * (H.C11 * G.C11 + H.C22 * G.C22 + 2 * H.C12 * G.C12 + H33 / G.det() -
                                3 * std::cbrt(H.det() * H33));
-}
-
-// --- homogeneous tests
-
-template<class Law, class T>
-T line_energy(const Law& law, Mode mode, const T& l) {
-  if (mode == Mode::equal_biaxial) return energy_at(law, T(l * l), T(l * l));
-  if (mode == Mode::pure_shear) return energy_at(law, T(l * l), T(1.0));
-  if constexpr (std::same_as<Law, StVenantKirchhoff>) {
-    const T strain = 0.5 * (l * l - 1.0);
-    return 0.5 * law.youngs_modulus * strain * strain;
-  } else {
-    return energy_at(law, T(l * l), T(1.0 / l));
-  }
-}
-
-/// Step potential of a branch in l and xi.
-template<class Law>
-Dual<2> line_step(const Law& law, const Branch& branch, Mode mode, double l, const TimeScheme& s, double now,
-                  double before, double end) {
-  const Dual<2> xi = s.is_frozen() ? Dual<2>(end) : Dual<2>::variable(end, 1);
-  Dual<2> sum = line_energy(law, mode, Dual<2>(Dual<2>::variable(l, 0) / xi));
-  if (s.is_frozen()) return sum;
-  const double weight = branch.viscosity / (2 * s.dt);
-  if (branch.dashpot == Dashpot::nominal) {
-    const Dual<2> step = s.a0 * xi - (s.h1 * now + s.h2 * before);
-    return sum + (mode == Mode::equal_biaxial ? 2 : 1) * weight / s.a0 * step * step;
-  }
-  const std::array<double, 3> power = mode == Mode::uniaxial     ? std::array{1.0, -0.5, -0.5}
-                                      : mode == Mode::pure_shear ? std::array{1.0, 0.0, -1.0}
-                                                                 : std::array{1.0, 1.0, -2.0};
-  double det = 1;
-  for (const double p : power) {
-    const double H = s.h1 * std::pow(now, 2 * p) + s.h2 * std::pow(before, 2 * p);
-    sum += weight * H * pow(xi, -2 * p);
-    det *= H;
-  }
-  return sum - 3 * weight * std::cbrt(det);
 }
 
 // --- solids

@@ -57,6 +57,53 @@ TEST(Reductions, ExtremeFindsThePoint) {
   EXPECT_EQ(force->part, Part::walls);
 }
 
+/// One point in each cell, thick where it is not stretched.
+fem::Samples points_at(std::initializer_list<std::pair<int, double>> cells_and_voltages) {
+  fem::Samples samples;
+  for (const auto& [cell, voltage] : cells_and_voltages) {
+    auto sample = film_sample(stretched(1, 1));
+    sample.cell = cell;
+    sample.voltage = voltage;
+    sample.electrode = 0;
+    samples.film.push_back(sample);
+  }
+  return samples;
+}
+
+double rise_of(const fem::Samples& samples, const meshing::Mesh& mesh, const char* scalar) {
+  return rise_at(*Extremes(samples).find(scalar, Extreme::maximum), samples, mesh, scalar);
+}
+
+TEST(Reductions, RiseIsTheChangeOverTheCellAndItsNeighbours) {
+  const meshing::Mesh mesh = square_mesh();
+  EXPECT_DOUBLE_EQ(rise_of(points_at({{0, 1000}, {0, 4000}, {1, 3500}}), mesh, "electric_field"), 3e6);
+  EXPECT_DOUBLE_EQ(rise_of(points_at({{0, 4000}, {1, 3500}}), mesh, "electric_field"), 0.5e6);
+}
+
+// The field ends at an electrode's edge: that is no error.
+TEST(Reductions, RiseDoesNotLeaveTheElectrode) {
+  fem::Samples samples = points_at({{0, 4000}, {0, 3900}, {1, 0}});
+  samples.film.back().electrode = -1;
+  EXPECT_DOUBLE_EQ(rise_of(samples, square_mesh(), "electric_field"), 0.1e6);
+}
+
+TEST(Reductions, RiseNeedsACommonSide) {
+  meshing::Mesh fan; // 0 and 2 have one corner in common
+  fan.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}};
+  fan.blocks = {{meshing::CellType::triangle3, {0, 1, 2, 0, 2, 3, 0, 3, 4}}};
+  EXPECT_DOUBLE_EQ(rise_of(points_at({{0, 4000}, {1, 3000}, {2, 0}}), fan, "electric_field"), 1e6);
+}
+
+// Three walls that meet carry different forces.
+TEST(Reductions, RiseOfWallsEndsWhereThreeMeet) {
+  meshing::Mesh star = square_mesh();
+  star.blocks[0] = {meshing::CellType::line2, {1, 2, 2, 3, 3, 4, 3, 5}};
+  fem::Samples samples;
+  samples.walls = {wall_sample(0, 1, 4), wall_sample(1, 1, 10), wall_sample(2, 1, -50),
+                   wall_sample(3, 1, -60)};
+  EXPECT_DOUBLE_EQ(rise_of(samples, star, "axial_force"), 6);
+}
+
 TEST(Reductions, NothingWithoutPoints) {
   EXPECT_FALSE(Extremes(fem::Samples{}).find("thickness", Extreme::minimum));
 }

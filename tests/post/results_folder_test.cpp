@@ -74,9 +74,11 @@ TEST_F(ResultsFolderTest, NothingOfOlderResultsStaysAndWhatIsForeignDoes) {
 
 TEST_F(ResultsFolderTest, GoesOnWithWhatIsKept) {
   make_results();
+  foreign("a.csv.part"); // of a run that was killed
   ResultsFolder folder(path, "run");
   folder.begin({"a.csv"});
   EXPECT_EQ(text("a.csv"), "a");
+  EXPECT_FALSE(exists("a.csv.part"));
   EXPECT_FALSE(exists("b.csv"));
   folder.write("c.csv", "c");
   EXPECT_EQ(text("manifest.txt"), "dielast results 1 run\nfile a.csv\nfile c.csv\n");

@@ -58,7 +58,7 @@ class VtkSeriesTest : public ScratchTest {
 };
 
 TEST_F(VtkSeriesTest, FilmReadsBack) {
-  series().write(2.5, "release", displacement, samples);
+  series().write({2.5, "release"}, displacement, samples);
   const auto grid = read("run_film_0000.vtu");
   ASSERT_EQ(grid->GetNumberOfPoints(), 9); // without the node that no cell uses
   ASSERT_EQ(grid->GetNumberOfCells(), 2);
@@ -91,8 +91,23 @@ TEST_F(VtkSeriesTest, FilmReadsBack) {
             "release");
 }
 
+TEST_F(VtkSeriesTest, EveryFileSaysItsStepLoadFactorAndVoltages) {
+  VtkSeries steps = series();
+  steps.write({0, "release", 1, {{"voltage_a", 0}, {"voltage_b", 10}}}, displacement, samples);
+  steps.write({1, "voltage", 0.25, {{"voltage_a", 500}, {"voltage_b", -20}}}, displacement, samples);
+  for (const char* part : {"film", "walls"}) {
+    const auto grid = read(std::string("run_") + part + "_0001.vtu");
+    vtkFieldData* said = grid->GetFieldData();
+    EXPECT_EQ(vtkStringArray::SafeDownCast(said->GetAbstractArray("step"))->GetValue(0), "voltage");
+    EXPECT_EQ(said->GetArray("load_factor")->GetTuple1(0), 0.25);
+    EXPECT_EQ(said->GetArray("voltage_a [V]")->GetTuple1(0), 500);
+    EXPECT_EQ(said->GetArray("voltage_b [V]")->GetTuple1(0), -20);
+    EXPECT_EQ(said->GetArray("voltage_b [V]")->GetNumberOfTuples(), 1);
+  }
+}
+
 TEST_F(VtkSeriesTest, WallsReadBack) {
-  series().write(0, "release", displacement, samples);
+  series().write({0, "release"}, displacement, samples);
   const auto grid = read("run_walls_0000.vtu");
   ASSERT_EQ(grid->GetNumberOfPoints(), 3);
   ASSERT_EQ(grid->GetNumberOfCells(), 1);
@@ -104,7 +119,7 @@ TEST_F(VtkSeriesTest, WallsReadBack) {
 
 TEST_F(VtkSeriesTest, LinearCellsAndNoWalls) {
   mesh.blocks = {{meshing::CellType::triangle3, {1, 2, 3, 1, 3, 4}}};
-  series().write(0, "release", displacement, samples);
+  series().write({0, "release"}, displacement, samples);
   EXPECT_EQ(read("run_film_0000.vtu")->GetCellType(0), VTK_TRIANGLE);
   EXPECT_EQ(file_count(), 3u);
 }
@@ -114,7 +129,7 @@ TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
   mesh.blocks = {{meshing::CellType::meridian3, {0, 1, 3, 1, 2, 4}}};
   displacement = {{0.1, 0, 0}, {0.2, 0, 3}, {0, 0, 5}, {0, 0, 0}, {0, 0, 0}};
   const std::vector<Eigen::Vector3d> mode{{1, 0, 0}, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-  series().write(0, "voltage", displacement, samples, mode);
+  series().write({0, "voltage"}, displacement, samples, mode);
   EXPECT_EQ(file_count(), 3u);
   const auto grid = read("run_film_0000.vtu");
   constexpr int sectors = Revolution::sectors;
@@ -149,10 +164,10 @@ TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
 
 TEST_F(VtkSeriesTest, EveryStepHasItsOwnValues) {
   VtkSeries steps = series();
-  steps.write(0, "release", displacement, samples);
+  steps.write({0, "release"}, displacement, samples);
   samples.film[1].voltage = 1000;
   displacement[1].x() = 7;
-  steps.write(1, "voltage", displacement, samples);
+  steps.write({1, "voltage"}, displacement, samples);
   const auto first = read("run_film_0000.vtu"), second = read("run_film_0001.vtu");
   EXPECT_EQ(first->GetCellData()->GetArray("voltage [V]")->GetTuple1(1), 500);
   EXPECT_EQ(second->GetCellData()->GetArray("voltage [V]")->GetTuple1(1), 1000);
@@ -162,8 +177,8 @@ TEST_F(VtkSeriesTest, EveryStepHasItsOwnValues) {
 
 TEST_F(VtkSeriesTest, ListNamesPartsAndTimes) {
   VtkSeries steps = series();
-  steps.write(0, "release", displacement, samples);
-  steps.write(0.1, "voltage", displacement, samples);
+  steps.write({0, "release"}, displacement, samples);
+  steps.write({0.1, "voltage"}, displacement, samples);
   EXPECT_EQ(content("run.pvd"),
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -178,14 +193,14 @@ TEST_F(VtkSeriesTest, ListNamesPartsAndTimes) {
 
 TEST_F(VtkSeriesTest, ResumesAfterTheStepsToKeep) {
   VtkSeries steps = series();
-  steps.write(0, "voltage", displacement, samples);
+  steps.write({0, "voltage"}, displacement, samples);
   const auto kept = steps.entries();
-  for (const int time : {1, 2}) steps.write(time, "voltage", displacement, samples);
+  for (const double time : {1.0, 2.0}) steps.write({time, "voltage"}, displacement, samples);
   const std::string first = content("run_film_0000.vtu");
   folder->begin({"run.pvd", "run_film_0000.vtu", "run_walls_0000.vtu"});
   VtkSeries resumed = series(kept);
   EXPECT_EQ(file_count(), 4u); // with the manifest
-  resumed.write(7, "voltage", displacement, samples);
+  resumed.write({7, "voltage"}, displacement, samples);
   EXPECT_EQ(content("run_film_0000.vtu"), first);
   EXPECT_EQ(file_count(), 6u);
   const std::string list = content("run.pvd");
@@ -197,12 +212,12 @@ TEST_F(VtkSeriesTest, ResumesAfterTheStepsToKeep) {
 
 TEST_F(VtkSeriesTest, AFullDiskIsReportedAndKeepsTheSeriesReadable) {
   VtkSeries steps = series();
-  steps.write(0, "release", displacement, samples);
+  steps.write({0, "release"}, displacement, samples);
   const std::string list = content("run.pvd");
   {
     const FileSizeLimit limit(2000);
     try {
-      steps.write(1, "voltage", displacement, samples);
+      steps.write({1, "voltage"}, displacement, samples);
       FAIL() << "no error";
     } catch (const WriteError& error) {
       EXPECT_EQ(std::string(error.what()),
@@ -211,7 +226,7 @@ TEST_F(VtkSeriesTest, AFullDiskIsReportedAndKeepsTheSeriesReadable) {
   }
   EXPECT_EQ(content("run.pvd"), list);
   EXPECT_EQ(file_count(), 4u);
-  steps.write(1, "voltage", displacement, samples); // room again
+  steps.write({1, "voltage"}, displacement, samples); // room again
   EXPECT_EQ(read("run_film_0001.vtu")->GetNumberOfCells(), 2);
 }
 

@@ -1,3 +1,4 @@
+#include "fem/chamber_block.hpp"
 #include "fem/membrane_block.hpp"
 #include "fem/ramp.hpp"
 
@@ -129,6 +130,102 @@ TEST(SteinHedgepeth, a_taut_strip_bends_as_a_beam) {
   const Bending found = bend(6, curvature, -0.2 * height);
   EXPECT_NEAR(found.tension, modulus * thickness * curvature * height * 0.7 * height, 1e-3 * found.tension);
   EXPECT_NEAR(found.moment, modulus * thickness * std::pow(height, 3) / 12 * curvature, 1e-3 * found.moment);
+}
+
+/// A quarter of the upper half of a square airbag of the diagonal 1.2 m: symmetric about x = 0 and y = 0, its
+/// edges in the plane z = 0.
+struct Airbag {
+  static constexpr double side = 1.2 / 2.8284271247461903;
+
+  explicit Airbag(int n) {
+    meshing::Mesh mesh = strip(n); // length twice the height: to be a square
+    for (Eigen::Vector3d& x : mesh.nodes) x = {x.x() * side / length, x.y() * side / height, 0};
+    MembraneSection section;
+    section.material.law = materials::StVenantKirchhoff{588e6, 0.4};
+    section.material.dielectric.permittivity = 1e-12;
+    section.thickness = 0.6e-3;
+    section.tension_field = true;
+    model.dofs = DofMap(mesh.node_count());
+    model.chambers = {{"inside"}};
+    model.blocks.push_back(make_membrane_block(
+        mesh, mesh.blocks[0], section,
+        std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::spatial, 3));
+    model.blocks.push_back(make_pressure_block(mesh, mesh.blocks[0], 0));
+    model.place_histories();
+    for (const auto& block : model.blocks) block->claim_dofs(model.dofs, Dimension::spatial);
+    for (int node = 0; node < mesh.node_count(); ++node) {
+      const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(node)];
+      if (x.x() < 1e-9) model.dofs.hold(node, 0);
+      if (x.y() < 1e-9) model.dofs.hold(node, 1);
+      if (x.x() > side - 1e-9 || x.y() > side - 1e-9) model.dofs.hold(node, 2);
+    }
+    model.dofs.number();
+    model.drawn = mesh.nodes;
+    model.extent = side * std::sqrt(2);
+    model.length_scale = side / n;
+  }
+  Model model{.dofs = DofMap(0), .blocks = {}, .electrodes = {}};
+};
+
+// Flat, slack and without any stiffness across it; the published height is 217 mm at 5 kPa (square airbag of
+// 588 MPa, 0.6 mm and the diagonal 1.2 m).
+TEST(SlackFilm, an_airbag_rises_from_flat_to_its_published_height) {
+  Airbag bag(8);
+  Equilibrium equilibrium(bag.model, 1);
+  const RampOptions options{.newton = {.wrinkles = true}, .increments = 5};
+  RampProgress progress = RampProgress::begin(bag.model.initial_state(), bag.model.dofs, options);
+  Loads full = progress.start;
+  full.voltage = {5e3};
+  ASSERT_EQ(ramp(equilibrium, linear_path(bag.model.dofs, progress.start, full), options, progress, {}).end,
+            RampEnd::complete);
+  EXPECT_NEAR(progress.points.back().state.displacement[0].z(), 0.217, 0.005);
+}
+
+/// A strip between two clamps 0.1 m apart, its short sides free, drawn without tension; sheared by `slip`.
+TEST(SlackFilm, a_sheared_sheet_carries_its_tension_at_45_degrees) {
+  const meshing::Mesh mesh = strip(16);
+  MembraneSection section;
+  section.material.law = materials::StVenantKirchhoff{modulus, 0.31};
+  section.material.dielectric.permittivity = 1e-12;
+  section.thickness = thickness;
+  section.tension_field = true;
+  section.prestretch = {1, 1.00001};
+  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {}};
+  model.blocks.push_back(make_membrane_block(
+      mesh, mesh.blocks[0], section,
+      std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::planar, 3));
+  model.place_histories();
+  model.blocks[0]->claim_dofs(model.dofs, Dimension::planar);
+  const auto at_top = [&](int node) {
+    return mesh.nodes[static_cast<std::size_t>(node)].y() > height - 1e-9;
+  };
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (at_top(node) || mesh.nodes[static_cast<std::size_t>(node)].y() < 1e-9)
+      for (const int c : {0, 1}) model.dofs.hold(node, c);
+  model.dofs.number();
+  model.extent = length;
+  model.length_scale = height / 16;
+  Equilibrium equilibrium(model, 1);
+  const RampOptions options{.newton = {.wrinkles = true}, .increments = 4};
+  RampProgress progress = RampProgress::begin(model.initial_state(), model.dofs, options);
+  Loads sheared = progress.start;
+  const double shear = 1e-3;
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (at_top(node)) sheared.held[model.dofs.equation(node, 0) - model.dofs.free_count()] = shear * height;
+  ASSERT_EQ(ramp(equilibrium, linear_path(model.dofs, progress.start, sheared), options, progress, {}).end,
+            RampEnd::complete);
+  // in the middle: S = E gamma/4 (1 1; 1 1), the tension E gamma/2 along the diagonal
+  Eigen::Vector3d S = Eigen::Vector3d::Zero();
+  double volume = 0;
+  for (const MembraneSample& sample : model.sample(progress.points.back().state).film) {
+    const auto nodes = mesh.blocks[0].cell(sample.cell);
+    const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(nodes[0])];
+    if (std::abs(x.x() - length / 2) > 0.1 * length || std::abs(x.y() - height / 2) > 0.2 * height) continue;
+    S += sample.volume * Eigen::Vector3d(sample.S(0, 0), sample.S(1, 1), sample.S(0, 1));
+    volume += sample.volume;
+  }
+  const double expected = modulus * shear / 4;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(S[i] / volume, expected, 0.05 * expected) << i;
 }
 
 } // namespace

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cases/case.hpp"
+#include "cases/tree.hpp"
+
+namespace dielast::cases {
+
+/// A warning for every key and section that is written and does nothing in this case, by the conditions of
+/// the schema. A key that says what holds anyway, its default, is no mistake. The tree is that of the case,
+/// with what its template has brought.
+std::vector<Diagnostic> idle_keys(const Node& tree, const Case& one);
+
+} // namespace dielast::cases

@@ -1,0 +1,113 @@
+#include "tests/cases/command.hpp"
+
+namespace dielast::test {
+namespace {
+
+const std::filesystem::path cases = source_folder / "tests/verification/error_estimates";
+
+class Estimates : public CommandTest {
+ protected:
+  nlohmann::json summary_of(const std::filesystem::path& file, std::vector<std::string> overrides = {}) {
+    std::vector<std::string> words{"run", file.string(), "-o", "out", "-q"};
+    overrides.emplace_back("output.fields=false");
+    for (const std::string& assignment : overrides) words.insert(words.end(), {"--set", assignment});
+    EXPECT_EQ(dielast(words).exit_code, 0);
+    return json_of("out/summary.json");
+  }
+  static std::string remark_on(const nlohmann::json& summary, const std::string& kind) {
+    for (const auto& event : summary["event_remarks"])
+      if (event["kind"] == kind) return event["remark"];
+    return "";
+  }
+};
+
+// 30 kPa on this mesh, -65 kPa with elements a quarter as large.
+TEST_F(Estimates, OfACornersStressLeaveLossOfTensionOpen) {
+  const nlohmann::json summary = summary_of(
+      cases / "honeycomb.toml", {"honeycomb.angle=110 deg", "drive.voltage=7.5 kV", "mesh.wall_elements=8"});
+  for (const auto& event : summary["events"]) EXPECT_NE(event["kind"], "loss of tension");
+  const nlohmann::json& stress = summary["quantities"]["min_principal_stress"];
+  EXPECT_GT(stress["error_estimate"], 95e3);
+  EXPECT_NE(remark_on(summary, "loss of tension").find("not on this mesh, but it depends on the mesh"),
+            std::string::npos);
+  const std::string report = content("out/report.html");
+  EXPECT_NE(report.find("Events that depend on the mesh"), std::string::npos);
+}
+
+TEST_F(Estimates, OfASingularExtremeAreNone) {
+  const nlohmann::json summary = summary_of(
+      cases / "honeycomb.toml", {"honeycomb.angle=110 deg", "drive.voltage=7.5 kV", "mesh.wall_elements=8"});
+  for (const char* name : {"max_field", "breakdown_ratio"}) {
+    EXPECT_TRUE(summary["quantities"][name]["error_estimate"].is_null()) << name;
+    EXPECT_EQ(summary["quantities"][name]["error_remark"],
+              "grows as the mesh is refined: no converged value");
+  }
+  EXPECT_NE(remark_on(summary, "breakdown").find("grows as the mesh is refined"), std::string::npos);
+  for (const auto& event : summary["events"]) {
+    if (event["kind"] != "breakdown") continue;
+    EXPECT_NE(event["message"].get<std::string>().find("this depends on the mesh"), std::string::npos);
+  }
+  EXPECT_NE(content("out/report.html").find("no converged value"), std::string::npos);
+  EXPECT_NE(content("out/run.log").find("(grows as the mesh is refined: no converged value)"),
+            std::string::npos);
+}
+
+TEST_F(Estimates, OfAnOwnMeshComeFromRefiningIt) {
+  const nlohmann::json summary = summary_of(cases / "own_mesh.toml");
+  const nlohmann::json& waist = summary["quantities"]["waist"];
+  EXPECT_GT(waist["error_estimate"], 0);
+  EXPECT_LT(waist["error_estimate"], 0.2 * waist["value"].get<double>()); // 48 triangles, singular corners
+}
+
+TEST_F(Estimates, OfAPatchAreThoseOfItsTimeSteps) {
+  const nlohmann::json timed = summary_of(cases / "creeping_patch.toml");
+  const double error = timed["quantities"]["stretch_x"]["error_estimate"];
+  EXPECT_GT(error, 1e-6);
+  EXPECT_LT(error, 1e-3);
+  const nlohmann::json still =
+      summary_of(cases / "creeping_patch.toml", {"step=[{kind='force'}]", "drive={}"});
+  EXPECT_LT(still["quantities"]["stretch_x"]["error_estimate"], 1e-9);
+}
+
+// The mesh jumps at 15.393 kV, that with elements twice as large at 15.381 kV.
+TEST_F(Estimates, AreNoneWhereTheCoarserMeshTakesAnotherWay) {
+  write("jump.toml", R"toml(title = "Disc next to its pull-in"
+model = "axisymmetric"
+[film]
+thickness = "1 mm"
+prestretch = 1.5
+[film.material]
+law = "gent"
+shear_modulus = "40 kPa"
+stretch_limit = 30
+relative_permittivity = 4.7
+[disc]
+radius = "90 mm"
+electrode_radius = "30 mm"
+[mesh]
+rings = 16
+order = 1
+[drive]
+voltage = "15.387 kV"
+[[step]]
+kind = "voltage"
+increments = 20
+on_instability = "jump"
+)toml");
+  const nlohmann::json summary = summary_of("jump.toml");
+  const std::string reason = summary["no_error_estimate_because"];
+  EXPECT_NE(reason.find("takes another way"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("jump in step \"voltage\""), std::string::npos) << reason;
+  for (const auto& quantity : summary["quantities"]) EXPECT_TRUE(quantity["error_estimate"].is_null());
+  EXPECT_NE(content("out/run.log").find("no error estimate: "), std::string::npos);
+}
+
+TEST_F(Estimates, SayWhyThereAreNone) {
+  EXPECT_EQ(summary_of("small.toml", {"mesh.wall_elements=1"})["no_error_estimate_because"],
+            "the mesh is the coarsest already");
+  EXPECT_EQ(summary_of("small.toml", {"output.error_estimate=false"})["no_error_estimate_because"],
+            "left out: output.error_estimate = false");
+}
+
+} // namespace
+} // namespace dielast::test

@@ -1,0 +1,33 @@
+#include "tests/cases/faults_command.hpp"
+
+namespace dielast::test {
+namespace {
+
+// Few of many: faults_long_test.cpp has the others.
+class Faults : public FaultTest {};
+
+TEST_F(Faults, KilledCommandsEndInTheSameBytes) {
+  EXPECT_GE(kill_and_resume("run", 5, 31), 4);
+  EXPECT_GE(kill_and_resume("fit", 3, 9), 2);
+}
+
+// The last files of a run: it said that it had run to its end, and the report never came.
+TEST_F(Faults, ARunKilledBetweenItsLastFilesIsCompletedByResume) {
+  ASSERT_EQ(dielast(words("run", "straight")).exit_code, 0);
+  long call = 1000;
+  while (killed_at(call, words("run", "out")).exit_code == 0) call /= 2; // within the run
+  while (killed_at(call + 8, words("run", "out")).exit_code == -SIGKILL) call += 8;
+  for (long late = call; killed_at(late, words("run", "out")).exit_code == -SIGKILL; ++late) {
+    const Ended resumed = dielast(words("run", "out", true));
+    EXPECT_EQ(resumed.exit_code, 0) << late << resumed.err;
+    EXPECT_EQ(differences("out", "straight"), std::vector<std::string>{}) << late;
+    EXPECT_NE(content("out/report.html").find("</html>"), std::string::npos) << late;
+  }
+}
+
+TEST_F(Faults, AFullDiskIsToldAndResumeGoesOn) { fill_the_disk("run", 3); }
+
+TEST_F(Faults, DamagedCheckpointsChangeNoResult) { damage_checkpoints(12); }
+
+} // namespace
+} // namespace dielast::test

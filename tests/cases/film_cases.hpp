@@ -1,0 +1,60 @@
+#pragma once
+
+#include "cases/reader.hpp"
+#include "cases/recorder.hpp"
+#include "cases/simulation.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <random>
+
+namespace dielast::cases {
+
+/// Cases written by a test and run in its own process.
+class FilmCases : public test::ScratchTest {
+ protected:
+  struct Ran {
+    Outcome outcome;
+    std::vector<double> time;                          ///< s, per recorded state
+    std::map<std::string, std::vector<double>> values; ///< per quantity likewise
+    double last(const std::string& name) const { return values.at(name).back(); }
+  };
+
+  Ran run(const std::string& text) {
+    write("film.toml", text);
+    const Case one = read_case(directory / "film.toml");
+    Ran ran;
+    Simulation simulation(one, 1);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      ran.time.push_back(frame.record.time);
+      for (std::size_t q = 0; q < one.quantities.size(); ++q)
+        ran.values[one.quantities[q].name].push_back(frame.values[q]);
+      return true;
+    };
+    ran.outcome = simulation.run(observer);
+    EXPECT_EQ(ran.outcome.ending, Ending::complete) << ran.outcome.message << "\n" << text;
+    return ran;
+  }
+
+  double uniform(double from, double to) { return std::uniform_real_distribution(from, to)(random_); }
+  int below(int end) { return std::uniform_int_distribution(0, end - 1)(random_); }
+
+  /// Keys of each of the laws, a soft elastomer's, of about the shear modulus `kPa`.
+  static std::vector<std::string> laws(double kPa) {
+    return {
+        fmt::format("law = \"neo-hookean\"\nshear_modulus = \"{} kPa\"\n", kPa),
+        fmt::format("law = \"gent\"\nshear_modulus = \"{} kPa\"\nstretch_limit = 60\n", kPa),
+        fmt::format("law = \"yeoh\"\nc1 = \"{} kPa\"\nc2 = \"{} kPa\"\nc3 = \"{} kPa\"\n", kPa / 2, kPa / 200,
+                    kPa / 5000),
+        fmt::format("law = \"mooney-rivlin\"\nc1 = \"{} kPa\"\nc2 = \"{} kPa\"\n", 0.45 * kPa, 0.05 * kPa),
+        fmt::format("law = \"ogden\"\nmoduli = [\"{} kPa\"]\nexponents = [2.5]\n", 0.8 * kPa)};
+  }
+
+ private:
+  std::mt19937 random_{2026};
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,99 @@
+#include "tests/cases/film_cases.hpp"
+
+#include <cmath>
+
+// Chambers, slack and wrinkled films, through case files.
+
+namespace dielast::cases {
+namespace {
+
+const std::string plain = "[output]\nfields = false\nerror_estimate = false\n";
+
+std::string tension_field(const std::string& law, const std::string& prestretch = "1") {
+  return fmt::format("[film]\nthickness = \"1 mm\"\nprestretch = {}\nwrinkling = \"tension field\"\n"
+                     "[film.material]\n{}permittivity = \"4e-11 F/m\"\n",
+                     prestretch, law);
+}
+
+// The charges as drawn were asked for before there was a history of the branches.
+TEST_F(FilmCases, a_tension_field_may_have_branches) {
+  for (const std::string& law : laws(50))
+    for (const std::string& branch : laws(20))
+      for (const char* geometry :
+           {"[patch]\nstretch_x = 1.4\n", "[disc]\nradius = \"20 mm\"\nelectrode_radius = \"9 mm\"\n"
+                                          "[mesh]\nrings = 2\n[drive]\nvoltage = \"1 kV\"\n"}) {
+        const Ran ran = run(tension_field(law, "1.2") + "[[film.material.branch]]\n" + branch +
+                            "relaxation_time = \"1 s\"\n" + geometry + plain);
+        EXPECT_GT(ran.last("capacitance"), 0);
+      }
+}
+
+// A side without stress is neither taut nor wrinkled: next to it the tangent of wrinkled film leads far off.
+TEST_F(FilmCases, a_slack_patch_can_be_pulled) {
+  const double stress = 20e3, mu = 50e3;
+  for (const std::string& law : laws(50)) {
+    const Ran ran = run(tension_field(law, "[1.5, 1.1]") +
+                        "[patch]\nstress_x = \"20 kPa\"\n[drive]\nvoltage = \"1 kV\"\n"
+                        "[[step]]\nkind = \"voltage\"\n[[step]]\nkind = \"force\"\n" +
+                        plain);
+    EXPECT_NEAR(ran.last("stress_x"), stress, 1e-6 * stress);
+    EXPECT_NEAR(ran.last("stress_y"), 0, 1e-6 * stress);
+  }
+  // without a field in closed form: s = mu (l - 1/l^2)
+  for (const char* prestretch : {"1", "1.2", "[1.3, 1.1]"}) {
+    const Ran ran =
+        run(tension_field(laws(50).front(), prestretch) + "[patch]\nstress_x = \"20 kPa\"\n" + plain);
+    const double l = ran.last("stretch_x");
+    EXPECT_NEAR(mu * (l - 1 / (l * l)), stress, 1e-6 * stress) << prestretch;
+    EXPECT_NEAR(ran.last("stretch_y"), 1 / std::sqrt(l), 1e-6) << prestretch;
+  }
+}
+
+std::string disc(const std::string& chamber, const std::string& steps, const std::string& rest = "") {
+  return "[film]\nthickness = \"1 mm\"\n[film.material]\nlaw = \"neo-hookean\"\nshear_modulus = \"40 kPa\"\n"
+         "permittivity = \"4e-11 F/m\"\n[disc]\nradius = \"20 mm\"\nelectrode_radius = \"10 mm\"\n"
+         "[chamber]\n" +
+         chamber + steps + rest + plain +
+         "[[quantity]]\nname = \"height\"\nkind = \"displacement\"\nof = \"centre\"\nalong = \"z\"\n"
+         "[[quantity]]\nname = \"pumped\"\nkind = \"pumped volume\"\n";
+}
+
+// With the default liquid, hardly compressible, from flat, in any number of increments.
+TEST_F(FilmCases, a_flat_disc_can_be_pumped_past_its_greatest_pressure) {
+  double height = 0;
+  for (const int increments : {40, 10, 3, 1}) {
+    const Ran ran = run(disc("volume = \"50 ml\"\n",
+                             fmt::format("[[step]]\nkind = \"inflate\"\nincrements = {}\n", increments),
+                             "[mesh]\nrings = 24\n"));
+    EXPECT_NEAR(ran.last("pumped"), 50e-6, 1e-15);
+    EXPECT_NEAR(ran.last("volume"), 50e-6, 50e-6 * 4e3 / 2.2e9);
+    if (increments == 40) {
+      height = ran.last("height");
+      const auto& pressure = ran.values.at("pressure");
+      EXPECT_GT(*std::max_element(pressure.begin(), pressure.end()), 1.05 * pressure.back());
+    }
+    EXPECT_NEAR(ran.last("height"), height, 1e-7 * height) << increments;
+  }
+  EXPECT_GT(height, 35e-3);
+}
+
+// What is pumped in is the chamber's volume times 1 + p/K, and `volume` is the chamber's under any control.
+TEST_F(FilmCases, a_soft_filling_gives_way_by_its_own_volume) {
+  const std::string chamber = "bulk_modulus = \"100 kPa\"\nvolume = \"5 ml\"\n";
+  const std::string steps = "[[step]]\nkind = \"inflate\"\n", rings = "[mesh]\nrings = 8\n";
+  const Ran pumped = run(disc(chamber, steps, rings));
+  const double p = pumped.last("pressure");
+  EXPECT_GT(p, 500);
+  EXPECT_NEAR(pumped.last("volume") * (1 + p / 100e3), 5e-6, 1e-14);
+  const Ran pressed = run(disc(fmt::format("bulk_modulus = \"100 kPa\"\npressure = \"{:.17g} Pa\"\n", p),
+                               "[[step]]\nkind = \"pressure\"\n", rings));
+  EXPECT_NEAR(pressed.last("volume"), pumped.last("volume"), 1e-8 * 5e-6);
+  EXPECT_NEAR(pressed.last("pumped"), 5e-6, 1e-8 * 5e-6);
+  EXPECT_NEAR(pressed.last("height"), pumped.last("height"), 1e-9);
+  const Ran space = run("model = \"3d\"\n" + disc(chamber, steps, rings));
+  EXPECT_NEAR(space.last("height"), pumped.last("height"), 2e-3 * pumped.last("height"));
+  EXPECT_NEAR(space.last("pressure"), p, 2e-3 * p);
+}
+
+} // namespace
+} // namespace dielast::cases

@@ -1,0 +1,159 @@
+#include "cases/reader.hpp"
+#include "cases/resolved.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+const std::string film = R"(
+[film]
+thickness = "1 mm"
+prestretch = 1.5
+[film.material]
+shear_modulus = "40 kPa"
+permittivity = "4e-11 F/m"
+)";
+const std::string disc = "[disc]\nradius = \"20 mm\"\nelectrode_radius = \"10 mm\"\n";
+const std::string balloon =
+    "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = \"500 Pa\"\nvolume = \"50 ml\"\n";
+const std::string diaphragm =
+    "[annulus]\ninner_radius = \"12 mm\"\nouter_radius = \"68 mm\"\n[plate]\nmass = \"100 g\"\n";
+const std::string ramp = "[[step]]\nkind = \"voltage\"\n";
+const std::string transient = "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\n";
+
+/// Keys that a case is warned of, in the order of the warnings.
+class IdleKeys : public test::ScratchTest {
+ protected:
+  std::vector<std::string> keys(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    write("case.toml", text);
+    std::vector<std::string> found;
+    for (const Diagnostic& warning : read_case(directory / "case.toml", overrides).warnings) {
+      EXPECT_EQ(warning.severity, Severity::warning);
+      EXPECT_NE(warning.message.find("here"), std::string::npos) << warning.message;
+      EXPECT_NE(warning.text().find(": warning: "), std::string::npos) << warning.text();
+      found.push_back(warning.key);
+    }
+    return found;
+  }
+};
+
+using Keys = std::vector<std::string>;
+
+// A pair of cases for each condition: the key does nothing in the first and something in the second.
+TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
+  struct Pair {
+    std::string key, idle, acting;
+  };
+  const std::string branch =
+      "[[film.material.branch]]\nshear_modulus = \"1 kPa\"\nrelaxation_time = \"1 s\"\n";
+  const std::string instantaneous = "[[step]]\nkind = \"voltage\"\nresponse = \"instantaneous\"\n";
+  const std::string drive = "[drive]\nvoltage = \"1 kV\"\n";
+  const std::string weight = "[[step]]\nkind = \"weight\"\n";
+  const std::string inflate = "[[step]]\nkind = \"inflate\"\n";
+  const std::string charged_hold = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\ncontrol = \"charge\"\n";
+  const std::vector<Pair> pairs{
+      {"film.material.branch[1]", film + branch + disc, film + branch + disc + instantaneous},
+      {"film.material.branch[1]", film + branch + disc + ramp, film + branch + disc + transient},
+      {"step[1].response", film + disc + instantaneous, film + branch + disc + instantaneous},
+      {"film.material.density", film + "density = \"1000 kg/m^3\"\n" + disc,
+       film + "density = \"1000 kg/m^3\"\n" + disc + transient + "inertia = true\n"},
+      {"film.material.electrostriction",
+       film + "electrostriction = 0.1\n" + balloon + inflate + "[[step]]\nkind = \"pressure\"\n",
+       film + "electrostriction = 0.1\n" + disc},
+      {"mesh.quadrature", film + disc + "[mesh]\norder = 1\nquadrature = 3\n",
+       film + disc + "[mesh]\nquadrature = 3\n"},
+      {"electrode[1].sheet_resistance",
+       film + disc +
+           "[[electrode]]\nname = \"e\"\nplace = \"electrode\"\nsheet_resistance = 1e5\nterminal = "
+           "\"electrode_edge\"\n",
+       film + disc + transient +
+           "[[electrode]]\nname = \"e\"\nplace = \"electrode\"\nsheet_resistance = 1e5\nterminal = "
+           "\"electrode_edge\"\n"},
+      {"circuit", film + disc + drive + "[circuit]\nresistance = 1e6\n",
+       film + disc + drive + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n"},
+      {"circuit.current_limit",
+       film + disc + drive + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\ncurrent_limit = 1e-3\n",
+       film + disc + drive + "[circuit]\nresistance = 1e6\ncurrent_limit = 1e-3\n" + transient},
+      {"plate.damping", film + diaphragm + "damping = 1\n" + weight,
+       film + diaphragm + "damping = 1\n" + weight + transient},
+      {"gravity.acceleration", "model = \"3d\"\n" + film + disc + "[gravity]\nacceleration = 1.6\n" + ramp,
+       "model = \"3d\"\n" + film + disc + "[gravity]\nacceleration = 1.6\nfilm = true\n" + weight},
+      {"chamber.pressure", film + balloon + inflate,
+       film + balloon + "[[step]]\nkind = \"pressure\"\n" + inflate},
+      {"chamber.volume", film + balloon + "[[step]]\nkind = \"pressure\"\n",
+       film + balloon + "[[step]]\nkind = \"pressure\"\n" + inflate},
+      {"chamber.bulk_modulus",
+       film +
+           "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = 500\nbulk_modulus = 1e6\n[[step]]\nkind = "
+           "\"pressure\"\n",
+       film + "[balloon]\nradius = \"20 mm\"\n[chamber]\nvolume = \"50 ml\"\nbulk_modulus = 1e6\n" + inflate},
+      {"drive.voltage", "model = \"3d\"\n" + film + disc + drive + weight + "[gravity]\nfilm = true\n",
+       film + disc + drive},
+      {"step[1].control",
+       film + balloon +
+           "[[step]]\nkind = \"inflate\"\ncontrol = \"charge\"\n[[step]]\nkind = "
+           "\"pressure\"\n",
+       film + disc + charged_hold},
+      {"step[1].inertia", film + "density = 0\n" + disc + transient + "inertia = true\n",
+       film + disc + transient + "inertia = true\n"},
+      {"step[1].on_bifurcation", film + disc + transient + "on_bifurcation = \"switch\"\n",
+       film + disc + ramp + "on_bifurcation = \"switch\"\n"},
+      {"solver.time_tolerance", film + disc + ramp + "[solver]\ntime_tolerance = 1e-8\n",
+       film + branch + disc + transient + "[solver]\ntime_tolerance = 1e-8\n"},
+      {"quantity[1].along",
+       film + disc + "[[quantity]]\nname = \"u\"\nkind = \"displacement\"\nof = \"centre\"\nalong = \"z\"\n",
+       film + disc + "[[quantity]]\nname = \"u\"\nkind = \"displacement\"\nof = \"centre\"\nalong = \"y\"\n"},
+      {"quantity[1]", film + disc + "[[quantity]]\nname = \"i\"\nkind = \"current\"\nof = \"film\"\n",
+       film + disc + transient +
+           "[circuit]\nresistance = 1e6\n[[quantity]]\nname = \"i\"\nkind = \"current\"\nof = "
+           "\"film\"\n"},
+      {"drive.voltage",
+       film + disc + transient + "[drive]\nvoltage = { wave = \"step\", to = \"1 kV\", at = \"2 s\" }\n",
+       film + disc + transient + "[drive]\nvoltage = { wave = \"step\", to = \"1 kV\", at = \"0.5 s\" }\n"},
+  };
+  for (const Pair& pair : pairs) {
+    const auto contains = [&](const Keys& all) { return std::ranges::find(all, pair.key) != all.end(); };
+    try {
+      const Keys idle = keys(pair.idle);
+      EXPECT_TRUE(contains(idle)) << pair.key << " of\n" << pair.idle << testing::PrintToString(idle);
+      EXPECT_FALSE(contains(keys(pair.acting))) << pair.key << " of\n" << pair.acting;
+    } catch (const CaseError& error) {
+      ADD_FAILURE() << pair.key << ": " << error.what();
+    }
+  }
+}
+
+TEST_F(IdleKeys, SayingTheDefaultIsNoMistake) {
+  EXPECT_EQ(keys(film + disc + ramp + "response = \"relaxed\"\n[solver]\ntime_tolerance = 1e-6\n"), Keys{});
+  EXPECT_EQ(keys(film + disc + "[gravity]\nfilm = false\n"), Keys{});
+}
+
+TEST_F(IdleKeys, AreToldAfterSetAsWell) {
+  EXPECT_EQ(keys(film + disc, {"solver.time_tolerance=1e-8"}), Keys{"solver.time_tolerance"});
+}
+
+// What a resolved case repeats, defaults included, is no other case.
+TEST_F(IdleKeys, OfAResolvedCaseAreThoseOfTheCase) {
+  const std::string text = film + disc + ramp + "[solver]\ntime_tolerance = 1e-8\n";
+  EXPECT_EQ(keys(text), Keys{"solver.time_tolerance"});
+  EXPECT_EQ(keys(resolved_text(read_case(directory / "case.toml"))), Keys{"solver.time_tolerance"});
+}
+
+TEST_F(IdleKeys, TheGalleryHasNone) {
+  for (const char* folder : {"cases/gallery", "tests/cases/valid"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder / folder)) {
+      if (entry.path().extension() != ".toml") continue;
+      const std::string text = test::text_of(entry.path());
+      if (text.find("[fit]") != std::string::npos ||
+          text.find("[study]") != std::string::npos)
+        continue;
+      for (const Diagnostic& warning : read_case(entry.path()).warnings) ADD_FAILURE() << warning.text();
+    }
+}
+
+} // namespace
+} // namespace dielast::cases

@@ -1,0 +1,71 @@
+#include "meshing/refine.hpp"
+
+#include "meshing/honeycomb_mesh.hpp"
+#include "meshing/quality.hpp"
+#include "meshing/rings.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace dielast::meshing {
+namespace {
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  const CellBlock& film = *mesh.film();
+  const auto x = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+  for (int c = 0; c < film.size(); ++c) {
+    const auto cell = film.cell(c);
+    area += (x(cell[1]) - x(cell[0])).cross(x(cell[2]) - x(cell[0])).z() / 2;
+  }
+  return area;
+}
+
+TEST(Refined, SplitsTrianglesIntoFourAndLinesIntoTwo) {
+  for (const int order : {1, 2}) {
+    const Mesh mesh = honeycomb_mesh({2.0, {2, 1, 2}, 1}, {order, 2, 1});
+    const Mesh finer = refined(mesh);
+    EXPECT_EQ(finer.film()->type, mesh.film()->type);
+    EXPECT_EQ(finer.film()->size(), 4 * mesh.film()->size());
+    EXPECT_EQ(finer.walls()->size(), 2 * mesh.walls()->size());
+    EXPECT_NEAR(area_of(finer), area_of(mesh), 1e-12);
+    EXPECT_NEAR(quality(finer).smallest_angle, quality(mesh).smallest_angle, 1e-9);
+    for (int n = 0; n < mesh.node_count(); ++n)
+      EXPECT_EQ(finer.nodes[static_cast<std::size_t>(n)], mesh.nodes[static_cast<std::size_t>(n)]);
+  }
+}
+
+// A side between two nodes of a place need not lie in the place: what is new belongs to places by its cells.
+TEST(Refined, PlacesKeepTheirShape) {
+  for (const int order : {1, 2}) {
+    const Mesh mesh = honeycomb_mesh({2.0, {2, 1, 2}, 1}, {order, 2, 1});
+    const Mesh finer = refined(mesh);
+    EXPECT_EQ(finer.cell_sets.at("boundary").cells.size(), 2 * mesh.cell_sets.at("boundary").cells.size());
+    // n nodes on a closed line: as many as sides; twice as many on the finer one.
+    EXPECT_EQ(finer.node_sets.at("boundary").size(), 2 * mesh.node_sets.at("boundary").size());
+    EXPECT_EQ(finer.node_sets.at("left_apex"), mesh.node_sets.at("left_apex"));
+    EXPECT_EQ(finer.cell_sets.at("cell[0,1]").cells.size(), 4 * mesh.cell_sets.at("cell[0,1]").cells.size());
+  }
+}
+
+TEST(Refined, CurvedSidesKeepTheirCurve) {
+  const Mesh disc = disc_mesh(1, 0.5, 4, 2, true);
+  const Mesh finer = refined(disc);
+  // Points of a parabola through three points of the circle: within 1e-4 of it, chords would be 2e-3 off.
+  const CellBlock& film = *finer.film();
+  int outer = 0;
+  for (int c = 0; c < film.size(); ++c)
+    for (const int node : film.cell(c)) {
+      const double radius = finer.nodes[static_cast<std::size_t>(node)].norm();
+      if (radius > 0.999) {
+        EXPECT_NEAR(radius, 1, 1e-4);
+        ++outer;
+      }
+    }
+  EXPECT_GT(outer, 2 * 24 * 2);
+}
+
+} // namespace
+} // namespace dielast::meshing
