@@ -185,6 +185,12 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
     estimates.reason = "the mesh is the coarsest already";
     return estimates;
   }
+  if (discretisations.front().size < 1 && one.film.tension_field) {
+    estimates.reason =
+        "a finer mesh of film that wrinkles may take far longer than this one; mesh.refine = 1 "
+        "tells what it changes";
+    return estimates;
+  }
   if (discretisations.front().size < 1 && own_run.device().mesh.film()->size() > most_to_refine) {
     estimates.reason = fmt::format("the mesh has more than {} triangles, which are not refined unasked; "
                                    "mesh.refine = 1 tells what it changes",
