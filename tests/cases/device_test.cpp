@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <unistd.h>
 
 namespace dielast::cases {
 namespace {
@@ -95,11 +96,15 @@ TEST(Loads, OfAFreeBodyMustBalanceAtAllTimes) {
 }
 
 Case patch(const std::string& lines) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "patch_device.toml";
+  // one file per process: tests run side by side
+  const auto path =
+      std::filesystem::path(testing::TempDir()) / ("patch_device_" + std::to_string(getpid()) + ".toml");
   std::ofstream(path) << "[film]\nthickness = \"0.5 mm\"\nprestretch = 2\n[film.material]\n"
                          "shear_modulus = \"30 kPa\"\nrelative_permittivity = 4\n[patch]\n"
                       << lines;
-  return read_case(path);
+  Case one = read_case(path);
+  std::filesystem::remove(path);
+  return one;
 }
 
 TEST(Patch, HasOneUnknownForEachStretch) {
