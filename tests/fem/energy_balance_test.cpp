@@ -93,8 +93,8 @@ TEST(EnergyBalance, heat_is_what_the_states_lose) {
   }
   const double first = 1 - std::exp(-0.1), lost = 1 - std::exp(-3.0) - first;
   EXPECT_NEAR(balance.work().mechanical, 4 * lost, 1e-14);
-  EXPECT_NEAR(balance.work().dissipated, lost, 1e-14); // the loads are known exactly: the rest is heat
-  EXPECT_NEAR(balance.error(), 1e-3 * lost / 3, 1e-4 * lost); // the power is one order better
+  EXPECT_NEAR(balance.work().dissipated, lost, 1e-14);        // the loads are known exactly: the rest is heat
+  EXPECT_NEAR(balance.error(), 1e-3 / 3 * lost, 1e-4 * lost); // of two rules the better one is taken
 }
 
 TEST(EnergyBalance, heat_never_falls) {
@@ -146,15 +146,27 @@ TEST(EnergyBalance, with_inertia_the_rest_is_an_error) {
   EXPECT_DOUBLE_EQ(balance.error(), 3);
 }
 
+// The force grows, then the coordinate: parabolas across the corner see a curvature that is not there.
 TEST(EnergyBalance, no_curvature_is_taken_across_a_corner) {
+  const auto mechanical = [](bool told) {
+    EnergyBalance balance;
+    EnergyPoint point = point_at(1, 0, 0);
+    point.moves = true;
+    for (const auto& [force, coordinate] : {std::pair{0, 0}, {1, 0}, {1, 1}}) {
+      if (told && coordinate == 1) balance.corner();
+      point.mechanical = pair(force, coordinate);
+      balance.add(point);
+    }
+    return balance.work().mechanical;
+  };
+  EXPECT_EQ(mechanical(true), 1);
+  EXPECT_NEAR(mechanical(false), 1 + 1.0 / 12, 1e-15);
+}
+
+TEST(EnergyBalance, increments_without_length_are_no_curvature) {
   EnergyBalance balance;
-  const auto path = [](double s) { return s < 1 ? s : 2 - s; }; // there and back
-  for (int i = 0; i <= 20; ++i) {
-    if (i == 11) balance.corner();
-    balance.add(point_at(0.1, path(0.1 * i), 2 * path(0.1 * i)));
-  }
-  EXPECT_LT(std::abs(balance.work().electrical), balance.error());
-  EXPECT_NEAR(balance.work().electrical + balance.work().mechanical, 0, 1e-13);
+  for (int i = 0; i <= 4; ++i) balance.add(point_at(0, 0.1 * i, 0.2 * i));
+  EXPECT_TRUE(std::isfinite(balance.work().electrical) && std::isfinite(balance.error()));
 }
 
 TEST(EnergyBalance, a_jump_releases_what_nobody_accounts_for) {
