@@ -32,14 +32,17 @@ inline const std::filesystem::path& scratch() {
   return folder.path;
 }
 
-inline void write(const std::filesystem::path& file, std::string_view bytes) {
-  std::ofstream(file, std::ios::binary) << bytes;
-}
-
 /// A property that must hold for every input does not.
 [[noreturn]] inline void fail(const std::string& what) {
   std::fprintf(stderr, "%s\n", what.c_str());
   std::abort();
+}
+
+inline void write(const std::filesystem::path& file, std::string_view bytes) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << bytes;
+  stream.close();
+  if (!stream) fail("cannot write " + file.string());
 }
 
 } // namespace dielast::fuzz
