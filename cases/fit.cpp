@@ -3,18 +3,40 @@
 #include "cases/fit_files.hpp"
 #include "cases/fit_reader.hpp"
 #include "cases/fit_report.hpp"
+#include "cases/resolved.hpp"
 #include "cases/terminal.hpp"
 #include "post/results_folder.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace dielast::cases {
 
-ExitCode run_fit(const Fit& fit, const std::filesystem::path& directory) {
+namespace {
+
+/// Nothing that was written has been removed since.
+bool is_whole(const post::ResultsFolder& folder) {
+  return std::ranges::all_of(folder.names(),
+                             [&](const std::string& name) { return std::filesystem::exists(folder / name); });
+}
+
+} // namespace
+
+ExitCode run_fit(const Fit& fit, const FitSettings& settings) {
+  const auto& directory = settings.directory;
   post::ResultsFolder folder(directory, "fit");
+  const std::string resolved = resolved_text(fit);
+  if (settings.resume) {
+    require_unchanged(directory, resolved);
+    if (const auto ended = folder.complete(); ended && is_whole(folder)) {
+      say("{}: has run to its end, nothing to resume\n", directory.string());
+      return static_cast<ExitCode>(*ended);
+    }
+  }
   folder.begin();
+  folder.write(resolved_name, resolved);
   FitTask task = fit_task(fit);
   say("{}: {} parameters, {} tests, in {}\n", fit.title, task.parameters.size(), task.tests.size(),
       directory.string());

@@ -14,28 +14,6 @@ namespace {
 
 constexpr std::array own_sections{"fit", "test"};
 
-/// The parts of the table of keys that a fit file has. What a device needs of its film is not required.
-Section fit_schema() {
-  Section root;
-  root.access = same_object();
-  root.keys = {text("title", to(&Fit::title), "title of the report").optional()};
-  Section film = *case_schema().find_section("film");
-  film.access = member(&Fit::film);
-  film.check = {};
-  for (Key& key : film.keys) key.required = false;
-  for (Section& section : film.sections)
-    for (Key& key : section.keys)
-      if (key.only_for.empty()) key.required = false;
-  root.sections.push_back(std::move(film));
-  for (const char* name : own_sections) {
-    root.sections.push_back(*case_schema().find_section(name));
-    Section& section = root.sections.back();
-    section.presence =
-        section.shape == Section::Shape::list ? Section::Presence::list : Section::Presence::required;
-  }
-  return root;
-}
-
 /// What belongs to a device is refused here, in words of its own.
 Node without_device(SectionReader& reader, const Node& tree, const Section& schema) {
   Node own = tree;
@@ -104,6 +82,27 @@ void require_finite_start(SectionReader& reader, const Node& tree, const Fit& fi
 }
 
 } // namespace
+
+Section fit_schema() {
+  Section root;
+  root.access = same_object();
+  root.keys = {text("title", to(&Fit::title), "title of the report").optional()};
+  Section film = *case_schema().find_section("film");
+  film.access = member(&Fit::film);
+  film.check = {};
+  for (Key& key : film.keys) key.required = false;
+  for (Section& section : film.sections)
+    for (Key& key : section.keys)
+      if (key.only_for.empty()) key.required = false;
+  root.sections.push_back(std::move(film));
+  for (const char* name : own_sections) {
+    root.sections.push_back(*case_schema().find_section(name));
+    Section& section = root.sections.back();
+    section.presence =
+        section.shape == Section::Shape::list ? Section::Presence::list : Section::Presence::required;
+  }
+  return root;
+}
 
 void refuse_fit(const Node& tree) {
   for (const char* name : own_sections)

@@ -1,11 +1,15 @@
 #pragma once
 
 #include "cases/fit_spec.hpp"
+#include "cases/schema.hpp"
 #include "cases/tree.hpp"
 
 #include <filesystem>
 
 namespace dielast::cases {
+
+/// The parts of the table of keys that a fit file has; what a device needs of its film is not required.
+Section fit_schema();
 
 /// Reads and validates a fit file with the tables that it names. Every error is found before any is reported.
 /// Throws FileError or CaseError.

@@ -94,7 +94,7 @@ ExitCode study(const Arguments& arguments) {
 }
 
 ExitCode fit(const Arguments& arguments) {
-  return run_fit(cases::read_fit(arguments.case_file), arguments.output("-fit"));
+  return run_fit(cases::read_fit(arguments.case_file), {arguments.output("-fit"), arguments.resume});
 }
 
 ExitCode linearise(const Arguments& arguments) {
@@ -218,8 +218,10 @@ int main(int argc, char** argv) {
   takes_directory(linearise_command);
   takes_threads(linearise_command, "threads [every core]");
 
-  takes_directory(
-      takes_case(add("fit", "fit a material to measured tests: parameters, intervals, report", fit)));
+  auto* fit_command =
+      takes_case(add("fit", "fit a material to measured tests: parameters, intervals, report", fit));
+  takes_directory(fit_command);
+  fit_command->add_flag("--resume", arguments.resume, "do nothing where the fit has run to its end");
 
   auto* info_command = add("info", "explain materials, laws, devices, quantities, steps, keys, units", info);
   info_command->add_option("topic", arguments.topic, "what to explain [overview]");

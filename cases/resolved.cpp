@@ -1,12 +1,14 @@
 #include "cases/resolved.hpp"
 
 #include "cases/convert.hpp"
+#include "cases/fit_reader.hpp"
 #include "cases/tree.hpp"
 #include "post/checkpoint_file.hpp"
 
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -41,6 +43,20 @@ void write_section(const Section& section, const void* object, const std::string
   }
 }
 
+std::string text_in(const std::filesystem::path& file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+void write_head(std::ostream& out) {
+  fmt::print(out, "# every setting of this run, defaults included; written by dielast {}\n", DIELAST_VERSION);
+}
+
+void write_checksum(const std::string& key, const std::filesystem::path& file, std::ostream& out) {
+  fmt::print(out, "# content of {}: checksum {:016x}\n", key, post::checksum(text_in(file)));
+}
+
 /// A comment for every file that a key "file" below `node` names: the case is also what stands in them.
 void write_checksums(const Node& node, const std::string& path, std::ostream& out) {
   for (std::size_t i = 0; i < node.items.size(); ++i) {
@@ -49,11 +65,8 @@ void write_checksums(const Node& node, const std::string& path, std::ostream& ou
                             : path.empty()            ? node.keys[i]
                                                       : path + "." + node.keys[i];
     write_checksums(item, key, out);
-    if (!item.is(Node::Kind::text) || !key.ends_with(".file") || !std::filesystem::is_regular_file(item.text))
-      continue;
-    std::ostringstream content;
-    content << std::ifstream(item.text, std::ios::binary).rdbuf();
-    fmt::print(out, "# content of {}: checksum {:016x}\n", key, post::checksum(content.str()));
+    if (item.is(Node::Kind::text) && key.ends_with(".file") && std::filesystem::is_regular_file(item.text))
+      write_checksum(key, item.text, out);
   }
 }
 
@@ -83,13 +96,25 @@ std::map<std::string, std::string> settings_of(const std::string& resolved) {
 
 std::string resolved_text(const Case& one) {
   std::ostringstream out;
-  fmt::print(out, "# every setting of this run, defaults included; written by dielast {}\n", DIELAST_VERSION);
+  write_head(out);
   write_section(case_schema(), &one, "", geometry_name(one), out);
   fmt::print(out, "\n# standard quantities of this geometry:");
   for (const Quantity& quantity : one.quantities)
     if (quantity.standard) fmt::print(out, " {}", quantity.name);
   fmt::print(out, "\n");
   write_checksums(parse_tree(out.str(), "resolved.toml"), "", out);
+  return out.str();
+}
+
+std::string resolved_text(const Fit& fit) {
+  std::ostringstream out;
+  write_head(out);
+  Section schema = fit_schema();
+  std::ranges::find(schema.sections, "film", &Section::name)->keys.clear(); // only its material is read
+  write_section(schema, &fit, "", "", out);
+  fmt::print(out, "\n");
+  for (std::size_t t = 0; t < fit.tests.size(); ++t)
+    write_checksum(fmt::format("test[{}].file", t + 1), fit.source.parent_path() / fit.tests[t].file, out);
   return out.str();
 }
 
@@ -109,6 +134,14 @@ std::string resolved_changes(const std::string& before, const std::string& now) 
   const std::string more = changes.size() > most ? fmt::format("; and {} more", changes.size() - most) : "";
   changes.resize(std::min(changes.size(), most));
   return fmt::format("{}{}", fmt::join(changes, "; "), more);
+}
+
+void require_unchanged(const std::filesystem::path& folder, const std::string& resolved) {
+  const std::string before = text_in(folder / resolved_name);
+  if (before.empty()) return;
+  if (const std::string changes = resolved_changes(before, resolved); !changes.empty())
+    throw FileError(fmt::format("{}: the case has changed since: {}; run it again without --resume",
+                                folder.string(), changes));
 }
 
 } // namespace dielast::cases

@@ -91,11 +91,8 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
 /// How the run ended whose results the folder holds; nothing when there is something left to do. Throws
 /// FileError when they are of another case.
 std::optional<ExitCode> finished(const Case& one, const post::ResultsFolder& folder) {
-  const std::string before = read_text(folder / "resolved.toml");
-  if (before.empty()) return std::nullopt;
-  if (const std::string changes = resolved_changes(before, resolved_text(one)); !changes.empty())
-    throw FileError(fmt::format("{}: the case has changed since: {}; run it again without --resume",
-                                folder.path().string(), changes));
+  if (read_text(folder / resolved_name).empty()) return std::nullopt;
+  require_unchanged(folder.path(), resolved_text(one));
   const auto summary = nlohmann::json::parse(read_text(folder / "summary.json"), nullptr, false);
   if (!summary.contains("status") || !std::filesystem::exists(folder / "report.html")) return std::nullopt;
   return folder.complete() ? std::optional(static_cast<ExitCode>(*folder.complete())) : std::nullopt;

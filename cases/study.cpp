@@ -57,7 +57,7 @@ namespace {
 /// The point's directory, as far as it goes, is of the case as it is now.
 bool is_current(const Study& study, const StudyPoint& point) {
   std::ostringstream resolved;
-  resolved << std::ifstream(point.directory / "resolved.toml").rdbuf();
+  resolved << std::ifstream(point.directory / resolved_name).rdbuf();
   try {
     return resolved.str() == resolved_text(read_case(study.base, point.overrides));
   } catch (const CaseError&) {
@@ -139,19 +139,24 @@ class ProgressLine {
 
 ExitCode run_study(const Study& study, const StudySettings& settings) {
   post::ResultsFolder folder(settings.directory, "study");
+  const Case base = read_case(study.base);
+  const std::string resolved = resolved_text(base);
+  if (settings.resume) require_unchanged(settings.directory, resolved);
   const std::vector<StudyPoint> points = study_points(study, settings.directory);
   std::vector<std::string> names;
   for (const StudyPoint& point : points) names.push_back(point.directory.filename());
-  std::vector<std::string> keep = names;
+  std::vector<std::string> keep{resolved_name};
+  keep.insert(keep.end(), names.begin(), names.end());
   for (const std::string& name : folder.names())
     if (name.starts_with(target_folder)) keep.push_back(name);
   folder.begin(settings.resume ? std::move(keep) : std::vector<std::string>{});
+  folder.write(resolved_name, resolved);
   for (const std::string& name : names) folder.add(name);
   const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
                                                        : std::max(1U, std::thread::hardware_concurrency());
   say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
       settings.directory.string());
-  for (const Diagnostic& warning : read_case(study.base).warnings) say(stderr, "{}\n", warning.text());
+  for (const Diagnostic& warning : base.warnings) say(stderr, "{}\n", warning.text());
   ProgressLine progress(points.size());
   struct Waiting {
     const StudyPoint* point;

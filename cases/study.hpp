@@ -16,7 +16,7 @@ struct StudySettings {
 /// Runs every point of a study's grid in a process of its own, so that a point that fails, or crashes, is
 /// recorded and does not stop the rest; processes die with this one. study.csv is brought up to date after
 /// every point and does not depend on their order. Returns not_converged when some point did. Throws
-/// FileError, CaseError and post::WriteError.
+/// FileError, on `resume` of another base case, too, CaseError and post::WriteError.
 ExitCode run_study(const Study& study, const StudySettings& settings);
 
 } // namespace dielast::cases

@@ -39,7 +39,7 @@ class FaultTest : public CommandTest {
   static Words words(const std::string& command, const std::string& folder, bool resume = false) {
     Words all{command, command + ".toml", "-o", folder};
     if (command == "study") all.insert(all.end(), {"-j", "1"});
-    if (resume && command != "fit") all.emplace_back("--resume"); // a fit is quickly made again
+    if (resume) all.emplace_back("--resume");
     return all;
   }
   Ended with_fault(const char* fault, long at, const Words& all) const {

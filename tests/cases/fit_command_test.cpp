@@ -73,6 +73,47 @@ TEST_F(FitCommand, AFitThatGivesUpKeepsWhatItHas) {
   EXPECT_NE(content("out/report.html").find("not converged after 2 iterations"), std::string::npos);
 }
 
+TEST_F(FitCommand, ResumeLeavesAFinishedFitAndMakesTheRestAgain) {
+  write_fit(law_only);
+  const std::vector<std::string> words{"fit", "fit.toml", "-o", "out", "--resume"};
+  ASSERT_EQ(dielast(words).exit_code, 0);
+  const std::string table = content("out/fit.csv");
+  write("out/fit.csv", "kept");
+  const Ended again = dielast(words);
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.out, "out: has run to its end, nothing to resume\n");
+  EXPECT_EQ(content("out/fit.csv"), "kept");
+  std::filesystem::remove(directory / "out/fit.csv");
+  ASSERT_EQ(dielast(words).exit_code, 0);
+  EXPECT_EQ(content("out/fit.csv"), table);
+}
+
+TEST_F(FitCommand, ResolvedFitsAreReadBack) {
+  write_fit(law_only);
+  ASSERT_EQ(dielast({"fit", "fit.toml", "-o", "out"}).exit_code, 0);
+  write("again.toml", content("out/resolved.toml"));
+  const Ended again = dielast({"fit", "again.toml", "-o", "again"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const char* file : {"resolved.toml", "fit.csv", "material.toml"})
+    EXPECT_EQ(content(std::string("again/") + file), content(std::string("out/") + file)) << file;
+}
+
+TEST_F(FitCommand, ResumeOfAChangedFitSaysWhatHasChangedAndStops) {
+  write_fit(law_only);
+  ASSERT_EQ(dielast({"fit", "fit.toml", "-o", "out"}).exit_code, 0);
+  const auto changes = [&] {
+    const Ended ended = dielast({"fit", "fit.toml", "-o", "out", "--resume"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_TRUE(ended.err.starts_with("error: out: the case has changed since: ")) << ended.err;
+    return ended.err;
+  };
+  write_fit("parameters = [\"shear_modulus\"]");
+  EXPECT_NE(changes().find("fit.parameters is "), std::string::npos);
+  write_fit(law_only);
+  write("pull.csv", "stretch,P_kPa\n1.2,7.7\n1.5,16.2\n2,26.1\n3,43.1\n");
+  EXPECT_NE(changes().find("content of test[1].file is checksum "), std::string::npos);
+}
+
 TEST_F(FitCommand, WrongInputAndFilesHaveTheirExitCodes) {
   write_fit("parameters = [\"shear_modulus\", \"strech_limit\"]");
   EXPECT_EQ(dielast({"fit", "fit.toml", "-o", "out"}).exit_code, 2);

@@ -96,7 +96,7 @@ TEST_F(Folders, StudiesOfFewerPointsLeaveNoneOfTheOthers) {
     if (!resume.empty()) words.push_back(resume);
     ASSERT_EQ(dielast(words).exit_code, 0);
     EXPECT_EQ(files("out"), (std::set<std::string>{"manifest.txt", "point-0001", "point-0003", "report.html",
-                                                   "study.csv"}));
+                                                   "resolved.toml", "study.csv"}));
     EXPECT_EQ(files("out/point-0003"), std::set<std::string>{"notes.txt"});
   }
 }

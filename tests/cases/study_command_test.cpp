@@ -80,13 +80,20 @@ TEST_F(StudyCommand, PointsOfAnotherGridAreNotReused) {
 }
 
 // The case file is part of what a finished point is a result of.
-TEST_F(StudyCommand, PointsOfAnEditedCaseAreNotReused) {
+TEST_F(StudyCommand, ResumingAnEditedCaseSaysWhatHasChangedAndStops) {
   write_study("{ \"drive.voltage\" = [\"2 kV\"] }");
   ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  const std::string table = content("out/study.csv");
   std::string edited = small_honeycomb;
   edited.replace(edited.find("[4.0, 2.5]"), 10, "[3.0, 3.0]");
   write("small.toml", edited);
-  dielast(into("out", {"--resume"}));
+  const Ended resumed = dielast(into("out", {"--resume"}));
+  EXPECT_EQ(resumed.exit_code, 1);
+  EXPECT_EQ(resumed.err,
+            "error: out: the case has changed since: film.prestretch is [3, 3], it was [4, 2.5]; run it "
+            "again without --resume\n");
+  EXPECT_EQ(content("out/study.csv"), table);
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
   ASSERT_EQ(dielast(into("fresh")).exit_code, 0);
   EXPECT_EQ(content("out/study.csv"), content("fresh/study.csv"));
 }
