@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace dielast::cases {
 
@@ -97,12 +96,7 @@ std::string voltage_name(const Case& one, std::size_t electrode) {
   return one.electrodes.size() == 1 ? "voltage" : "voltage_" + one.electrodes[electrode].name;
 }
 
-/// A step's name as that of a file.
-std::string file_name(std::string step) {
-  for (char& c : step)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
-  return step;
-}
+std::string table_name(std::string_view of) { return fmt::format("{}.csv", of); }
 
 } // namespace
 
@@ -119,19 +113,22 @@ std::vector<post::Column> history_columns(const Case& one) {
 Recorder::Recorder(const Case& one, Simulation& simulation, post::ResultsFolder& folder, bool resume)
     : case_(one), simulation_(simulation), folder_(folder), fingerprint_(resolved_text(one)) {
   if (resume) restore_checkpoint();
-  folder_.write("resolved.toml", fingerprint_);
+  folder_.write(resolved_name, fingerprint_);
   folder_.add(checkpoint_name);
-  folder_.add("history.csv");
-  history_.emplace(folder_ / "history.csv", history_columns(one));
+  folder_.add(table_name(history_name));
+  history_.emplace(folder_ / table_name(history_name), history_columns(one));
   for (std::size_t r = 0; r < journal_.records.size(); ++r)
     history_->append(journal_.records[r].step, history_row(journal_.records[r], journal_.values[r]));
   if (one.fields && !series_) open_series(series_, "");
 }
 
-void Recorder::open_series(std::optional<post::VtkSeries>& series, const char* suffix,
+std::string Recorder::series_name(std::string_view part) const {
+  return fmt::format("{}{}{}", case_.source.stem().string(), part.empty() ? "" : "-", part);
+}
+
+void Recorder::open_series(std::optional<post::VtkSeries>& series, std::string_view part,
                            std::vector<std::string> entries) {
-  series.emplace(folder_, case_.source.stem().string() + suffix, simulation_.device().mesh,
-                 std::move(entries));
+  series.emplace(folder_, series_name(part), simulation_.device().mesh, std::move(entries));
 }
 
 /// A time for every state, none twice: ParaView shows all states of a time at once. Where time passes it is
@@ -171,7 +168,7 @@ post::SeriesStep Recorder::series_step(double time, const std::string& name, dou
 void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event& event) {
   if (!case_.fields) return;
   const Device& device = simulation_.device();
-  if (!modes_) open_series(modes_, "-modes");
+  if (!modes_) open_series(modes_, critical_name);
   modes_->write(series_step(journal_.modes++, event.message, critical.load_factor, critical.state.voltage),
                 critical.state.displacement, device.model.sample(critical.state),
                 fem::displacements(device.model.dofs, critical.mode.direction));
@@ -180,11 +177,10 @@ void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event
 void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
   std::string table = fmt::format("{}\n", fmt::join(analysis.columns, ","));
   for (const auto& row : analysis.rows) table += fmt::format("{}\n", fmt::join(row, ","));
-  folder_.write(file_name(analysis.step) + ".csv", table);
+  folder_.write(table_name(analysis.step), table);
   if (case_.fields) {
     const Device& device = simulation_.device();
-    post::VtkSeries series(folder_, case_.source.stem().string() + "-" + file_name(analysis.step),
-                           device.mesh);
+    post::VtkSeries series(folder_, series_name(analysis.step), device.mesh);
     const fem::Samples samples = device.model.sample(state);
     for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
       series.write(series_step(static_cast<double>(i), analysis.shapes[i].name, 1, state.voltage),
@@ -288,7 +284,7 @@ void Recorder::restore_checkpoint() try {
   folder_.begin(std::move(kept));
   if (!case_.fields) return;
   open_series(series_, "", saved.at("series"));
-  if (journal_.modes > 0) open_series(modes_, "-modes", saved.at("modes_series"));
+  if (journal_.modes > 0) open_series(modes_, critical_name, saved.at("modes_series"));
 } catch (const json::exception&) {
   throw FileError((folder_ / checkpoint_name).string() + ": damaged; run again without --resume");
 } catch (const post::CheckpointError& error) {

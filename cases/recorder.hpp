@@ -22,6 +22,9 @@ struct Snapshot {
 /// File of a run's checkpoint in its folder of results; removed when they are complete.
 inline constexpr const char* checkpoint_name = "checkpoint.cbor";
 
+/// A run's table, and behind "<case>-" its series of critical points: no analysis may take these names.
+inline constexpr std::string_view history_name = "history", critical_name = "critical";
+
 /// What a run has gathered so far.
 struct Journal {
   std::vector<post::StepRecord> records;
@@ -41,7 +44,7 @@ class Recorder {
   Recorder(const Case& one, Simulation& simulation, post::ResultsFolder& folder, bool resume);
 
   void record(const Frame& frame);
-  /// Adds the mode of a critical point to the series `<case>-modes`.
+  /// Adds the mode of a critical point to the series `<case>-critical`.
   void record_mode(const fem::CriticalPoint& critical, const post::Event& event);
   /// Writes `<step>.csv` and the shapes as the series `<case>-<step>`, about `state`.
   void record_analysis(Analysis analysis, const fem::State& state);
@@ -55,8 +58,10 @@ class Recorder {
   post::SeriesStep series_step(double time, const std::string& name, double load_factor,
                                std::span<const double> voltages) const;
   void restore_checkpoint();
-  /// The series `<case><suffix>`, behind the `entries` of its list that are kept.
-  void open_series(std::optional<post::VtkSeries>& series, const char* suffix,
+  /// Name of a series: `<case>`, or `<case>-<part>`.
+  std::string series_name(std::string_view part) const;
+  /// Opens a series behind the `entries` of its list that are kept.
+  void open_series(std::optional<post::VtkSeries>& series, std::string_view part,
                    std::vector<std::string> entries = {});
 
   const Case& case_;

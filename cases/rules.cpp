@@ -2,6 +2,7 @@
 
 #include "cases/analysis.hpp"
 #include "cases/conditions.hpp"
+#include "cases/recorder.hpp"
 
 #include <fmt/format.h>
 
@@ -209,6 +210,26 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
   }
 }
 
+/// Files are named after steps and columns after quantities: none may take the name of one that is there.
+void check_names(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const std::string& name = one.steps[s].name;
+    if (!one.steps[s].is_analysis() || (name != history_name && name != critical_name)) continue;
+    const Node& item = tree.find("step")->items.at(s);
+    reader.report(item.find("name")->source, place_of_step(tree, s).key + ".name",
+                  fmt::format("found \"{}\": a file of the results has this name; choose another", name));
+  }
+  const Node* list = tree.find("quantity");
+  const std::size_t standard = list ? list->items.size() - written_items(*list) : 0;
+  const std::vector<post::Column> columns = history_columns(one);
+  for (std::size_t q = 0; list && q < list->items.size(); ++q) {
+    const std::string& name = one.quantities[q].name;
+    if (list->items[q].source.is_written() && std::ranges::count(columns, name, &post::Column::name) > 1)
+      reader.report(list->items[q].find("name")->source, fmt::format("quantity[{}].name", q - standard + 1),
+                    fmt::format("found \"{}\": a column of the history has this name; choose another", name));
+  }
+}
+
 /// What moves along an axis needs a model that moves along it.
 void check_axes(SectionReader& reader, const Node& tree, const Case& one) {
   constexpr std::array names{"x", "y", "z"};
@@ -277,6 +298,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_masses(reader, tree, one);
   check_chamber(reader, tree, one);
   check_quantities(reader, tree, one);
+  check_names(reader, tree, one);
   check_axes(reader, tree, one);
   check_dimension(reader, tree, one);
   check_patch(reader, tree, one);
