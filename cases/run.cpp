@@ -1,5 +1,6 @@
 #include "cases/run.hpp"
 
+#include "cases/forecast.hpp"
 #include "cases/resolved.hpp"
 #include "cases/results.hpp"
 #include "cases/terminal.hpp"
@@ -11,9 +12,11 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 namespace dielast::cases {
@@ -45,8 +48,21 @@ spdlog::logger make_logger(const RunSettings& settings, post::ResultsFolder& fol
 /// Logs a simulation, records it, and stops it on an interrupt.
 SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& log) {
   SimulationObserver observer;
-  observer.on_step = [&log](const Step& step) { log.info("step \"{}\"", step.name); };
-  observer.on_try = [&log](double s) { log.debug("    load factor {:.6f}", s); };
+  struct Pace {
+    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+    Forecast forecast{};
+  };
+  const auto pace = std::make_shared<Pace>();
+  observer.on_step = [&log, pace](const Step& step) {
+    *pace = {};
+    log.info("step \"{}\"", step.name);
+  };
+  observer.on_try = [&log, pace](double s) {
+    log.debug("    load factor {:.6f}", s);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - pace->begin;
+    if (const std::string text = pace->forecast.at(s, elapsed.count()); !text.empty())
+      log.info("    {}", text);
+  };
   observer.on_iteration = [&log](const fem::Iteration& i) {
     log.debug("      iteration {:2d}   residual {:9.3e}   step length {:6.4f}   negative pivots {}", i.number,
               i.residual, i.step_length, i.negative_pivots);

@@ -25,6 +25,13 @@ TEST_F(Faults, ARunKilledBetweenItsLastFilesIsCompletedByResume) {
   }
 }
 
+// A run that would take days said nothing of it. The clock runs ahead here.
+TEST_F(Faults, LongStepsSayHowLongTheyTake) {
+  const Ended ended = with_disk(1000000000, words("run", "out"));
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("; at this pace the step takes "), std::string::npos) << ended.out;
+}
+
 TEST_F(Faults, AFullDiskIsToldAndResumeGoesOn) { fill_the_disk("run", 3); }
 
 TEST_F(Faults, DamagedCheckpointsChangeNoResult) { damage_checkpoints(12); }
