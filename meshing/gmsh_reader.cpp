@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -42,12 +43,34 @@ std::optional<CellType> cell_type(const GmshContents::Elements& elements) {
 
 bool is_triangle(const CellBlock& block) { return !is_line(block.type); }
 
-/// Makes the mesh; messages come without the file's name.
+void require(bool holds) {
+  if (!holds) throw MeshError("what gmsh finds in it does not fit together; it is damaged, write it again");
+}
+
+void check(const GmshContents& contents) {
+  std::set<std::size_t> tags;
+  for (const std::size_t tag : contents.node_tags) {
+    if (tag > std::numeric_limits<int>::max())
+      throw MeshError(fmt::format("node {} has too large a number; let gmsh renumber the mesh", tag));
+    if (!tags.insert(tag).second) throw MeshError(fmt::format("two nodes have the number {}", tag));
+  }
+  for (const GmshContents::Elements& elements : contents.elements) {
+    require(elements.dimension >= 0 && elements.dimension <= 3 && elements.nodes_each > 0 &&
+            elements.nodes.size() % static_cast<std::size_t>(elements.nodes_each) == 0);
+    for (const std::size_t tag : elements.nodes)
+      if (elements.dimension > 0 && !tags.contains(tag))
+        throw MeshError(fmt::format("an element names node {}, which the file does not have", tag));
+  }
+  for (const GmshContents::PhysicalGroup& group : contents.groups)
+    require(group.dimension >= 0 && group.dimension <= 3);
+}
+
 class Converter {
  public:
   explicit Converter(GmshContents contents) : contents_(std::move(contents)) {
     if (contents_.coordinates.size() != 3 * contents_.node_tags.size())
       throw MeshError("its nodes do not have three coordinates each");
+    check(contents_);
     add_cells();
     number_nodes();
     for (CellBlock& block : mesh_.blocks) turn_counter_clockwise(block);
@@ -69,6 +92,7 @@ class Converter {
             "it has elements of the type \"{}\", but only triangles (3 or 6 nodes) and lines (2 or 3 "
             "nodes) are known; mesh surfaces only, without recombination, of order 1 or 2",
             elements.type));
+      require(elements.nodes_each == nodes_per_cell(*type));
       orders.insert(*type == CellType::line2 || *type == CellType::triangle3 ? 1 : 2);
       auto block = std::ranges::find(mesh_.blocks, *type, &CellBlock::type);
       if (block == mesh_.blocks.end()) block = mesh_.blocks.insert(block, {*type, {}});
@@ -100,14 +124,8 @@ class Converter {
     std::unordered_map<std::size_t, std::size_t> position;
     for (std::size_t i = 0; i < contents_.node_tags.size(); ++i) position[contents_.node_tags[i]] = i;
     std::set<std::size_t> used; // ascending positions: the file's order is kept
-    const auto position_of = [&](std::size_t tag) {
-      const auto found = position.find(tag);
-      if (found == position.end())
-        throw MeshError(fmt::format("an element names node {}, which the file does not have", tag));
-      return found->second;
-    };
     for (const CellBlock& block : mesh_.blocks)
-      for (const int tag : block.nodes) used.insert(position_of(static_cast<std::size_t>(tag)));
+      for (const int tag : block.nodes) used.insert(position.at(static_cast<std::size_t>(tag)));
     for (const std::size_t i : used) {
       node_number_[contents_.node_tags[i]] = mesh_.node_count();
       mesh_.nodes.emplace_back(contents_.coordinates[3 * i], contents_.coordinates[3 * i + 1],
@@ -189,9 +207,11 @@ class Converter {
 
 } // namespace
 
+Mesh mesh_of(GmshContents contents) { return Converter(std::move(contents)).take(); }
+
 Mesh read_gmsh(const std::filesystem::path& path) {
   try {
-    return Converter(contents_of(path)).take();
+    return mesh_of(contents_of(path));
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path.string(), error.what()));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/gmsh_contents.hpp"
 #include "meshing/mesh.hpp"
 
 #include <filesystem>
@@ -13,5 +14,9 @@ namespace dielast::meshing {
 /// "surface 3" after its tag. `film` (all triangles) is added unless the file has a place of that name.
 /// Throws MeshError saying what to change.
 Mesh read_gmsh(const std::filesystem::path& path);
+
+/// The mesh of what gmsh has found in a file, which is not believed: a damaged file may have made gmsh write
+/// anything there. Messages come without the file's name.
+Mesh mesh_of(GmshContents contents);
 
 } // namespace dielast::meshing

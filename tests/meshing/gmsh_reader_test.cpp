@@ -130,6 +130,39 @@ TEST_F(GmshReader, SurvivesDamagedFiles) {
   }
 }
 
+// What gmsh finds in a damaged file is not believed. Of a tag beyond the range of int the lower bits were
+// taken: the cell got another node.
+TEST_F(GmshReader, RefusesContentsThatDoNotFitTogether) {
+  const GmshContents whole{.error = "",
+                           .node_tags = {1, 2, 3},
+                           .coordinates = {0, 0, 0, 1, 0, 0, 0, 1, 0},
+                           .elements = {{2, 1, "Triangle 3", 3, {1, 2, 3}}},
+                           .groups = {{2, 1, "sheet", {1}}}};
+  EXPECT_EQ(mesh_of(whole).node_sets.at("sheet").size(), 3u);
+  const auto refused = [&](auto&& change) {
+    GmshContents contents = whole;
+    change(contents);
+    try {
+      mesh_of(contents);
+    } catch (const MeshError& error) {
+      return std::string(error.what());
+    }
+    return std::string("not refused");
+  };
+  constexpr std::size_t far = (std::size_t{1} << 32) + 1;
+  EXPECT_EQ(refused([](auto& c) { c.elements[0].nodes[2] = far; }),
+            "an element names node 4294967297, which the file does not have");
+  EXPECT_EQ(refused([](auto& c) { c.elements[0].nodes[2] = c.node_tags[2] = far; }),
+            "node 4294967297 has too large a number; let gmsh renumber the mesh");
+  EXPECT_EQ(refused([](auto& c) { c.node_tags[2] = 2; }), "two nodes have the number 2");
+  const std::string damaged = "what gmsh finds in it does not fit together; it is damaged, write it again";
+  EXPECT_EQ(refused([](auto& c) { c.elements[0].nodes_each = 0; }), damaged);
+  EXPECT_EQ(refused([](auto& c) { c.elements[0].nodes.pop_back(); }), damaged);
+  EXPECT_EQ(refused([](auto& c) { c.elements[0].nodes_each = 1; }), damaged);
+  EXPECT_EQ(refused([](auto& c) { c.elements[0].dimension = 4; }), damaged);
+  EXPECT_EQ(refused([](auto& c) { c.groups[0].dimension = -1; }), damaged);
+}
+
 // A node's tag of 9e18 makes gmsh reserve memory and count without an end.
 TEST_F(GmshReader, ComesToAnEndWithDamagedCounts) {
   EXPECT_THROW(read_gmsh(DIELAST_SOURCE_DIR "/tests/fuzz/corpus/gmsh/endless_binary.msh"), MeshError);
