@@ -1,5 +1,7 @@
 #include "cases/conditions.hpp"
 
+#include <fmt/format.h>
+
 namespace dielast::cases {
 namespace {
 
@@ -25,6 +27,10 @@ Section electrode_section() {
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& electrode = *static_cast<const Electrode*>(object);
+    for (const Section& one : case_schema().sections)
+      if (one.shape == Section::Shape::by_electrode && one.find_key(electrode.name, ""))
+        return Conflict{"name", fmt::format("a key of [{0}], from which [{0}.{1}] could not be told",
+                                            one.name, electrode.name)};
     if (electrode.sheet_resistance.has_value() == !electrode.terminal.empty()) return std::nullopt;
     return electrode.terminal.empty()
                ? Conflict{"terminal", "missing; say where the resistive electrode is connected"}
