@@ -54,8 +54,7 @@ Eigen::VectorXd position(const State& state, const DofMap& dofs) {
 }
 
 InertialForce::InertialForce(const Inertia& inertia, const DofMap& dofs, const State& state)
-    : inertia_(inertia), start_(*state.motion), scheme_(state.motion_scheme),
-      step_(position(state, dofs) - start_.position) {
+    : start_(*state.motion), scheme_(state.motion_scheme), step_(position(state, dofs) - start_.position) {
   const auto& s = scheme_;
   const auto force = [&](const Eigen::VectorXd& step) {
     acceleration_ = (step - s.dt * start_.velocity) / (s.beta * s.dt * s.dt) - s.start * start_.acceleration;

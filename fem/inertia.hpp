@@ -35,7 +35,6 @@ class InertialForce {
   Motion arrived() const;
 
  private:
-  const Inertia& inertia_;
   const Motion& start_;
   GeneralisedAlpha scheme_;
   Eigen::VectorXd step_, acceleration_, velocity_, force_;

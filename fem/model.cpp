@@ -20,13 +20,13 @@ void Model::place_histories() {
 
 /// Scales of charges, and leakage spread like the capacitance, as drawn.
 void Model::weigh_sheets() {
-  const Eigen::VectorXd drawn = sheet_matrices(initial_state()).capacitance;
+  const Eigen::VectorXd capacitances = sheet_matrices(initial_state()).capacitance;
   for (const Sheet& sheet : sheets) {
     double whole = 0;
     bool connected = false;
     for (std::size_t a = 0; a < sheet_points.size(); ++a)
       if (sheet_points[a].electrode == sheet.electrode) {
-        whole += drawn[static_cast<Eigen::Index>(a)];
+        whole += capacitances[static_cast<Eigen::Index>(a)];
         connected = connected || sheet_points[a].at_terminal;
       }
     const auto electrode = static_cast<std::size_t>(sheet.electrode);
@@ -36,7 +36,7 @@ void Model::weigh_sheets() {
     const Circuit* circuit = circuit_of(electrode);
     for (std::size_t a = 0; a < sheet_points.size(); ++a)
       if (SheetPoint& point = sheet_points[a]; point.electrode == sheet.electrode) {
-        const double capacitance = drawn[static_cast<Eigen::Index>(a)];
+        const double capacitance = capacitances[static_cast<Eigen::Index>(a)];
         point.charge_scale = capacitance * sheet.voltage_scale;
         point.leakage = circuit ? circuit->leakage * capacitance / whole : 0;
       }
@@ -143,9 +143,9 @@ Charges Model::surplus(const State& state, bool with_coupling) const {
     if (const Chamber* chamber = chamber_of(e))
       surplus.capacitance[e] += chamber->compliance(std::max(given, least_volume()), state.voltage[e]);
     if (state.supply[e] != Supply::circuit) continue;
-    const Circuit::Drawn drawn = circuit_of(e)->drawn(state.source[e], state.voltage[e], state.scheme);
-    surplus.charge[e] += drawn.charge;
-    surplus.capacitance[e] += drawn.capacitance;
+    const Circuit::Drawn taken = circuit_of(e)->drawn(state.source[e], state.voltage[e], state.scheme);
+    surplus.charge[e] += taken.charge;
+    surplus.capacitance[e] += taken.capacitance;
   }
   return surplus;
 }

@@ -6,7 +6,7 @@
 
 namespace dielast::post {
 
-FilmPoint::FilmPoint(const fem::MembraneSample& sample) : sample(sample) {
+FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   const auto& F = sample.F;
   C.noalias() = F.transpose() * F;
   const Eigen::Vector3d area = F.col(0).cross(F.col(1));

@@ -13,8 +13,8 @@ enum class Tone { plain, good, warning, bad };
 
 /// A cell of a table; cells that start with a number are aligned to the right.
 struct Cell {
-  Cell(std::string text, Tone tone = Tone::plain) : text(std::move(text)), tone(tone) {}
-  Cell(const char* text, Tone tone = Tone::plain) : text(text), tone(tone) {}
+  Cell(std::string words, Tone meant = Tone::plain) : text(std::move(words)), tone(meant) {}
+  Cell(const char* words, Tone meant = Tone::plain) : text(words), tone(meant) {}
 
   std::string text;
   Tone tone;

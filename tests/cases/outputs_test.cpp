@@ -110,8 +110,9 @@ increments = 2
   int jumps = 0;
   for (std::size_t r = 2; r < rows.size(); ++r) {
     jumps += rows[r].back() == "1";
-    if (rows[r][2] == rows[r - 1][2])
-      EXPECT_TRUE(rows[r].back() == "1" || rows[r][0] == "voltage" || rows[r][0] == "force") << r;
+    EXPECT_TRUE(rows[r][2] != rows[r - 1][2] || rows[r].back() == "1" || rows[r][0] == "voltage" ||
+                rows[r][0] == "force")
+        << r;
   }
   EXPECT_EQ(jumps, 2); // the load as time starts, the voltage after half a second
 }
