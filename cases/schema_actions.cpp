@@ -84,8 +84,8 @@ Section support_section() {
   };
   section.sections.push_back(displacement_section());
   section.check = [](const void* object) -> std::optional<Conflict> {
-    const auto& fixed = static_cast<const Support*>(object)->fixed;
-    if (fixed[0] || fixed[1] || fixed[2]) return std::nullopt;
+    const auto& held = static_cast<const Support*>(object)->fixed;
+    if (held[0] || held[1] || held[2]) return std::nullopt;
     return Conflict{"fix", "missing; give the directions in which it is held, such as [\"x\", \"y\"], or a "
                            "displacement"};
   };

@@ -132,9 +132,9 @@ Section check_section() {
       text("source", to(&Check::source), "where the expected value comes from"),
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
-    const double tolerance = static_cast<const Check*>(object)->tolerance;
-    if (!std::isfinite(tolerance)) return Conflict{"tolerance", "is too large to store"};
-    if (tolerance > 0) return std::nullopt;
+    const double allowed = static_cast<const Check*>(object)->tolerance;
+    if (!std::isfinite(allowed)) return Conflict{"tolerance", "is too large to store"};
+    if (allowed > 0) return std::nullopt;
     return Conflict{"tolerance", "a part of zero is zero; give it in the quantity's unit"};
   };
   return section;

@@ -65,7 +65,7 @@ std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {
   std::mt19937 random(1);
   Eigen::MatrixXd X(D.size(), width), Y(D.size(), width);
   for (Eigen::Index i = 0; i < X.size(); ++i)
-    X.data()[i] = random() / static_cast<double>(std::mt19937::max()) - 0.5;
+    X.data()[i] = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
   X = D.cwiseSqrt().cwiseInverse().asDiagonal() * X;
   Eigen::VectorXd y;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {

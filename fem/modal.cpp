@@ -91,7 +91,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   std::mt19937 random(1);
   Eigen::MatrixXd X(free, width);
   for (Eigen::Index i = 0; i < X.size(); ++i)
-    X.data()[i] = random() / static_cast<double>(std::mt19937::max()) - 0.5;
+    X.data()[i] = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     Eigen::MatrixXd V(free, 0), W(free, 0); // W = K^-1 M V
     for (int power = 0; power < powers; ++power) {
