@@ -50,6 +50,9 @@ bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlop
   const Eigen::VectorXd &v0 = slope_from.displacement, &v1 = slope_to.displacement;
   const bool singular_start = v0.size() == 0;
   const double n0 = singular_start ? 0 : norm(v0), n1 = norm(v1);
+  if (!singular_start && norm(chord - v0) <= steadiness.steady * n0 &&
+      norm(chord - v1) <= steadiness.steady * n1)
+    return true;
   const double missing =
       std::abs(slope_to.potential - slope_from.potential - (slope_from.power + slope_to.power) / 2);
   const double round_off = rounding * (std::abs(slope_from.potential) + std::abs(slope_to.potential));

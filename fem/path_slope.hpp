@@ -26,10 +26,11 @@ PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& 
 /// How far an increment may be from what the slopes at its ends tell of it; see is_joined().
 struct Steadiness {
   double chord, energy, energy_of_faster;
+  double steady = 0; ///< where the chord is as near as this to both slopes it tells all
   static constexpr Steadiness resolved() { return {0.1, 0.1, 0.25}; }
   /// For increments so short that they may hold a kink of the path, where wrinkles begin, but no other
   /// branch.
-  static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5}; }
+  static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5, 0.01}; }
   /// For film that wrinkles: across them it may be anywhere, so that only the energy tells.
   static constexpr Steadiness wrinkled() { return {std::numeric_limits<double>::infinity(), 0.5, 0.5}; }
 };
@@ -40,7 +41,9 @@ struct Steadiness {
 /// potential P with its power p = dP/ds at fixed u:
 ///   |c - v| <= chord max(|v0|, |v1|)  and  |P1 - P0 - (p0 + p1)/2| <= energy |p1 - p0|.
 /// Where the path gets faster, |v1| > |v0|, it may do so up to the square root at a limit point: c may be
-/// near any point between v0 and v, and the energy may miss `energy_of_faster`. What a film has set free
+/// near any point between v0 and v, and the energy may miss `energy_of_faster`. Where |c - v0| <= steady |v0|
+/// and |c - v1| <= steady |v1| the energy is not asked: while nothing but dashpots move, its powers at both
+/// ends differ by the time schemes of their increments, and by nothing else. What a film has set free
 /// on its way to another branch is missing from the energy; on another branch it is mostly slower. An
 /// increment that fails may just be too long. `slope_to` must not be that of a singular tangent.
 bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,

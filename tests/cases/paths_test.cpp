@@ -209,6 +209,47 @@ increments = 8
     EXPECT_GT(relaxed.rows[r].value, relaxed.rows[r - 1].value);
 }
 
+// A branch much quicker than the step: its first increments are shorter than any other path would ask for,
+// and were taken for a limit point.
+TEST_F(Paths, quick_branches_flow_to_their_end) {
+  constexpr double voltage = 11.619e3;
+  for (const char* time : {"1e-4 s", "3e-4 s", "1e-3 s"}) {
+    const Run flown = run(fmt::format(R"toml([film]
+thickness = "1 mm"
+[film.material]
+law = "gent"
+shear_modulus = "18 kPa"
+stretch_limit = 110
+permittivity = "4e-11 F/m"
+[[film.material.branch]]
+law = "gent"
+shear_modulus = "42 kPa"
+stretch_limit = 55
+relaxation_time = "{}"
+[patch]
+mode = "equal-biaxial"
+[drive]
+voltage = "{} V"
+[[step]]
+kind = "voltage"
+response = "instantaneous"
+[[step]]
+kind = "hold"
+duration = "500 s"
+increments = 500
+[solver]
+time_tolerance = "1e-8"
+)toml",
+                                      time, voltage),
+                          "stretch_x");
+    EXPECT_EQ(flown.outcome.ending, Ending::complete) << time << flown.outcome.message;
+    // the film without its branch: mu (l^2 - l^-4) / (1 - (2 l^2 + l^-4 - 3)/J) = eps (Phi/H)^2 l^4
+    const double l = flown.rows.back().value, stiffening = 1 - (2 * l * l + std::pow(l, -4) - 3) / 110;
+    EXPECT_NEAR(18e3 * (l * l - std::pow(l, -4)) / stiffening, 4e-11 * std::pow(voltage / 1e-3 * l * l, 2), 1)
+        << time;
+  }
+}
+
 std::string diaphragm(const std::string& prestretch, const std::string& voltage) {
   return fmt::format(R"toml(model = "axisymmetric"
 [film]
