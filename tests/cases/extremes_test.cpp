@@ -18,18 +18,6 @@ class Extremes : public CommandTest {
   }
 };
 
-// An increment could jump over a limit point and converge on an unstable state behind it, which was accepted.
-TEST_F(Extremes, NoUnstableStateIsAcceptedByStepsThatStop) {
-  for (const char* override : {"drive.voltage=1e6 V", "film.prestretch=100", "film.prestretch=0.5"}) {
-    const Ended ended = diaphragm("case.toml", {override});
-    EXPECT_EQ(ended.exit_code, 4) << override << ended.err;
-    const auto rows = table_of(directory / "out/history.csv");
-    const auto column = std::ranges::find(rows[0], "unstable_modes[1]") - rows[0].begin();
-    for (std::size_t row = 1; row < rows.size(); ++row)
-      EXPECT_EQ(rows[row].at(static_cast<std::size_t>(column)), "0") << override << " row " << row;
-  }
-}
-
 TEST_F(Extremes, WorksAreNumbersBehindTheSmallestResistance) {
   for (const char* voltage :
        {"{ wave = \"step\", to = \"5 kV\" }", "{ wave = \"ramp\", to = \"5 kV\", duration = \"0.05 s\" }"}) {
