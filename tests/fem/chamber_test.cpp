@@ -165,8 +165,8 @@ TEST_P(ChamberShape, the_load_of_inner_nodes_is_pressure_times_normal_and_area) 
   }
   int inner = 0;
   for (int a = 0; a < mesh.node_count(); ++a) {
-    const auto on = [&](const char* place) {
-      const auto set = mesh.node_sets.find(place);
+    const auto on = [&](const char* name) {
+      const auto set = mesh.node_sets.find(name);
       return set != mesh.node_sets.end() && std::ranges::find(set->second, a) != set->second.end();
     };
     if (on("edge") || on("inner") || on("outer")) continue;
@@ -182,9 +182,9 @@ TEST_P(ChamberShape, the_load_of_inner_nodes_is_pressure_times_normal_and_area) 
 INSTANTIATE_TEST_SUITE_P(, ChamberShape,
                          testing::Values(meshing::CellType::meridian2, meshing::CellType::meridian3,
                                          meshing::CellType::triangle3, meshing::CellType::triangle6),
-                         [](const auto& info) {
-                           return (is_meridian(info.param) ? "meridian" : "triangle") +
-                                  std::to_string(nodes_per_cell(info.param));
+                         [](const auto& one) {
+                           return (is_meridian(one.param) ? "meridian" : "triangle") +
+                                  std::to_string(nodes_per_cell(one.param));
                          });
 
 /// A clamped disc of 20 mm radius, drawn 1.1 times as large, over a chamber.

@@ -48,7 +48,7 @@ TEST_P(FilmWithBranches, has_consistent_derivatives_frozen_relaxed_and_in_time) 
 }
 
 INSTANTIATE_TEST_SUITE_P(, FilmWithBranches, testing::Bool(),
-                         [](const auto& info) { return info.param ? "planar" : "spatial"; });
+                         [](const auto& one) { return one.param ? "planar" : "spatial"; });
 
 TEST(RelaxedFilm, is_the_film_without_its_branches) {
   const auto without = film(test::vhb(), true);
@@ -96,7 +96,7 @@ TEST_P(WrinkledFilm, with_branches_too) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, WrinkledFilm, testing::Bool(),
-                         [](const auto& info) { return info.param ? "planar" : "spatial"; });
+                         [](const auto& one) { return one.param ? "planar" : "spatial"; });
 
 // Neo-Hookean natural width under voltage: lambda_2w = [mu/(lambda_1^2 (mu - k lambda_1^2))]^(1/4).
 TEST(TensionField, is_as_wide_as_the_closed_form_says) {

@@ -174,7 +174,7 @@ TEST_P(MeridianElement, an_equal_biaxial_film_is_in_equilibrium_and_found_from_a
 }
 
 INSTANTIATE_TEST_SUITE_P(, MeridianElement, testing::Values(1, 2),
-                         [](const auto& info) { return "order_" + std::to_string(info.param); });
+                         [](const auto& one) { return "order_" + std::to_string(one.param); });
 
 /// Energy of one meridian in dual numbers: shape functions as Lagrange's products differentiated by dual
 /// numbers too, the film's energy from its law and its area.

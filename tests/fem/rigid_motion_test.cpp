@@ -75,9 +75,9 @@ TEST_P(RigidMotion, keeps_the_energy_and_turns_residual_and_tangent) {
 
 INSTANTIATE_TEST_SUITE_P(FilmAndWalls, RigidMotion,
                          ::testing::Combine(::testing::Values(1, 2), ::testing::Bool()),
-                         [](const auto& info) {
-                           return std::string(std::get<0>(info.param) == 1 ? "linear" : "quadratic") +
-                                  (std::get<1>(info.param) ? "_planar" : "_spatial");
+                         [](const auto& one) {
+                           return std::string(std::get<0>(one.param) == 1 ? "linear" : "quadratic") +
+                                  (std::get<1>(one.param) ? "_planar" : "_spatial");
                          });
 
 TEST(CurvedBeam, rigid_motion_makes_no_stress) {

@@ -123,7 +123,6 @@ TYPED_TEST(ElasticLawContract, energy_is_finite_exactly_where_the_law_admits_the
 }
 
 TYPED_TEST(ElasticLawContract, every_parameter_has_a_name_a_unit_a_range_and_its_own_member) {
-  TypeParam law = this->law;
   std::set<const void*> places;
   for (const auto& parameter : TypeParam::parameters) {
     EXPECT_FALSE(parameter.name.empty());
@@ -131,8 +130,8 @@ TYPED_TEST(ElasticLawContract, every_parameter_has_a_name_a_unit_a_range_and_its
     EXPECT_FALSE(parameter.meaning.empty());
     EXPECT_LT(parameter.above, parameter.below);
     ASSERT_NE(parameter.number == nullptr, parameter.list == nullptr);
-    places.insert(parameter.number ? static_cast<const void*>(&(law.*parameter.number))
-                                   : &(law.*parameter.list));
+    places.insert(parameter.number ? static_cast<const void*>(&(this->law.*parameter.number))
+                                   : &(this->law.*parameter.list));
   }
   EXPECT_EQ(places.size(), TypeParam::parameters.size());
 }
