@@ -34,10 +34,10 @@ TEST_F(Environment, DecimalCommasChangeNothing) {
   const std::string build = "localedef -i de_DE -f UTF-8 '" + (locales / german).string() + "'";
   ASSERT_EQ(std::system(build.c_str()), 0) << "needs the package locales";
   setenv("LOCPATH", locales.c_str(), 1);
-  const locale_t locale = newlocale(LC_ALL_MASK, german, nullptr);
-  ASSERT_NE(locale, nullptr);
-  EXPECT_STREQ(nl_langinfo_l(RADIXCHAR, locale), ",");
-  freelocale(locale);
+  const locale_t built = newlocale(LC_ALL_MASK, german, nullptr);
+  ASSERT_NE(built, nullptr);
+  EXPECT_STREQ(nl_langinfo_l(RADIXCHAR, built), ",");
+  freelocale(built);
   std::filesystem::copy(source_folder / "tests/fuzz/corpus/gmsh/order1_41.msh", directory / "own.msh");
   write("own.toml", R"toml([film]
 material = "VHB 4910 (honeycomb)"
