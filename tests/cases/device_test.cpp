@@ -107,6 +107,23 @@ Case patch(const std::string& lines) {
   return one;
 }
 
+// What leaks through the film leaks under the sheet: the circuit's conductance is spread over its points.
+TEST(Sheet, WithACircuitThatLeaksItLeaks) {
+  const auto path =
+      std::filesystem::path(testing::TempDir()) / ("sheet_device_" + std::to_string(getpid()) + ".toml");
+  std::ofstream(path)
+      << "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"30 kPa\"\n"
+         "relative_permittivity = 4\n[disc]\nradius = 0.03\nelectrode_radius = 0.01\n[mesh]\n"
+         "rings = 4\n[[electrode]]\nname = \"film\"\nplace = \"electrode\"\nsheet_resistance = "
+         "1e6\nterminal = \"centre\"\n[drive]\nvoltage = 100\n[circuit]\nresistance = 1e5\n"
+         "leakage_resistance = 5e8\n[[step]]\nkind = \"hold\"\nduration = 1\n";
+  const Device device = build_device(read_case(path));
+  std::filesystem::remove(path);
+  double leakage = 0;
+  for (const fem::SheetPoint& point : device.model.sheet_points) leakage += point.leakage;
+  EXPECT_NEAR(leakage, 1 / 5e8, 1e-12 / 5e8);
+}
+
 TEST(Patch, HasOneUnknownForEachStretch) {
   const Device free = build_device(patch(""));
   EXPECT_EQ(free.model.dofs.free_count(), 2);
