@@ -14,14 +14,56 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+/// Change that counts as none, over what is of order one: internal variables, voltages, the extent.
+constexpr double still = 1e-4;
+
+bool flows(const fem::Model& model, const fem::State& state) {
+  if (!state.history) return false;
+  fem::State rest = state;
+  rest.scheme = materials::TimeScheme::relaxed();
+  const std::vector<double>& now = state.history->now;
+  const std::vector<double> end = model.advanced_history(rest)->now;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (std::abs(end[i] - now[i]) > still * std::max(1.0, std::abs(now[i]))) return true;
+  return false;
+}
+
+bool conducts(fem::Equilibrium& equilibrium, const fem::State& state) {
+  if (state.sheet_drop.size() == 0) return false;
+  fem::State rest = state;
+  rest.scheme = materials::TimeScheme::relaxed();
+  equilibrium.conduct(rest);
+  double largest = 0;
+  for (std::size_t e = 0; e < equilibrium.model().electrodes.size(); ++e)
+    largest = std::max(largest, std::abs(state.voltage[e]));
+  largest = std::max(largest, state.sheet_drop.lpNorm<Eigen::Infinity>());
+  return (rest.sheet_drop - state.sheet_drop).lpNorm<Eigen::Infinity>() > still * largest;
+}
+
+/// Whether what has a mass would go on: to where its forces balance, and beyond as far as its kinetic energy
+/// carries it there.
+bool moves(fem::Equilibrium& equilibrium, const fem::State& state) {
+  if (!state.motion) return false;
+  const Eigen::Index free = equilibrium.model().dofs.free_count();
+  fem::State at = state;
+  fem::Balance balance;
+  equilibrium.balance(at, balance);
+  const Eigen::VectorXd velocity = state.motion->velocity.head(free);
+  const Eigen::VectorXd momentum = (equilibrium.model().inertia.mass * state.motion->velocity).head(free);
+  if (!equilibrium.factor(at)) return !momentum.isZero(0);
+  Eigen::VectorXd step, swing;
+  equilibrium.tangent().solve(-balance.force.head(free), step);
+  equilibrium.tangent().solve(momentum, swing);
+  const double kinetic = momentum.dot(velocity);                                               // twice
+  const double seconds = kinetic > 0 ? std::sqrt(std::abs(momentum.dot(swing)) / kinetic) : 0; // 1/omega
+  return equilibrium.step_size(step) + seconds * equilibrium.step_size(velocity) > still;
+}
+
 Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State state, const Step& step) {
   if (step.control == Control::charge) {
     state.charge = device.model.charges(state, false).charge;
     std::fill_n(state.supply.begin(), device.model.electrodes.size(), fem::Supply::charge);
   }
-  if (flows(device.model, state))
-    throw AnalysisError("there are no modes about a state whose dashpots flow; let them relax before, by a "
-                        "hold or a step with response = \"relaxed\"");
   const auto found = fem::vibration_modes(equilibrium, state, {.count = step.count});
   if (!found) throw AnalysisError("no modes found: the device is at a critical point");
   Analysis analysis{.kind = step.kind,
@@ -124,16 +166,19 @@ const Quantity* response_quantity(const Case& one, const std::string& name) {
   return nullptr;
 }
 
-bool flows(const fem::Model& model, const fem::State& state) {
-  constexpr double still = 1e-4;
-  if (!state.history) return false;
-  fem::State rest = state;
-  rest.scheme = materials::TimeScheme::relaxed();
-  const std::vector<double>& now = state.history->now;
-  const std::vector<double> end = model.advanced_history(rest)->now;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if (std::abs(end[i] - now[i]) > still * std::max(1.0, std::abs(now[i]))) return true;
-  return false;
+std::string unrest(fem::Equilibrium& equilibrium, const fem::State& state) {
+  if (flows(equilibrium.model(), state)) return "dashpots flow";
+  if (conducts(equilibrium, state)) return "current flows along an electrode";
+  if (moves(equilibrium, state)) return "the device moves";
+  return "";
+}
+
+void require_rest(fem::Equilibrium& equilibrium, const fem::State& state) {
+  if (const std::string found = unrest(equilibrium, state); !found.empty())
+    throw AnalysisError(fmt::format(
+        "small vibrations go about a state at rest, and here {}; let it come to rest before, by a "
+        "hold, or take a step without a duration, with response = \"relaxed\"",
+        found));
 }
 
 std::vector<std::size_t> driven_ports(const Case& one, const std::vector<std::string>& names) {
@@ -186,6 +231,7 @@ fem::State operating_point(const Device& device, fem::State state) {
 
 Analysis analyse(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
                  const fem::State& state, const Step& step) {
+  require_rest(equilibrium, state);
   try {
     return step.kind == StepKind::modes ? modes(device, equilibrium, state, step)
                                         : harmonic(one, device, equilibrium, state, step);

@@ -41,10 +41,14 @@ Eigen::VectorXd response_row(const Device& device, const Quantity& quantity);
 /// The state that small vibrations go about: sources behind their circuits, branches relaxed.
 fem::State operating_point(const Device& device, fem::State state);
 
-/// Whether dashpots are away from where they come to rest at this shape, by more than 1e-4 of their internal
-/// variables, which are of order one: then neither the relaxed nor the instantaneous tangent is that of the
-/// state.
-bool flows(const fem::Model& model, const fem::State& state);
+/// What goes on in a state that is not at rest, so that no small vibration goes about it: dashpots that flow,
+/// by more than 1e-4 of their internal variables, which are of order one, until they rest at this shape;
+/// current along a sheet that will change its voltages by more than 1e-4 of the largest; what has a mass,
+/// which would go on by more than 1e-4 of the model's extent. Empty at rest.
+std::string unrest(fem::Equilibrium& equilibrium, const fem::State& state);
+
+/// Throws AnalysisError where the state is not at rest.
+void require_rest(fem::Equilibrium& equilibrium, const fem::State& state);
 
 /// Numbers of the electrodes whose sources swing together: the named ones, without names all whose [drive]
 /// has a voltage, without any such all.

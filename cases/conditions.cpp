@@ -15,6 +15,8 @@ bool has_mass(const Case& one) {
          std::ranges::any_of(one.point_masses, heavy);
 }
 
+bool is_linearised(const Case& one) { return one.linearise.written || has_step(one, {StepKind::harmonic}); }
+
 namespace {
 
 bool is_timed(const Case& one) {
@@ -24,8 +26,6 @@ bool is_timed(const Case& one) {
 bool has_inertia(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) { return step.inertia; });
 }
-
-bool is_linearised(const Case& one) { return one.linearise.written || has_step(one, {StepKind::harmonic}); }
 
 bool has_instantaneous_step(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) {

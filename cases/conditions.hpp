@@ -31,5 +31,6 @@ bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
 
 /// Whether the film, the plate or a point mass has a mass.
 bool has_mass(const Case& one);
+bool is_linearised(const Case& one); ///< by a harmonic response or a linear model
 
 } // namespace dielast::cases

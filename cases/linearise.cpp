@@ -41,6 +41,7 @@ Complex polynomial(const std::vector<double>& coefficients, Complex s) {
 
 Linearised linearise(const Case& one, Simulation& simulation) {
   const Device& device = simulation.device();
+  require_rest(simulation.equilibrium(), simulation.state());
   const Quantity& output = *response_quantity(one, one.linearise.output);
   const fem::State state = operating_point(device, simulation.state());
   const std::vector<std::size_t> driven = driven_ports(one, one.linearise.driven);

@@ -107,7 +107,7 @@ double Measurement::displacement(const Quantity& quantity, const fem::State& sta
 }
 
 /// The inverse of the mean displacement of a place under a unit force that is spread evenly over it. NaN
-/// where dashpots flow.
+/// where the state is not at rest.
 double Measurement::stiffness(const Quantity& quantity, const Measured& measured) const {
   const fem::DofMap& dofs = device_.model.dofs;
   const auto& nodes = device_.mesh.node_sets.at(quantity.of);
@@ -115,16 +115,16 @@ double Measurement::stiffness(const Quantity& quantity, const Measured& measured
   for (const int node : nodes)
     if (const int e = dofs.equation(node, *quantity.along); e >= 0 && e < dofs.free_count())
       unit[e] += 1 / static_cast<double>(nodes.size());
-  if (unit.isZero() || !measured.at_rest || flows(device_.model, measured.state) ||
+  if (unit.isZero() || !measured.may_rest || !unrest(measured.equilibrium, measured.state).empty() ||
       !measured.equilibrium.factor(relaxed(measured.state)))
     return unknown;
   measured.equilibrium.tangent().solve(unit, flexibility);
   return 1 / unit.dot(flexibility);
 }
 
-/// NaN where nothing has a mass, the state is unstable, or dashpots flow.
+/// NaN where nothing has a mass, or the state is unstable or not at rest.
 double Measurement::natural_frequency(const Quantity& quantity, const Measured& measured) const {
-  if (!measured.at_rest || flows(device_.model, measured.state)) return unknown;
+  if (!measured.may_rest || !unrest(measured.equilibrium, measured.state).empty()) return unknown;
   const auto modes = fem::vibration_modes(measured.equilibrium, measured.state, {.count = quantity.mode});
   if (!modes || std::ssize(*modes) < quantity.mode) return unknown;
   const fem::VibrationMode& mode = (*modes)[static_cast<std::size_t>(quantity.mode) - 1];

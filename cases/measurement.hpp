@@ -16,7 +16,7 @@ struct Measured {
            const fem::EnergyBalance& energy, bool with_fields = true);
 
   fem::Equilibrium& equilibrium;
-  bool at_rest = true; ///< the device does not move: it can be asked for its stiffness and vibrations
+  bool may_rest = true; ///< asked for stiffness and vibrations, where it is at rest; not on the way in time
 
   const fem::State& state;
   fem::Samples samples;

@@ -183,6 +183,18 @@ void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   need(StepKind::inflate, "volume", one.chamber && one.chamber->volume);
 }
 
+/// Linear models have no unknowns for the voltages along a sheet.
+void check_sheets(SectionReader& reader, const Node& tree, const Case& one) {
+  if (!is_linearised(one)) return;
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+    if (one.electrodes[e].sheet_resistance)
+      reader.report(
+          tree.find("electrode")->items.at(e).find("sheet_resistance")->source,
+          fmt::format("electrode[{}].sheet_resistance", e + 1),
+          "steps of kind \"harmonic\" and [linearise] know of no resistance along an electrode; leave "
+          "it out, or follow a sine in a step of kind \"transient\"");
+}
+
 /// What is measured must be there.
 void check_quantities(SectionReader& reader, const Node& tree, const Case& one) {
   const Node* list = tree.find("quantity");
@@ -297,6 +309,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_rows(reader, tree, one);
   check_masses(reader, tree, one);
   check_chamber(reader, tree, one);
+  check_sheets(reader, tree, one);
   check_quantities(reader, tree, one);
   check_names(reader, tree, one);
   check_axes(reader, tree, one);

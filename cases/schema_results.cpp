@@ -39,10 +39,10 @@ Section quantity_section() {
            {"pressure", "in the chamber (Pa)"},
            {"volume", "of the chamber itself (m^3)"},
            {"pumped volume", "that was pumped into the chamber, as it is without pressure (m^3)"},
-           {"stiffness", "force on a place per displacement along an axis, branches relaxed; none while they "
-                         "flow (N/m)"},
-           {"natural frequency", "of small vibrations about the state, branches relaxed; none while they "
-                                 "flow (rad/s)"},
+           {"stiffness", "force on a place per displacement along an axis, branches relaxed; none where the "
+                         "state is not at rest (N/m)"},
+           {"natural frequency", "of small vibrations about the state, branches relaxed; none where it is "
+                                 "not at rest (rad/s)"},
            {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
            {"energy", "part of the energy balance (J)"},
            {"extreme", "smallest or largest value of a field"},

@@ -123,7 +123,7 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
   const bool is_drawn = records_ == 0;
   const bool ends = !is_drawn && increment.load_factor >= 1;
   Measured measured(device_, equilibrium_, state, energy_);
-  measured.at_rest = ends || !step.duration;
+  measured.may_rest = ends || !step.duration;
   if (ends) measurement_.step_ended(step.name, measured);
   const std::vector<double> values = measurement_.all(measured);
   for (std::size_t q = 0; q < values.size(); ++q) {

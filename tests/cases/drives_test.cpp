@@ -2,6 +2,7 @@
 #include "cases/simulation.hpp"
 #include "tests/cases/scratch.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -237,6 +238,61 @@ kind = "weight"
     EXPECT_TRUE(std::isnan(last("stiffness")));
     EXPECT_TRUE(std::isnan(last("natural_frequency")));
   }
+}
+
+// A swinging plate is out of balance or has a velocity, at any moment: no small vibration goes about it.
+TEST_F(Drives, WhatMovesHasNeitherStiffnessNorModes) {
+  const std::string swings = R"(
+model = "axisymmetric"
+annulus = { inner_radius = "12.7 mm", outer_radius = "68.58 mm" }
+mesh = { rings = 8 }
+plate = { mass = "100 g", damping = "2 N.s/m" }
+drive.voltage = { wave = "ramp", to = "3 kV", duration = 0.02 }
+solver.time_tolerance = 1e-4
+film = { thickness = "1 mm", prestretch = 2, material = { shear_modulus = "40 kPa", permittivity = "4e-11 F/m" } }
+step = [{ kind = "weight" }, { kind = "transient", duration = 1, increments = 20 }, { kind = "modes" }]
+)";
+  for (const char* duration : {"0.05", "0.1", "0.23"})
+    for (const char* analysis : {"modes'", "harmonic', points = 2"}) {
+      const Outcome outcome = run(
+          swings, {fmt::format("step=[{{kind='weight'}}, {{kind='transient', duration={}, increments=20}}, "
+                               "{{kind='{}}}]",
+                               duration, analysis)});
+      EXPECT_EQ(outcome.ending, Ending::gave_up) << duration;
+      EXPECT_NE(outcome.message.find("the device moves"), std::string::npos) << outcome.message;
+      EXPECT_TRUE(std::isnan(last("stiffness")));
+      EXPECT_TRUE(std::isnan(last("natural_frequency")));
+    }
+  EXPECT_EQ(run(swings).ending, Ending::complete);
+  EXPECT_GT(last("stiffness"), 0);
+  EXPECT_GT(last("natural_frequency"), 0);
+}
+
+// 2 ms after the voltage the middle of the electrode has hardly any, after 10 s all of it.
+TEST_F(Drives, WhileCurrentFlowsAlongAnElectrodeThereAreNoModes) {
+  const std::string resists = R"(
+disc = { radius = "30 mm", electrode_radius = "15 mm" }
+mesh = { rings = 4 }
+drive.voltage = { wave = "step", to = "2 kV", at = 0 }
+[film]
+thickness = "1 mm"
+prestretch = 2
+material = { shear_modulus = "40 kPa", permittivity = "4e-11 F/m", density = "1000 kg/m^3" }
+[[electrode]]
+name = "film"
+place = "electrode"
+sheet_resistance = "1 GOhm"
+terminal = "electrode_edge"
+[[step]]
+kind = "transient"
+inertia = false
+increments = 10
+duration = )";
+  const std::string modes = "\n[[step]]\nkind = \"modes\"\n";
+  const Outcome outcome = run(resists + "2e-3" + modes);
+  EXPECT_EQ(outcome.ending, Ending::gave_up);
+  EXPECT_NE(outcome.message.find("current flows along an electrode"), std::string::npos) << outcome.message;
+  EXPECT_EQ(run(resists + "10" + modes).ending, Ending::complete);
 }
 
 // 1 + c (l1 + l2 - 2) reaches 0 at the stretch 2: no state beyond is accepted, whatever leads there.
