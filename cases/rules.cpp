@@ -204,7 +204,9 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
     const Quantity& quantity = one.quantities[q];
     const Source& source = list->items[q].source;
     const std::string key = fmt::format("quantity[{}]", q - standard + 1);
-    const bool of_chamber = quantity.kind == QuantityKind::pressure || quantity.kind == QuantityKind::volume;
+    const bool of_chamber = quantity.kind == QuantityKind::pressure ||
+                            quantity.kind == QuantityKind::volume ||
+                            quantity.kind == QuantityKind::pumped_volume;
     if (of_chamber && !one.chamber) reader.report(source, key, "there is no chamber; add [chamber]");
     if (quantity.kind == QuantityKind::current && !one.circuits.contains(quantity.of))
       reader.warn(source, key,
