@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace dielast::cases {
 
@@ -170,11 +171,13 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   }
   case QuantityKind::force: {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const int n : device_.mesh.node_sets.at(quantity.of))
-      for (int c = 0; c < 3; ++c) {
-        const int e = device_.model.dofs.equation(n, c);
+    for (int c = 0; c < 3; ++c) {
+      std::set<int> equations; // nodes that move as one share theirs
+      for (const int n : device_.mesh.node_sets.at(quantity.of))
+        equations.insert(device_.model.dofs.equation(n, c));
+      for (const int e : equations)
         if (e >= device_.model.dofs.free_count()) sum[c] += measured.internal_force[e] - state.dead_force[e];
-      }
+    }
     return component(sum, quantity.along);
   }
   case QuantityKind::stretch: {

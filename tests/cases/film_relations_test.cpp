@@ -1,6 +1,8 @@
 #include "tests/cases/film_cases.hpp"
 
 #include "cases/fit_model.hpp"
+#include "meshing/rings.hpp"
+#include "tests/cases/own_mesh.hpp"
 
 #include <cmath>
 
@@ -14,59 +16,128 @@ const std::string plain = "[output]\nfields = false\nerror_estimate = false\n";
 
 class FilmRelations : public FilmCases {
  protected:
+  /// Films over a chamber.
+  enum Kind { disc, disc_in_space, balloon, diaphragm, own_mesh, kinds };
   struct Inflated {
-    std::string film, geometry;
-    double bulk_modulus, stretch; ///< kPa; the prestretch
-    bool balloon;
+    std::string model, film, geometry, top; ///< lines of the case; the place whose height is told
+    double bulk_modulus;                    ///< kPa
+    int rings;
   };
-  Inflated draw() {
-    const double stretch = below(3) == 0 ? 1.0 : uniform(1.02, 1.8);
-    const bool balloon = below(3) == 0;
-    return {fmt::format("[film]\nthickness = \"{} mm\"\nprestretch = {}\n[film.material]\n{}"
-                        "permittivity = \"4e-11 F/m\"\n",
-                        uniform(0.3, 1.5), balloon ? 1.0 : stretch,
-                        laws(uniform(20, 80))[static_cast<std::size_t>(below(5))]),
-            balloon
-                ? fmt::format("[balloon]\nradius = \"20 mm\"\n")
-                : fmt::format("[disc]\nradius = \"20 mm\"\nelectrode_radius = \"{} mm\"\n", uniform(5, 15)),
-            std::pow(10, uniform(1.7, 6.3)), stretch, balloon};
+  Inflated draw(Kind kind) {
+    const bool flat = kind != balloon && kind != diaphragm && below(3) == 0;
+    const double stretch = kind == balloon || flat ? 1.0 : uniform(1.02, 1.8);
+    Inflated device{"",
+                    fmt::format("[film]\nthickness = \"{} mm\"\nprestretch = {}\n[film.material]\n{}"
+                                "permittivity = \"4e-11 F/m\"\n",
+                                uniform(0.3, 1.5), stretch,
+                                laws(uniform(20, 80))[static_cast<std::size_t>(below(5))]),
+                    "",
+                    "centre",
+                    std::pow(10, uniform(1.7, 6.3)),
+                    12};
+    const double inner = uniform(5, 15); // mm
+    switch (kind) {
+    case balloon:
+      device.geometry = "[balloon]\nradius = \"20 mm\"\n";
+      device.top = "north";
+      break;
+    case diaphragm:
+      device.geometry = fmt::format("[annulus]\ninner_radius = \"{} mm\"\nouter_radius = \"20 mm\"\n[plate]\n"
+                                    "mass = \"10 g\"\n",
+                                    inner);
+      device.top = "inner";
+      break;
+    case own_mesh:
+      write("disc.msh",
+            test::gmsh_text(meshing::disc_mesh(0.02, 1e-3 * inner, 6, 1, false), "electrode", "rim"));
+      device.model = "model = \"3d\"\n";
+      device.geometry =
+          "[[electrode]]\nname = \"film\"\nplace = \"electrode\"\n[[support]]\nplace = \"rim\"\nfix "
+          "= [\"x\", \"y\", \"z\"]\n";
+      device.top = "electrode";
+      break;
+    default:
+      device.geometry = fmt::format("[disc]\nradius = \"20 mm\"\nelectrode_radius = \"{} mm\"\n", inner);
+    }
+    if (kind == disc_in_space) device.model = "model = \"3d\"\n", device.rings = 6;
+    return device;
   }
-  static std::string chamber(const Inflated& device, const std::string& goal, const char* step, int rings) {
-    return device.film + device.geometry +
-           fmt::format("[chamber]\nbulk_modulus = \"{} kPa\"\n{}[mesh]\nrings = {}\n", device.bulk_modulus,
-                       goal, rings) +
+  static std::string chamber(const Inflated& device, const std::string& goal, const char* step) {
+    const std::string mesh = device.top == "electrode" ? "file = \"disc.msh\"\nunit = \"1 mm\"\n"
+                                                       : fmt::format("rings = {}\n", device.rings);
+    return device.model + device.film + device.geometry +
+           fmt::format("[chamber]\nbulk_modulus = \"{} kPa\"\n{}[mesh]\n{}", device.bulk_modulus, goal,
+                       mesh) +
            fmt::format("[[step]]\nkind = \"{}\"\n", step) + plain +
            fmt::format(
                "[[quantity]]\nname = \"height\"\nkind = \"displacement\"\nof = \"{}\"\nalong = \"z\"\n",
-               device.balloon ? "north" : "centre") +
-           "[[quantity]]\nname = \"pumped\"\nkind = \"pumped volume\"\n";
+               device.top) +
+           "[[quantity]]\nname = \"held\"\nkind = \"volume\"\n[[quantity]]\nname = \"pumped\"\nkind = "
+           "\"pumped volume\"\n[[quantity]]\nname = \"reached\"\nkind = \"pressure\"\n";
   }
 };
 
 TEST_F(FilmRelations, volume_control_leads_to_the_state_of_pressure_control) {
   for (int n = 0; n < draws; ++n) {
-    const Inflated device = draw();
+    const Inflated device = draw(static_cast<Kind>(n % kinds));
     const double pressure = uniform(50, 250); // Pa, below the greatest of the thinnest and softest
-    const Ran pressed = run(chamber(device, fmt::format("pressure = \"{} Pa\"\n", pressure), "pressure", 12));
-    const double own = pressed.last("volume"), pumped = pressed.last("pumped");
+    const Ran pressed = run(chamber(device, fmt::format("pressure = \"{} Pa\"\n", pressure), "pressure"));
+    const double own = pressed.last("held"), pumped = pressed.last("pumped");
+    EXPECT_GT(pressed.last("height"), 1e-5);
     EXPECT_NEAR(pumped, own * (1 + pressure / (1e3 * device.bulk_modulus)), 1e-12 * pumped);
-    const Ran filled = run(chamber(device, fmt::format("volume = \"{:.17g} m^3\"\n", pumped), "inflate", 12));
-    EXPECT_NEAR(filled.last("pressure"), pressure, 1e-5 * pressure) << n << device.film << device.geometry;
-    EXPECT_NEAR(filled.last("volume"), own, 1e-7 * own);
+    const Ran filled = run(chamber(device, fmt::format("volume = \"{:.17g} m^3\"\n", pumped), "inflate"));
+    EXPECT_NEAR(filled.last("reached"), pressure, 1e-5 * pressure) << n << device.film << device.geometry;
+    EXPECT_NEAR(filled.last("held"), own, 1e-7 * own);
     EXPECT_NEAR(filled.last("height"), pressed.last("height"), 1e-7);
   }
 }
 
 TEST_F(FilmRelations, a_chamber_in_space_is_that_of_the_meridian) {
   for (int n = 0; n < draws; ++n) {
-    Inflated device = draw();
-    while (device.balloon) device = draw();
+    const Inflated device = draw(disc);
+    Inflated turned = device;
+    turned.model = "model = \"3d\"\n";
+    turned.rings = 6;
     const std::string volume = fmt::format("volume = \"{} ml\"\n", uniform(0.5, 6));
-    const Ran meridian = run(chamber(device, volume, "inflate", 12));
-    const Ran space = run("model = \"3d\"\n" + chamber(device, volume, "inflate", 6));
-    for (const char* name : {"height", "pressure", "volume"})
+    const Ran meridian = run(chamber(device, volume, "inflate"));
+    const Ran space = run(chamber(turned, volume, "inflate"));
+    for (const char* name : {"height", "reached", "held"})
       EXPECT_NEAR(space.last(name), meridian.last(name), 1e-2 * std::abs(meridian.last(name)))
           << n << " " << name << device.film << device.geometry;
+  }
+}
+
+/// The plate of a driven diaphragm, pulled by a force or moved as far: the support then takes that force.
+TEST_F(FilmRelations, a_moved_plate_takes_the_force_that_moves_it_as_far) {
+  for (int n = 0; n < draws; ++n) {
+    const std::string device =
+        (n % 5 > 0 ? "" : "model = \"3d\"\n") +
+        fmt::format(
+            "[film]\nthickness = \"{} mm\"\nprestretch = {}\n[film.material]\n{}permittivity = \"4e-11 "
+            "F/m\"\n",
+            uniform(0.3, 1.5), uniform(1.3, 2.5), laws(uniform(20, 80))[static_cast<std::size_t>(below(5))]) +
+        fmt::format("[annulus]\ninner_radius = \"{} mm\"\nouter_radius = \"30 mm\"\n[mesh]\nrings = 4\n",
+                    uniform(6, 15)) +
+        fmt::format("[plate]\nmass = \"1 g\"\n[drive]\nvoltage = \"{} V\"\n", uniform(100, 800)) + plain +
+        "[[quantity]]\nname = \"height\"\nkind = \"displacement\"\nof = \"inner\"\nalong = "
+        "\"z\"\n[[step]]\nkind = \"voltage\"\nincrements = 2\n";
+    const double force = uniform(0.02, 0.5); // N
+    const Ran pulled =
+        run(device +
+            fmt::format("[[step]]\nkind = \"force\"\nincrements = 4\n[[load]]\nplace = \"inner\"\nforce = "
+                        "[0, 0, {}]\n",
+                        force));
+    EXPECT_GT(pulled.last("height"), 1e-4);
+    const std::string supported = "[[quantity]]\nname = \"taken\"\nkind = \"force\"\nof = \"inner\"\nalong = "
+                                  "\"z\"\n[[support]]\nplace = \"outer\"\nfix = [\"x\", \"y\", \"z\"]\n";
+    const Ran moved =
+        run(device + supported +
+            fmt::format("[[step]]\nkind = \"move\"\nincrements = 4\n[[support]]\nplace = \"inner\"\n"
+                        "[support.displacement]\nz = {:.17g}\n",
+                        pulled.last("height")));
+    EXPECT_NEAR(moved.last("taken"), force, 1e-6 * force) << device;
+    for (const char* name : {"capacitance", "stretch_inner"})
+      EXPECT_NEAR(moved.last(name), pulled.last(name), 1e-7 * pulled.last(name)) << device;
   }
 }
 
