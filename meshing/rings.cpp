@@ -18,16 +18,17 @@ namespace dielast::meshing {
 
 namespace {
 
-/// Circles first .. first + radii.size() - 1 of the hexagonal pattern.
+/// Circles first .. first + radii.size() - 1 of the hexagonal pattern; sides along those named `curved` lie
+/// on them.
 class Rings {
  public:
-  Rings(int first, std::vector<double> radii, int order, bool curved)
+  Rings(int first, std::vector<double> radii, int order, const std::vector<int>& curved)
       : first_(first), radii_(std::move(radii)), order_(order) {
     mesh_.blocks = {{CellType::triangle3, {}}};
     for (int i = first; i <= last(); ++i) add_circle(i);
     for (int i = first + 1; i <= last(); ++i) add_triangles(i);
     if (order == 2) add_middle_nodes(mesh_);
-    if (order == 2 && curved) bend_sides();
+    bend_sides(curved);
     if (const QualityReport report = quality(mesh_); report.inverted > 0)
       throw MeshError(
           fmt::format("{} triangles of {} rings are inverted: a ring is too thin for its number of sides, "
@@ -100,8 +101,9 @@ class Rings {
     }
   }
 
-  void bend_sides() {
+  void bend_sides(const std::vector<int>& circles) {
     for_each_side([&](int circle, int middle) {
+      if (std::ranges::find(circles, circle) == circles.end()) return;
       mesh_.nodes[middle] *= radii_[circle - first_] / mesh_.nodes[middle].norm();
     });
   }
@@ -133,7 +135,9 @@ Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, boo
   for (int i = inside; i <= rings; ++i)
     radii.push_back(std::lerp(electrode_radius, radius, static_cast<double>(i - inside) / (rings - inside)));
 
-  Rings pattern(0, std::move(radii), order, curved);
+  // Triangles of curved sides hold no parabola, and those next to the middle stay as curved as they are in
+  // finer meshes: the height there would converge with order 2. So only edges are curved.
+  Rings pattern(0, std::move(radii), order, curved ? std::vector{inside, rings} : std::vector<int>{});
   pattern.name_triangles("film", 0, rings);
   pattern.name_triangles("electrode", 0, inside);
   pattern.name_triangles("passive", inside, rings);
@@ -153,7 +157,9 @@ Mesh annulus_mesh(double inner_radius, double outer_radius, int rings, int order
                     "rings",
                     inner_radius, outer_radius, rings));
   const int first = std::max(1, static_cast<int>(std::lround(pattern_start)));
-  Rings pattern(first, graded_steps(inner_radius, outer_radius, rings, grading), order, curved);
+  std::vector<int> circles(curved ? static_cast<std::size_t>(rings) + 1 : 0);
+  std::iota(circles.begin(), circles.end(), first);
+  Rings pattern(first, graded_steps(inner_radius, outer_radius, rings, grading), order, circles);
   pattern.name_triangles("film", first, first + rings);
   pattern.name_circle("inner", first);
   pattern.name_circle("outer", first + rings);

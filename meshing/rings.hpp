@@ -6,7 +6,8 @@ namespace dielast::meshing {
 
 /// Disc of hexagonal rings about the origin: ring i has 6 i nodes, ring 0 is the centre. The radii are
 /// piecewise uniform, such that one ring lies on `electrode_radius` (m, inside `radius`); `rings` >= 2,
-/// `order` 1 or 2. `curved` puts the middle nodes of all sides along a ring onto its circle (order 2).
+/// `order` 1 or 2. `curved` puts the middle nodes of sides along the electrode's edge and the rim onto
+/// their circles (order 2).
 ///
 /// Places: triangles `film`, `electrode` (inside electrode_radius), `passive`; nodes `electrode_edge`, `rim`,
 /// `centre`. Throws std::invalid_argument when a parameter is out of range, MeshError when a ring is too thin
@@ -14,7 +15,7 @@ namespace dielast::meshing {
 Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, bool curved);
 
 /// Annulus of `rings` >= 1 rings of triangles between the two radii (m); `grading` >= 1: thickness of the
-/// outermost over the innermost, growing geometrically. The first circle
+/// outermost over the innermost, growing geometrically; `curved` as above, on all circles. The first circle
 /// has 6 i0 nodes, i0 = rings inner / (outer - inner) to the nearest integer >= 1, so that triangles are
 /// nearly equilateral.
 ///

@@ -95,5 +95,16 @@ TEST_F(FilmCases, a_soft_filling_gives_way_by_its_own_volume) {
   EXPECT_NEAR(space.last("pressure"), p, 2e-3 * p);
 }
 
+// Curved triangles about the middle made its height converge with order 2 only.
+TEST_F(FilmCases, the_height_of_a_disc_in_space_is_that_of_its_meridian) {
+  const std::string pressed = "pressure = \"200 Pa\"\n", steps = "[[step]]\nkind = \"pressure\"\n";
+  const double height = run(disc(pressed, steps, "[mesh]\nrings = 64\n")).last("height");
+  for (const auto& [rings, error] : {std::pair{4, 3e-4}, {8, 3e-5}})
+    EXPECT_NEAR(run("model = \"3d\"\n" + disc(pressed, steps, fmt::format("[mesh]\nrings = {}\n", rings)))
+                    .last("height"),
+                height, error * height)
+        << rings;
+}
+
 } // namespace
 } // namespace dielast::cases
