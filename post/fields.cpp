@@ -38,6 +38,13 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
 
 namespace {
 
+/// Film that may wrinkle and has no load across it lies between taut and wrinkled: rounding of its forces
+/// widens it by less than 1e-8, and that is no loss of tension.
+double tension_state(const fem::MembraneSample& sample) {
+  const double wider = sample.widening - 1; // 0 where film carries its compression
+  return wider != 0 && std::abs(wider) < 1e-8 ? 0 : static_cast<double>(sample.tension);
+}
+
 /// 0 where no limit is known, so that it can be drawn.
 double utilisation(double value, double limit) { return limit > 0 ? value / limit : 0; }
 
@@ -102,7 +109,7 @@ const std::vector<FilmField> film_table{
      "1",
      {},
      "number of compressive principal stresses: 0 taut, 1 wrinkled, 2 slack",
-     [](const FilmPoint& p, double* v) { *v = static_cast<double>(p.sample.tension); }},
+     [](const FilmPoint& p, double* v) { *v = tension_state(p.sample); }},
     {"voltage",
      "V",
      {},

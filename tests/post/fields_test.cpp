@@ -54,6 +54,10 @@ TEST(FilmFields, UniaxialAlongY) {
   sample.S << -10, 0, 0, -30;
   sample.tension = materials::Tension::slack;
   expect_near(value("tension_state", sample), {2}, 0);
+  sample.widening = 1 + 1e-12; // a side without load
+  expect_near(value("tension_state", sample), {0}, 0);
+  sample.widening = 1 + 1e-6;
+  expect_near(value("tension_state", sample), {2}, 0);
 }
 
 TEST(FilmFields, SimpleShear) {
