@@ -18,12 +18,13 @@ namespace {
 constexpr double height = 0.1, length = 0.2, thickness = 1e-4;
 constexpr double modulus = 1e6; // E; a small-strain law, nu = 0.3
 
-meshing::Mesh strip(int n) {
+/// n squares of two triangles high, `ratio` times as long.
+meshing::Mesh strip(int n, int ratio = 2) {
   meshing::Mesh mesh;
-  const int columns = 2 * n, rows = n;
+  const int columns = ratio * n, rows = n;
   for (int j = 0; j <= 2 * rows; ++j)
     for (int i = 0; i <= 2 * columns; ++i)
-      mesh.nodes.emplace_back(length * i / (2 * columns), height * j / (2 * rows), 0);
+      mesh.nodes.emplace_back(ratio * height * i / (2 * columns), height * j / (2 * rows), 0);
   const auto node = [&](int i, int j) { return j * (2 * columns + 1) + i; };
   meshing::CellBlock film{meshing::CellType::triangle6, {}};
   for (int j = 0; j < 2 * rows; j += 2)
@@ -179,6 +180,56 @@ TEST(SlackFilm, an_airbag_rises_from_flat_to_its_published_height) {
   ASSERT_EQ(ramp(equilibrium, linear_path(bag.model.dofs, progress.start, full), options, progress, {}).end,
             RampEnd::complete);
   EXPECT_NEAR(progress.points.back().state.displacement[0].z(), 0.217, 0.005);
+}
+
+/// A strip between two clamps 0.1 m apart and 0.4 m long, its short sides free, drawn with next to no tension
+/// and sheared: it wrinkles all over, and slack film without any stiffness is left at the free sides.
+TEST(SlackFilm, a_sheared_sheet_carries_its_tension_at_45_degrees) {
+  constexpr int ratio = 4, rows = 8;
+  const meshing::Mesh mesh = strip(rows, ratio);
+  MembraneSection section;
+  section.material.law = materials::StVenantKirchhoff{modulus, 0.31};
+  section.material.dielectric.permittivity = 1e-12;
+  section.thickness = thickness;
+  section.tension_field = true;
+  section.prestretch = {1, 1.00001};
+  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {}};
+  model.blocks.push_back(make_membrane_block(
+      mesh, mesh.blocks[0], section,
+      std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::planar, 3));
+  model.place_histories();
+  model.blocks[0]->claim_dofs(model.dofs, Dimension::planar);
+  const auto at_top = [&](int node) {
+    return mesh.nodes[static_cast<std::size_t>(node)].y() > height - 1e-9;
+  };
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (at_top(node) || mesh.nodes[static_cast<std::size_t>(node)].y() < 1e-9)
+      for (const int c : {0, 1}) model.dofs.hold(node, c);
+  model.dofs.number();
+  model.extent = ratio * height;
+  model.length_scale = height / rows;
+  Equilibrium equilibrium(model, 1);
+  const RampOptions options{.newton = {.wrinkles = true}, .increments = 4};
+  RampProgress progress = RampProgress::begin(model.initial_state(), model.dofs, options);
+  Loads sheared = progress.start;
+  const double shear = 1e-3;
+  for (int node = 0; node < mesh.node_count(); ++node)
+    if (at_top(node)) sheared.held[model.dofs.equation(node, 0) - model.dofs.free_count()] = shear * height;
+  ASSERT_EQ(ramp(equilibrium, linear_path(model.dofs, progress.start, sheared), options, progress, {}).end,
+            RampEnd::complete);
+  // in the middle: S = E gamma/4 (1 1; 1 1), the tension E gamma/2 along the diagonal
+  Eigen::Vector3d S = Eigen::Vector3d::Zero();
+  double volume = 0;
+  for (const MembraneSample& sample : model.sample(progress.points.back().state).film) {
+    const auto nodes = mesh.blocks[0].cell(sample.cell);
+    const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(nodes[0])];
+    if (std::abs(x.x() - ratio * height / 2) > height / 2 || std::abs(x.y() - height / 2) > 0.2 * height)
+      continue;
+    S += sample.volume * Eigen::Vector3d(sample.S(0, 0), sample.S(1, 1), sample.S(0, 1));
+    volume += sample.volume;
+  }
+  const double expected = modulus * shear / 4;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(S[i] / volume, expected, 0.05 * expected) << i;
 }
 
 } // namespace
