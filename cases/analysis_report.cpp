@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/analysis_report.hpp"
 
 #include "post/bode.hpp"

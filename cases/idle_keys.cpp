@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/idle_keys.hpp"
 
 #include "cases/convert.hpp"

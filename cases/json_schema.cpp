@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/json_schema.hpp"
 
 #include "cases/convert.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/conditions.hpp"
 #include "cases/parameter_keys.hpp"
 #include "materials/catalog.hpp"

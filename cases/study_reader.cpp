@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/study_reader.hpp"
 
 #include "cases/case_tree.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/beam_block.hpp"
 
 #include "fem/beam_kinematics.hpp"

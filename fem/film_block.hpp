@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include "fem/element_block.hpp"
@@ -44,9 +45,8 @@ class MembraneBlock final : public ElementBlock {
   void advance_history(const State& state, std::vector<double>& all) const override;
 
  private:
-  static constexpr int Nodes = Kinematics::nodes, Dim = Kinematics::dim, dofs = Nodes * Dim;
-  static constexpr int Corners = Kinematics::corners;
-  static constexpr int packed_size = dofs * (dofs + 1) / 2;
+  static constexpr int Nodes = Kinematics::nodes, Dim = Kinematics::dim, Corners = Kinematics::corners;
+  static constexpr int dofs = Nodes * Dim, packed_size = dofs * (dofs + 1) / 2;
   using Point = typename Kinematics::Point;
   using Deformation = typename Kinematics::Deformation;
   using Potential = materials::MembranePotential<Lanes>;

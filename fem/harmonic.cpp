@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/harmonic.hpp"
 
 #include "fem/dense_algebra.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/point_mass_block.hpp"
 
 namespace dielast::fem {

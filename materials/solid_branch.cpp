@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "materials/solid_branch.hpp"
 
 #include "materials/principal_energy.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/refine.hpp"
 
 #include "meshing/middle_nodes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/report_tables.hpp"
 
 #include <fmt/format.h>

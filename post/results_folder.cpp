@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/results_folder.hpp"
 
 #include "post/file_output.hpp"

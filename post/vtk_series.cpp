@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/vtk_series.hpp"
 
 #include "post/fields.hpp"

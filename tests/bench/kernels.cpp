@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Assembly alone: time per element of residual and tangent, planar and in space, with one and two threads.
 
 #include "tests/bench/models.hpp"

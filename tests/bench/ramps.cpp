@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whole ramps of the benchmark tasks. Counters, in ms of CPU per Newton iteration: residual, tangent, factor,
 // solve, all; overhead = all / (factor + solve) of the same matrices in the same run; whole_s = CPU from the
 // mesh to the last step.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/input_file.hpp"
 #include "cases/reader.hpp"
 #include "cases/resolved.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loaded before the C library (LD_PRELOAD) into the program under test. Every call that changes a file is
 // counted, in all processes of a study together. Number DIELAST_KILL_AT is not made: the program is killed
 // there. Once DIELAST_DISK bytes were written the disk is full. With either, three seconds pass between any

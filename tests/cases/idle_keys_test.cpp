@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/reader.hpp"
 #include "cases/resolved.hpp"
 #include "tests/cases/scratch.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/convert.hpp"
 #include "cases/describe.hpp"
 #include "cases/json_schema.hpp"

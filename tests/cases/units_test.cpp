@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/units.hpp"
 
 #include <gtest/gtest.h>

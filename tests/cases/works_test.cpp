@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/device.hpp"
 #include "cases/reader.hpp"
 #include "cases/simulation.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "materials/dual.hpp"
 #include "tests/fem/beam_oracle.hpp"
 #include "tests/fem/derivative_contract.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/circuit.hpp"
 
 #include "tests/fem/sample_meshes.hpp"

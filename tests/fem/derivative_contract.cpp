@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/fem/derivative_contract.hpp"
 
 #include "tests/fem/sample_models.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/orientation.hpp"
 
 #include "tests/fem/sample_models.hpp"

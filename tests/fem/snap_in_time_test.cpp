@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/point_mass_block.hpp"
 #include "meshing/middle_nodes.hpp"
 #include "tests/fem/material_point_block.hpp"

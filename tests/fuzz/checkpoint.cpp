@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Edits of a checkpoint whose checksum has been made right again: refused with a message, or restored.
 #include "cases/reader.hpp"
 #include "cases/recorder.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A fuzzer for every compiler: feeds a target with mutations of a corpus, from a fixed seed, for a stated
 // time.
 //   fuzz_reader [--seconds 5] [--seed 1] [--runs N] FILE|FOLDER...

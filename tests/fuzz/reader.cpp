@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Any text as a case, a study or a fit: it is refused with a message, or read and written back.
 #include "cases/reader.hpp"
 #include "cases/fit_reader.hpp"

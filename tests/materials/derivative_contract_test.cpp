@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/materials/law_examples.hpp"
 #include "tests/materials/oracles.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "materials/axisymmetric.hpp"
 #include "materials/material_point.hpp"
 #include "materials/solid.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/gmsh_reader.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/quality.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/mesh_error.hpp"
 #include "meshing/planar.hpp"
 

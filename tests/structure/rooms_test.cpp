@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of rooms in docs/architecture.md against every #include and every library that CMake links.
 #include "tests/structure/sources.hpp"
 

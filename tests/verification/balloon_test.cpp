@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/equilibrium.hpp"
 #include "meshing/meridian.hpp"
 #include "tests/fem/chamber_models.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/fem/diaphragm.hpp"
 #include "tests/verification/meridian_stress.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/verification/error_estimate_cases.hpp"
 
 #include <fmt/format.h>

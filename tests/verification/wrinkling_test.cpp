@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/chamber_block.hpp"
 #include "fem/membrane_block.hpp"
 #include "fem/ramp.hpp"
