@@ -45,6 +45,13 @@ void Loads::apply(State& state, const DofMap& dofs) const {
         state.displacement[static_cast<std::size_t>(n)][c] = held[e - dofs.free_count()];
 }
 
+bool differ(const Loads& one, const Loads& other, std::span<const Loads> recent) {
+  constexpr double rounding = 1e-10;
+  Eigen::VectorXd largest = one.values().cwiseAbs().cwiseMax(other.values().cwiseAbs());
+  for (const Loads& loads : recent) largest = largest.cwiseMax(loads.values().cwiseAbs());
+  return ((other.values() - one.values()).array().abs() > rounding * largest.array()).any();
+}
+
 namespace {
 
 constexpr double left_side = 1e-13; ///< before a break, in load factors

@@ -5,6 +5,7 @@
 #include "fem/state.hpp"
 
 #include <functional>
+#include <span>
 
 namespace dielast::fem {
 
@@ -23,6 +24,10 @@ struct Loads {
   Eigen::VectorXd values() const;
   void apply(State& state, const DofMap& dofs) const;
 };
+
+/// Whether two sets of loads differ by more than rounding, over the largest value that each of them has in
+/// `recent`: where a wave only turns, both sides of the break are computed, by other terms.
+bool differ(const Loads& one, const Loads& other, std::span<const Loads> recent);
 
 /// The loads of one step as functions of its load factor s in 0..1.
 struct LoadPath {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/ramp.hpp"
 
+#include "fem/time_error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -20,7 +22,6 @@ constexpr double longest_kinked = 1e-4;    ///< increment, see Steadiness
 constexpr double foreseen = 0.1;           ///< error of the predictor over the change of the state
 constexpr double first_moment = 1e-3;      ///< of an increment in time: its start, with dashpots that flow
 constexpr double tiny = 1e-300;
-constexpr double typical_motion = 1e-2; ///< of the extent, to which errors of the motion are compared
 
 /// Whether internal variables have changed by more than rounding.
 bool differs(const std::vector<double>& one, const std::vector<double>& other) {
@@ -55,11 +56,8 @@ class Ramp {
   bool detour(const LoadPath& path, State start, const RampOptions& options, bool tells);
   bool pass_break();
   bool flow();
-  static double time_error(const History& past, const History& next);
-  double motion_error(const GeneralisedAlpha& scheme, const Motion& past, const Motion& next) const;
   bool accept(State state, double s);
   bool notify(bool lands, double length, bool jumped = false);
-  bool jumps(const Loads& before, const Loads& after) const;
 
   Equilibrium& equilibrium_;
   const LoadPath& path_;
@@ -203,31 +201,6 @@ bool Ramp::detour(const LoadPath& path, State start, const RampOptions& options,
   return false;
 }
 
-/// Whether loads differ by more than rounding, over what they have been at the last states: where a wave only
-/// turns, both sides of the break are computed, by other terms.
-bool Ramp::jumps(const Loads& before, const Loads& after) const {
-  constexpr double rounding = 1e-10;
-  std::vector<Loads> recent{before, after};
-  for (const PathPoint& point : progress_.points)
-    recent.push_back(Loads::of(point.state, equilibrium_.model().dofs));
-  const auto differ = [&](auto&& part) {
-    for (Eigen::Index i = 0; i < part(before).size(); ++i) {
-      double largest = 0;
-      for (const Loads& loads : recent) largest = std::max(largest, std::abs(part(loads)[i]));
-      if (std::abs(part(after)[i] - part(before)[i]) > rounding * largest) return true;
-    }
-    return false;
-  };
-  const auto ports = [](const std::vector<double>& values) {
-    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  };
-  return differ([&](const Loads& loads) { return ports(loads.voltage); }) ||
-         differ([&](const Loads& loads) { return ports(loads.charge); }) ||
-         differ([&](const Loads& loads) { return ports(loads.source); }) ||
-         differ([](const Loads& loads) -> const Eigen::VectorXd& { return loads.dead_force; }) ||
-         differ([](const Loads& loads) -> const Eigen::VectorXd& { return loads.held; });
-}
-
 /// Forgets the past, in which the loads went elsewhere, and lets loads that jump here act at once, in parts.
 /// False where even the smallest part does not converge.
 bool Ramp::pass_break() {
@@ -254,8 +227,10 @@ bool Ramp::pass_break() {
   const Loads after = Loads::of(goal, dofs);
   state.scheme = materials::TimeScheme::frozen();
   const double at = parameter(progress_.load_factor);
-  jumped_ =
-      jumps(before, after) && (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
+  std::vector<Loads> recent;
+  for (const PathPoint& point : progress_.points) recent.push_back(Loads::of(point.state, dofs));
+  jumped_ = differ(before, after, recent) &&
+            (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
   progress_.points = {{at, state}};
   if (!jumped_) return true;
   const LoadPath jump = linear_path(dofs, before, after);
@@ -310,34 +285,6 @@ bool Ramp::flow() {
   if (flows) notify(false, 1);
   progress_.turns = true;
   return flows;
-}
-
-/// Largest local error of the internal variables, relative; 0 where the past is too short to tell.
-double Ramp::time_error(const History& past, const History& next) {
-  if (past.step_before == 0) return 0;
-  const double h = next.step, h1 = past.step, h2 = past.step_before;
-  // Newton's polynomial through now, before, older at h after now
-  const double scheme_error = h * h * (h + h1) * (h + h1) / (6 * (2 * h + h1));
-  const double predictor_error = h * (h + h1) * (h + h1 + h2) / 6;
-  const double share = scheme_error / (scheme_error + predictor_error);
-  double largest = 0;
-  for (std::size_t i = 0; i < next.now.size(); ++i) {
-    const double slope = (past.now[i] - past.before[i]) / h1;
-    const double slope_before = (past.before[i] - past.older[i]) / h2;
-    const double curvature = (slope - slope_before) / (h1 + h2);
-    const double predicted = past.now[i] + h * slope + h * (h + h1) * curvature;
-    largest = std::max(largest, std::abs(next.now[i] - predicted) / std::max(1.0, std::abs(next.now[i])));
-  }
-  return share * largest;
-}
-
-double Ramp::motion_error(const GeneralisedAlpha& scheme, const Motion& past, const Motion& next) const {
-  const Model& model = equilibrium_.model();
-  const auto heavy = model.inertia.mass.diagonal().array() > 0;
-  const bool starts = past.step == 0; // the whole acceleration is new to backward Euler
-  const double factor = starts ? scheme.dt * scheme.dt / 2 : scheme.error_factor();
-  const Eigen::VectorXd change = starts ? next.acceleration : next.acceleration - past.acceleration;
-  return factor * heavy.select(change.array().abs(), 0).maxCoeff() / (typical_motion * model.extent);
 }
 
 bool Ramp::accept(State state, double s) {
@@ -400,9 +347,10 @@ RampResult Ramp::run() {
     if (!timed()) {
       progress_.increment = std::min(largest_, 2 * std::max(progress_.increment, tried));
     } else {
-      double error = trial.history ? time_error(*trial.history, *arrived.history) : 0;
+      double error = trial.history ? history_error(*trial.history, *arrived.history) : 0;
       if (options_.inertia)
-        error = std::max(error, motion_error(trial.motion_scheme, *trial.motion, *arrived.motion));
+        error = std::max(
+            error, motion_error(equilibrium_.model(), trial.motion_scheme, *trial.motion, *arrived.motion));
       const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, tiny));
       progress_.increment = std::min(largest_, tried * std::clamp(growth, 0.2, most_growth));
       if (error > options_.time_tolerance && tried > smallest_) continue;
