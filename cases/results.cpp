@@ -280,7 +280,11 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                         {"voltages", record.voltages},
                         {"place", event.place},
                         {"message", message_of(event, results)}});
-  const auto tells = [&](const post::Event& event) { return event.kind == results.outcome.kind; };
+  // The bifurcation at which a run ends as at a limit point is told by the event that located it.
+  const auto tells = [&](const post::Event& event) {
+    return event.kind == results.outcome.kind ||
+           (is_critical(event.kind) && is_critical(results.outcome.kind));
+  };
   if (!results.outcome.kind.empty() && !journal.records.empty() &&
       std::ranges::none_of(journal.records.back().events, tells)) {
     const auto& last = journal.records.back();

@@ -97,7 +97,7 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
         line += fmt::format("   {} {:.5g}", one.quantities[q].name, frame.values[q]);
     log.info(line);
     for (const post::Event& event : frame.record.events)
-      if (event.kind != "limit point" && event.kind != "bifurcation") // told when they were located
+      if (!is_critical(event.kind)) // told when they were located
         log.warn("    {}{}{}: {}", event.kind, event.place.empty() ? "" : " in ", event.place, event.message);
     recorder.record(frame);
     return !interrupted();

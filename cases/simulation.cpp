@@ -86,6 +86,19 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     energy_.add(std::move(point));
 }
 
+/// Whether the permittivity is positive everywhere; otherwise refusal_ says where it is not.
+bool Simulation::admits(const Step& step, double load_factor, const fem::State& state) {
+  refusal_.reset();
+  const double left = smallest_permittivity(state);
+  if (left > 0) return true;
+  refusal_ = {
+      Ending::gave_up, "loss of permittivity",
+      fmt::format("step \"{}\" stopped: at load factor {:.4g} electrostriction = {:.6g} would make the "
+                  "permittivity of film under an electrode negative, {:.3g} of the undeformed film's",
+                  step.name, load_factor, case_.film.material.dielectric.electrostriction, left)};
+  return false;
+}
+
 /// The smallest permittivity of film under an electrode, over that of the undeformed film.
 double Simulation::smallest_permittivity(const fem::State& state) const {
   const materials::Dielectric& dielectric = case_.film.material.dielectric;
@@ -102,14 +115,7 @@ double Simulation::smallest_permittivity(const fem::State& state) const {
 
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
-  if (const double left = smallest_permittivity(state); !(left > 0)) {
-    refusal_ = {
-        Ending::gave_up, "loss of permittivity",
-        fmt::format("step \"{}\" stopped: at load factor {:.4g} electrostriction = {:.6g} would make the "
-                    "permittivity of film under an electrode negative, {:.3g} of the undeformed film's",
-                    step.name, increment.load_factor, case_.film.material.dielectric.electrostriction, left)};
-    return false;
-  }
+  if (!admits(step, increment.load_factor, state)) return false;
   account(state, increment, reached);
   if (increment.lands) return record(observer, step, state, increment, reached);
   unrecorded_ = increment;
@@ -179,18 +185,21 @@ Outcome Simulation::run(const SimulationObserver& observer) {
     }
     const fem::LoadPath path = loads_->path(step_, ramp.start);
     const StepObserver watcher{
-        observer.on_try, observer.on_iteration, observer.on_cutback,
+        observer.on_try,
+        observer.on_iteration,
+        observer.on_cutback,
         [&](const fem::CriticalPoint& critical, const post::Event& event) {
           news_.push_back(event);
           if (observer.on_critical) observer.on_critical(critical, event);
         },
+        [&](double s, const fem::State& state) { return admits(step, s, state); },
         [&](const fem::State& state, const fem::Increment& increment, Reached reached) {
           return accept(observer, step, state, increment, reached);
         }};
     const Outcome outcome = StepRun(equilibrium_, step, path, options, in_step_, watcher).run();
-    if (refusal_) return *std::exchange(refusal_, std::nullopt);
     if (outcome.ending == Ending::gave_up && unrecorded_)
       record(observer, step, state(), *unrecorded_, Reached::along_path);
+    if (refusal_) return *std::exchange(refusal_, std::nullopt);
     if (outcome.ending != Ending::complete) return outcome;
   }
   return {Ending::complete};

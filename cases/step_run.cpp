@@ -28,6 +28,10 @@ const char* word(fem::Instability kind) {
 
 } // namespace
 
+bool is_critical(const std::string& kind) {
+  return kind == word(fem::Instability::limit_point) || kind == word(fem::Instability::bifurcation);
+}
+
 /// Loads of s, and dashpots that do what they do in this step.
 fem::State StepRun::loaded(fem::State state, double s) const {
   path_.apply(state, s);
@@ -56,11 +60,16 @@ std::string StepRun::load_text(double s) const {
   return text.empty() ? fmt::format("load factor {:.5g}", s) : text;
 }
 
-void StepRun::announce(const fem::CriticalPoint& critical) {
+/// A critical point at which the step ends is called what the step's failure() is.
+void StepRun::announce(const fem::CriticalPoint& critical, bool ends) {
   if (!observer_.on_critical) return;
-  observer_.on_critical(critical,
-                        {word(critical.kind), "",
-                         fmt::format("{} at {}", word(critical.kind), load_text(critical.load_factor))});
+  const bool branches_off = critical.kind == fem::Instability::bifurcation;
+  const std::string load = load_text(critical.load_factor);
+  observer_.on_critical(
+      critical,
+      ends ? post::Event{word(fem::Instability::limit_point), "",
+                         fmt::format("limit point near {}{}", load, branches_off ? " (a bifurcation)" : "")}
+           : post::Event{word(critical.kind), "", fmt::format("{} at {}", word(critical.kind), load)});
 }
 
 /// The last equilibrium before stability is lost is a result of its own.
@@ -102,8 +111,11 @@ std::optional<fem::CriticalPoint> StepRun::limit_in_time() const {
 /// A state under load control. Where stability was lost on the way, the critical point is located; a step
 /// that leaves its path there does not accept the unstable state, nor one that stops at instabilities any.
 bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increment) {
-  const int unstable = increment.newton.unstable_modes;
-  const bool lost = increment.unstable_before >= 0 && unstable > increment.unstable_before;
+  int unstable = increment.newton.unstable_modes;
+  const auto loses = [&] { return increment.unstable_before >= 0 && unstable > increment.unstable_before; };
+  if (loses() && !timed() && equilibrium_.factor(loaded(now.points.back().state, increment.load_factor)))
+    unstable = equilibrium_.tangent().unstable_modes(); // Newton's method may know that of a step before
+  const bool lost = loses();
   const bool switches = step_.on_bifurcation == OnBifurcation::switch_branch;
   const bool leaves =
       stops() ? unstable > 0 : lost && (switches || step_.on_instability == OnInstability::jump);
@@ -119,12 +131,12 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
     return false;
   }
   progress_.ramp = beyond_it;
-  if (trouble.critical) announce(*trouble.critical);
+  if (trouble.critical) announce(*trouble.critical, false);
   return accept(now.points.back().state, increment, Reached::along_path);
 }
 
 Outcome StepRun::run() {
-  fem::RampObserver watcher{observer_.on_try, observer_.on_iteration, observer_.on_cutback,
+  fem::RampObserver watcher{observer_.on_try, observer_.on_iteration, observer_.on_cutback, observer_.admits,
                             [this](const fem::RampProgress& now, const fem::Increment& increment) {
                               return on_ramp(now, increment);
                             }};
@@ -145,13 +157,14 @@ Outcome StepRun::run() {
     if (trouble.ramp.end == fem::RampEnd::stopped) {
       if (!leaving_) return {Ending::interrupted};
       trouble = *std::exchange(leaving_, std::nullopt);
+    } else if (trouble.ramp.failure.outcome == fem::Outcome::refused) {
+      return {Ending::gave_up}; // whoever refuses says why
     } else if (timed()) {
       if (!options_.inertia) trouble.critical = limit_in_time();
     } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows() &&
                !equilibrium_.is_slack(last())) {
       trouble.critical = locate(trouble.ramp.failed_at);
     }
-    if (trouble.critical) announce(*trouble.critical);
     if (const auto outcome = leave(trouble)) return *outcome;
   }
   return {};
@@ -160,16 +173,20 @@ Outcome StepRun::run() {
 /// Load control has ended; nothing where the step goes on.
 std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   const bool branches_off = trouble.critical && trouble.critical->kind == fem::Instability::bifurcation;
+  const bool switches = branches_off && step_.on_bifurcation == OnBifurcation::switch_branch;
+  const bool jumps = step_.on_instability == OnInstability::jump || step_.kind == StepKind::release;
+  const bool ends = !switches && !jumps && (step_.on_instability == OnInstability::stop || timed());
+  if (trouble.critical) announce(*trouble.critical, ends);
   const fem::ContinuationOptions arcs{.newton = options_.newton};
-  if (branches_off && step_.on_bifurcation == OnBifurcation::switch_branch) {
+  if (switches) {
     progress_.followed =
         fem::switch_branch(equilibrium_, path_, *trouble.critical, branch_amplitude * model().extent, arcs);
     if (progress_.followed) return std::nullopt;
     accept_critical(*trouble.critical);
     return failure(trouble);
   }
-  if (step_.on_instability == OnInstability::jump || step_.kind == StepKind::release) return jump(trouble);
-  if (step_.on_instability == OnInstability::stop || timed()) {
+  if (jumps) return jump(trouble);
+  if (ends) {
     if (trouble.critical && !accept_critical(*trouble.critical)) return Outcome{Ending::interrupted};
     return failure(trouble);
   }
@@ -186,7 +203,7 @@ std::optional<Outcome> StepRun::follow() {
   watcher.on_accept = [&](const fem::ContinuationProgress& now) {
     if (now.newton.unstable_modes != before.newton.unstable_modes)
       if (const auto critical = fem::locate(equilibrium_, path_, before, now, options_.newton))
-        announce(*critical);
+        announce(*critical, false);
     before = now;
     fem::State state = model().settled(now.state);
     progress_.followed = now;
@@ -308,12 +325,13 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                           load_text(reached), last().time, more)};
     return {
         Ending::gave_up, "limit point",
-        fmt::format(
-            "limit point near {}: equilibrium found up to {}, none {}at {}{}.{}\"follow\" or \"jump\"",
-            load_text(trouble.critical->load_factor), load_text(reached),
-            trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
-            branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable" : "",
-            more)};
+        fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}\"follow\" or \"jump\"",
+                    load_text(trouble.critical->load_factor),
+                    reached > 0 ? "up to " + load_text(reached) : "at the beginning of the step",
+                    trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
+                    branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable"
+                                 : "",
+                    more)};
   }
   if (trouble.unstable_modes > 0)
     return {

@@ -17,6 +17,9 @@ struct StepProgress {
 /// How an accepted state was reached.
 enum class Reached { along_path, by_jump };
 
+/// Whether events of this kind are critical points: "limit point" or "bifurcation".
+bool is_critical(const std::string& kind);
+
 /// What a step tells of itself; every member may be left out.
 struct StepObserver {
   std::function<void(double load_factor)> on_try;
@@ -24,6 +27,8 @@ struct StepObserver {
   std::function<void(double load_factor, const fem::NewtonResult&)> on_cutback;
   /// A critical point has been located; the event says what it is.
   std::function<void(const fem::CriticalPoint&, const post::Event&)> on_critical;
+  /// Whether physics allows a state under load control; a step that gets to no other one gives up.
+  std::function<bool(double load_factor, const fem::State&)> admits;
   /// Returns false to stop here (interrupt). Dashpots of the state are frozen.
   std::function<bool(const fem::State&, const fem::Increment&, Reached)> on_accept;
 };
@@ -63,7 +68,7 @@ class StepRun {
   bool follows() const;
   std::optional<fem::CriticalPoint> locate(double s) const;
   std::optional<fem::CriticalPoint> limit_in_time() const;
-  void announce(const fem::CriticalPoint& critical);
+  void announce(const fem::CriticalPoint& critical, bool ends);
   bool accept_critical(const fem::CriticalPoint& critical);
   std::optional<Outcome> leave(const Trouble& trouble);
   std::optional<Outcome> follow();

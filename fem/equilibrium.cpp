@@ -40,7 +40,10 @@ constexpr double rounded_step = 1e-10; ///< over the extent; smaller ones may kn
 constexpr double farthest_step = 1e4;  ///< over the extent; no part of a farther one leads anywhere
 constexpr double first_widening = 0.02, most_widening = 0.5; ///< strains that give a film tension
 constexpr int most_voltage_corrections = 30;
-constexpr double charge_tolerance = 1e-13;
+constexpr double charge_tolerance = 1e-13; ///< of the voltage
+/// Of the charge: a hardly compressible filling turns it into much more of the pressure than
+/// charge_tolerance.
+constexpr double charge_rounding = 1e-15;
 constexpr int most_turns = 40; ///< between forces and sheets
 constexpr int patience = 10;   ///< iterations after which the residual must be smaller than at the start
 constexpr int most_indefinite =
@@ -93,7 +96,8 @@ bool Equilibrium::follow_charges(State& state, Pressure pressure) const {
       const double change = -surplus.charge[e] / surplus.capacitance[e];
       state.voltage[e] += change;
       if (!std::isfinite(state.voltage[e])) return false;
-      balanced = balanced && std::abs(change) <= charge_tolerance * std::abs(state.voltage[e]);
+      balanced = balanced && (std::abs(change) <= charge_tolerance * std::abs(state.voltage[e]) ||
+                              std::abs(surplus.charge[e]) <= charge_rounding * std::abs(state.charge[e]));
     }
     if (balanced) return true;
   }
@@ -108,7 +112,8 @@ void Equilibrium::balance(State& state, Balance& balance, Pressure pressure) {
   const Stopwatch watch(timings_.residual, model_);
   const bool follows = any_follows(state);
   if (follows && !follow_charges(state, pressure)) {
-    balance.feasible = false;
+    balance = {
+        .energy = NAN, .feasible = false, .force = Eigen::VectorXd::Constant(model_.dofs.count(), NAN)};
     return;
   }
   const Evaluation evaluation = assembler_.residual(state, balance.force);

@@ -30,6 +30,7 @@ enum class Outcome {
   not_converged,
   singular,
   off_path, ///< converged to a state that the path of the states before does not lead to
+  refused,  ///< converged to a state that RampObserver::admits does not accept
 };
 
 struct NewtonResult {

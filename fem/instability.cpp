@@ -172,10 +172,12 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   int modes = -1;
   const auto attempt = [&](State trial, double s) {
     path.apply(trial, s);
-    const NewtonResult newton = equilibrium.solve(trial, options);
-    if (newton.outcome != Outcome::converged || (modes >= 0 && newton.unstable_modes > modes)) return false;
+    if (equilibrium.solve(trial, options).outcome != Outcome::converged) return false;
     auto mode = lowest_mode(equilibrium, trial);
     if (!mode) return false;
+    // of the tangent in the state itself, where Newton's method may know that of a step before
+    const int unstable = equilibrium.tangent().unstable_modes();
+    if (modes >= 0 && unstable > modes) return false;
     const double length = points.empty() ? s - s_beyond : s - points.back().s;
     PathSlope slope = slope_at(equilibrium, path, trial, s, -length);
     if (!points.empty()) {
@@ -186,7 +188,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
                      Steadiness::kinked()))
         return false;
     }
-    modes = newton.unstable_modes;
+    modes = unstable;
     points.push_back({s, std::move(trial), std::move(*mode), std::move(slope)});
     return true;
   };

@@ -14,6 +14,13 @@ constexpr double difference = 1e-3; ///< of the reach
 constexpr double still = 1e-7;      ///< mean displacement over the extent that tells nothing of a path
 constexpr double rounding = 1e-12;  ///< of potentials
 
+/// What a closed chamber's filling adds to the energy at the pressure of the state, J. At a fixed pressure it
+/// is linear in the filling, which hardly gives way: where the pressure follows, differences would tell of
+/// nothing but the bulk modulus. As the energy is stationary in the pressure, its slope is the same.
+double filling_energy(const Model& model, const State& state, std::size_t chamber) {
+  return model.chamber_of(chamber)->energy(state.charge[chamber], state.voltage[chamber]);
+}
+
 /// The energy that forces and, with the opposite sign, changes of the loads derive from.
 double potential(const Balance& balance, const State& state, const DofMap& dofs) {
   return balance.energy - state.dead_force.dot(position(state, dofs));
@@ -33,7 +40,20 @@ PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& 
   const double ds = difference * reach;
   path.apply(at, s + ds);
   equilibrium.balance(at, there);
-  slope.power = (potential(there, at, dofs) - slope.potential) / ds;
+  double change = potential(there, at, dofs) - slope.potential;
+  if (const auto chamber = equilibrium.model().closed_chamber(state)) {
+    const auto at_fixed_pressure = [&](double load_factor) {
+      State open = state;
+      path.apply(open, load_factor);
+      const double filling = filling_energy(equilibrium.model(), open, *chamber);
+      open.supply[*chamber] = Supply::voltage;
+      Balance balance;
+      equilibrium.balance(open, balance);
+      return potential(balance, open, dofs) + filling;
+    };
+    change = at_fixed_pressure(s + ds) - at_fixed_pressure(s);
+  }
+  slope.power = change / ds;
   if (factored)
     equilibrium.tangent().solve((here.force - there.force).head(dofs.free_count()) / ds, slope.displacement);
   return slope;
@@ -58,7 +78,8 @@ bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlop
       std::abs(slope_to.potential - slope_from.potential - (slope_from.power + slope_to.power) / 2);
   const double round_off = rounding * (std::abs(slope_from.potential) + std::abs(slope_to.potential));
   const double energy = n1 > n0 ? steadiness.energy_of_faster : steadiness.energy;
-  if (missing > energy * std::abs(slope_to.power - slope_from.power) + round_off) return false;
+  // not a number where loads cannot be
+  if (!(missing <= energy * std::abs(slope_to.power - slope_from.power) + round_off)) return false;
   if (std::isinf(steadiness.chord)) return true;
   if (singular_start) return product(chord, v1) > 0; // of it only the energy is known
   const Eigen::VectorXd half = (v1 - v0) / 2;

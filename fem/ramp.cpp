@@ -15,6 +15,7 @@ constexpr std::size_t most_points = 4; ///< of the predictor
 constexpr double round_off = 1e-9;     ///< in load factors
 constexpr double most_growth = 2;      ///< of a time step: BDF2 is stable below 2.41
 constexpr double safety = 0.9;
+constexpr int back_parts = 8;              ///< of loads that are taken back
 constexpr int jump_parts = 8;              ///< of loads that jump
 constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
 constexpr double smallest_on_path = 1e-9;  ///< of the load factor, where other branches are found
@@ -22,13 +23,6 @@ constexpr double longest_kinked = 1e-4;    ///< increment, see Steadiness
 constexpr double foreseen = 0.1;           ///< error of the predictor over the change of the state
 constexpr double first_moment = 1e-3;      ///< of an increment in time: its start, with dashpots that flow
 constexpr double tiny = 1e-300;
-
-/// Whether internal variables have changed by more than rounding.
-bool differs(const std::vector<double>& one, const std::vector<double>& other) {
-  return !std::ranges::equal(one, other, [](double a, double b) {
-    return std::abs(a - b) <= round_off * std::max(1.0, std::abs(b));
-  });
-}
 
 /// One step under load control.
 class Ramp {
@@ -52,6 +46,7 @@ class Ramp {
   bool less_stable() const;
   LoadPath within(double s) const;
   PathSlope slope_of_start(const LoadPath& increment, double length);
+  bool leads_back(const State& trial, double s);
   bool goes_on(const State& predicted, const State& trial, double s);
   bool detour(const LoadPath& path, State start, const RampOptions& options, bool tells);
   bool pass_break();
@@ -157,10 +152,8 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const Model& model = equilibrium_.model();
   if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
   if (options_.inertia) return true; // motion has no other branch
-  // No path leads away from slack film, and the slope of a hardly compressible filling is that of its
-  // pressure.
-  if (options_.newton.wrinkles && equilibrium_.is_slack(last())) return true;
-  if (model.closed_chamber(trial)) return true;
+  if (options_.newton.wrinkles && equilibrium_.is_slack(last()))
+    return equilibrium_.is_slack(trial) || leads_back(trial, s);
   const auto size = [this](const State& from, const State& to) {
     const Eigen::VectorXd u = equilibrium_.model().dofs.increment(from, to);
     return std::sqrt(u.dot(equilibrium_.stiffness().cwiseProduct(u)));
@@ -171,12 +164,36 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
   const PathSlope start = slope_of_start(increment, length);
   progress_.slope = start.per(length);
-  const Steadiness steadiness = options_.newton.wrinkles  ? Steadiness::wrinkled()
+  const auto wrinkles = [&model](const State& state) {
+    return std::ranges::any_of(model.sample(state).film,
+                               [](auto& sample) { return sample.tension != materials::Tension::taut; });
+  };
+  const bool wrinkled = options_.newton.wrinkles && (wrinkles(last()) || wrinkles(trial));
+  const Steadiness steadiness = wrinkled                  ? Steadiness::wrinkled()
                                 : length > longest_kinked ? Steadiness::resolved()
                                                           : Steadiness::kinked();
   if (!is_joined(equilibrium_, last(), start, trial, end, steadiness)) return false;
   slope_ = end.per(length);
   return true;
+}
+
+/// Whether a state that was found from slack film, from which no path leads, is on one that leads back to
+/// slack film, or to almost none of the increment's loads.
+bool Ramp::leads_back(const State& trial, double s) {
+  constexpr double almost_none = 0.02;
+  const LoadPath increment = within(s);
+  LoadPath back;
+  back.apply = [&](State& state, double part) { increment.apply(state, 1 - part * (1 - almost_none)); };
+  const RampOptions options{.newton = options_.newton,
+                            .increments = back_parts,
+                            .smallest_increment = options_.smallest_increment,
+                            .instantaneous = timed() || options_.instantaneous};
+  RampProgress progress = RampProgress::begin(timed() ? equilibrium_.model().settled(trial) : trial,
+                                              equilibrium_.model().dofs, options);
+  const RampObserver watcher{.on_accept = [&](const RampProgress& now, const Increment&) {
+    return !equilibrium_.is_slack(now.points.back().state);
+  }};
+  return Ramp(equilibrium_, back, options, progress, watcher).run().end != RampEnd::gave_up;
 }
 
 /// Takes the last state along a path of its own, on which no time passes; the observer hears of all of its
@@ -264,7 +281,10 @@ bool Ramp::flow() {
   if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
     equilibrium_.conduct(state);
     State flown = equilibrium_.model().settled(std::move(state));
-    if (!differs(flown.history->now, last().history->now)) return true;
+    const auto alike = [](double a, double b) {
+      return std::abs(a - b) <= round_off * std::max(1.0, std::abs(b));
+    };
+    if (std::ranges::equal(flown.history->now, last().history->now, alike)) return true;
     progress_.points = {{parameter(progress_.load_factor), std::move(flown)}}; // the shape is held
     newton_ = {};
     newton_.unstable_modes = std::max(0, progress_.unstable_modes);
@@ -335,6 +355,8 @@ RampResult Ramp::run() {
       trial = solve(last(), s); // the predictor may have led astray
     if (newton_.outcome == Outcome::converged && !goes_on(predicted, trial, s))
       newton_.outcome = Outcome::off_path;
+    if (newton_.outcome == Outcome::converged && observer_.admits && !observer_.admits(s, trial))
+      newton_.outcome = Outcome::refused;
     if (newton_.outcome != Outcome::converged || (less_stable() && tried >= 2 * smallest_)) {
       if (observer_.on_cutback) observer_.on_cutback(s, newton_);
       progress_.increment = tried / 2;

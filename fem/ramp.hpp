@@ -56,6 +56,9 @@ struct RampObserver {
   std::function<void(double load_factor)> on_try;
   std::function<void(const Iteration&)> on_iteration;
   std::function<void(double load_factor, const NewtonResult&)> on_cutback;
+  /// Whether a converged state may be accepted; the increment to one that may not is halved like one that
+  /// fails.
+  std::function<bool(double load_factor, const State&)> admits;
   /// Returns false to stop here (interrupt).
   std::function<bool(const RampProgress&, const Increment&)> on_accept;
 };
