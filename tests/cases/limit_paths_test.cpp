@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/step_loads.hpp"
 #include "fem/instability.hpp"
 #include "tests/cases/limit_cases.hpp"
