@@ -168,8 +168,7 @@ class Converter {
       throw MeshError(fmt::format("the {} \"{}\" has no elements; remove the physical group or mesh it",
                                   dimension_names[group.dimension], name));
     std::ranges::sort(set.cells);
-    const auto repeated = std::ranges::unique(set.cells);
-    set.cells.erase(repeated.begin(), repeated.end());
+    set.cells.erase(std::unique(set.cells.begin(), set.cells.end()), set.cells.end());
     const auto block = std::ranges::find_if(
         mesh_.blocks, [&](const CellBlock& b) { return is_triangle(b) == (group.dimension == 2); });
     set.block = static_cast<int>(block - mesh_.blocks.begin());
