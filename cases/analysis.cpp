@@ -74,7 +74,7 @@ Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State s
     const double number = static_cast<double>(analysis.rows.size()) + 1;
     analysis.rows.push_back(
         {number, mode.frequency() / (2 * std::numbers::pi), mode.frequency(), mode.stiffness});
-    std::vector<Eigen::Vector3d> shape = fem::displacements(device.model.dofs, mode.shape);
+    std::vector<Eigen::Vector3d> shape = fem::displacements(device.model.dofs, state, mode.shape);
     double largest = 0;
     for (const Eigen::Vector3d& u : shape) largest = std::max(largest, u.norm());
     for (Eigen::Vector3d& u : shape) u /= largest > 0 ? largest : 1;
@@ -112,7 +112,7 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   const std::vector<double> hertz = frequencies(step.sweep);
   std::vector<double> omega = hertz;
   for (double& w : omega) w *= 2 * std::numbers::pi;
-  const Eigen::VectorXd output = response_row(device, quantity);
+  const Eigen::VectorXd output = response_row(device, state, quantity);
   const fem::State at_rest = operating_point(device, state);
   const fem::Linearisation linear(equilibrium, at_rest);
   const auto responses = fem::harmonic_response(linear, common_drive(device, at_rest, driven), omega);
@@ -132,8 +132,8 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   const std::string where = fmt::format("at {:.6g} Hz", hertz[strongest]);
   const Eigen::VectorXcd& peak = responses[strongest].displacement;
   analysis.shapes = {
-      {"in phase " + where, fem::displacements(device.model.dofs, peak.real())},
-      {"a quarter period behind " + where, fem::displacements(device.model.dofs, -peak.imag())}};
+      {"in phase " + where, fem::displacements(device.model.dofs, state, peak.real())},
+      {"a quarter period behind " + where, fem::displacements(device.model.dofs, state, -peak.imag())}};
   return analysis;
 }
 
@@ -210,15 +210,15 @@ fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
   return drive;
 }
 
-Eigen::VectorXd response_row(const Device& device, const Quantity& quantity) {
+Eigen::VectorXd response_row(const Device& device, const fem::State& state, const Quantity& quantity) {
   const fem::DofMap& dofs = device.model.dofs;
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(dofs.free_count());
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(dofs.count());
   const bool falls = quantity.along == along_gravity;
   const auto& nodes = device.mesh.node_sets.at(quantity.of);
   for (const int node : nodes)
-    if (const int e = dofs.equation(node, falls ? 2 : *quantity.along); e >= 0 && e < dofs.free_count())
+    if (const int e = dofs.equation(node, falls ? 2 : *quantity.along); e != fem::DofMap::absent)
       row[e] += (falls ? -1 : 1) / static_cast<double>(nodes.size());
-  return row;
+  return dofs.jacobian(state).transpose() * row;
 }
 
 fem::State operating_point(const Device& device, fem::State state) {

@@ -113,10 +113,11 @@ double Measurement::displacement(const Quantity& quantity, const fem::State& sta
 double Measurement::stiffness(const Quantity& quantity, const Measured& measured) const {
   const fem::DofMap& dofs = device_.model.dofs;
   const auto& nodes = device_.mesh.node_sets.at(quantity.of);
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(dofs.free_count()), flexibility;
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(dofs.count()), flexibility;
   for (const int node : nodes)
-    if (const int e = dofs.equation(node, *quantity.along); e >= 0 && e < dofs.free_count())
+    if (const int e = dofs.equation(node, *quantity.along); e != fem::DofMap::absent)
       unit[e] += 1 / static_cast<double>(nodes.size());
+  unit = (dofs.jacobian(measured.state).transpose() * unit).eval();
   if (unit.isZero() || !measured.may_rest || !unrest(measured.equilibrium, measured.state).empty() ||
       !measured.equilibrium.factor(relaxed(measured.state)))
     return unknown;
@@ -177,7 +178,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
       for (const int n : device_.mesh.node_sets.at(quantity.of))
         equations.insert(device_.model.dofs.equation(n, c));
       for (const int e : equations)
-        if (e >= device_.model.dofs.free_count()) sum[c] += measured.internal_force[e] - state.dead_force[e];
+        if (device_.model.dofs.is_held(e)) sum[c] += measured.internal_force[e] - state.dead_force[e];
     }
     return component(sum, quantity.along);
   }

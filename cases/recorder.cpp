@@ -172,7 +172,7 @@ void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event
   if (!modes_) open_series(modes_, critical_name);
   modes_->write(series_step(journal_.modes++, event.message, critical.load_factor, critical.state.voltage),
                 critical.state.displacement, device.model.sample(critical.state),
-                fem::displacements(device.model.dofs, critical.mode.direction));
+                fem::displacements(device.model.dofs, critical.state, critical.mode.direction));
 }
 
 void Recorder::record_analysis(Analysis analysis, const fem::State& state) {

@@ -53,7 +53,7 @@ Simulation::Simulation(const Case& one, int threads)
 Eigen::VectorXd Simulation::frame_force() {
   Eigen::VectorXd force;
   equilibrium_.internal_force(device_.model.initial_state(), force);
-  force.tail(force.size() - device_.model.dofs.free_count()).setZero();
+  force.segment(device_.model.dofs.free_count(), device_.model.dofs.held_count()).setZero();
   return force;
 }
 

@@ -108,7 +108,7 @@ void StepLoads::move(Eigen::VectorXd& held, Instant t) const {
     for (int c = 0; c < 3; ++c)
       if (const auto& motion = support.motion[static_cast<std::size_t>(c)])
         for (const int node : device_.mesh.node_sets.at(support.place))
-          if (const int e = dofs.equation(node, c); e >= dofs.free_count())
+          if (const int e = dofs.equation(node, c); dofs.is_held(e))
             held[e - dofs.free_count()] = t.of(*motion);
 }
 

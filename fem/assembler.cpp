@@ -57,12 +57,22 @@ Assembler::Assembler(const Model& model, int threads)
   mass_ = on_pattern(model_.inertia.mass);
   damping_ = on_pattern(model_.inertia.damping);
   block_residual_.assign(model_.blocks.size(), Eigen::VectorXd::Zero(model_.dofs.count()));
+  if (!model_.dofs.ties().empty()) {
+    reduction_.emplace(model_.dofs, matrix_);
+    reduced_ = reduction_->pattern();
+  }
 }
 
 void Assembler::build_pattern() {
-  const int n = model_.dofs.free_count();
+  // Unknowns of the elements: the free ones, then those of tied nodes.
+  const DofMap& map = model_.dofs;
+  const int n = map.count() - map.held_count();
+  const auto unknown = [&map](int equation) {
+    return map.is_free(equation)   ? equation
+           : map.is_tied(equation) ? equation - map.held_count()
+                                   : DofMap::absent;
+  };
   matrix_.size = n;
-  const auto is_free = [n](int equation) { return equation != DofMap::absent && equation < n; };
 
   // Elements at each equation.
   struct ElementRef {
@@ -71,15 +81,15 @@ void Assembler::build_pattern() {
   std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
   for (const auto& equations : equations_)
     for (const int equation : equations)
-      if (is_free(equation)) ++start[static_cast<std::size_t>(equation) + 1];
+      if (const int u = unknown(equation); u >= 0) ++start[static_cast<std::size_t>(u) + 1];
   for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
   std::vector<ElementRef> elements(static_cast<std::size_t>(start.back()));
   std::vector<int> fill(start.begin(), start.end() - 1);
   for (std::size_t b = 0; b < equations_.size(); ++b) {
     const int dofs = model_.blocks[b]->dofs_per_element();
     for (std::size_t i = 0; i < equations_[b].size(); ++i)
-      if (is_free(equations_[b][i]))
-        elements[static_cast<std::size_t>(fill[static_cast<std::size_t>(equations_[b][i])]++)] = {
+      if (const int u = unknown(equations_[b][i]); u >= 0)
+        elements[static_cast<std::size_t>(fill[static_cast<std::size_t>(u)]++)] = {
             static_cast<int>(b), static_cast<int>(i) / dofs};
   }
 
@@ -96,10 +106,9 @@ void Assembler::build_pattern() {
       const int dofs = model_.blocks[static_cast<std::size_t>(block)]->dofs_per_element();
       const int* equation = equations_[static_cast<std::size_t>(block)].data() + element * dofs;
       for (int i = 0; i < dofs; ++i)
-        if (is_free(equation[i]) && equation[i] > column &&
-            seen[static_cast<std::size_t>(equation[i])] != column) {
-          seen[static_cast<std::size_t>(equation[i])] = column;
-          matrix_.rows.push_back(equation[i]);
+        if (const int u = unknown(equation[i]); u > column && seen[static_cast<std::size_t>(u)] != column) {
+          seen[static_cast<std::size_t>(u)] = column;
+          matrix_.rows.push_back(u);
         }
     }
     std::sort(matrix_.rows.begin() + static_cast<std::ptrdiff_t>(first), matrix_.rows.end());
@@ -115,30 +124,30 @@ void Assembler::build_pattern() {
     for (std::size_t at = 0; at < equations_[b].size(); at += static_cast<std::size_t>(dofs))
       for (int i = 0; i < dofs; ++i)
         for (int j = 0; j <= i; ++j) {
-          const int p = equations_[b][at + static_cast<std::size_t>(i)];
-          const int q = equations_[b][at + static_cast<std::size_t>(j)];
-          if (!is_free(p) || !is_free(q)) {
+          const int p = unknown(equations_[b][at + static_cast<std::size_t>(i)]);
+          const int q = unknown(equations_[b][at + static_cast<std::size_t>(j)]);
+          if (p < 0 || q < 0) {
             slots.push_back(Scatter::none);
             continue;
           }
-          const auto [column, row] = std::minmax(p, q);
-          const auto first = matrix_.rows.begin() + matrix_.column_start[static_cast<std::size_t>(column)];
-          const auto last = matrix_.rows.begin() + matrix_.column_start[static_cast<std::size_t>(column) + 1];
-          const int place = static_cast<int>(std::lower_bound(first, last, row) - matrix_.rows.begin());
+          const int place = matrix_.place(std::min(p, q), std::max(p, q));
           slots.push_back(p == q && i != j ? Scatter::twice(place) : place);
         }
   }
 }
 
-/// The lower triangle of its free part.
+/// The lower triangle of its part of the elements' unknowns.
 std::vector<double> Assembler::on_pattern(const Eigen::SparseMatrix<double>& constant) const {
   if (constant.nonZeros() == 0) return {};
+  const auto equation = [this](int unknown) {
+    return model_.dofs.is_free(unknown) ? unknown : unknown + model_.dofs.held_count();
+  };
   std::vector<double> values(matrix_.values.size(), 0.0);
   for (int column = 0; column < matrix_.size; ++column)
     for (int at = matrix_.column_start[static_cast<std::size_t>(column)];
          at < matrix_.column_start[static_cast<std::size_t>(column) + 1]; ++at)
       values[static_cast<std::size_t>(at)] =
-          constant.coeff(matrix_.rows[static_cast<std::size_t>(at)], column);
+          constant.coeff(equation(matrix_.rows[static_cast<std::size_t>(at)]), equation(column));
   return values;
 }
 
@@ -212,18 +221,38 @@ std::vector<double> Assembler::relaxation(const State& state, const RateWeight& 
   for (std::size_t b = 0; b < equations_.size(); ++b)
     model_.blocks[b]->add_relaxation(state, weight,
                                      {equations_[b].data(), slots_[b].data(), nullptr, values.data()});
-  return values;
+  return without_ties(state, std::move(values));
 }
 
 void Assembler::tangent(const State& state) {
   std::fill(matrix_.values.begin(), matrix_.values.end(), 0.0);
-  run(state, false, true);
+  if (!reduction_) {
+    run(state, false, true);
+    add_inertia(state);
+    return;
+  }
+  for (auto& block : block_residual_) block.setZero();
+  run(state, true, true);
+  add_inertia(state);
+  reduced_.values = reduction_->reduce(state, matrix_.values);
+  Eigen::VectorXd force = -state.dead_force;
+  for (const auto& block : block_residual_) force += block;
+  if (!state.motion_scheme.is_static() && state.motion)
+    force += InertialForce(model_.inertia, model_.dofs, state).force();
+  reduction_->add_geometric(state, force, reduced_.values);
+}
+
+void Assembler::add_inertia(const State& state) {
   if (state.motion_scheme.is_static()) return;
   const auto add = [this](double factor, const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) matrix_.values[i] += factor * values[i];
   };
   add(state.motion_scheme.mass_factor(), mass_);
   add(state.motion_scheme.damping_factor(), damping_);
+}
+
+std::vector<double> Assembler::without_ties(const State& state, std::vector<double> values) const {
+  return reduction_ && !values.empty() ? reduction_->reduce(state, values) : std::move(values);
 }
 
 } // namespace dielast::fem

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "fem/model.hpp"
-#include "fem/sparse_matrix.hpp"
+#include "fem/tie_reduction.hpp"
 
+#include <optional>
 #include <tbb/task_arena.h>
 #include <vector>
 
@@ -18,8 +19,8 @@ class Assembler {
   /// `threads`: 0 uses every core.
   Assembler(const Model& model, int threads);
 
-  /// Energy and residual (count() entries: free equations, then reactions at held ones) of the internal
-  /// forces.
+  /// Energy and residual of the internal forces (count() entries: free equations, reactions at held ones, and
+  /// what acts on tied nodes, see DofMap::gather).
   Evaluation residual(const State& state, Eigen::VectorXd& residual);
   /// What each block contributed to the last residual: film and walls may balance, these show how large they
   /// are.
@@ -31,9 +32,9 @@ class Assembler {
   std::vector<double> relaxation(const State& state, const RateWeight& weight) const;
 
   /// Mass and damping in that pattern; empty where there is none.
-  const std::vector<double>& mass() const { return mass_; }
-  const std::vector<double>& damping() const { return damping_; }
-  const SparseSymmetric& matrix() const { return matrix_; }
+  std::vector<double> mass(const State& state) const { return without_ties(state, mass_); }
+  std::vector<double> damping(const State& state) const { return without_ties(state, damping_); }
+  const SparseSymmetric& matrix() const { return reduction_ ? reduced_ : matrix_; }
 
  private:
   struct Chunk {
@@ -44,11 +45,15 @@ class Assembler {
   void colour_chunks();
   std::vector<double> on_pattern(const Eigen::SparseMatrix<double>& constant) const;
   Evaluation run(const State& state, bool want_residual, bool want_tangent);
+  void add_inertia(const State& state);
+  std::vector<double> without_ties(const State& state, std::vector<double> values) const;
 
   const Model& model_;
   int threads_ = 1;
   tbb::task_arena arena_;
-  SparseSymmetric matrix_;
+  SparseSymmetric matrix_; ///< over the free unknowns, then those of tied nodes
+  std::optional<TieReduction> reduction_;
+  SparseSymmetric reduced_;                 ///< over the free unknowns, where there are ties
   std::vector<std::vector<int>> equations_; ///< per block, see Scatter
   std::vector<std::vector<int>> slots_;
   std::vector<std::vector<Chunk>> colours_;

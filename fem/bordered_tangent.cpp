@@ -49,11 +49,12 @@ void BorderedTangent::set_borders(const State& state, const PathBorder* path) {
   paths_ = path ? 1 : 0;
   if (path) append_border(path->column, path->row, path->corner);
   if (!any_follows(state)) return;
-  const Charges charges = model_.surplus(state, true);
+  Charges charges = model_.surplus(state, true);
   root_capacitance_.resize(static_cast<Eigen::Index>(state.supply.size()));
   for (std::size_t e = 0; e < state.supply.size(); ++e) {
     if (state.supply[e] == Supply::voltage) continue;
     const double root = std::sqrt(charges.capacitance[e]);
+    model_.dofs.gather(state, charges.coupling[e]);
     const Eigen::VectorXd column = -charges.coupling[e].head(matrix_.size) / root;
     append_border(column, column, -1);
     root_capacitance_[std::ssize(following_)] = root;

@@ -25,9 +25,7 @@ SingularValues singular_values(const Eigen::MatrixXd& A) {
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
-Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& A) {
-  return Eigen::LLT<Eigen::MatrixXd>(A).matrixL();
-}
+Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& A) { return Eigen::LLT<Eigen::MatrixXd>(A).matrixL(); }
 
 Eigen::MatrixXcd solve_dense(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b) {
   return A.partialPivLu().solve(b);

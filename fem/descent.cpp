@@ -60,9 +60,10 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
     }
     tangent_.solve(-current.force.head(free), step);
     const double foretold = current.force.head(free).dot(step) / 2; // without damping it would be this
-    const double dead_work = state.dead_force.head(free).dot(step);
     State trial = state;
     model_.dofs.advance(trial, step, 1);
+    const double dead_work =
+        state.dead_force.head(free).dot(step) + model_.dofs.work_on_tied(state.dead_force, state, trial);
     bool feasible = true;
     if (chamber) {
       trial.voltage[*chamber] += tangent_.voltage_step(*chamber);

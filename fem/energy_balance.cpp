@@ -203,15 +203,22 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   const auto chambers = static_cast<Eigen::Index>(model.chambers.size());
   EnergyPoint point{.length = length, .time = state.time, .moves = state.motion != nullptr};
   Eigen::VectorXd& force = point.mechanical.force;
-  equilibrium.internal_force(state, force); // the reactions, at the end, are external too
-  force.head(dofs.free_count()) = state.dead_force.head(dofs.free_count());
+  equilibrium.internal_force(state, force); // the reactions are external, too
   if (state.motion) {
     const Motion& motion = *state.motion;
-    force.tail(dofs.count() - dofs.free_count()) +=
-        (model.inertia.mass * motion.acceleration + model.inertia.damping * motion.velocity)
-            .tail(dofs.count() - dofs.free_count());
+    Eigen::VectorXd inertial =
+        model.inertia.mass * motion.acceleration + model.inertia.damping * motion.velocity;
+    dofs.gather(state, inertial);
+    force += inertial;
     point.power[EnergyPoint::dampers] = motion.velocity.dot(model.inertia.damping * motion.velocity);
   }
+  // Supports carry the forces on tied nodes, which do work of their own.
+  Eigen::VectorXd carried = state.dead_force;
+  dofs.gather(state, carried);
+  const auto supported = Eigen::seqN(dofs.free_count(), dofs.held_count());
+  const Eigen::VectorXd reactions = force(supported) - carried(supported) + state.dead_force(supported);
+  force = state.dead_force;
+  force(supported) = reactions;
   point.mechanical.coordinate = position(state, dofs);
   // What is given is known to the last digit; the rest follows.
   Charges held = model.charges(state, false);

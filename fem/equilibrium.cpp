@@ -125,6 +125,7 @@ void Equilibrium::balance(State& state, Balance& balance, Pressure pressure) {
     balance.force += inertial.force();
     balance.energy += inertial.energy();
   }
+  model_.dofs.gather(state, balance.force);
   balance.norm = weighted_norm(balance.force, model_.dofs.free_count());
   balance.scale = weighted_norm(state.dead_force, state.dead_force.size());
   for (const auto& block : assembler_.block_residuals())
@@ -175,7 +176,8 @@ double Equilibrium::backtrack(State& state, Balance& current, const Eigen::Vecto
     }
     balance(trial, there, Pressure::is_unknown);
     if (!there.feasible) continue;
-    const double energy_change = there.energy - current.energy - length * dead_work;
+    const double energy_change = there.energy - current.energy - length * dead_work -
+                                 model_.dofs.work_on_tied(state.dead_force, state, trial);
     const bool descends = definite && energy_change <= sufficient_decrease * length * slope;
     if (!descends && !(there.norm < current.norm)) continue;
     state = std::move(trial);

@@ -91,9 +91,12 @@ class Equilibrium {
     if (conduction_) conduction_->solve(state);
   }
 
-  /// Internal forces (count() entries; reactions at the held equations, from free_count() on).
+  /// Internal forces, those on tied nodes moved to their masters (count() entries; reactions at the held
+  /// equations, from free_count() on).
   Evaluation internal_force(const State& state, Eigen::VectorXd& force) {
-    return assembler_.residual(state, force);
+    const Evaluation evaluation = assembler_.residual(state, force);
+    model_.dofs.gather(state, force);
+    return evaluation;
   }
 
   /// Sets the voltages that are not given to what their charges need and evaluates the forces.

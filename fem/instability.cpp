@@ -27,9 +27,10 @@ constexpr int most_trials = 80;
 constexpr double approach = 0.9;
 
 /// Scales a direction so that the largest displacement of a node is 1 m.
-void normalise(const DofMap& dofs, Eigen::VectorXd& direction) {
+void normalise(const DofMap& dofs, const State& state, Eigen::VectorXd& direction) {
   double largest = 0;
-  for (const Eigen::Vector3d& u : displacements(dofs, direction)) largest = std::max(largest, u.norm());
+  for (const Eigen::Vector3d& u : displacements(dofs, state, direction))
+    largest = std::max(largest, u.norm());
   if (largest > 0) direction /= largest;
 }
 
@@ -43,12 +44,14 @@ struct LoadPoint {
 
 } // namespace
 
-std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const Eigen::VectorXd& direction) {
+std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
+                                           const Eigen::VectorXd& direction) {
+  const Eigen::VectorXd all = dofs.jacobian(state) * direction;
   std::vector<Eigen::Vector3d> result(static_cast<std::size_t>(dofs.node_count()), Eigen::Vector3d::Zero());
   for (int n = 0; n < dofs.node_count(); ++n)
     for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(n, c); e != DofMap::absent && e < dofs.free_count())
-        result[static_cast<std::size_t>(n)][c] = direction[e];
+      if (const int e = dofs.equation(n, c); e != DofMap::absent)
+        result[static_cast<std::size_t>(n)][c] = all[e];
   return result;
 }
 
@@ -99,7 +102,7 @@ std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {
       Eigen::MatrixXd oriented = images(Eigen::all, twins) * theta(twins).cwiseInverse().asDiagonal();
       orient_twins(oriented, equilibrium.weight().head(D.size()).cwiseInverse());
       Mode mode{1 / theta[lowest] - shift, oriented.col(0)};
-      normalise(equilibrium.model().dofs, mode.direction);
+      normalise(equilibrium.model().dofs, state, mode.direction);
       return mode;
     }
     X = images;
@@ -216,6 +219,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
         const auto place = [&](double at) { return -std::pow(std::abs(critical_load - at), 1 / exponent); };
         const PathPoint past[] = {{place(former.s), former.state}, {place(last.s), last.state}};
         start = extrapolate(past, place(s));
+        equilibrium.model().dofs.carry(start);
       }
     }
     if (!attempt(std::move(start), s) && !attempt(points.back().state, s)) s_beyond = critical_load = s;

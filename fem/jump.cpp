@@ -56,12 +56,7 @@ double Descent::potential(const State& state, const Balance& at) const {
 }
 
 double Descent::dead_work(const State& state) const {
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(model_.dofs.count());
-  for (int n = 0; n < model_.dofs.node_count(); ++n)
-    for (int c = 0; c < 3; ++c)
-      if (const int e = model_.dofs.equation(n, c); e != DofMap::absent)
-        u[e] = state.displacement[static_cast<std::size_t>(n)][c];
-  return state.dead_force.dot(u);
+  return state.dead_force.dot(position(state, model_.dofs));
 }
 
 void Descent::take(State state) {

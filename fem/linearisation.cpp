@@ -28,8 +28,8 @@ Linearisation::Linearisation(Equilibrium& equilibrium, const State& state)
   Assembler& assembler = equilibrium.assembler();
   assembler.tangent(state_);
   stiffness_ = assembler.matrix();
-  mass_ = or_zeros(assembler.mass(), stiffness_.values.size());
-  damping_ = or_zeros(assembler.damping(), stiffness_.values.size());
+  mass_ = or_zeros(assembler.mass(state_), stiffness_.values.size());
+  damping_ = or_zeros(assembler.damping(state_), stiffness_.values.size());
   find_rates();
   add_ports();
 }
@@ -50,7 +50,8 @@ void Linearisation::find_rates() {
 }
 
 void Linearisation::add_ports() {
-  const Charges charges = model().charges(state_, true);
+  Charges charges = model().charges(state_, true);
+  for (Eigen::VectorXd& coupling : charges.coupling) model().dofs.gather(state_, coupling);
   for (std::size_t p = 0; p < model().port_count(); ++p) {
     Port port{state_.supply[p], charges.coupling[p].head(stiffness_.size), charges.capacitance[p]};
     if (const Chamber* chamber = model().chamber_of(p))

@@ -8,10 +8,10 @@ namespace dielast::fem {
 
 Loads Loads::of(const State& state, const DofMap& dofs) {
   Loads loads{state.voltage, state.charge, state.source, state.dead_force,
-              Eigen::VectorXd::Zero(dofs.count() - dofs.free_count())};
+              Eigen::VectorXd::Zero(dofs.held_count())};
   for (int n = 0; n < dofs.node_count(); ++n)
     for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(n, c); e >= dofs.free_count())
+      if (const int e = dofs.equation(n, c); dofs.is_held(e))
         loads.held[e - dofs.free_count()] = state.displacement[static_cast<std::size_t>(n)][c];
   return loads;
 }
@@ -41,8 +41,9 @@ void Loads::apply(State& state, const DofMap& dofs) const {
   state.dead_force = dead_force;
   for (int n = 0; n < dofs.node_count(); ++n)
     for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(n, c); e >= dofs.free_count())
+      if (const int e = dofs.equation(n, c); dofs.is_held(e))
         state.displacement[static_cast<std::size_t>(n)][c] = held[e - dofs.free_count()];
+  dofs.carry(state);
 }
 
 bool differ(const Loads& one, const Loads& other, std::span<const Loads> recent) {

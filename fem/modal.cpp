@@ -65,7 +65,8 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   const Inertia& inertia = equilibrium.model().inertia;
   if (inertia.empty()) return std::vector<VibrationMode>{};
   const Eigen::Index free = equilibrium.model().dofs.free_count();
-  const Eigen::SparseMatrix<double> M = inertia.mass.topLeftCorner(free, free);
+  const Eigen::SparseMatrix<double> all = equilibrium.model().dofs.jacobian(state);
+  const Eigen::SparseMatrix<double> M = all.transpose() * inertia.mass * all;
   const Eigen::VectorXd diagonal = M.diagonal();
   const Eigen::Index massive = (diagonal.array() > 0).count();
   const Eigen::Index wanted = std::min<Eigen::Index>(options.count, massive);

@@ -117,7 +117,9 @@ bool Model::fill(State& state, const Eigen::VectorXd& direction) const {
   if (std::abs(missing) <= good * scale) return true;
   if (direction.isZero(0)) return false;
   // secants, from the slope here
-  double slope = charges(state, true).coupling[port].head(direction.size()).dot(direction);
+  Eigen::VectorXd coupling = charges(state, true).coupling[port];
+  dofs.gather(state, coupling);
+  double slope = coupling.head(direction.size()).dot(direction);
   for (int i = 0; i < most_steps; ++i) {
     const double step = missing / slope;
     if (!std::isfinite(step)) return false;

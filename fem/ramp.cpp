@@ -349,7 +349,8 @@ RampResult Ramp::run() {
     const double s = next_load_factor();
     const double tried = s - progress_.load_factor;
     if (observer_.on_try) observer_.on_try(s);
-    const State predicted = extrapolate(progress_.points, parameter(s));
+    State predicted = extrapolate(progress_.points, parameter(s));
+    equilibrium_.model().dofs.carry(predicted);
     State trial = solve(predicted, s);
     if ((newton_.outcome != Outcome::converged || less_stable()) && progress_.points.size() > 1)
       trial = solve(last(), s); // the predictor may have led astray

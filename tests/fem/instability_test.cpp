@@ -173,7 +173,7 @@ TEST_F(EulerColumn, buckles_at_eulers_load_in_a_bifurcation) {
   ASSERT_EQ(along.size(), 1U);
   EXPECT_EQ(along[0].kind, Instability::bifurcation);
   EXPECT_NEAR(along[0].load_factor, 0.5, 1e-4);
-  const auto mode = displacements(model->dofs, along[0].mode.direction);
+  const auto mode = displacements(model->dofs, along[0].state, along[0].mode.direction);
   for (int a = 0; a <= tip; ++a) // 1 - cos(pi x / 2)
     EXPECT_NEAR(std::abs(mode[a].y()), 1 - std::cos(std::numbers::pi / 2 * mesh.nodes[a].x()), 1e-3);
 
@@ -224,7 +224,7 @@ TEST(Instability, of_twin_modes_one_is_chosen_by_the_order_of_the_unknowns) {
       ASSERT_EQ(equilibrium.solve(state, {.tolerance = 1e-12}).outcome, Outcome::converged);
       const auto mode = lowest_mode(equilibrium, state);
       ASSERT_TRUE(mode);
-      const Eigen::Vector3d u = displacements(model->dofs, mode->direction)[static_cast<std::size_t>(tip)];
+      const Eigen::Vector3d u = displacements(model->dofs, state, mode->direction)[static_cast<std::size_t>(tip)];
       const Eigen::Vector3d expected =
           std::abs(along.x()) > 0.5 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
       EXPECT_LT((u - expected).norm(), 1e-5) << along.transpose() << ": " << u.transpose();
