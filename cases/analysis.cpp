@@ -112,7 +112,7 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   const std::vector<double> hertz = frequencies(step.sweep);
   std::vector<double> omega = hertz;
   for (double& w : omega) w *= 2 * std::numbers::pi;
-  const Eigen::VectorXd output = response_row(device, state, quantity);
+  const Eigen::VectorXd output = response_row(one, device, state, quantity);
   const fem::State at_rest = operating_point(device, state);
   const fem::Linearisation linear(equilibrium, at_rest);
   const auto responses = fem::harmonic_response(linear, common_drive(device, at_rest, driven), omega);
@@ -210,14 +210,17 @@ fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
   return drive;
 }
 
-Eigen::VectorXd response_row(const Device& device, const fem::State& state, const Quantity& quantity) {
+Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::State& state,
+                             const Quantity& quantity) {
   const fem::DofMap& dofs = device.model.dofs;
   Eigen::VectorXd row = Eigen::VectorXd::Zero(dofs.count());
-  const bool falls = quantity.along == along_gravity;
+  const Eigen::Vector3d along =
+      quantity.along == along_gravity ? one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along);
   const auto& nodes = device.mesh.node_sets.at(quantity.of);
   for (const int node : nodes)
-    if (const int e = dofs.equation(node, falls ? 2 : *quantity.along); e != fem::DofMap::absent)
-      row[e] += (falls ? -1 : 1) / static_cast<double>(nodes.size());
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
+        row[e] += along[c] / static_cast<double>(nodes.size());
   return dofs.jacobian(state).transpose() * row;
 }
 

@@ -37,7 +37,8 @@ std::vector<double> frequencies(const Sweep& sweep);
 const Quantity* response_quantity(const Case& one, const std::string& name);
 
 /// That quantity as a row over the free equations.
-Eigen::VectorXd response_row(const Device& device, const fem::State& state, const Quantity& quantity);
+Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::State& state,
+                             const Quantity& quantity);
 
 /// The state that small vibrations go about: sources behind their circuits, branches relaxed.
 fem::State operating_point(const Device& device, fem::State state);

@@ -141,10 +141,25 @@ struct PointMass {
   double damping = 0; ///< N s/m
 };
 
-/// [gravity], along -z
+/// [[body]]: rigid, carries all nodes of its places. Its own place, called by its name, is the pivot, or
+/// without one the centre of mass.
+struct Body {
+  std::string name;
+  std::vector<std::string> places;
+  double mass = 0;                             ///< kg
+  std::array<double, 3> inertia{};             ///< about axes along x, y, z through the centre, kg m^2
+  std::optional<std::array<double, 3>> centre; ///< of mass, as drawn, m; absent: the mean of its nodes
+  std::optional<std::array<double, 3>> pivot;  ///< a point that stays where it is drawn, m
+  std::array<bool, 6> fixed{};                 ///< displacements of its own place, rotations about x, y, z
+};
+
+/// [gravity]
 struct Gravity {
-  double acceleration = 0; ///< m/s^2
-  bool film = false;       ///< whether the film's own weight counts
+  double acceleration = 0;                   ///< m/s^2
+  std::array<double, 3> direction{0, 0, -1}; ///< any length but 0
+  bool film = false;                         ///< whether the film's own weight counts
+
+  Eigen::Vector3d down() const { return Eigen::Vector3d(direction.data()).normalized(); }
 };
 
 /// [chamber]: what is under the film and the plate, up to z = 0
@@ -243,8 +258,10 @@ enum class QuantityKind {
   size,
   growth,
   displacement,
+  angle,
   radius,
   force,
+  moment,
   nominal_stress,
   capacitance,
   charge,
@@ -335,6 +352,7 @@ struct Case {
   std::map<std::string, Circuit> circuits; ///< likewise
   std::optional<Plate> plate;
   std::vector<PointMass> point_masses;
+  std::vector<Body> bodies;
   Gravity gravity;
   std::optional<Chamber> chamber;
   std::vector<Spring> springs;

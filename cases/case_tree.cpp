@@ -105,8 +105,11 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   require_known(reader, Reference::electrode, "electrode", names_of(one.electrodes, &Electrode::name));
   require_known(reader, Reference::step, "step", names_of(one.steps, &Step::name));
   require_known(reader, Reference::quantity, "quantity", names_of(one.quantities, &Quantity::name));
-  require_known(reader, Reference::supported_place, "supported place",
-                names_of(one.supports, &Support::place));
+  require_known(reader, Reference::body, "body", names_of(one.bodies, &Body::name));
+  std::vector<std::string> supported = names_of(one.supports, &Support::place);
+  for (const Body& body : one.bodies)
+    if (body.pivot || std::ranges::count(body.fixed, true) > 0) supported.push_back(body.name);
+  require_known(reader, Reference::supported_place, "supported place", supported);
   check_rules(reader, tree, one);
   locate_mesh(reader, tree, one);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());

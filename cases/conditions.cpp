@@ -13,7 +13,7 @@ bool has_step(const Case& one, std::initializer_list<StepKind> kinds) {
 bool has_mass(const Case& one) {
   const auto heavy = [](const auto& body) { return body.mass > 0; };
   return one.film.material.density > 0 || (one.plate && heavy(*one.plate)) ||
-         std::ranges::any_of(one.point_masses, heavy);
+         std::ranges::any_of(one.point_masses, heavy) || std::ranges::any_of(one.bodies, heavy);
 }
 
 bool is_linearised(const Case& one) { return one.linearise.written || has_step(one, {StepKind::harmonic}); }
@@ -97,7 +97,7 @@ Condition dampers_matter() {
 }
 
 Condition has_mass() {
-  return on_case("a mass: of the film (its density), a [plate] or a [[point_mass]]",
+  return on_case("a mass: of the film (its density), a [plate], a [[point_mass]] or a [[body]]",
                  [](const Case& one) { return cases::has_mass(one); });
 }
 

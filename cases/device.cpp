@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/device.hpp"
 
+#include "cases/bodies.hpp"
 #include "cases/reader.hpp"
 #include "fem/beam_block.hpp"
 #include "fem/chamber_block.hpp"
@@ -223,19 +224,24 @@ void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
 }
 
 /// Forces of gravity: on plate and masses, and on the film where its weight counts.
-Eigen::VectorXd weight_of(const Case& one, const meshing::Mesh& mesh, const fem::Model& model) {
+Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies, const meshing::Mesh& mesh,
+                          const fem::Model& model) {
   const fem::DofMap& dofs = model.dofs;
+  const Eigen::Vector3d pull = one.gravity.acceleration * one.gravity.down();
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(dofs.count());
   const auto add = [&](int node, double mass) {
-    if (const int e = dofs.equation(node, 2); e != fem::DofMap::absent)
-      weight[e] -= mass * one.gravity.acceleration;
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent) weight[e] += mass * pull[c];
   };
   if (one.gravity.film) {
     Eigen::VectorXd falls = Eigen::VectorXd::Zero(dofs.count());
     for (int n = 0; n < dofs.node_count(); ++n)
-      if (const int e = dofs.equation(n, 2); e != fem::DofMap::absent) falls[e] = 1;
-    return -one.gravity.acceleration * (model.inertia.mass * falls);
+      for (int c = 0; c < 3; ++c)
+        if (const int e = dofs.equation(n, c); e != fem::DofMap::absent) falls[e] = one.gravity.down()[c];
+    return one.gravity.acceleration * (model.inertia.mass * falls);
   }
+  for (const BodyNodes& body : bodies)
+    for (const auto& [node, mass] : body.masses) add(node, mass);
   if (one.plate) add(mesh.node_sets.at(one.plate->place).front(), one.plate->mass);
   for (const PointMass& point : one.point_masses) {
     const auto& nodes = mesh.node_sets.at(point.place);
@@ -304,16 +310,19 @@ std::vector<std::string> places_of(const meshing::Mesh& mesh) {
 
 Device build_device(const Case& one) {
   meshing::Mesh mesh = build_mesh(one);
-  check_places(one, places_of(mesh));
+  std::vector<std::string> places = places_of(mesh);
+  for (const Body& body : one.bodies) places.push_back(body.name);
+  check_places(one, places);
   const fem::Dimension dimension = one.dimension;
 
-  fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
-  for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
   Eigen::Vector3d low = mesh.nodes.front(), high = low;
   for (const auto& x : mesh.nodes) {
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
+  const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
+  fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
+  for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
   model.extent = (high - low).norm();
   model.drawn = mesh.nodes;
   model.corners = fem::element_corners(mesh);
@@ -348,13 +357,16 @@ Device build_device(const Case& one) {
 
   add_springs(one, mesh, model);
   add_masses(one, mesh, model);
+  for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
   add_chamber(one, mesh, model);
   for (const auto& block : model.blocks) block->claim_dofs(model.dofs, dimension);
   for (const Support& support : one.supports)
     for (const int node : mesh.node_sets.at(support.place))
       for (int c = 0; c < 3; ++c)
         if (support.fixed[static_cast<std::size_t>(c)]) model.dofs.hold(node, c);
-  if (one.supports.empty()) pin(mesh, model.dofs);
+  tie_bodies(one, bodies, mesh, model.dofs);
+  const bool free_body = one.supports.empty() && one.bodies.empty();
+  if (free_body) pin(mesh, model.dofs);
   if (of_revolution)
     for (int n = 0; n < mesh.node_count(); ++n)
       if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);
@@ -371,8 +383,8 @@ Device build_device(const Case& one) {
   }
   scale_charges(model);
 
-  Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = one.supports.empty()};
-  device.weight = weight_of(one, device.mesh, device.model);
+  Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = free_body};
+  device.weight = weight_of(one, bodies, device.mesh, device.model);
   require_loads_that_act(one, device);
   device.tension_field = one.film.tension_field;
   if (lattice) device.wall_width = lattice->wall_width;

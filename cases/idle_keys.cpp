@@ -43,8 +43,9 @@ class IdleKeys {
   static bool is_default(const Key& key, const void* object) {
     const auto value = key.fallback ? key.binding.get(object) : std::nullopt;
     if (!value) return false;
-    const Value fallback = convert(key, parse_value(*key.fallback, {}), key.unit, {});
-    return value->size() == 1 && fallback.size() == 1 && value->at(0).number == fallback[0].number;
+    Value fallback = convert(key, parse_value(*key.fallback, {}), key.unit, {});
+    if (key.spreads && fallback.size() == 1) fallback.assign(value->size(), fallback[0]);
+    return std::ranges::equal(*value, fallback, {}, &Scalar::number, &Scalar::number);
   }
 
   void check_entries(const Section& section, const Node& node, const void* parent, const std::string& path) {

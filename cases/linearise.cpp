@@ -28,8 +28,8 @@ struct Linearised {
   std::string output;
   std::vector<std::string> driven; ///< electrodes whose sources are the input together
   std::vector<double> voltage;     ///< of these at the operating point, V
-  double error = 0;              ///< largest, relative to the full response
-  std::vector<double> frequency; ///< Hz
+  double error = 0;                ///< largest, relative to the full response
+  std::vector<double> frequency;   ///< Hz
   std::vector<Complex> full, reduced;
   std::vector<std::vector<Complex>> compared; ///< as in the case
 };
@@ -47,7 +47,7 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   const fem::State state = operating_point(device, simulation.state());
   const std::vector<std::size_t> driven = driven_ports(one, one.linearise.driven);
   const fem::HarmonicDrive drive = common_drive(device, state, driven);
-  const fem::Channels channels{driven, response_row(device, state, output).transpose(), {}};
+  const fem::Channels channels{driven, response_row(one, device, state, output).transpose(), {}};
   Linearised result{.output = output.name, .frequency = frequencies(one.linearise.sweep)};
   for (const std::size_t port : driven) {
     result.driven.push_back(device.model.electrodes[port]);

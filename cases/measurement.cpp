@@ -25,7 +25,6 @@ fem::State relaxed(fem::State state) {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double component(const Eigen::Vector3d& vector, const std::optional<int>& along) {
-  if (along == along_gravity) return -vector.z();
   return along ? vector[*along] : vector.norm();
 }
 
@@ -55,7 +54,10 @@ Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::St
                    const fem::EnergyBalance& balance, bool with_fields)
     : equilibrium(solver), state(at), samples(with_fields ? device.model.sample(at) : fem::Samples{}),
       extremes(samples), charges(device.model.charges(at, false)), energy(balance) {
-  equilibrium.internal_force(at, internal_force);
+  equilibrium.internal_force(at, reaction);
+  Eigen::VectorXd dead = at.dead_force;
+  device.model.dofs.gather(at, dead);
+  reaction -= dead;
 }
 
 const std::vector<char>& Measurement::film_at(const std::string& place) const {
@@ -104,8 +106,9 @@ double Measurement::length(const Quantity& quantity, const fem::State& state) co
 }
 
 double Measurement::displacement(const Quantity& quantity, const fem::State& state) const {
-  return component(position(quantity.of, state) - position(quantity.of, device_.model.initial_state()),
-                   quantity.along);
+  const Eigen::Vector3d moved =
+      position(quantity.of, state) - position(quantity.of, device_.model.initial_state());
+  return quantity.along == along_gravity ? moved.dot(case_.gravity.down()) : component(moved, quantity.along);
 }
 
 /// The inverse of the mean displacement of a place under a unit force that is spread evenly over it. NaN
@@ -160,6 +163,15 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     const auto rest = references.find(quantity.name);
     return rest == references.end() ? unknown : moved - rest->second;
   }
+  case QuantityKind::angle: {
+    const auto master = static_cast<std::size_t>(device_.mesh.node_sets.at(quantity.of).front());
+    return fem::spin_of(state.rotation[master])[*quantity.along];
+  }
+  case QuantityKind::moment: {
+    const int master = device_.mesh.node_sets.at(quantity.of).front();
+    const int e = device_.model.dofs.equation(master, 3 + *quantity.along);
+    return device_.model.dofs.is_held(e) ? measured.reaction[e] : 0.0;
+  }
   case QuantityKind::radius: {
     if (case_.dimension == fem::Dimension::axisymmetric) return position(quantity.of, state).x();
     const Eigen::Vector3d centre = position(quantity.of, state);
@@ -178,7 +190,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
       for (const int n : device_.mesh.node_sets.at(quantity.of))
         equations.insert(device_.model.dofs.equation(n, c));
       for (const int e : equations)
-        if (device_.model.dofs.is_held(e)) sum[c] += measured.internal_force[e] - state.dead_force[e];
+        if (device_.model.dofs.is_held(e)) sum[c] += measured.reaction[e];
     }
     return component(sum, quantity.along);
   }

@@ -21,8 +21,8 @@ struct Measured {
 
   const fem::State& state;
   fem::Samples samples;
-  post::Extremes extremes;        ///< of these samples
-  Eigen::VectorXd internal_force; ///< per equation, N; at held equations the reaction on the support
+  post::Extremes extremes;  ///< of these samples
+  Eigen::VectorXd reaction; ///< of supports on the device at held equations (see DofMap), N and N m
   fem::Charges charges;
   const fem::EnergyBalance& energy;
 };

@@ -26,6 +26,10 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
     return "N/m";
   case QuantityKind::natural_frequency:
     return "rad/s";
+  case QuantityKind::angle:
+    return "rad";
+  case QuantityKind::moment:
+    return "N m";
   case QuantityKind::force:
     return "N";
   case QuantityKind::nominal_stress:

@@ -57,6 +57,10 @@ std::string meaning(const Quantity& q) {
                        q.since.empty() ? "" : ", since \"" + q.since + "\"", at);
   case QuantityKind::radius:
     return fmt::format("mean radius of {}{}", q.of, at);
+  case QuantityKind::angle:
+    return fmt::format("rotation of {}{}{}", q.of, along, at);
+  case QuantityKind::moment:
+    return fmt::format("moment of the support of {} on it{}{}", q.of, along, at);
   case QuantityKind::force:
     return fmt::format("force of the support {} on the device{}{}", q.of, along, at);
   case QuantityKind::capacitance:

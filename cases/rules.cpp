@@ -162,15 +162,49 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
       reader.report(at.source, at.key,
                     "nothing vibrates: film, plate and point masses have no mass; give plate.mass or "
                     "film.material.density");
-    if (step.kind == StepKind::weight && !one.plate && one.point_masses.empty() && !one.gravity.film)
+    if (step.kind == StepKind::weight && !one.plate && one.point_masses.empty() && one.bodies.empty() &&
+        !one.gravity.film)
+      reader.report(
+          at.source, at.key,
+          "nothing has a weight; add [plate], a [[point_mass]], a [[body]] or [gravity] with film = true");
+    const auto& [x, y, z] = one.gravity.direction;
+    if (step.kind == StepKind::weight && one.dimension == fem::Dimension::planar && x == 0 && y == 0)
       reader.report(at.source, at.key,
-                    "nothing has a weight; add [plate], a [[point_mass]] or [gravity] with film = true");
+                    "a planar model does not move along z; give [gravity] a direction in the plane");
+    if (step.kind == StepKind::weight && one.dimension == fem::Dimension::axisymmetric && (x != 0 || y != 0))
+      reader.report(at.source, at.key, "a model of revolution moves along z alone; use model = \"3d\"");
     if (step.kind != StepKind::harmonic) continue;
     if (one.electrodes.empty())
       reader.report(at.source, at.key, "there is no electrode whose source could swing");
     if (!response_quantity(one, step.response_of))
       reader.report(at.source, at.key + ".response_of",
                     "needs a quantity of kind \"displacement\" with a direction (along)");
+  }
+}
+
+void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
+  if (one.bodies.empty()) return;
+  const Node& written = *tree.find("body");
+  if (one.dimension == fem::Dimension::axisymmetric)
+    reader.report(written.source, "body",
+                  "in a model of revolution bodies move along z alone: use [plate], or model = \"3d\"");
+  if (one.chamber)
+    reader.report(written.source, "body",
+                  "the chamber's volume under a body that tilts is not known; use [plate]");
+  for (std::size_t b = 0; b < one.bodies.size(); ++b) {
+    const Body& body = one.bodies[b];
+    for (const std::string& place : body.places)
+      for (const Support& support : one.supports)
+        if (support.place == place)
+          reader.report(written.items[b].source, fmt::format("body[{}].places", b + 1),
+                        fmt::format("\"{}\" is held by a [[support]]; fix the body instead", place));
+    const bool spatial = one.dimension == fem::Dimension::spatial;
+    const auto& moment = body.inertia;
+    const bool turns = spatial ? !(body.fixed[3] && body.fixed[4] && body.fixed[5]) : !body.fixed[5];
+    const bool moves = has_step(one, {StepKind::modes}) || std::ranges::any_of(one.steps, &Step::inertia);
+    if (body.mass > 0 && turns && moves && (spatial ? moment[0] + moment[1] + moment[2] : moment[2]) == 0)
+      reader.report(written.items[b].source, fmt::format("body[{}].inertia", b + 1),
+                    "missing; what moves with inertia and can turn has moments of inertia");
   }
 }
 
@@ -311,6 +345,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_waves(reader, tree, one);
   check_rows(reader, tree, one);
   check_masses(reader, tree, one);
+  check_bodies(reader, tree, one);
   check_chamber(reader, tree, one);
   check_sheets(reader, tree, one);
   check_quantities(reader, tree, one);

@@ -44,7 +44,7 @@ enum class Type {
 constexpr std::size_t longest_name = 100;
 
 /// What a text refers to, checked once everything is read (places: once the mesh exists).
-enum class Reference { none, place, supported_place, electrode, step, quantity };
+enum class Reference { none, place, supported_place, body, electrode, step, quantity };
 
 struct Choice {
   std::string word;

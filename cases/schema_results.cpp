@@ -31,8 +31,10 @@ Section quantity_section() {
            {"size", "of the box around a place (m)"},
            {"growth", "relative change of the size of a place (-)"},
            {"displacement", "of the centroid of a place (m)"},
+           {"angle", "rotation of a body about an axis (rad)"},
            {"radius", "mean distance of a place's nodes from their centroid (m)"},
            {"force", "reaction at a support (N)"},
+           {"moment", "reaction about an axis where a body's rotation is fixed (N m)"},
            {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
            {"capacitance", "of an electrode (F)"},
            {"charge", "of an electrode (C)"},
@@ -56,7 +58,10 @@ Section quantity_section() {
       of("the place")
           .only({"size", "growth", "displacement", "radius", "nominal stress", "stiffness", "radial stretch"})
           .refers_to(Reference::place),
-      of("the place of a support").only({"force"}).refers_to(Reference::supported_place),
+      of("the place of a support, or a body that is fixed")
+          .only({"force"})
+          .refers_to(Reference::supported_place),
+      of("the body").only({"angle", "moment"}).refers_to(Reference::body),
       of("the electrode").only({"capacitance", "charge", "current"}).refers_to(Reference::electrode),
       word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
       word("of",
@@ -87,7 +92,7 @@ Section quantity_section() {
           .optional()
           .only_with(when::moves_along_it())
           .only({"distance", "elongation", "size", "growth", "force"}),
-      word("along", {{"x", ""}, {"y", ""}, {"z", ""}, {"gravity", "-z"}}, to(&Quantity::along),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}, {"gravity", "as it pulls"}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
           .only_with(when::moves_along_it())
@@ -95,6 +100,8 @@ Section quantity_section() {
       word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "direction")
           .only_with(when::moves_along_it())
           .only({"stiffness"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "the axis")
+          .only({"angle", "moment"}),
       integer("mode", to(&Quantity::mode), "its number, from the lowest frequency")
           .at_least(1)
           .at_most(100)

@@ -183,7 +183,9 @@ void add_motion_defaults(Node& tree) {
   if (!tree.find("model") && (tree.find("plate") || tree.find("chamber") || tree.find("balloon")))
     tree.add("model", text_node("axisymmetric", source));
   Node* steps = tree.find("step");
-  if (!(tree.find("plate") || tree.find("point_mass")) || !steps || !steps->is(Node::Kind::list)) return;
+  if (!(tree.find("plate") || tree.find("point_mass") || tree.find("body")) || !steps ||
+      !steps->is(Node::Kind::list))
+    return;
   for (Node& step : steps->items)
     if (const std::string kind = text_at(step, "kind");
         (kind == "transient" || kind == "hold") && !step.find("inertia"))

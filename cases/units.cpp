@@ -112,6 +112,7 @@ std::span<const Dimension> dimensions() {
       Dimension{"C", "a charge", "1 uC", 1, "C", "nC uC mC C"},
       Dimension{"F/m", "a permittivity", "4e-11 F/m", 1e-6, "F/m", "F/m pF/m"},
       Dimension{"J", "an energy", "1 mJ", 1e6, "J", "uJ mJ J kJ"},
+      Dimension{"kg m^2", "a moment of inertia", "40 g.mm^2", 1e6, "kg m^2", "g.mm^2 g.cm^2 kg.m^2"},
       Dimension{"N m", "a moment", "1 mN m", 1e6, "N m", "mN.m N.m"},
       Dimension{"1/m", "a curvature", "10 1/m", 1e9, "1/m", "1/m 1/mm"},
       Dimension{"kg/m^3", "a density", "960 kg/m^3", 1e5, "kg/m^3", "kg/m^3 g/cm^3"},

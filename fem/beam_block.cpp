@@ -3,7 +3,9 @@
 
 #include "fem/beam_kinematics.hpp"
 
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -29,18 +31,19 @@ struct LinePoint {
 };
 
 template<int Nodes>
+LinePoint<Nodes> line_point(double xi, double weight) {
+  if constexpr (Nodes == 2)
+    return {{(1 - xi) / 2, (1 + xi) / 2}, {-0.5, 0.5}, weight};
+  else
+    return {{xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi}, {xi - 0.5, xi + 0.5, -2 * xi}, weight};
+}
+
+template<int Nodes>
 std::array<LinePoint<Nodes>, Nodes - 1> line_rule() {
-  if constexpr (Nodes == 2) {
-    return {{{{0.5, 0.5}, {-0.5, 0.5}, 2.0}}};
-  } else {
-    std::array<LinePoint<3>, 2> rule{};
-    for (int p = 0; p < 2; ++p) {
-      const double xi = (p == 0 ? -1 : 1) / std::sqrt(3.0);
-      rule[static_cast<std::size_t>(p)] = {
-          {xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi}, {xi - 0.5, xi + 0.5, -2 * xi}, 1.0};
-    }
-    return rule;
-  }
+  if constexpr (Nodes == 2)
+    return {line_point<2>(0, 2)};
+  else
+    return {line_point<3>(-1 / std::sqrt(3.0), 1), line_point<3>(1 / std::sqrt(3.0), 1)};
 }
 
 /// Tangent of the drawn centreline at node a (not normalised).
@@ -66,6 +69,7 @@ class BeamBlock final : public ElementBlock {
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
   void sample(const State& state, Samples& samples) const override;
+  void add_mass(int element, std::span<double> packed) const override;
 
  private:
   static constexpr int dofs = 6 * Nodes;
@@ -154,6 +158,24 @@ void BeamBlock<Nodes>::element_equations(int element, const DofMap& dof_map, std
     for (int c = 0; c < 6; ++c)
       equations[static_cast<std::size_t>(6 * a + c)] =
           dof_map.equation(elements_[static_cast<std::size_t>(element)].node[a], c);
+}
+
+template<int Nodes>
+void BeamBlock<Nodes>::add_mass(int element, std::span<double> packed) const {
+  const auto& X = elements_[static_cast<std::size_t>(element)].X;
+  const double outer = std::sqrt(0.6); // Gauss, three points
+  for (const auto& [xi, weight] : {std::pair{-outer, 5.0 / 9}, {0.0, 8.0 / 9}, {outer, 5.0 / 9}}) {
+    const LinePoint<Nodes> at = line_point<Nodes>(xi, weight);
+    Eigen::Vector3d dx = Eigen::Vector3d::Zero();
+    for (int a = 0; a < Nodes; ++a) dx += at.slope[a] * X[a];
+    const double mass = section_.line_density * weight * dx.norm();
+    for (int a = 0; a < Nodes; ++a)
+      for (int b = 0; b <= a; ++b)
+        for (int c = 0; c < 3; ++c) {
+          const int row = 6 * a + c, column = 6 * b + c;
+          packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] += mass * at.value[a] * at.value[b];
+        }
+  }
 }
 
 template<int Nodes>

@@ -25,7 +25,8 @@ BeamSection rectangular_section(const ElasticSolid& solid, double width, double 
           .EI3 = E * height * std::pow(width, 3) / 12,
           .half_width = width / 2,
           .half_height = height / 2,
-          .yield_strain = solid.yield_strain};
+          .yield_strain = solid.yield_strain,
+          .line_density = solid.density * area};
 }
 
 } // namespace dielast::materials

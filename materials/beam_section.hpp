@@ -12,6 +12,7 @@ struct ElasticSolid {
   double youngs_modulus = 0;  ///< E, Pa
   double poisson_ratio = 0;   ///< nu
   double yield_strain = 0.55; ///< TPU: 55 %
+  double density = 1200;      ///< kg/m^3; of thermoplastic polyurethanes
 
   static constexpr std::array parameters{
       ParameterOf<ElasticSolid>{{.name = "youngs_modulus", .unit = "Pa", .meaning = "Young's modulus E"},
@@ -25,6 +26,9 @@ struct ElasticSolid {
       ParameterOf<ElasticSolid>{
           {.name = "yield_strain", .unit = "1", .meaning = "strain at yield", .fallback = 0.55},
           &ElasticSolid::yield_strain},
+      ParameterOf<ElasticSolid>{
+          {.name = "density", .unit = "kg/m^3", .meaning = "mass per volume", .fallback = 1200},
+          &ElasticSolid::density},
   };
 };
 
@@ -38,6 +42,7 @@ struct BeamSection {
   double half_width = 0;   ///< distance of the outermost fibre along 2, m
   double half_height = 0;  ///< distance of the outermost fibre along 3, m
   double yield_strain = 0;
+  double line_density = 0; ///< mass per length, kg/m
 };
 
 /// Rectangular section, `width` along axis 2 and `height` along axis 3 (m): shear factor 5/6, Saint-Venant

@@ -245,5 +245,34 @@ TEST(Modal, a_film_without_stiffness_has_none) {
   }
 }
 
+// In the plane and across it: 3.5160 sqrt(EI/(rho A))/L^2 (Bernoulli's beam).
+TEST(VibrationModes, of_a_cantilever_of_beams_are_those_of_the_closed_form) {
+  const materials::BeamSection section = materials::rectangular_section(
+      {.youngs_modulus = 78e6, .poisson_ratio = 0.36, .density = 1200}, 0.8e-3, 2e-3);
+  for (const int order : {1, 2}) {
+    const meshing::Mesh mesh = test::line(
+        40 / order, order, [](double s) { return Eigen::Vector3d(0.1 * s, 0, 0); },
+        [](double t) { return t; });
+    const auto model =
+        test::unnumbered_model(mesh.node_count(), false, make_beam_block(mesh, mesh.blocks[0], section));
+    int root = 0;
+    for (int n = 1; n < mesh.node_count(); ++n)
+      if (mesh.nodes[static_cast<std::size_t>(n)].x() < mesh.nodes[static_cast<std::size_t>(root)].x())
+        root = n;
+    for (int c = 0; c < DofMap::components; ++c) model->dofs.hold(root, c);
+    model->dofs.number();
+    model->inertia = Inertia::of(model->blocks, model->dofs);
+    model->length_scale = 2.5e-3;
+    model->extent = 0.1;
+    Equilibrium equilibrium(*model, 1);
+    const auto modes = vibration_modes(equilibrium, model->initial_state(), {.count = 2});
+    ASSERT_TRUE(modes);
+    const double slow = std::sqrt(section.EI3 / section.line_density),
+                 fast = std::sqrt(section.EI2 / section.line_density);
+    EXPECT_NEAR((*modes)[0].frequency(), 3.51602 * slow / 0.01, 2e-3 * 351.602 * slow) << order;
+    EXPECT_NEAR((*modes)[1].frequency(), 3.51602 * fast / 0.01, 2e-3 * 351.602 * fast) << order;
+  }
+}
+
 } // namespace
 } // namespace dielast::fem

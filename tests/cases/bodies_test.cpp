@@ -1,0 +1,83 @@
+#include "tests/cases/film_cases.hpp"
+
+#include <cmath>
+
+// Rigid bodies that carry places of the film, through case files.
+
+namespace dielast::cases {
+namespace {
+
+/// An annulus in space or in the plane whose inner edge a body of 2 g carries, 3 mm beside the middle.
+std::string annulus(const std::string& model, const std::string& body, const std::string& rest) {
+  return "model = \"" + model +
+         "\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nlaw = \"neo-hookean\"\n"
+         "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\ndensity = \"0 kg/m^3\"\n"
+         "[annulus]\ninner_radius = \"10 mm\"\nouter_radius = \"40 mm\"\n[mesh]\nrings = 5\n"
+         "[[support]]\nplace = \"outer\"\nfix = [\"x\", \"y\", \"z\"]\n"
+         "[[body]]\nname = \"hub\"\nplaces = [\"inner\"]\nmass = \"2 g\"\n"
+         "centre = [\"3 mm\", \"0 mm\", \"0 mm\"]\n" +
+         body +
+         "[output]\nfields = false\nerror_estimate = false\n"
+         "[[quantity]]\nname = \"angle\"\nkind = \"angle\"\nof = \"hub\"\nalong = \"y\"\n" +
+         rest;
+}
+
+std::string quantity(const std::string& name, const std::string& kind, const std::string& along) {
+  return fmt::format("[[quantity]]\nname = \"{}\"\nkind = \"{}\"\nof = \"hub\"\nalong = \"{}\"\n", name, kind,
+                     along);
+}
+
+constexpr double weight = 2e-3 * 9.81, arm = 3e-3;
+
+class Bodies : public FilmCases {};
+
+TEST_F(Bodies, a_pivot_and_a_fixed_rotation_carry_the_weight_and_its_moment) {
+  const Ran ran = run(annulus("3d", "pivot = [\"0 mm\", \"0 mm\", \"0 mm\"]\nfix = [\"turn_y\"]\n",
+                              "[[step]]\nkind = \"weight\"\n" + quantity("lift", "force", "z") +
+                                  quantity("moment", "moment", "y") + quantity("sag", "displacement", "z")));
+  EXPECT_NEAR(ran.last("lift"), weight, 1e-9);
+  EXPECT_NEAR(ran.last("moment"), -weight * arm, 1e-12); // gravity turns it the other way
+  EXPECT_EQ(ran.last("angle"), 0);
+  EXPECT_EQ(ran.last("sag"), 0);
+}
+
+TEST_F(Bodies, what_no_support_takes_the_film_does) {
+  const Ran ran =
+      run(annulus("3d", "", "[[step]]\nkind = \"weight\"\n" + quantity("sag", "displacement", "gravity")));
+  const double a = 10e-3, b = 40e-3, tension = 40e3 * 1e-3 * (1 - std::pow(2, -6));
+  const double pi = 3.14159265358979;
+  EXPECT_NEAR(ran.last("angle"), weight * arm * (b * b - a * a) / (2 * pi * tension * a * a * b * b), 3e-5);
+  EXPECT_NEAR(ran.last("sag"), weight * std::log(b / a) / (2 * pi * tension) + arm * ran.last("angle"), 5e-7);
+}
+
+TEST_F(Bodies, gravity_pulls_where_it_is_told_to) {
+  const std::string in_plane = "[gravity]\ndirection = [0, -2, 0]\n[[step]]\nkind = \"weight\"\n";
+  for (const char* model : {"planar", "3d"}) {
+    const Ran ran =
+        run(annulus(model, "fix = [\"x\", \"y\", \"turn_z\"]\n",
+                    in_plane + quantity("lift", "force", "y") + quantity("moment", "moment", "z")));
+    EXPECT_NEAR(ran.last("lift"), weight, 1e-9) << model;
+    EXPECT_NEAR(ran.last("moment"), 0, 1e-12) << model; // its place is its centre
+  }
+}
+
+// A force that is there at once takes an undamped body twice as far as the same at rest.
+TEST_F(Bodies, swing_and_tilt_in_time) {
+  const std::string turning = "inertia = [\"40 g.mm^2\", \"40 g.mm^2\", \"80 g.mm^2\"]\n"
+                              "fix = [\"x\", \"y\", \"turn_y\", \"turn_z\"]\n";
+  const std::string sag =
+      quantity("sag", "displacement", "gravity") + quantity("moment", "moment", "y") +
+      "[[quantity]]\nname = \"deepest\"\nkind = \"peak\"\nof = \"sag\"\nextreme = \"maximum\"\n";
+  const Ran at_rest = run(annulus("3d", turning, "[[step]]\nkind = \"weight\"\n" + sag));
+  const Ran swings =
+      run(annulus("3d", turning,
+                  "[[load]]\nplace = \"hub\"\nforce = [\"0 N\", \"0 N\", { wave = \"step\", to = "
+                  "\"-19.62 mN\" }]\n[[step]]\nkind = \"transient\"\nduration = \"30 "
+                  "ms\"\nincrements = 200\n" +
+                      sag));
+  EXPECT_NEAR(swings.last("deepest"), 2 * at_rest.last("sag"), 2e-2 * at_rest.last("sag"));
+  EXPECT_NEAR(swings.last("energy_error"), 0, 1e-2 * std::abs(swings.last("mechanical_work")));
+}
+
+} // namespace
+} // namespace dielast::cases
