@@ -233,7 +233,10 @@ struct Sweep {
 /// [[step]]
 struct Step {
   StepKind kind{};
-  std::string name; ///< default: its kind
+  std::string name;           ///< default: its kind
+  std::optional<double> to{}; ///< where a ramp of voltage (V), charge (C), pressure (Pa) or volume (m^3)
+                              ///< leads, instead of to what [drive] or [chamber] say
+  std::string electrode{};    ///< the only one that a ramp of voltage or charge is about; empty: all
   int increments = 1;
   std::optional<double> duration{}; ///< s; absent: a ramp that takes no time
   Response response{};              ///< without a duration

@@ -40,7 +40,8 @@ bool opens_chamber(const Case& one) {
   bool open = true;
   for (const Step& step : one.steps) {
     if (step.kind == StepKind::inflate) open = false;
-    if (step.kind == StepKind::pressure || (step.kind == StepKind::transient && open)) return true;
+    if ((step.kind == StepKind::pressure && !step.to) || (step.kind == StepKind::transient && open))
+      return true;
   }
   return false;
 }
@@ -129,10 +130,10 @@ Condition time_steps_matter() {
 }
 
 Condition voltage_applies() {
-  return on_case("a step of kind \"voltage\", or \"transient\" with control = \"voltage\"",
+  return on_case("a step of kind \"voltage\" without `to`, or \"transient\" with control = \"voltage\"",
                  [](const Case& one) {
                    return std::ranges::any_of(one.steps, [](const Step& step) {
-                     return step.kind == StepKind::voltage ||
+                     return (step.kind == StepKind::voltage && !step.to) ||
                             (step.kind == StepKind::transient && step.control == Control::voltage);
                    });
                  });
@@ -146,6 +147,13 @@ Condition chamber_is_open() {
 Condition chamber_is_closed() {
   return on_case("a step of kind \"inflate\"",
                  [](const Case& one) { return has_step(one, {StepKind::inflate}); });
+}
+
+Condition volume_applies() {
+  return on_case("a step of kind \"inflate\" without `to`", [](const Case& one) {
+    return std::ranges::any_of(one.steps,
+                               [](const Step& step) { return step.kind == StepKind::inflate && !step.to; });
+  });
 }
 
 Condition curved_triangles() {

@@ -20,10 +20,11 @@ Condition branches_flow();     ///< some of the branch's springs are felt
 Condition circuits_matter();   ///< time passes, something is linearised, or the circuit leaks
 Condition time_steps_matter(); ///< in a step with a duration something flows or has inertia
 Condition voltage_applies();
-Condition chamber_is_open();   ///< a step reaches or follows its pressure
-Condition chamber_is_closed(); ///< a step pumps it
-Condition curved_triangles();  ///< the film is of 6-node triangles
-Condition moves_along_it();    ///< of a quantity's direction
+Condition chamber_is_open(); ///< a step reaches or follows its pressure
+Condition chamber_is_closed();
+Condition volume_applies();   ///< a step pumps it
+Condition curved_triangles(); ///< the film is of 6-node triangles
+Condition moves_along_it();   ///< of a quantity's direction
 
 } // namespace when
 

@@ -174,7 +174,9 @@ int main(int argc, char** argv) {
     return command;
   };
   const auto takes_overrides = [&](CLI::App* command) {
-    command->add_option("--set", arguments.overrides, "override a key: --set honeycomb.angle=\"140 deg\"")
+    command
+        ->add_option("--set", arguments.overrides,
+                     "override a key: --set honeycomb.angle=\"140 deg\"; without a value it is removed")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
   };

@@ -92,11 +92,29 @@ Node& descend(Node& node, const Part& part, std::string_view key, const Source& 
   return node.add(part.name, std::move(made));
 }
 
+void remove(Node& tree, const std::vector<Part>& parts, std::string_view key, const Source& source) {
+  Node* table = &tree;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+    if (table)
+      table = table->is(Node::Kind::list) ? &list_item(*table, parts[i], key, source)
+                                          : table->find(parts[i].name);
+  if (table && table->is(Node::Kind::list)) {
+    const Node& item = list_item(*table, parts.back(), key, source);
+    table->items.erase(table->items.begin() + (&item - table->items.data()));
+    return;
+  }
+  const std::string& name = parts.back().name;
+  if (!table || !table->find(name)) fail(source, key, "there is no such key to remove");
+  table->remove(name);
+}
+
 } // namespace
 
 void apply_override(Node& tree, std::string_view key, std::string_view value, const Source& source) {
+  const std::vector<Part> parts = parts_of(key, source);
+  if (value.find_first_not_of(' ') == std::string_view::npos) return remove(tree, parts, key, source);
   Node* node = &tree;
-  for (const Part& part : parts_of(key, source)) node = &descend(*node, part, key, source);
+  for (const Part& part : parts) node = &descend(*node, part, key, source);
   *node = parse_value(value, source);
 }
 

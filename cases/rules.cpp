@@ -68,14 +68,17 @@ void check_drives(SectionReader& reader, const Node& tree, const Case& one) {
       std::ranges::any_of(one.drives, [](const auto& d) { return d.second.voltage.has_value(); });
   const bool charge =
       std::ranges::any_of(one.drives, [](const auto& d) { return d.second.charge.has_value(); });
-  if (!charge && has_step(one, {StepKind::charge}))
+  const auto has_open_step = [&one](StepKind kind) {
+    return std::ranges::any_of(one.steps, [kind](const Step& step) { return step.kind == kind && !step.to; });
+  };
+  if (!charge && has_open_step(StepKind::charge))
     report_at(reader, tree, "step",
               "a step of kind \"charge\" has no charge to reach; give [drive] a charge");
-  if (charge && !voltage && has_step(one, {StepKind::voltage}))
+  if (charge && !voltage && has_open_step(StepKind::voltage))
     report_at(reader, tree, "step",
               "a step of kind \"voltage\" has no voltage to reach; give [drive] a voltage");
   const bool follows_charge = std::ranges::any_of(one.steps, [](const Step& step) {
-    return step.kind == StepKind::charge ||
+    return (step.kind == StepKind::charge && !step.to) ||
            (step.kind == StepKind::transient && step.control == Control::charge);
   });
   if (charge && !follows_charge)
@@ -168,7 +171,8 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
           at.source, at.key,
           "nothing has a weight; add [plate], a [[point_mass]], a [[body]] or [gravity] with film = true");
     const auto& [x, y, z] = one.gravity.direction;
-    if (step.kind == StepKind::weight && one.dimension == fem::Dimension::planar && x == 0 && y == 0)
+    if (step.kind == StepKind::weight && one.dimension == fem::Dimension::planar && !one.plate && x == 0 &&
+        y == 0)
       reader.report(at.source, at.key,
                     "a planar model does not move along z; give [gravity] a direction in the plane");
     if (step.kind == StepKind::weight && one.dimension == fem::Dimension::axisymmetric && (x != 0 || y != 0))
@@ -211,7 +215,7 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
 void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   const auto need = [&](StepKind kind, const char* word, bool given) {
     for (std::size_t s = 0; s < one.steps.size(); ++s)
-      if (const Place at = place_of_step(tree, s); one.steps[s].kind == kind && !given)
+      if (const Place at = place_of_step(tree, s); one.steps[s].kind == kind && !given && !one.steps[s].to)
         reader.report(at.source, at.key, fmt::format("has nothing to reach; give [chamber] a {}", word));
   };
   need(StepKind::pressure, "pressure", one.chamber && one.chamber->pressure);

@@ -312,7 +312,7 @@ Section chamber_section() {
           "follows, and the chamber's own volume is Q / (1 + pressure / bulk_modulus)")
           .at_least(0)
           .optional()
-          .only_with(when::chamber_is_closed()),
+          .only_with(when::volume_applies()),
       measure("bulk_modulus", "Pa", to(&Chamber::bulk_modulus),
               "of the liquid that fills the chamber; of a gas the pressure outside")
           .at_least(1)

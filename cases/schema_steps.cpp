@@ -61,6 +61,25 @@ Section step_section() {
             {"harmonic", "response to a small sine of the source, frequency by frequency, branches relaxed"}},
            to(&Step::kind), "what happens in this step"),
       text("name", to(&Step::name), "its name in results").otherwise_as("kind").distinct(),
+      measure("to", "V", to(&Step::to), "voltage that it ramps to, instead of that of [drive]")
+          .optional()
+          .only_with(when::electrodes())
+          .only({"voltage"}),
+      measure("to", "C", to(&Step::to), "charge that it ramps to, instead of that of [drive]")
+          .optional()
+          .only_with(when::electrodes())
+          .only({"charge"}),
+      measure("to", "Pa", to(&Step::to), "pressure that it ramps to, instead of that of [chamber]")
+          .optional()
+          .only({"pressure"}),
+      measure("to", "m^3", to(&Step::to), "volume that it pumps to, instead of that of [chamber]")
+          .at_least(0)
+          .optional()
+          .only({"inflate"}),
+      text("electrode", to(&Step::electrode), "the only one that it is about; without it all")
+          .optional()
+          .refers_to(Reference::electrode)
+          .only({"voltage", "charge"}),
       increments("1", equal).only({"release"}),
       increments("10", equal).only({"voltage", "charge", "force", "move", "pressure", "inflate"}),
       increments("5", equal).only({"weight"}),

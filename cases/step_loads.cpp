@@ -42,11 +42,23 @@ const Drive* StepLoads::drive(std::size_t electrode) const {
   return found == case_.drives.end() ? nullptr : &found->second;
 }
 
+std::optional<double> StepLoads::goal_of(const Step& step, const std::optional<Waveform>& wave, Instant t) {
+  if (step.to) return step.to;
+  return wave ? std::optional(t.of(*wave)) : std::nullopt;
+}
+
+std::optional<double> StepLoads::goal_of(const Step& step, std::size_t electrode,
+                                         std::optional<Waveform> Drive::*part, Instant t) const {
+  if (!step.electrode.empty() && step.electrode != case_.electrodes[electrode].name) return std::nullopt;
+  const Drive* source = drive(electrode);
+  return goal_of(step, source ? source->*part : std::nullopt, t);
+}
+
 /// Circuits take time; without, an electrode is at its source's voltage.
 fem::Supply StepLoads::supply(const Step& step, std::size_t electrode) const {
-  const Drive* source = drive(electrode);
   const bool is_ramp = step.kind == StepKind::voltage || step.kind == StepKind::release;
-  if (step.kind == StepKind::charge ? source && source->charge : !is_ramp && step.control == Control::charge)
+  if (step.kind == StepKind::charge ? goal_of(step, electrode, &Drive::charge, {}).has_value()
+                                    : !is_ramp && step.control == Control::charge)
     return fem::Supply::charge;
   return step.duration && device_.model.circuit_of(electrode) ? fem::Supply::circuit : fem::Supply::voltage;
 }
@@ -121,21 +133,22 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
     loads.dead_force = dead_force(number, t);
   if (does(StepKind::move)) move(loads.held, t);
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
-    const Drive* source = drive(e);
-    if (!source) continue;
     const bool isolated = supply(step, e) == fem::Supply::charge;
-    if (does(StepKind::voltage) && source->voltage && !isolated) {
-      loads.source[e] = t.of(*source->voltage);
+    if (const auto goal = goal_of(step, e, &Drive::voltage, t);
+        does(StepKind::voltage) && goal && !isolated) {
+      loads.source[e] = *goal;
       const fem::Circuit* circuit = device_.model.circuit_of(e);
       loads.voltage[e] = loads.source[e] * (circuit ? circuit->steady_share() : 1);
     }
-    if (does(StepKind::charge) && source->charge && isolated) loads.charge[e] = t.of(*source->charge);
+    if (const auto goal = goal_of(step, e, &Drive::charge, t); does(StepKind::charge) && goal && isolated)
+      loads.charge[e] = *goal;
   }
   if (case_.chamber) {
     const std::size_t port = case_.electrodes.size();
-    if (does(StepKind::pressure) && case_.chamber->pressure)
-      loads.voltage[port] = t.of(*case_.chamber->pressure);
-    if (does(StepKind::inflate) && case_.chamber->volume) loads.charge[port] = t.of(*case_.chamber->volume);
+    if (const auto goal = goal_of(step, case_.chamber->pressure, t); does(StepKind::pressure) && goal)
+      loads.voltage[port] = *goal;
+    if (const auto goal = goal_of(step, case_.chamber->volume, t); does(StepKind::inflate) && goal)
+      loads.charge[port] = *goal;
   }
   return loads;
 }

@@ -30,6 +30,10 @@ class StepLoads {
 
  private:
   fem::Supply supply(const Step& step, std::size_t electrode) const;
+  /// What a ramp leads to, or a transient has at t; nothing where the step is not about it.
+  static std::optional<double> goal_of(const Step& step, const std::optional<Waveform>& wave, Instant t);
+  std::optional<double> goal_of(const Step& step, std::size_t electrode, std::optional<Waveform> Drive::*part,
+                                Instant t) const;
   void connect_chamber(const Step& step, const fem::Charges& held, fem::State& state) const;
   const Drive* drive(std::size_t electrode) const;
   /// Kinds of the steps up to this one.

@@ -72,13 +72,6 @@ std::string text_at(const Node& table, std::string_view key) {
   return node && node->is(Node::Kind::text) ? node->text : "";
 }
 
-void remove(Node& table, std::string_view key) {
-  const auto found = std::find(table.keys.begin(), table.keys.end(), key);
-  if (found == table.keys.end()) return;
-  table.items.erase(table.items.begin() + (found - table.keys.begin()));
-  table.keys.erase(found);
-}
-
 Node text_node(std::string text, const Source& source) {
   Node node;
   node.kind = Node::Kind::text;
@@ -219,7 +212,7 @@ int add_standard_quantities(Node& tree, const Template& device) {
     if (quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty()) continue;
     for (const char* key : {"at", "since"})
       if (Node* step = quantity.find(key)) step->text = name_of_step(tree, step->text);
-    if (text_at(quantity, "since").empty()) remove(quantity, "since");
+    if (text_at(quantity, "since").empty()) quantity.remove("since");
     standard.push_back(std::move(quantity));
   }
   for (Node& quantity : of_each_electrode(tree, "capacitance", source))

@@ -126,6 +126,13 @@ Node& Node::add(std::string key, Node value) {
   return items.emplace_back(std::move(value));
 }
 
+void Node::remove(std::string_view key) {
+  const auto found = std::find(keys.begin(), keys.end(), key);
+  if (found == keys.end()) return;
+  items.erase(items.begin() + (found - keys.begin()));
+  keys.erase(found);
+}
+
 Node parse_tree(std::string_view toml, const FileName& file) {
   try {
     require_shallow(toml, file);

@@ -33,6 +33,8 @@ struct Node {
   void relocate(const Source& source);
   /// Adds an entry; returns it.
   Node& add(std::string key, Node value);
+  /// Takes an entry of a table out; nothing happens where there is none.
+  void remove(std::string_view key);
 };
 
 /// Reads a TOML file. Throws FileError (missing, no file, larger than 4 MB, not readable) or CaseError

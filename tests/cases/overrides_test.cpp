@@ -55,6 +55,16 @@ TEST_F(OverrideCommand, ChecksAreOfTheDeviceAsWritten) {
   EXPECT_EQ(summary({"mesh.order=1", "drive.voltage=5 kV"}, "checked.toml")["checks"].size(), 0u);
 }
 
+TEST_F(OverrideCommand, WithoutAValueTheKeyIsRemoved) {
+  const nlohmann::json plain = summary({});
+  EXPECT_EQ(summary({"mesh.order=1", "mesh.order="})["quantities"], plain["quantities"]);
+  EXPECT_NE(summary({"mesh.order=1"})["quantities"], plain["quantities"]);
+  const Ended ended = dielast({"run", "small.toml", "--set", "drive.chage="});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("drive.chage: there is no such key to remove"), std::string::npos) << ended.err;
+  EXPECT_EQ(dielast({"check", "small.toml", "--set", "drive="}).exit_code, 0);
+}
+
 TEST_F(OverrideCommand, WrongOnesAreReportedByTheirOwnWords) {
   const Ended ended =
       dielast({"run", "small.toml", "--set", "honeycomb.angle=60 deg", "--set", "mesh.ordr=1"});
