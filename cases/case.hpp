@@ -96,7 +96,7 @@ struct Electrode {
 /// [[support]]
 struct Support {
   std::string place;
-  std::array<bool, 3> fixed{};                     ///< x, y, z
+  std::array<bool, 6> fixed{};                     ///< displacements along x, y, z, rotations about them
   std::array<std::optional<Waveform>, 3> motion{}; ///< displacement of fixed directions, m; absent: none
   bool standard = false;                           ///< brought by the geometry, not written by the user
 

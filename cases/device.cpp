@@ -8,13 +8,7 @@
 #include "fem/distance_block.hpp"
 #include "fem/membrane_block.hpp"
 #include "fem/point_mass_block.hpp"
-#include "meshing/gmsh_reader.hpp"
-#include "meshing/honeycomb_mesh.hpp"
-#include "meshing/meridian.hpp"
 #include "meshing/mesh_error.hpp"
-#include "meshing/patch.hpp"
-#include "meshing/refine.hpp"
-#include "meshing/rings.hpp"
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
@@ -27,13 +21,6 @@
 namespace dielast::cases {
 
 namespace {
-
-template<class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
-template<class... Functions> // Clang 14 deduces none for aggregates
-Overloaded(Functions...)->Overloaded<Functions...>;
 
 /// Electrode over each triangle.
 std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {
@@ -52,18 +39,6 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
     }
   }
   return map;
-}
-
-/// A user's mesh in m, without the lines that only name places.
-meshing::Mesh film_of(meshing::Mesh mesh, double unit) {
-  for (auto& x : mesh.nodes) x *= unit;
-  for (int b = static_cast<int>(mesh.blocks.size()) - 1; b >= 0; --b) {
-    if (!meshing::is_line(mesh.blocks[static_cast<std::size_t>(b)].type)) continue;
-    mesh.blocks.erase(mesh.blocks.begin() + b);
-    std::erase_if(mesh.cell_sets, [b](const auto& place) { return place.second.block == b; });
-    for (auto& [name, set] : mesh.cell_sets) set.block -= set.block > b;
-  }
-  return mesh;
 }
 
 /// A user's own mesh has no unit in its file: what is taken for a metre may have been a millimetre.
@@ -173,6 +148,23 @@ void add_masses(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   }
 }
 
+void hold(const Support& support, const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  bool turns = false, clamps = false;
+  for (int c = 0; c < fem::DofMap::components; ++c) {
+    const bool fixed = support.fixed[static_cast<std::size_t>(c)];
+    clamps = clamps || (fixed && c > 2);
+    for (const int node : mesh.node_sets.at(support.place)) {
+      turns = turns || (c > 2 && dofs.equation(node, c) != fem::DofMap::absent);
+      if (fixed) dofs.hold(node, c);
+    }
+  }
+  if (clamps && !turns)
+    throw CaseError(
+        {{{one.source.string()},
+          "support.fix",
+          fmt::format("nothing turns at \"{}\": film has no rotations, walls have", support.place)}});
+}
+
 /// The plate keeps its edge round and level: it moves along z only.
 void carry_plate(const Plate& plate, const meshing::Mesh& mesh, fem::DofMap& dofs) {
   const auto& edge = mesh.node_sets.at(plate.place);
@@ -262,46 +254,6 @@ void add_springs(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
 
 } // namespace
 
-meshing::Mesh build_mesh(const Case& one) {
-  const MeshOptions& options = one.mesh;
-  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
-  try {
-    return std::visit(
-        Overloaded{
-            [&](const Honeycomb& h) {
-              return meshing::honeycomb_mesh({h.angle, h.columns, h.wall_length},
-                                             {options.order, options.wall_elements, options.grading});
-            },
-            [&](const Disc& d) {
-              if (of_revolution)
-                return meshing::disc_meridian(d.radius, d.electrode_radius, options.rings, options.order);
-              return meshing::disc_mesh(d.radius, d.electrode_radius, options.rings, options.order, true);
-            },
-            [&](const Annulus& a) {
-              if (of_revolution)
-                return meshing::annulus_meridian(a.inner_radius, a.outer_radius, options.rings, options.order,
-                                                 options.grading);
-              return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order, true,
-                                           options.grading);
-            },
-            [&](const Balloon& b) {
-              return meshing::balloon_meridian(b.radius, options.rings, options.order);
-            },
-            [&](const Patch& p) {
-              return meshing::patch_mesh(p.length * one.film.prestretch[0], p.width * one.film.prestretch[1]);
-            },
-            [&](const MeshFile& file) {
-              meshing::Mesh mesh = meshing::read_gmsh(file.path);
-              for (int i = 0; i < options.refine; ++i) mesh = meshing::refined(std::move(mesh));
-              return film_of(std::move(mesh), options.unit.value_or(1));
-            },
-        },
-        one.geometry);
-  } catch (const std::invalid_argument& error) {
-    throw meshing::MeshError(error.what());
-  }
-}
-
 std::vector<std::string> places_of(const meshing::Mesh& mesh) {
   std::vector<std::string> places;
   for (const auto& [name, nodes] : mesh.node_sets) places.push_back(name);
@@ -360,10 +312,7 @@ Device build_device(const Case& one) {
   for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
   add_chamber(one, mesh, model);
   for (const auto& block : model.blocks) block->claim_dofs(model.dofs, dimension);
-  for (const Support& support : one.supports)
-    for (const int node : mesh.node_sets.at(support.place))
-      for (int c = 0; c < 3; ++c)
-        if (support.fixed[static_cast<std::size_t>(c)]) model.dofs.hold(node, c);
+  for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   tie_bodies(one, bodies, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty();
   if (free_body) pin(mesh, model.dofs);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace dielast::cases {
 namespace {
 
@@ -26,6 +28,10 @@ Binding flags(Flags T::*member) {
             return value.empty() ? std::nullopt : std::optional(value);
           }};
 }
+
+const std::vector<Choice> motions{
+    {"x", "along x"},      {"y", "along y"},      {"z", "normal to the undeformed film"},
+    {"turn_x", "about x"}, {"turn_y", "about y"}, {"turn_z", "about z, the normal of the undeformed film"}};
 
 Section electrode_section() {
   Section section = list_section("electrode", "a charged part of the film", each(&Case::electrodes));
@@ -85,12 +91,14 @@ Section support_section() {
   Section section = list_section("support", "a place that is held or moved", each(&Case::supports));
   section.keys = {
       text("place", to(&Support::place), "the place that is held").refers_to(Reference::place),
-      word("fix", axes, flags(&Support::fixed), "directions in which it cannot move").values(1, 3).optional(),
+      word("fix", motions, flags(&Support::fixed),
+           "what its nodes cannot do; walls have rotations, film has none")
+          .values(1, 6)
+          .optional(),
   };
   section.sections.push_back(displacement_section());
   section.check = [](const void* object) -> std::optional<Conflict> {
-    const auto& held = static_cast<const Support*>(object)->fixed;
-    if (held[0] || held[1] || held[2]) return std::nullopt;
+    if (std::ranges::count(static_cast<const Support*>(object)->fixed, true) > 0) return std::nullopt;
     return Conflict{"fix", "missing; give the directions in which it is held, such as [\"x\", \"y\"], or a "
                            "displacement"};
   };
@@ -228,10 +236,6 @@ Section point_mass_section() {
           .refers_to(Reference::place));
   return section;
 }
-
-const std::vector<Choice> motions{
-    {"x", "along x"},      {"y", "along y"},      {"z", "normal to the undeformed film"},
-    {"turn_x", "about x"}, {"turn_y", "about y"}, {"turn_z", "about z, the normal of the undeformed film"}};
 
 Section body_section() {
   Section section = list_section(

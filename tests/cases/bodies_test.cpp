@@ -79,5 +79,22 @@ TEST_F(Bodies, swing_and_tilt_in_time) {
   EXPECT_NEAR(swings.last("energy_error"), 0, 1e-2 * std::abs(swings.last("mechanical_work")));
 }
 
+TEST_F(Bodies, walls_can_be_clamped_and_film_cannot) {
+  const auto clamped = [this](const std::string& place) {
+    write("clamped.toml", test::small_honeycomb + "[[support]]\nplace = \"" + place +
+                              "\"\nfix = [\"x\", \"y\", \"turn_z\"]\n");
+    return build_device(read_case(directory / "clamped.toml"));
+  };
+  const Device device = clamped("corner_top");
+  const int corner = device.mesh.node_sets.at("corner_top").front();
+  for (const int c : {0, 1, 5}) EXPECT_TRUE(device.model.dofs.is_held(device.model.dofs.equation(corner, c)));
+  write("film.toml",
+        "model = \"planar\"\n[film]\nmaterial = \"VHB 4910 (diaphragm)\"\nthickness = \"1 "
+        "mm\"\nprestretch = 2\n[annulus]\ninner_radius = \"10 mm\"\nouter_radius = \"20 "
+        "mm\"\n[drive]\nvoltage = \"1 kV\"\n[[support]]\nplace = \"outer\"\nfix = [\"x\", \"y\", "
+        "\"turn_z\"]\n");
+  EXPECT_THROW(build_device(read_case(directory / "film.toml")), CaseError);
+}
+
 } // namespace
 } // namespace dielast::cases

@@ -80,7 +80,7 @@ TEST(Reader, DiscDefaults) {
   EXPECT_EQ(one.film.prestretch, (std::array{3.0, 3.0}));
   EXPECT_EQ(one.electrodes.at(0).place, "electrode");
   EXPECT_EQ(one.supports.at(0).place, "rim");
-  EXPECT_EQ(one.supports.at(0).fixed, (std::array{true, true, true}));
+  EXPECT_EQ(one.supports.at(0).fixed, (std::array{true, true, true, false, false, false}));
   EXPECT_EQ(one.mesh.rings, 24);
   EXPECT_EQ(one.mesh.quadrature, 6);
   EXPECT_EQ(one.drives.at("film"), Drive{}); // not driven
@@ -181,7 +181,7 @@ TEST(Reader, SidesOfAPatchBecomeSupportsAndLoads) {
   const Case one = read_case(valid / "patch.toml");
   ASSERT_EQ(one.supports.size(), 3u);
   EXPECT_EQ(one.supports[0].place, "left");
-  EXPECT_EQ(one.supports[1].fixed, (std::array{false, true, false}));
+  EXPECT_EQ(one.supports[1].fixed, (std::array{false, true, false, false, false, false}));
   EXPECT_EQ(one.supports[2].place, "right");
   EXPECT_NEAR(one.supports[2].motion[0]->at(0), 0, 1e-17);         // drawn at the stretch 1.5
   EXPECT_DOUBLE_EQ(one.supports[2].motion[0]->at(2), 0.5 * 20e-3); // held at the stretch 2
@@ -218,7 +218,7 @@ TEST(Reader, APatchTakesOneStepForEachThatIsGiven) {
 
 TEST(Reader, WavesOfMotionsAndForces) {
   const Case one = read_case(valid / "moved.toml");
-  EXPECT_EQ(one.supports.at(1).fixed, (std::array{true, true, false})); // what is moved is held
+  EXPECT_EQ(one.supports.at(1).fixed, (std::array{true, true, false, false, false, false})); // what is moved is held
   EXPECT_DOUBLE_EQ(one.supports.at(1).motion[0]->at(0.25), 2e-3);
   EXPECT_FALSE(one.supports.at(1).motion[1]);
   EXPECT_EQ(one.loads.at(0).force[1], Waveform::constant_at(1e-3));
