@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/tie_reduction.hpp"
 
 #include <algorithm>

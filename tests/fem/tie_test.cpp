@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/modal.hpp"
 #include "fem/point_mass_block.hpp"
 #include "fem/tangent_check.hpp"
