@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/cases/path_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+// Which states a run of a film with a chamber accepts, see paths_test.cpp.
+
+namespace dielast::cases {
+namespace {
+
+TEST_F(Paths, a_balloon_stops_at_its_greatest_pressure) {
+  for (const int increments : {5, 10, 13, 100}) {
+    const Run stopped = run(fmt::format(R"toml([film]
+thickness = "0.5 mm"
+[film.material]
+law = "gent"
+shear_modulus = "45 kPa"
+stretch_limit = 30
+permittivity = "4e-11 F/m"
+[balloon]
+radius = "20 mm"
+[mesh]
+rings = 16
+[chamber]
+pressure = "1.6 kPa"
+[[step]]
+kind = "pressure"
+increments = {}
+)toml",
+                                        increments),
+                            "pressure");
+    EXPECT_EQ(stopped.outcome.kind, "limit point");
+    EXPECT_NEAR(stopped.rows.back().value, 1454.17, 0.1) << increments; // closed form, at stretch 1.445
+  }
+}
+
+// From slack film no path leads: what is found there must lead back.
+TEST_F(Paths, a_balloon_that_starts_slack_stops_at_its_greatest_pressure) {
+  for (const int increments : {1, 2, 5, 13}) {
+    const Run stopped = run(fmt::format(R"toml([film]
+thickness = "0.5 mm"
+wrinkling = "tension field"
+[film.material]
+law = "gent"
+shear_modulus = "45 kPa"
+stretch_limit = 30
+permittivity = "4e-11 F/m"
+[balloon]
+radius = "20 mm"
+[mesh]
+rings = 8
+[chamber]
+pressure = "1.6 kPa"
+[[step]]
+kind = "pressure"
+increments = {}
+)toml",
+                                        increments),
+                            "pressure");
+    EXPECT_EQ(stopped.outcome.kind, "limit point") << increments;
+    EXPECT_NEAR(stopped.rows.back().value, 1454.28, 0.1) << increments; // on eight rings
+  }
+}
+
+/// A prestretched disc under which a liquid is shut in, and which is then driven.
+const std::string shut_in = R"toml(model = "axisymmetric"
+[film]
+thickness = "1 mm"
+prestretch = 1.93
+[film.material]
+law = "mooney-rivlin"
+c1 = "56 kPa"
+c2 = "0.66 kPa"
+permittivity = "4e-11 F/m"
+[mesh]
+rings = 6
+[disc]
+radius = "40 mm"
+electrode_radius = "25 mm"
+[chamber]
+volume = "61 ml"
+[drive]
+voltage = "51 kV"
+[[step]]
+kind = "inflate"
+[[step]]
+kind = "voltage"
+)toml";
+
+TEST_F(Paths, a_closed_chamber_has_its_limit_point_whatever_the_increments) {
+  std::vector<double> limits;
+  for (const int increments : {1, 4, 30}) {
+    const Run stopped = run(shut_in + fmt::format("increments = {}\n", increments), "electrode_radius");
+    EXPECT_EQ(stopped.outcome.kind, "limit point") << stopped.outcome.message;
+    limits.push_back(stopped.rows.back().load_factor);
+    EXPECT_NEAR(limits.back(), limits.front(), 1e-6) << increments;
+  }
+}
+
+// A filled balloon under voltage swells more on one side of its equator: a bifurcation.
+TEST_F(Paths, a_bifurcation_is_where_it_is_whatever_the_increments) {
+  std::vector<double> critical;
+  for (const int increments : {3, 100}) {
+    const Run stopped = run(fmt::format(R"toml([film]
+thickness = "1 mm"
+[film.material]
+law = "yeoh"
+c1 = "6.2 kPa"
+c2 = "-0.06 kPa"
+c3 = "0.0054 kPa"
+permittivity = "4e-11 F/m"
+[balloon]
+radius = "20 mm"
+[[electrode]]
+name = "film"
+place = "film"
+[mesh]
+rings = 6
+[chamber]
+volume = "130 ml"
+[drive]
+voltage = "9 kV"
+[[step]]
+kind = "inflate"
+[[step]]
+kind = "voltage"
+increments = {}
+)toml",
+                                        increments),
+                            "pressure");
+    EXPECT_EQ(stopped.outcome.kind, "limit point");
+    EXPECT_NE(stopped.outcome.message.find("(a bifurcation)"), std::string::npos) << stopped.outcome.message;
+    critical.push_back(stopped.rows.back().load_factor);
+    // what ends the run is one event, called what the run's ending is
+    const auto is_critical_point = [](const post::Event& event) { return is_critical(event.kind); };
+    EXPECT_EQ(std::ranges::count_if(stopped.events, is_critical_point), 1);
+    EXPECT_EQ(stopped.events.back().kind, stopped.outcome.kind);
+  }
+  EXPECT_NEAR(critical[0], critical[1], 1e-6);
+}
+
+} // namespace
+} // namespace dielast::cases
