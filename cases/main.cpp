@@ -51,7 +51,7 @@ ExitCode check(const Arguments& arguments) {
   for (const cases::Diagnostic& warning : one.warnings) cases::say(stderr, "{}\n", warning.text());
   for (const std::string& warning : device.warnings) cases::say(stderr, "{}\n", warning);
   cases::say("{}: valid\n{}unknowns: {} free, {} held{}\n", arguments.case_file, meshing::format(quality),
-             device.model.dofs.free_count(), device.model.dofs.count() - device.model.dofs.free_count(),
+             device.model.dofs.free_count(), device.model.dofs.held_count(),
              device.free_body ? " (a free body, pinned against rigid motion)" : "");
   if (!arguments.tangent) return ExitCode::ok;
   fem::Equilibrium equilibrium(device.model, arguments.threads);

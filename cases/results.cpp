@@ -100,7 +100,7 @@ std::string meaning(const Quantity& q) {
 std::string meshing_summary(const Device& device) {
   return meshing::format(meshing::quality(device.mesh)) +
          fmt::format("unknowns: {} free, {} held\n", device.model.dofs.free_count(),
-                     device.model.dofs.count() - device.model.dofs.free_count());
+                     device.model.dofs.held_count());
 }
 
 post::Panel panel(const Device& device, const Snapshot& snapshot, const std::vector<double>& values) {

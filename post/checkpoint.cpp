@@ -179,10 +179,10 @@ std::vector<double> unpack(const json& packed, std::size_t size) {
 
 StateSizes StateSizes::of(const fem::Model& model) {
   const fem::State drawn = model.initial_state();
-  const int equations = model.dofs.count();
   return {drawn.displacement.size(),
-          static_cast<std::size_t>(equations),
-          static_cast<std::size_t>(equations - model.dofs.free_count()),
+          static_cast<std::size_t>(model.dofs.count()),
+          static_cast<std::size_t>(model.dofs.free_count()),
+          static_cast<std::size_t>(model.dofs.held_count()),
           model.electrodes.size(),
           model.chambers.size(),
           drawn.history ? drawn.history->now.size() : 0,
@@ -220,7 +220,7 @@ fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
     progress.turns = archived.at("turns");
     progress.unstable_modes = archived.at("unstable_modes");
     if (const json& slope = archived.at("slope"); !slope.is_null())
-      progress.slope = restore_slope(slope, sizes.equations - sizes.held);
+      progress.slope = restore_slope(slope, sizes.free);
     for (const json& point : archived.at("points"))
       progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), sizes)});
     if (progress.points.empty()) mismatch();
@@ -246,7 +246,7 @@ fem::ContinuationProgress restore_continuation(const json& archived, const State
     const json& counts = archived.at("counts");
     fem::ContinuationProgress progress{restore_state(archived.at("state"), sizes),
                                        numbers[0],
-                                       vector(archived.at("direction"), sizes.equations - sizes.held),
+                                       vector(archived.at("direction"), sizes.free),
                                        numbers[1],
                                        numbers[2],
                                        numbers[3],

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/checkpoint.hpp"
 #include "tests/cases/film_cases.hpp"
 
 #include <cmath>
@@ -78,6 +79,24 @@ TEST_F(Bodies, swing_and_tilt_in_time) {
                       sag));
   EXPECT_NEAR(swings.last("deepest"), 2 * at_rest.last("sag"), 2e-2 * at_rest.last("sag"));
   EXPECT_NEAR(swings.last("energy_error"), 0, 1e-2 * std::abs(swings.last("mechanical_work")));
+}
+
+TEST_F(Bodies, are_archived_and_restored) {
+  write("body.toml", annulus("3d", "", "[[step]]\nkind = \"weight\"\n"));
+  const Case one = read_case(directory / "body.toml");
+  Simulation simulation(one, 1);
+  int archived = 0;
+  SimulationObserver observer;
+  observer.on_accept = [&](const Frame&) {
+    const fem::RampProgress progress = simulation.progress().in_step.ramp;
+    const auto sizes = post::StateSizes::of(simulation.device().model);
+    const fem::RampProgress restored = post::restore_ramp(post::archive(progress), sizes);
+    EXPECT_EQ(restored.points.back().state.displacement, progress.points.back().state.displacement);
+    ++archived;
+    return true;
+  };
+  simulation.run(observer);
+  EXPECT_GT(archived, 4);
 }
 
 TEST_F(Bodies, walls_can_be_clamped_and_film_cannot) {
