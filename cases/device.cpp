@@ -312,8 +312,8 @@ Device build_device(const Case& one) {
   for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
   add_chamber(one, mesh, model);
   for (const auto& block : model.blocks) block->claim_dofs(model.dofs, dimension);
-  for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   tie_bodies(one, bodies, mesh, model.dofs);
+  for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty();
   if (free_body) pin(mesh, model.dofs);
   if (of_revolution)
@@ -321,7 +321,15 @@ Device build_device(const Case& one) {
       if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);
   if (one.plate) carry_plate(*one.plate, mesh, model.dofs);
   if (const auto* patch = std::get_if<Patch>(&one.geometry)) keep_homogeneous(*patch, mesh, model.dofs);
-  model.dofs.number();
+  try {
+    model.dofs.number();
+  } catch (const std::invalid_argument& error) {
+    throw CaseError(
+        {{{one.source.string()},
+          "body.places",
+          fmt::format("{}: what a [[body]] carries no [[support]], [plate] or side of a patch can hold",
+                      error.what())}});
+  }
   model.inertia = fem::Inertia::of(model.blocks, model.dofs);
   add_circuits(one, model);
   add_sheets(one, mesh, model);

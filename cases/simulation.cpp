@@ -52,7 +52,7 @@ Simulation::Simulation(const Case& one, int threads)
 
 Eigen::VectorXd Simulation::frame_force() {
   Eigen::VectorXd force;
-  equilibrium_.internal_force(device_.model.initial_state(), force);
+  equilibrium_.assembler().residual(device_.model.initial_state(), force); // on tied nodes where they are
   force.segment(device_.model.dofs.free_count(), device_.model.dofs.held_count()).setZero();
   return force;
 }

@@ -81,6 +81,18 @@ TEST_F(Bodies, swing_and_tilt_in_time) {
   EXPECT_NEAR(swings.last("energy_error"), 0, 1e-2 * std::abs(swings.last("mechanical_work")));
 }
 
+TEST_F(Bodies, may_be_held_by_a_support_but_not_what_they_carry) {
+  const auto with = [this](const std::string& text) {
+    write("body.toml", annulus("3d", "", "[[step]]\nkind = \"weight\"\n" + text));
+    return build_device(read_case(directory / "body.toml"));
+  };
+  const Device device = with("[[support]]\nplace = \"hub\"\nfix = [\"z\", \"turn_x\"]\n");
+  const int hub = device.mesh.node_sets.at("hub").front();
+  for (const int c : {2, 3}) EXPECT_TRUE(device.model.dofs.is_held(device.model.dofs.equation(hub, c)));
+  EXPECT_THROW(with("[[support]]\nplace = \"film\"\nfix = [\"z\"]\n"), CaseError);
+  EXPECT_THROW(with("[plate]\nmass = \"1 g\"\n"), CaseError);
+}
+
 TEST_F(Bodies, are_archived_and_restored) {
   write("body.toml", annulus("3d", "", "[[step]]\nkind = \"weight\"\n"));
   const Case one = read_case(directory / "body.toml");
