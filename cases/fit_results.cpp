@@ -26,10 +26,10 @@ FitError error_of(const MeasuredTest& test, const std::vector<double>& model) {
 
 } // namespace
 
-FitResults::FitResults(const Fit& fit, FitTask task, FitOutcome outcome)
-    : fit(fit), task(std::move(task)), outcome(std::move(outcome)) {
-  for (std::size_t t = 0; t < this->task.tests.size(); ++t)
-    errors.push_back(error_of(this->task.tests[t], this->outcome.stress[t]));
+FitResults::FitResults(const Fit& of, FitTask fitted, FitOutcome found)
+    : fit(of), task(std::move(fitted)), outcome(std::move(found)) {
+  for (std::size_t t = 0; t < task.tests.size(); ++t)
+    errors.push_back(error_of(task.tests[t], outcome.stress[t]));
 }
 
 std::string FitResults::ending() const {

@@ -18,7 +18,7 @@ struct FitResults {
   FitOutcome outcome;
   std::vector<FitError> errors; ///< one for each test
 
-  FitResults(const Fit& fit, FitTask task, FitOutcome outcome);
+  FitResults(const Fit& of, FitTask fitted, FitOutcome found);
 
   /// In words: how the fit ended.
   std::string ending() const;
