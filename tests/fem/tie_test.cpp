@@ -24,7 +24,7 @@ void claim_body(DofMap& dofs, int master, Dimension dimension) {
 struct FilmOnBody {
   explicit FilmOnBody(Dimension dimension) : mesh(test::distorted_square(3, 2, 0.02)) {
     const Eigen::Vector3d beside(0.03, 0.013, 0);
-    const int master = mesh.node_count();
+    master = mesh.node_count();
     mesh.nodes.push_back(beside);
     mesh.nodes.emplace_back(0.033, -0.004, 0); // a part of the body that no element knows, with a mass
     model = test::unnumbered_model(
@@ -50,7 +50,6 @@ struct FilmOnBody {
     model->length_scale = 5e-3;
     model->extent = 0.04;
     model->drawn = mesh.nodes;
-    this->master = master;
   }
   State anywhere(unsigned seed) const {
     std::mt19937 random(seed);
@@ -158,8 +157,8 @@ TEST_P(Ties, move_forces_to_the_master_with_their_moments) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Ties, ::testing::Values(Dimension::planar, Dimension::spatial),
-                         [](const auto& info) {
-                           return std::string(info.param == Dimension::planar ? "planar" : "spatial");
+                         [](const auto& tested) {
+                           return std::string(tested.param == Dimension::planar ? "planar" : "spatial");
                          });
 
 TEST(Tie, to_a_tied_node_leads_to_its_master) {
@@ -214,7 +213,9 @@ TEST(Tie, lets_a_pendulum_swing_far) {
     const double error = std::abs(run.end().displacement[1].x() + 1);
     EXPECT_NEAR(run.end().displacement[1].y(), -1, 1e-5);
     EXPECT_LT(error, 1e-3);
-    if (steps > 100) EXPECT_GT(before / error, 3.5) << "second order";
+    if (steps > 100) {
+      EXPECT_GT(before / error, 3.5) << "second order";
+    }
     before = error;
     const EnergyPoint end = energy_point(equilibrium, run.end(), 0);
     EXPECT_NEAR(run.balance.work().mechanical, 9.81, 1e-3);
