@@ -14,7 +14,7 @@ constexpr double least_damping = 1e-12, most_damping = 1e8;
 constexpr double less = 1.0 / 5, more = 6;  ///< factors of the damping
 constexpr double well = 0.75, badly = 0.25; ///< decrease of the energy over the one that was foretold
 constexpr double rounded = 1e-12;           ///< of the energy: smaller changes are not told
-constexpr int most_steps = 200;
+constexpr int most_steps = 400;
 
 constexpr double next_to_nothing = 1e-9; ///< of the film's stiffness: tension that is none
 
@@ -72,13 +72,14 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
     if (feasible) balance(trial, there, Pressure::is_unknown);
     const double change = there.energy - current.energy - dead_work;
     const double noise = rounded * (std::abs(there.energy) + std::abs(current.energy) + std::abs(dead_work));
-    const bool descends = -foretold > noise && change < 0;
-    if (!feasible || !there.feasible || !(descends || there.norm < current.norm)) {
+    const bool tells = -foretold > noise;
+    const bool falls = tells ? change < 0 : there.norm < current.norm;
+    if (!feasible || !there.feasible || !falls) {
       damping *= more;
       length = 0;
       continue;
     }
-    const double share = descends ? change / foretold : 1;
+    const double share = tells ? change / foretold : 1;
     if (share > well) damping = std::max(least_damping, damping * less);
     if (share < badly) damping *= more;
     previous_norm = current.norm;

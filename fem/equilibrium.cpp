@@ -231,13 +231,8 @@ NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& opti
                                          const std::function<void(const Iteration&)>& log) {
   NewtonResult result = newton(state, options, log);
   if (result.outcome == Outcome::converged || !options.wrinkles) return result;
-  int iterations = result.iterations;
+  const int iterations = result.iterations;
   result = descend(state, options, log);
-  if (result.outcome != Outcome::converged) {
-    // Damped steps creep where all wrinkles have come to lie as they will: Newton's are short enough there.
-    iterations += result.iterations;
-    result = newton(state, options, log);
-  }
   result.iterations += iterations;
   return result;
 }

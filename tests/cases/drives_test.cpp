@@ -3,7 +3,6 @@
 #include "cases/simulation.hpp"
 #include "tests/cases/scratch.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,42 +100,6 @@ class Drives : public test::ScratchTest {
   std::vector<Analysis> analyses;
   std::vector<std::string> warnings;
 };
-
-// Levels of one drive, between other steps: each ramp says where it leads, the last follows the drive.
-TEST_F(Drives, ASteppedDriveReachesEachOfItsLevels) {
-  const auto ramp = [](const std::string& keys) {
-    return "[[step]]\nkind = \"voltage\"\nincrements = 1\n" + keys;
-  };
-  const std::string hold = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\nincrements = 1\n";
-  ASSERT_EQ(run(viscous_patch + "[drive]\nvoltage = \"2 kV\"\n" + ramp("name = \"up\"\nto = \"3 kV\"\n") +
-                hold + ramp("name = \"down\"\nto = \"0 V\"\n") + ramp(""))
-                .ending,
-            Ending::complete);
-  EXPECT_EQ(voltages(), (std::vector<double>{0, 3000, 3000, 0, 2000}));
-  // without [drive]
-  ASSERT_EQ(run(viscous_patch + ramp("to = \"3 kV\"\n")).ending, Ending::complete);
-  EXPECT_EQ(voltages(), (std::vector<double>{0, 3000}));
-  const double held = last("charge");
-  ASSERT_EQ(run(viscous_patch +
-                fmt::format("[[step]]\nkind = \"charge\"\nincrements = 4\nto = \"{:.17g} C\"\n", held))
-                .ending,
-            Ending::complete);
-  EXPECT_NEAR(rows.back().record.voltages.at(0), 3000, 1e-4);
-}
-
-TEST_F(Drives, ARampMayBeAboutOneElectrode) {
-  const std::string ramps =
-      two_electrodes.substr(0, two_electrodes.find("[drive.a]")) +
-      "[[step]]\nkind = \"release\"\n"
-      "[[step]]\nkind = \"voltage\"\nname = \"first\"\nelectrode = \"b\"\nto = \"2 kV\"\n"
-      "[[step]]\nkind = \"voltage\"\nname = \"both\"\nto = \"1 kV\"\n";
-  ASSERT_EQ(run(ramps).ending, Ending::complete);
-  const auto first =
-      std::ranges::find_if(rows, [](const Row& row) { return row.record.voltages.at(1) == 2000; });
-  ASSERT_NE(first, rows.end());
-  EXPECT_EQ(first->record.voltages.at(0), 0);
-  EXPECT_EQ(rows.back().record.voltages, (std::vector<double>{1000, 1000}));
-}
 
 // "A bias with a step on it": the ramp leads to the bias, the transient begins with the jump.
 TEST_F(Drives, ARampLeadsToTheSideOfAJumpBeforeTheTransient) {

@@ -19,6 +19,7 @@ class FilmCases : public test::ScratchTest {
   struct Ran {
     Outcome outcome;
     std::vector<double> time;                          ///< s, per recorded state
+    std::vector<std::vector<double>> voltages;         ///< V, likewise, per electrode
     std::map<std::string, std::vector<double>> values; ///< per quantity likewise
     double last(const std::string& name) const { return values.at(name).back(); }
   };
@@ -31,6 +32,7 @@ class FilmCases : public test::ScratchTest {
     SimulationObserver observer;
     observer.on_accept = [&](const Frame& frame) {
       ran.time.push_back(frame.record.time);
+      ran.voltages.push_back(frame.record.voltages);
       for (std::size_t q = 0; q < one.quantities.size(); ++q)
         ran.values[one.quantities[q].name].push_back(frame.values[q]);
       return true;

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t nodes = 5, equations = 12;
-constexpr StateSizes sizes{nodes, equations, 3, 2, 0, 2, 3};
+constexpr StateSizes sizes{nodes, equations, equations - 3, 3, 2, 0, 2, 3};
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
@@ -146,8 +146,8 @@ TEST(Checkpoint, OfAnotherModelIsRefused) {
   const json archived = archive(sample_progress());
   EXPECT_NO_THROW(restore_ramp(archived, sizes));
   for (const auto member :
-       {&StateSizes::nodes, &StateSizes::equations, &StateSizes::held, &StateSizes::electrodes,
-        &StateSizes::internal_variables, &StateSizes::sheet_points}) {
+       {&StateSizes::nodes, &StateSizes::equations, &StateSizes::free, &StateSizes::held,
+        &StateSizes::electrodes, &StateSizes::internal_variables, &StateSizes::sheet_points}) {
     StateSizes other = sizes;
     ++(other.*member);
     EXPECT_THROW(restore_ramp(archived, other), CheckpointError);
