@@ -119,12 +119,15 @@ TEST(CircularActuator, curved_six_node_triangles_converge) {
     edge.push_back(std::abs(actuator.radial_strain() - row.strain));
     capacitance.push_back(std::abs(actuator.capacitance_ratio() / exact - 1));
   }
+  // With all circles curved the first pair's order was 2.26, and every error of the edge a quarter to a half
+  // larger.
+  EXPECT_LT(edge[0], 5e-5);
   for (std::size_t i = 0; i + 1 < edge.size(); ++i) {
-    EXPECT_GT(std::log2(edge[i] / edge[i + 1]), 2.2) << i;
+    EXPECT_GT(std::log2(edge[i] / edge[i + 1]), i == 0 ? 2.1 : 2.2) << i;
     EXPECT_NEAR(std::log2(capacitance[i] / capacitance[i + 1]), 4, 0.4) << i;
   }
   EXPECT_GT(std::log2(edge[2] / edge[3]), 2.7);
-  EXPECT_LT(edge.back(), 1e-6);
+  EXPECT_LT(edge.back(), 3e-7);
 }
 
 // Straight sides, 6 points, 5 kV, outer radius 3 times the electrode's: three independent codes agree on
