@@ -146,8 +146,8 @@ TEST(Checkpoint, OfAnotherModelIsRefused) {
   const json archived = archive(sample_progress());
   EXPECT_NO_THROW(restore_ramp(archived, sizes));
   for (const auto member :
-       {&StateSizes::nodes, &StateSizes::equations, &StateSizes::free, &StateSizes::held,
-        &StateSizes::electrodes, &StateSizes::internal_variables, &StateSizes::sheet_points}) {
+       {&StateSizes::nodes, &StateSizes::equations, &StateSizes::held, &StateSizes::electrodes,
+        &StateSizes::internal_variables, &StateSizes::sheet_points}) {
     StateSizes other = sizes;
     ++(other.*member);
     EXPECT_THROW(restore_ramp(archived, other), CheckpointError);
