@@ -183,7 +183,8 @@ std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
 fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   if (step.kind != StepKind::transient)
-    return fem::linear_path(device_.model.dofs, start, at(number, start, just_before_start));
+    return fem::linear_path(device_.model.dofs, start, at(number, start, just_before_start),
+                            case_.electrodes.size());
   fem::LoadPath path;
   const double duration = *step.duration;
   const std::vector<Break> all = breaks(step);

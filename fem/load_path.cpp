@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/load_path.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -65,10 +66,10 @@ std::vector<double> mix(const std::vector<double>& from, const std::vector<doubl
 }
 
 /// The electrode whose voltage changes most; none where it changes its sign or nothing changes.
-std::optional<std::size_t> leading_electrode(const Loads& from, const Loads& to) {
+std::optional<std::size_t> leading_electrode(const Loads& from, const Loads& to, std::size_t electrodes) {
   std::optional<std::size_t> leading;
   double largest = 0;
-  for (std::size_t e = 0; e < from.voltage.size(); ++e)
+  for (std::size_t e = 0; e < std::min(electrodes, from.voltage.size()); ++e)
     if (const double change = std::abs(to.voltage[e] - from.voltage[e]); change > largest) {
       largest = change;
       leading = e;
@@ -103,9 +104,9 @@ bool LoadPath::jumps(const DofMap& dofs, const State& state, double s) const {
   return ((right - left).cwiseAbs().array() > turn.array()).any();
 }
 
-LoadPath linear_path(const DofMap& dofs, Loads from, Loads to) {
+LoadPath linear_path(const DofMap& dofs, Loads from, Loads to, std::size_t electrodes) {
   LoadPath path;
-  if (const auto e = leading_electrode(from, to))
+  if (const auto e = leading_electrode(from, to, electrodes))
     path.parameter = [a = from.voltage[*e], b = to.voltage[*e]](double s) {
       const double phi = (1 - s) * a + s * b;
       return phi * phi;

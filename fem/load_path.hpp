@@ -4,7 +4,9 @@
 #include "fem/dofs.hpp"
 #include "fem/state.hpp"
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <span>
 
 namespace dielast::fem {
@@ -47,7 +49,9 @@ struct LoadPath {
 };
 
 /// Loads that grow linearly with s. The parameter is the largest Phi^2, in which the film's energy is linear,
-/// where one voltage leads without changing its sign. `dofs` must outlive the path.
-LoadPath linear_path(const DofMap& dofs, Loads from, Loads to);
+/// where one voltage leads without changing its sign; only the first `electrodes` ports have one, the others
+/// a pressure. `dofs` must outlive the path.
+LoadPath linear_path(const DofMap& dofs, Loads from, Loads to,
+                     std::size_t electrodes = std::numeric_limits<std::size_t>::max());
 
 } // namespace dielast::fem

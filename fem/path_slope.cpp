@@ -59,6 +59,20 @@ PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& 
   return slope;
 }
 
+bool is_foreseen(const Equilibrium& equilibrium, std::span<const PathPoint> points, double parameter,
+                 const State& predicted, const State& trial) {
+  constexpr double close = 0.1, faster = 3;
+  if (points.size() < 2) return false;
+  const auto size = [&equilibrium](const State& from, const State& to) {
+    const Eigen::VectorXd u = equilibrium.model().dofs.increment(from, to);
+    return std::sqrt(u.dot(equilibrium.stiffness().cwiseProduct(u)));
+  };
+  const PathPoint &before = points[points.size() - 2], &here = points.back();
+  const double longer = (parameter - here.parameter) / (here.parameter - before.parameter);
+  const double step = size(here.state, trial);
+  return size(predicted, trial) <= close * step && step <= faster * longer * size(before.state, here.state);
+}
+
 bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,
                const State& to, const PathSlope& slope_to, const Steadiness& steadiness) {
   const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from, to);

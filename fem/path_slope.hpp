@@ -5,6 +5,7 @@
 #include "fem/load_path.hpp"
 
 #include <limits>
+#include <span>
 
 namespace dielast::fem {
 
@@ -23,6 +24,12 @@ struct PathSlope {
 /// farther: beyond, the path may have a break.
 PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s, double reach,
                    bool factored = true);
+
+/// Whether a predictor through the `points` of a path has led to `trial`, at `parameter`, closely, in the
+/// norm of Equilibrium::stiffness(). As a predictor that runs away may meet another branch, the path must not
+/// have become several times faster either since the increment before.
+bool is_foreseen(const Equilibrium& equilibrium, std::span<const PathPoint> points, double parameter,
+                 const State& predicted, const State& trial);
 
 /// How far an increment may be from what the slopes at its ends tell of it; see is_joined().
 struct Steadiness {

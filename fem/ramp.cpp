@@ -20,7 +20,6 @@ constexpr int jump_parts = 8;              ///< of loads that jump
 constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
 constexpr double smallest_on_path = 1e-9;  ///< of the load factor, where other branches are found
 constexpr double longest_kinked = 1e-4;    ///< increment, see Steadiness
-constexpr double foreseen = 0.1;           ///< error of the predictor over the change of the state
 constexpr double first_moment = 1e-3;      ///< of an increment in time: its start, with dashpots that flow
 constexpr double tiny = 1e-300;
 
@@ -154,11 +153,7 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   if (options_.inertia) return true; // motion has no other branch
   if (options_.newton.wrinkles && equilibrium_.is_slack(last()))
     return equilibrium_.is_slack(trial) || leads_back(trial, s);
-  const auto size = [this](const State& from, const State& to) {
-    const Eigen::VectorXd u = equilibrium_.model().dofs.increment(from, to);
-    return std::sqrt(u.dot(equilibrium_.stiffness().cwiseProduct(u)));
-  };
-  if (progress_.points.size() > 1 && size(predicted, trial) <= foreseen * size(last(), trial)) return true;
+  if (is_foreseen(equilibrium_, progress_.points, parameter(s), predicted, trial)) return true;
   const double length = s - progress_.load_factor;
   const LoadPath increment = within(s);
   const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
@@ -250,7 +245,7 @@ bool Ramp::pass_break() {
             (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
   progress_.points = {{at, state}};
   if (!jumped_) return true;
-  const LoadPath jump = linear_path(dofs, before, after);
+  const LoadPath jump = linear_path(dofs, before, after, equilibrium_.model().electrodes.size());
   if (!options_.inertia)
     return detour(jump, std::move(state),
                   {.newton = options_.newton,

@@ -36,6 +36,43 @@ increments = {}
   }
 }
 
+// States were extrapolated in the square of the pressure, far off, and met the branch beyond the limit point.
+TEST_F(Paths, a_charged_balloon_is_not_led_astray_by_the_predictor) {
+  std::vector<double> ends;
+  for (const int increments : {10, 14, 100, 300}) {
+    const Run stopped = run(fmt::format(R"toml([film]
+thickness = "1 mm"
+[film.material]
+law = "arruda-boyce"
+shear_modulus = "26.578 kPa"
+locking_stretch = 3.0845
+permittivity = "4e-11 F/m"
+[mesh]
+rings = 6
+[balloon]
+radius = "20 mm"
+[[electrode]]
+name = "film"
+place = "film"
+[chamber]
+pressure = "6.294 kPa"
+[drive]
+voltage = "13927 V"
+[[step]]
+kind = "voltage"
+[[step]]
+kind = "pressure"
+increments = {}
+)toml",
+                                        increments),
+                            "pressure");
+    EXPECT_EQ(stopped.outcome.kind, "limit point") << increments;
+    ends.push_back(stopped.rows.back().value);
+    EXPECT_NEAR(ends.back(), ends.front(), 1e-3) << increments;
+  }
+  EXPECT_NEAR(ends.front(), 0.1234 * 6294, 1);
+}
+
 // From slack film no path leads: what is found there must lead back.
 TEST_F(Paths, a_balloon_that_starts_slack_stops_at_its_greatest_pressure) {
   for (const int increments : {1, 2, 5, 13}) {
