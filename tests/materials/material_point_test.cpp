@@ -169,9 +169,9 @@ TEST(MaterialPoint, equal_biaxial_pull_in_with_and_without_stiffening) {
                                   {Gent{1, 100}, 1.2638044443828862, 0.6893632220278523, 1.101052091970083},
                                   {Gent{1, 120}, 1.2631379691672047, 0.689025355403234, 1.0993520325759432}};
   for (const auto& [law, stretch, nominal_field, true_field] : cases) {
-    const auto potential = [&](double l) {
+    const auto potential = [&of_case = law](double l) { // Clang 14 captures no structured binding
       return std::visit([l](const auto& one) { return axisymmetric_potential(one, Dielectric{}, l, l, 0); },
-                        law);
+                        of_case);
     };
     const auto k = [&](double l) { return potential(l).first[0] / (l * l * l); };
     double stable = 1, unstable = 1.6;
