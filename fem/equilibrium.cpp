@@ -267,7 +267,9 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     result.residual = current.scale > 0 ? current.norm / current.scale : 0;
     if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
     if (balanced(current, options.tolerance, previous_norm, step_length == 1 ? step_size(step) : infinity)) {
-      const bool known = stale_tangent <= near || factor_and_count(state);
+      // An unstable mode of a state close by is not one of this state; a pump's filling makes close far.
+      const bool tells = stale_tangent <= near && result.unstable_modes == 0 && !model_.closed_chamber(state);
+      const bool known = tells || factor_and_count(state);
       return end(known ? Outcome::converged : Outcome::singular);
     }
     if (result.iterations >= options.max_iterations ||

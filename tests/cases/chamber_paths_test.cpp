@@ -36,6 +36,37 @@ increments = {}
   }
 }
 
+// The tangent that Newton's last step was taken with told of an unstable mode that the state itself has not.
+TEST_F(Paths, a_filled_balloon_ends_at_its_bifurcation_whatever_the_increments) {
+  std::vector<double> ends;
+  for (const int increments : {4, 100, 331, 700}) {
+    const Run stopped = run(fmt::format(R"toml([film]
+thickness = "1 mm"
+[film.material]
+law = "yeoh"
+c1 = "23.596414361381903 kPa"
+c2 = "-0.057683585822078894 kPa"
+c3 = "0.0015656637500486186 kPa"
+permittivity = "4e-11 F/m"
+[mesh]
+rings = 6
+[balloon]
+radius = "20 mm"
+[chamber]
+volume = "715.110737991969 ml"
+bulk_modulus = "96802.75499534968 kPa"
+[[step]]
+kind = "inflate"
+increments = {}
+)toml",
+                                        increments),
+                            "pressure");
+    EXPECT_EQ(stopped.outcome.kind, "limit point") << increments;
+    ends.push_back(stopped.rows.back().load_factor);
+    EXPECT_NEAR(ends.back(), ends.front(), 1e-6) << increments;
+  }
+}
+
 // States were extrapolated in the square of the pressure, far off, and met the branch beyond the limit point.
 TEST_F(Paths, a_charged_balloon_is_not_led_astray_by_the_predictor) {
   std::vector<double> ends;
