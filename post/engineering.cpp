@@ -40,10 +40,11 @@ ScaledUnit scaled_unit(double magnitude, std::string_view unit, Ratio ratio) {
 std::string significant(double value, int digits) {
   if (std::isnan(value)) return "-";
   if (value == 0) return "0";
+  if (!std::isfinite(value)) return fmt::format("{}", value);
   // The exponent after rounding: 0.99999 is 1.000, not 1.0000.
   const double rounded = std::strtod(fmt::format("{:.{}e}", value, digits - 1).c_str(), nullptr);
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(rounded))));
-  if (!std::isfinite(value) || exponent < -4 || exponent > 6) return fmt::format("{:.{}g}", value, digits);
+  if (exponent < -4 || exponent > 6) return fmt::format("{:.{}g}", value, digits);
   return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
 }
 
