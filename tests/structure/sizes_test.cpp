@@ -12,7 +12,7 @@ const std::vector<std::string> rooms{"materials", "meshing", "fem", "post", "cas
 
 /// What is larger today than it may be, and how large it is: these numbers only fall.
 const std::map<std::string, int> too_large_today{
-    {"cases", 130}, {"fem", 91}, {"materials", 39}, {"meshing", 26}, {"post", 39}};
+    {"cases", 130}, {"fem", 89}, {"materials", 39}, {"meshing", 26}, {"post", 39}};
 
 int most(const std::filesystem::path& of, int otherwise) {
   const auto known = too_large_today.find(of);
