@@ -148,6 +148,21 @@ void add_masses(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   }
 }
 
+/// A body's name is a place beside those of the mesh, and a body carries places of the mesh.
+void check_body_names(const Case& one, const std::vector<std::string>& places) {
+  for (std::size_t b = 0; b < one.bodies.size(); ++b) {
+    const auto fail = [&](const char* key, const std::string& message) {
+      throw CaseError({{{one.source.string()}, fmt::format("body[{}].{}", b + 1, key), message}});
+    };
+    const Body& body = one.bodies[b];
+    if (std::ranges::count(places, body.name) > 0)
+      fail("name", fmt::format("the mesh has a place \"{}\"; call the body otherwise", body.name));
+    for (const std::string& place : body.places)
+      if (std::ranges::count(one.bodies, place, &Body::name) > 0)
+        fail("places", fmt::format("\"{}\" is a body; one body carries places of the mesh", place));
+  }
+}
+
 void hold(const Support& support, const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
   bool turns = false, clamps = false;
   for (int c = 0; c < fem::DofMap::components; ++c) {
@@ -263,6 +278,7 @@ std::vector<std::string> places_of(const meshing::Mesh& mesh) {
 Device build_device(const Case& one) {
   meshing::Mesh mesh = build_mesh(one);
   std::vector<std::string> places = places_of(mesh);
+  check_body_names(one, places);
   for (const Body& body : one.bodies) places.push_back(body.name);
   check_places(one, places);
   const fem::Dimension dimension = one.dimension;

@@ -93,6 +93,17 @@ TEST_F(Bodies, may_be_held_by_a_support_but_not_what_they_carry) {
   EXPECT_THROW(with("[plate]\nmass = \"1 g\"\n"), CaseError);
 }
 
+TEST_F(Bodies, have_names_of_their_own_and_carry_no_bodies) {
+  const auto with = [this](const std::string& name, const std::string& place) {
+    write("body.toml", annulus("3d", "", "[[step]]\nkind = \"weight\"\n") + "[[body]]\nname = \"" + name +
+                           "\"\nplaces = [\"" + place + "\"]\n");
+    return build_device(read_case(directory / "body.toml"));
+  };
+  EXPECT_THROW(with("film", "outer"), CaseError); // would have been the film's place from then on
+  EXPECT_THROW(with("ring", "hub"), CaseError);
+  EXPECT_THROW(with("ring", "ring"), CaseError);
+}
+
 TEST_F(Bodies, are_archived_and_restored) {
   write("body.toml", annulus("3d", "", "[[step]]\nkind = \"weight\"\n"));
   const Case one = read_case(directory / "body.toml");
