@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/csv.hpp"
-#include "tests/cases/scratch.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 namespace dielast::cases {
 namespace {
 
-const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "table.csv";
+const test::ScratchFolder folder;
+const std::filesystem::path file = folder / "table.csv";
 
 CsvTable read(const std::string& content, std::vector<Diagnostic>& wrong, int least_rows = 1) {
   std::ofstream(file, std::ios::binary) << content;

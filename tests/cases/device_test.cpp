@@ -5,11 +5,11 @@
 #include "cases/simulation.hpp"
 #include "cases/step_loads.hpp"
 #include "meshing/mesh_error.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <unistd.h>
 
 namespace dielast::cases {
 namespace {
@@ -97,21 +97,18 @@ TEST(Loads, OfAFreeBodyMustBalanceAtAllTimes) {
 }
 
 Case patch(const std::string& lines) {
-  // one file per process: tests run side by side
-  const auto path =
-      std::filesystem::path(testing::TempDir()) / ("patch_device_" + std::to_string(getpid()) + ".toml");
+  const test::ScratchFolder folder;
+  const auto path = folder / "patch.toml";
   std::ofstream(path) << "[film]\nthickness = \"0.5 mm\"\nprestretch = 2\n[film.material]\n"
                          "shear_modulus = \"30 kPa\"\nrelative_permittivity = 4\n[patch]\n"
                       << lines;
-  Case one = read_case(path);
-  std::filesystem::remove(path);
-  return one;
+  return read_case(path);
 }
 
 // What leaks through the film leaks under the sheet: the circuit's conductance is spread over its points.
 TEST(Sheet, WithACircuitThatLeaksItLeaks) {
-  const auto path =
-      std::filesystem::path(testing::TempDir()) / ("sheet_device_" + std::to_string(getpid()) + ".toml");
+  const test::ScratchFolder folder;
+  const auto path = folder / "sheet.toml";
   std::ofstream(path)
       << "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"30 kPa\"\n"
          "relative_permittivity = 4\n[disc]\nradius = 0.03\nelectrode_radius = 0.01\n[mesh]\n"
@@ -119,7 +116,6 @@ TEST(Sheet, WithACircuitThatLeaksItLeaks) {
          "1e6\nterminal = \"centre\"\n[drive]\nvoltage = 100\n[circuit]\nresistance = 1e5\n"
          "leakage_resistance = 5e8\n[[step]]\nkind = \"hold\"\nduration = 1\n";
   const Device device = build_device(read_case(path));
-  std::filesystem::remove(path);
   double leakage = 0;
   for (const fem::SheetPoint& point : device.model.sheet_points) leakage += point.leakage;
   EXPECT_NEAR(leakage, 1 / 5e8, 1e-12 / 5e8);

@@ -3,6 +3,7 @@
 #include "cases/quantities.hpp"
 #include "cases/reader.hpp"
 #include "cases/resolved.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -193,7 +194,8 @@ TEST(Reader, SidesOfAPatchBecomeSupportsAndLoads) {
 /// Kinds of the steps of a patch that has none of its own.
 std::vector<StepKind> patch_steps(const std::string& patch, const std::string& drive,
                                   const std::vector<std::string>& overrides = {}) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "patch_steps.toml";
+  const test::ScratchFolder folder;
+  const auto path = folder / "patch_steps.toml";
   std::ofstream(path) << "[film]\nmaterial = \"VHB 4910 (diaphragm)\"\nthickness = \"1 mm\"\n[patch]\n"
                       << patch << "\n[drive]\n"
                       << drive;
@@ -218,7 +220,8 @@ TEST(Reader, APatchTakesOneStepForEachThatIsGiven) {
 
 TEST(Reader, WavesOfMotionsAndForces) {
   const Case one = read_case(valid / "moved.toml");
-  EXPECT_EQ(one.supports.at(1).fixed, (std::array{true, true, false, false, false, false})); // what is moved is held
+  EXPECT_EQ(one.supports.at(1).fixed,
+            (std::array{true, true, false, false, false, false})); // what is moved is held
   EXPECT_DOUBLE_EQ(one.supports.at(1).motion[0]->at(0.25), 2e-3);
   EXPECT_FALSE(one.supports.at(1).motion[1]);
   EXPECT_EQ(one.loads.at(0).force[1], Waveform::constant_at(1e-3));
@@ -263,7 +266,8 @@ TEST(Resolved, ReadingItGivesTheSameCase) {
   for (const char* name :
        {"honeycomb.toml", "disc.toml", "annulus.toml", "own_mesh.toml", "patch.toml", "moved.toml"}) {
     const Case one = read_case(valid / name);
-    const auto path = std::filesystem::path(testing::TempDir()) / (std::string("resolved_") + name);
+    const test::ScratchFolder folder;
+    const auto path = folder / name;
     std::ofstream(path) << resolved_text(one);
     const Case again = read_case(path);
     EXPECT_EQ(resolved_text(again), resolved_text(one)) << name;
@@ -283,11 +287,11 @@ TEST(Files, ThoseThatCannotBeReadAreFileErrors) {
   EXPECT_THROW(read_case(valid / "nowhere.toml"), FileError);
   EXPECT_THROW(read_case(valid), FileError);
   EXPECT_THROW(read_case(""), FileError);
-  const auto huge = std::filesystem::path(testing::TempDir()) / "huge.toml";
+  const test::ScratchFolder folder;
+  const auto huge = folder / "huge.toml";
   std::ofstream(huge) << "a";
   std::filesystem::resize_file(huge, 17u << 20); // sparse: takes no space
   EXPECT_THROW(read_case(huge), FileError);
-  std::filesystem::remove(huge);
 }
 
 TEST(Places, UnknownOnesAreReportedWhereTheyWereWritten) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "tests/scratch_folder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string>
-#include <unistd.h>
 
 namespace dielast::test {
 
@@ -63,13 +63,9 @@ inline std::string text_of(const std::filesystem::path& file) {
 class ScratchTest : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "dielast_command_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch directory");
-    directory = pattern;
     write("small.toml", small_honeycomb);
     write("disc.toml", small_disc);
   }
-  void TearDown() override { std::filesystem::remove_all(directory); }
 
   void write(const std::string& file, const std::string& text) const {
     std::ofstream(directory / file, std::ios::binary) << text;
@@ -77,7 +73,8 @@ class ScratchTest : public testing::Test {
   std::string content(const std::string& file) const { return text_of(directory / file); }
   bool exists(const std::string& file) const { return std::filesystem::exists(directory / file); }
 
-  std::filesystem::path directory;
+  const ScratchFolder scratch;
+  const std::filesystem::path directory = scratch.path();
 };
 
 } // namespace dielast::test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "tests/scratch_folder.hpp"
+
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -8,7 +10,6 @@
 #include <fstream>
 #include <string>
 #include <string_view>
-#include <unistd.h>
 
 namespace dielast::fuzz {
 
@@ -20,17 +21,8 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 
 /// A folder of this process's own, removed when it ends well.
 inline const std::filesystem::path& scratch() {
-  struct Folder {
-    std::filesystem::path path;
-    Folder() {
-      std::string pattern = (std::filesystem::temp_directory_path() / "dielast_fuzz_XXXXXX").string();
-      if (mkdtemp(pattern.data()) == nullptr) std::abort();
-      path = pattern;
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
-  };
-  static const Folder folder;
-  return folder.path;
+  static const test::ScratchFolder folder;
+  return folder.path();
 }
 
 /// A property that must hold for every input does not.

@@ -2,6 +2,7 @@
 #include "meshing/gmsh_reader.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/quality.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,12 +43,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 class GmshReader : public testing::Test {
  protected:
-  void SetUp() override {
-    path_ = std::filesystem::path(testing::TempDir()) /
-            (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".msh");
-  }
-  void TearDown() override { std::filesystem::remove(path_); }
-
   Mesh read(const std::string& text) const {
     std::ofstream(path_) << text;
     return read_gmsh(path_);
@@ -62,7 +57,8 @@ class GmshReader : public testing::Test {
     }
   }
 
-  std::filesystem::path path_;
+  const test::ScratchFolder folder_;
+  const std::filesystem::path path_ = folder_ / "mesh.msh";
 };
 
 TEST_F(GmshReader, ReadsBothOrders) {
@@ -197,8 +193,6 @@ TEST_F(GmshReader, OpensNothingButTheFile) {
   for (const char* name : {".gmshrc", ".gmsh-options"}) std::ofstream(home / name) << command;
   EXPECT_EQ(read(square(1)).node_count(), 4);
   EXPECT_FALSE(std::filesystem::exists(mark));
-  std::filesystem::remove(options);
-  std::filesystem::remove_all(home);
 }
 
 TEST_F(GmshReader, ReadsTheOlderFormatAndLineEndings) {

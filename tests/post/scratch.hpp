@@ -1,29 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "tests/scratch_folder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace dielast::post {
 
 /// A test with an empty directory of its own.
 class ScratchTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "dielast_post_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch directory");
-    directory = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(directory); }
-
   std::string content(const std::string& file) const {
     std::ifstream stream(directory / file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -32,7 +25,8 @@ class ScratchTest : public testing::Test {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(directory), {}));
   }
 
-  std::filesystem::path directory;
+  const test::ScratchFolder scratch;
+  const std::filesystem::path directory = scratch.path();
 };
 
 /// While it lives no file can grow above `bytes`: stands in for a full disk, as only root could make one.
