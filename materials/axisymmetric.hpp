@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "materials/branch.hpp"
-#include "materials/plane_stress.hpp"
+#include "materials/branches/branch.hpp"
+#include "materials/laws/plane_stress.hpp"
 
 namespace dielast::materials {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "materials/parameter.hpp"
+#include "materials/laws/parameter.hpp"
 
 #include <array>
 

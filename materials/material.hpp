@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "materials/branch.hpp"
-#include "materials/dielectric.hpp"
-#include "materials/elastic_law.hpp"
+#include "materials/branches/branch.hpp"
+#include "materials/laws/dielectric.hpp"
+#include "materials/laws/elastic_law.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "materials/plane_stress.hpp"
+#include "materials/laws/plane_stress.hpp"
 
 #include <Eigen/Dense>
 

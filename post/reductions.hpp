@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/samples.hpp"
+#include "fem/model/samples.hpp"
 #include "meshing/mesh.hpp"
 #include "post/fields.hpp"
 

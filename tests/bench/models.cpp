@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/models.hpp"
 
-#include "fem/membrane_block.hpp"
+#include "fem/films/membrane_block.hpp"
 #include "meshing/rings.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/ramp.hpp"
+#include "fem/paths/ramp.hpp"
 #include "meshing/mesh.hpp"
 
 namespace dielast::bench {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/checkpoint.hpp"
+#include "post/files/checkpoint.hpp"
 #include "tests/cases/film_cases.hpp"
 
 #include <cmath>

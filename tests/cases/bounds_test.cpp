@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/input_file.hpp"
-#include "cases/reader.hpp"
-#include "cases/resolved.hpp"
-#include "cases/study_points.hpp"
-#include "cases/study_reader.hpp"
-#include "cases/tree.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/readers/resolved.hpp"
+#include "cases/readers/study_reader.hpp"
+#include "cases/studies/study_points.hpp"
+#include "cases/text/input_file.hpp"
+#include "cases/text/tree.hpp"
 #include "tests/cases/scratch.hpp"
 
 #include <algorithm>

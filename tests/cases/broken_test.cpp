@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/reader.hpp"
-#include "cases/study_reader.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/readers/study_reader.hpp"
 
 #include <gtest/gtest.h>
 

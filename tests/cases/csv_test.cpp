@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/csv.hpp"
+#include "cases/text/csv.hpp"
 #include "tests/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

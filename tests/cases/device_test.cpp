@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/device.hpp"
+#include "cases/devices/device.hpp"
 
-#include "cases/reader.hpp"
-#include "cases/simulation.hpp"
-#include "cases/step_loads.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/runs/simulation.hpp"
+#include "cases/runs/step_loads.hpp"
 #include "meshing/mesh_error.hpp"
 #include "tests/scratch_folder.hpp"
 

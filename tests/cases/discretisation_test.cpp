@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/discretisation.hpp"
+#include "cases/devices/discretisation.hpp"
 
-#include "cases/reader.hpp"
+#include "cases/readers/reader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/reader.hpp"
-#include "cases/simulation.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/runs/simulation.hpp"
 #include "tests/cases/scratch.hpp"
 
 #include <fmt/format.h>

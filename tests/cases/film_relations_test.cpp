@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/film_cases.hpp"
 
-#include "cases/fit_model.hpp"
+#include "cases/fitting/fit_model.hpp"
 #include "meshing/rings.hpp"
 #include "tests/cases/own_mesh.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/fit_model.hpp"
+#include "cases/fitting/fit_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/fit_reader.hpp"
-#include "cases/reader.hpp"
-#include "cases/study_reader.hpp"
+#include "cases/readers/fit_reader.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/readers/study_reader.hpp"
 #include "tests/cases/scratch.hpp"
 
 namespace dielast::cases {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/fit_solver.hpp"
-#include "cases/fit_statistics.hpp"
+#include "cases/fitting/fit_solver.hpp"
+#include "cases/fitting/fit_statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/study_reader.hpp"
+#include "cases/readers/study_reader.hpp"
 #include "tests/cases/command.hpp"
 
 #include <algorithm>

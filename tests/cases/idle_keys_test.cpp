@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/reader.hpp"
-#include "cases/resolved.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/readers/resolved.hpp"
 #include "tests/cases/scratch.hpp"
 
 #include <gtest/gtest.h>

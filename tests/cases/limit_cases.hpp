@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/reader.hpp"
-#include "cases/simulation.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/runs/simulation.hpp"
 #include "tests/cases/scratch.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/step_loads.hpp"
-#include "fem/instability.hpp"
+#include "cases/runs/step_loads.hpp"
+#include "fem/paths/instability.hpp"
 #include "tests/cases/limit_cases.hpp"
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/measurement.hpp"
-#include "cases/reader.hpp"
-#include "fem/equilibrium.hpp"
+#include "cases/analyses/measurement.hpp"
+#include "cases/readers/reader.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
 #include "tests/cases/scratch.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/waveform.hpp"
+#include "cases/text/waveform.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/overrides.hpp"
-#include "cases/quantities.hpp"
-#include "cases/reader.hpp"
-#include "cases/resolved.hpp"
+#include "cases/case/quantities.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/readers/resolved.hpp"
+#include "cases/text/overrides.hpp"
 #include "tests/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/richardson.hpp"
+#include "cases/runs/richardson.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/convert.hpp"
-#include "cases/describe.hpp"
-#include "cases/json_schema.hpp"
-#include "cases/templates.hpp"
-#include "cases/units.hpp"
+#include "cases/language/convert.hpp"
+#include "cases/manual/describe.hpp"
+#include "cases/manual/json_schema.hpp"
+#include "cases/tables/templates.hpp"
+#include "cases/text/units.hpp"
 #include "materials/catalog.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/units.hpp"
+#include "cases/text/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/waveform.hpp"
+#include "cases/text/waveform.hpp"
 
 #include <gtest/gtest.h>
 

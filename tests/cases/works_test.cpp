@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/device.hpp"
-#include "cases/reader.hpp"
-#include "cases/simulation.hpp"
+#include "cases/devices/device.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/runs/simulation.hpp"
 #include "tests/cases/patch_oracle.hpp"
 #include "tests/cases/scratch.hpp"
 #include "tests/cases/sheet_oracle.hpp"

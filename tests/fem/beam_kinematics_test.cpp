@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/beam_kinematics.hpp"
+#include "fem/elements/beam_kinematics.hpp"
 
-#include "materials/dual.hpp"
+#include "materials/laws/dual.hpp"
 #include "tests/fem/beam_oracle.hpp"
 #include "tests/fem/sample_models.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/bordered_tangent.hpp"
+#include "fem/equilibrium/bordered_tangent.hpp"
 
-#include "fem/dense_algebra.hpp"
-#include "fem/equilibrium.hpp"
+#include "fem/algebra/dense_algebra.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
 #include "tests/fem/material_point_block.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/chamber_block.hpp"
+#include "fem/elements/chamber_block.hpp"
 #include "tests/fem/sample_models.hpp"
 
 namespace dielast::fem::test {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/chamber_block.hpp"
+#include "fem/elements/chamber_block.hpp"
 
-#include "fem/equilibrium.hpp"
-#include "fem/meridian.hpp"
-#include "fem/triangle.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
+#include "fem/films/meridian.hpp"
+#include "fem/films/triangle.hpp"
 #include "meshing/meridian.hpp"
 #include "meshing/rings.hpp"
 #include "tests/fem/chamber_models.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/continuation.hpp"
+#include "fem/paths/continuation.hpp"
 
 #include "tests/fem/material_point_block.hpp"
 #include "tests/fem/sample_meshes.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/model.hpp"
+#include "fem/model/model.hpp"
 
 namespace dielast::fem::test {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/point_mass_block.hpp"
-#include "fem/ramp.hpp"
+#include "fem/elements/point_mass_block.hpp"
+#include "fem/paths/ramp.hpp"
 #include "meshing/meridian.hpp"
 #include "meshing/rings.hpp"
 #include "tests/fem/sample_models.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/distance_block.hpp"
-#include "fem/equilibrium.hpp"
+#include "fem/elements/distance_block.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
 #include "tests/fem/derivative_contract.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

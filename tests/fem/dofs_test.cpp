@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/dofs.hpp"
+#include "fem/model/dofs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/energy_balance.hpp"
+#include "fem/paths/energy_balance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/equilibrium.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
 #include "tests//fem/derivative_contract.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

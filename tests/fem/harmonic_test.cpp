@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/harmonic.hpp"
+#include "fem/linear/harmonic.hpp"
 
-#include "fem/point_mass_block.hpp"
+#include "fem/elements/point_mass_block.hpp"
 #include "tests/fem/diaphragm.hpp"
 #include "tests/fem/sample_meshes.hpp"
 

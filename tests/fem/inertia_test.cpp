@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/inertia.hpp"
+#include "fem/model/inertia.hpp"
 
-#include "fem/distance_block.hpp"
+#include "fem/elements/distance_block.hpp"
 #include "tests/fem/diaphragm.hpp"
 #include "tests/fem/timed_run.hpp"
 

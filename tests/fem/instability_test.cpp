@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/instability.hpp"
+#include "fem/paths/instability.hpp"
 
-#include "fem/dense_algebra.hpp"
+#include "fem/algebra/dense_algebra.hpp"
 #include "tests/fem/material_point_block.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

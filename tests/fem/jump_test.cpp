@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/jump.hpp"
+#include "fem/paths/jump.hpp"
 
-#include "fem/instability.hpp"
+#include "fem/paths/instability.hpp"
 #include "tests/fem/material_point_block.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

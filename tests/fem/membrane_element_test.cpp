@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/triangle.hpp"
-#include "materials/dual.hpp"
+#include "fem/films/triangle.hpp"
+#include "materials/laws/dual.hpp"
 #include "tests/fem/derivative_contract.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/equilibrium.hpp"
-#include "materials/plane_stress.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
+#include "materials/laws/plane_stress.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/equilibrium.hpp"
-#include "materials/dual.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
+#include "materials/laws/dual.hpp"
 #include "meshing/meridian.hpp"
 #include "tests/fem/derivative_contract.hpp"
 #include "tests/fem/sample_models.hpp"

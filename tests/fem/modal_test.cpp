@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/modal.hpp"
+#include "fem/linear/modal.hpp"
 
-#include "fem/chamber_block.hpp"
+#include "fem/elements/chamber_block.hpp"
 #include "tests/fem/diaphragm.hpp"
 #include "tests/fem/material_point_block.hpp"
 #include "tests/fem/sample_meshes.hpp"

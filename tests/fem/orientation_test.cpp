@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/orientation.hpp"
+#include "fem/algebra/orientation.hpp"
 
 #include "tests/fem/sample_models.hpp"
 

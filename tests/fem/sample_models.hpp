@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/assembler.hpp"
-#include "fem/beam_block.hpp"
-#include "fem/membrane_block.hpp"
-#include "fem/model.hpp"
+#include "fem/elements/beam_block.hpp"
+#include "fem/films/membrane_block.hpp"
+#include "fem/model/assembler.hpp"
+#include "fem/model/model.hpp"
 
 #include <Eigen/Dense>
 

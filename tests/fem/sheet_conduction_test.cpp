@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/sheet_conduction.hpp"
+#include "fem/equilibrium/sheet_conduction.hpp"
 
-#include "fem/energy_balance.hpp"
-#include "fem/ramp.hpp"
-#include "fem/tangent_check.hpp"
+#include "fem/equilibrium/tangent_check.hpp"
+#include "fem/paths/energy_balance.hpp"
+#include "fem/paths/ramp.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"
 #include "tests/fem/timed_run.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/point_mass_block.hpp"
+#include "fem/elements/point_mass_block.hpp"
 #include "meshing/middle_nodes.hpp"
 #include "tests/fem/material_point_block.hpp"
 #include "tests/fem/sample_meshes.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/state_space.hpp"
+#include "fem/linear/state_space.hpp"
 
-#include "fem/balanced_truncation.hpp"
-#include "fem/dense_algebra.hpp"
+#include "fem/algebra/dense_algebra.hpp"
+#include "fem/linear/balanced_truncation.hpp"
 #include "tests/fem/diaphragm.hpp"
 #include "tests/fem/material_point_block.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/state.hpp"
+#include "fem/model/state.hpp"
 
 #include <gtest/gtest.h>
 

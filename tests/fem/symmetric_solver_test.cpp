@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/symmetric_solver.hpp"
+#include "fem/algebra/symmetric_solver.hpp"
 
-#include "fem/dense_algebra.hpp"
+#include "fem/algebra/dense_algebra.hpp"
 #include "tests/fem/sample_models.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/tangent_check.hpp"
+#include "fem/equilibrium/tangent_check.hpp"
 
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/modal.hpp"
-#include "fem/point_mass_block.hpp"
-#include "fem/tangent_check.hpp"
+#include "fem/elements/point_mass_block.hpp"
+#include "fem/equilibrium/tangent_check.hpp"
+#include "fem/linear/modal.hpp"
 #include "meshing/rings.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/energy_balance.hpp"
-#include "fem/ramp.hpp"
+#include "fem/paths/energy_balance.hpp"
+#include "fem/paths/ramp.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"
 #include "tests/fem/timed_run.hpp"

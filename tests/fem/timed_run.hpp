@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/energy_balance.hpp"
-#include "fem/ramp.hpp"
+#include "fem/paths/energy_balance.hpp"
+#include "fem/paths/ramp.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/triangle.hpp"
+#include "fem/films/triangle.hpp"
 
 #include <gtest/gtest.h>
 

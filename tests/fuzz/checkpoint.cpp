@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edits of a checkpoint whose checksum has been made right again: refused with a message, or restored.
-#include "cases/reader.hpp"
-#include "cases/recorder.hpp"
-#include "post/checkpoint_file.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/runs/recorder.hpp"
 #include "post/file_output.hpp"
+#include "post/files/checkpoint_file.hpp"
 #include "tests/fuzz/target.hpp"
 
 #include <fmt/format.h>

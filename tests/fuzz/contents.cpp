@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edits of what gmsh finds in a mesh file, as a damaged file may make it write anything there: refused with a
 // message, or a mesh whose cells have nodes. Without gmsh itself, whose process takes a tenth of a second.
-#include "meshing/gmsh_reader.hpp"
+#include "meshing/gmsh/gmsh_reader.hpp"
 #include "tests/fuzz/mesh_property.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a wave's table and as a measured test: refused with a message, or read.
-#include "cases/fit_reader.hpp"
-#include "cases/reader.hpp"
+#include "cases/readers/fit_reader.hpp"
+#include "cases/readers/reader.hpp"
 #include "tests/fuzz/target.hpp"
 
 using namespace dielast;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a mesh file: refused with a message, or a mesh whose cells have nodes.
-#include "meshing/gmsh_reader.hpp"
+#include "meshing/gmsh/gmsh_reader.hpp"
 #include "tests/fuzz/mesh_property.hpp"
 
 using namespace dielast;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any lines as what follows --set: refused with a message, or a case that is written back.
-#include "cases/reader.hpp"
+#include "cases/readers/reader.hpp"
 #include "tests/fuzz/round_trip.hpp"
 
 #include <sstream>

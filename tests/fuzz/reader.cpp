@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any text as a case, a study or a fit: it is refused with a message, or read and written back.
-#include "cases/reader.hpp"
-#include "cases/fit_reader.hpp"
-#include "cases/study_reader.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/readers/fit_reader.hpp"
+#include "cases/readers/study_reader.hpp"
 #include "tests/fuzz/round_trip.hpp"
 
 using namespace dielast;

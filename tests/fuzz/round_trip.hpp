@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/case_tree.hpp"
-#include "cases/resolved.hpp"
+#include "cases/readers/case_tree.hpp"
+#include "cases/readers/resolved.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace dielast::fuzz {

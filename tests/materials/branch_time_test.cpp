@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "materials/branch.hpp"
-#include "materials/neo_hookean_branch.hpp"
+#include "materials/branches/branch.hpp"
+#include "materials/branches/neo_hookean_branch.hpp"
 
 #include <gtest/gtest.h>
 

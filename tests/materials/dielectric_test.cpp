@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "materials/dielectric.hpp"
-#include "materials/dual.hpp"
+#include "materials/laws/dielectric.hpp"
+#include "materials/laws/dual.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "materials/dual.hpp"
+#include "materials/laws/dual.hpp"
 
 #include <gtest/gtest.h>
 

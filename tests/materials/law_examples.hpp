@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "materials/dual.hpp"
-#include "materials/elastic_law.hpp"
-#include "materials/plane_stress.hpp"
+#include "materials/laws/dual.hpp"
+#include "materials/laws/elastic_law.hpp"
+#include "materials/laws/plane_stress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "materials/axisymmetric.hpp"
-#include "materials/dual.hpp"
-#include "materials/solid_branch.hpp"
+#include "materials/branches/solid_branch.hpp"
+#include "materials/laws/dual.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "materials/power_sum.hpp"
+#include "materials/laws/power_sum.hpp"
 
 #include <gtest/gtest.h>
 

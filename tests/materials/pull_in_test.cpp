@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "materials/laws/plane_stress.hpp"
 #include "materials/material.hpp"
-#include "materials/plane_stress.hpp"
 
 #include <gtest/gtest.h>
 

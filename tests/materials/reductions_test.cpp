@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "materials/axisymmetric.hpp"
+#include "materials/laws/solid.hpp"
 #include "materials/material_point.hpp"
-#include "materials/solid.hpp"
 #include "tests/materials/law_examples.hpp"
 
 namespace dielast::materials::test {

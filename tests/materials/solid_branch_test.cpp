@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "materials/solid_branch.hpp"
+#include "materials/branches/solid_branch.hpp"
 #include "tests/materials/law_examples.hpp"
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "materials/branch.hpp"
+#include "materials/branches/branch.hpp"
 #include "materials/tension_field.hpp"
 #include "tests/materials/law_examples.hpp"
 

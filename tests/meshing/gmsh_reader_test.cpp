@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/gmsh_reader.hpp"
+#include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/quality.hpp"
 #include "tests/scratch_folder.hpp"

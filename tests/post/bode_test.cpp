@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/bode.hpp"
+#include "post/pictures/bode.hpp"
 
 #include <gtest/gtest.h>
 

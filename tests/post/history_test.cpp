@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/history.hpp"
+#include "post/files/history.hpp"
 
 #include "post/file_output.hpp"
 #include "tests/post/scratch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/picture.hpp"
+#include "post/pictures/picture.hpp"
 
 #include "meshing/meridian.hpp"
 #include "tests/post/samples.hpp"

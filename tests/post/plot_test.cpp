@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/plot.hpp"
+#include "post/pictures/plot.hpp"
 
 #include <gtest/gtest.h>
 

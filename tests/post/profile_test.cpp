@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/profile.hpp"
+#include "post/pictures/profile.hpp"
 
 #include "meshing/meridian.hpp"
 #include "tests/post/samples.hpp"

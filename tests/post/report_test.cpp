@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/report.hpp"
+#include "post/pictures/report.hpp"
 
 #include "post/file_output.hpp"
-#include "post/report_tables.hpp"
+#include "post/pictures/report_tables.hpp"
 #include "tests/post/scratch.hpp"
 
 #include <vtkSmartPointer.h>

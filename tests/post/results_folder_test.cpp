@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/results_folder.hpp"
+#include "post/files/results_folder.hpp"
 
 #include "post/file_output.hpp"
 #include "tests/post/scratch.hpp"

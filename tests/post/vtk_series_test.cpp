@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "post/vtk_series.hpp"
+#include "post/files/vtk_series.hpp"
 
 #include "post/fields.hpp"
 #include "post/file_output.hpp"

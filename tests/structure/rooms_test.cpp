@@ -167,6 +167,44 @@ TEST(Rooms, LinkWhatTheTableSaysAndNothingElse) {
   }
 }
 
+/// The second table: folders of each room in their order, "" the room itself.
+std::map<std::string, std::vector<std::string>> table_of_folders() {
+  std::map<std::string, std::vector<std::string>> folders;
+  const std::string text = text_of(source_folder / "docs/architecture.md");
+  const std::regex row(R"(\n\| `([a-z]+)/` \| ([^|\n]*) \|(?=\n))"), folder(R"(`([a-z]+)/`|the room itself)");
+  for (std::sregex_iterator at(text.begin(), text.end(), row), end; at != end; ++at) {
+    const std::string cell = (*at)[2];
+    for (std::sregex_iterator f(cell.begin(), cell.end(), folder); f != end; ++f)
+      folders[(*at)[1]].push_back((*f)[1]);
+  }
+  return folders;
+}
+
+TEST(Folders, UseThoseThatStandBeforeThemInTheTable) {
+  const auto table = table_of_folders();
+  ASSERT_EQ(table.size(), rooms.size());
+  const std::regex include(R"re(#include "(([a-z]+)/([^"]*/)?)[^"/]+")re");
+  for (const auto& [room, folders] : table) {
+    const auto place = [&](const std::filesystem::path& folder) {
+      const std::string below = folder.lexically_relative(room).generic_string();
+      return std::ranges::find(folders, below == "." ? "" : below) - folders.begin();
+    };
+    std::set<std::ptrdiff_t> found;
+    for (const auto& file : files_below(room, is_source)) {
+      const auto own = place(file.parent_path());
+      ASSERT_LT(own, std::ssize(folders)) << file << " is in no folder of the table";
+      found.insert(own);
+      const std::string text = text_of(source_folder / file);
+      for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
+        if ((*at)[2] != room) continue;
+        EXPECT_LE(place(std::filesystem::path((*at)[1].str()).parent_path()), own)
+            << file << " includes " << (*at)[0];
+      }
+    }
+    EXPECT_EQ(found.size(), folders.size()) << room;
+  }
+}
+
 // What the table names must be something: a room, a header, a library or a program that is started.
 TEST(Rooms, UseNothingUnknown) {
   for (const auto& [name, room] : rooms)

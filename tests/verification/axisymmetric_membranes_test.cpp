@@ -4,7 +4,7 @@
 #include "tests/fem/chamber_models.hpp"
 #include "tests/verification/meridian_stress.hpp"
 
-#include "fem/equilibrium.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/verification/error_estimate_cases.hpp"
 
-#include "cases/error_estimate.hpp"
-#include "cases/quantities.hpp"
-#include "cases/reader.hpp"
+#include "cases/case/quantities.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/runs/error_estimate.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

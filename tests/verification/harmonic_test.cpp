@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/harmonic.hpp"
+#include "fem/linear/harmonic.hpp"
 
 #include "tests/fem/diaphragm.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/equilibrium.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
 #include "meshing/meridian.hpp"
 #include "tests/fem/chamber_models.hpp"
 #include "tests/verification/meridian_stress.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/dofs.hpp"
+#include "fem/model/dofs.hpp"
 #include "meshing/mesh.hpp"
 
 #include <Eigen/Core>

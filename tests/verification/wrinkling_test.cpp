@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/chamber_block.hpp"
-#include "fem/membrane_block.hpp"
-#include "fem/ramp.hpp"
+#include "fem/elements/chamber_block.hpp"
+#include "fem/films/membrane_block.hpp"
+#include "fem/paths/ramp.hpp"
 
 #include <gtest/gtest.h>
 

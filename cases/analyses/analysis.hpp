@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/devices/device.hpp"
+#include "fem/linear/harmonic.hpp"
+
+#include <complex>
+
+namespace dielast::cases {
+
+/// What a step of kind "modes" or "harmonic" has found: a table, and shapes to look at.
+struct Analysis {
+  StepKind kind{};
+  std::string step;                 ///< its name
+  std::string of;                   ///< harmonic: the quantity that responds
+  std::vector<std::string> driven;  ///< harmonic: the electrodes whose sources swing
+  std::vector<std::string> columns; ///< with units, as in history.csv
+  std::vector<std::vector<double>> rows;
+  /// A shape and its name, a vector per mesh node: displacement of a mode, scaled to one, or of a sine of 1 V
+  /// in phase and a quarter period behind (m/V).
+  struct Shape {
+    std::string name;
+    std::vector<Eigen::Vector3d> displacement;
+  };
+  std::vector<Shape> shapes{}; ///< not kept in a checkpoint
+
+  std::vector<double> column(std::size_t number) const;
+  /// Complex values of harmonic's columns `magnitude` and the phase behind it.
+  std::vector<std::complex<double>> values(std::size_t magnitude) const;
+};
+
+/// Equal ratios from the lowest to the highest frequency, Hz.
+std::vector<double> frequencies(const Sweep& sweep);
+
+/// That quantity as a row over the free equations.
+Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::State& state,
+                             const Quantity& quantity);
+
+/// The state that small vibrations go about: sources behind their circuits, branches relaxed.
+fem::State operating_point(const Device& device, fem::State state);
+
+/// What goes on in a state that is not at rest, so that no small vibration goes about it: dashpots that flow,
+/// by more than 1e-4 of their internal variables, which are of order one, until they rest at this shape;
+/// current along a sheet that will change its voltages by more than 1e-4 of the largest; what has a mass,
+/// which would go on by more than 1e-4 of the model's extent. Empty at rest.
+std::string unrest(fem::Equilibrium& equilibrium, const fem::State& state);
+
+/// Throws AnalysisError where the state is not at rest.
+void require_rest(fem::Equilibrium& equilibrium, const fem::State& state);
+
+/// Numbers of the electrodes whose sources swing together: the named ones, without names all whose [drive]
+/// has a voltage, without any such all.
+std::vector<std::size_t> driven_ports(const Case& one, const std::vector<std::string>& names);
+
+/// Their sources swing by 1 V each. Throws AnalysisError where one is isolated: it has no source.
+fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
+                                const std::vector<std::size_t>& ports);
+
+/// Small vibrations about a state. Throws AnalysisError where there are none to be found.
+Analysis analyse(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
+                 const fem::State& state, const Step& step);
+
+/// An analysis that the state does not admit; says why.
+struct AnalysisError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/analyses/measurement.hpp"
+
+#include "cases/analyses/analysis.hpp"
+#include "cases/analyses/radial_stretch.hpp"
+#include "fem/linear/modal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace dielast::cases {
+
+namespace {
+
+/// The same state as its branches let it move slowly.
+fem::State relaxed(fem::State state) {
+  if (state.history) state.scheme = materials::TimeScheme::relaxed();
+  for (fem::Supply& supply : state.supply)
+    if (supply == fem::Supply::circuit) supply = fem::Supply::voltage; // the source keeps it
+  return state;
+}
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+double component(const Eigen::Vector3d& vector, const std::optional<int>& along) {
+  return along ? vector[*along] : vector.norm();
+}
+
+/// A part of the energy balance; the reader admits no other word.
+double energy(const std::string& part, const fem::EnergyBalance& balance) {
+  const fem::EnergyParts& stored = balance.parts();
+  const fem::Work& work = balance.work();
+  if (part == "electrical_work") return work.electrical;
+  if (part == "mechanical_work") return work.mechanical;
+  if (part == "dissipated") return work.dissipated;
+  if (part == "released") return work.released;
+  if (part == "source_work") return work.source();
+  if (part == "resistance_heat") return work.resistance;
+  if (part == "leak_heat") return work.leak;
+  if (part == "stored") return balance.stored();
+  if (part == "elastic") return stored.elastic;
+  if (part == "branches") return stored.branches;
+  if (part == "electric") return stored.electric;
+  if (part == "kinetic") return stored.kinetic;
+  if (part == "wrinkle_regularisation") return stored.regularised;
+  return balance.error();
+}
+
+} // namespace
+
+Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::State& at,
+                   const fem::EnergyBalance& balance, bool with_fields)
+    : equilibrium(solver), state(at), samples(with_fields ? device.model.sample(at) : fem::Samples{}),
+      extremes(samples), charges(device.model.charges(at, false)), energy(balance) {
+  equilibrium.internal_force(at, reaction);
+  Eigen::VectorXd dead = at.dead_force;
+  device.model.dofs.gather(at, dead);
+  reaction -= dead;
+}
+
+const std::vector<char>& Measurement::film_at(const std::string& place) const {
+  const auto [entry, fresh] = film_at_.try_emplace(place);
+  if (!fresh) return entry->second;
+  const meshing::CellBlock& film = *device_.mesh.film();
+  std::vector<char>& near = entry->second;
+  near.assign(static_cast<std::size_t>(film.size()), 0);
+  const auto cells = device_.mesh.cell_sets.find(place);
+  if (cells != device_.mesh.cell_sets.end() &&
+      &device_.mesh.blocks[static_cast<std::size_t>(cells->second.block)] == &film) {
+    for (const int cell : cells->second.cells) near[static_cast<std::size_t>(cell)] = 1;
+    return near;
+  }
+  const auto& nodes = device_.mesh.node_sets.at(place);
+  for (int cell = 0; cell < film.size(); ++cell)
+    near[static_cast<std::size_t>(cell)] = std::ranges::any_of(
+        film.cell(cell), [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); });
+  return near;
+}
+
+Eigen::Vector3d Measurement::position(const std::string& place, const fem::State& state) const {
+  const auto& nodes = device_.mesh.node_sets.at(place);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int n : nodes)
+    sum += device_.mesh.nodes[static_cast<std::size_t>(n)] + state.displacement[static_cast<std::size_t>(n)];
+  return sum / static_cast<double>(nodes.size());
+}
+
+double Measurement::length(const Quantity& quantity, const fem::State& state) const {
+  if (!quantity.between[0].empty()) {
+    const auto between = [&](const fem::State& at) {
+      return component(position(quantity.between[1], at) - position(quantity.between[0], at), quantity.along);
+    };
+    // Positive as drawn; negative when the places have passed each other.
+    return between(device_.model.initial_state()) < 0 ? -between(state) : between(state);
+  }
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const int n : device_.mesh.node_sets.at(quantity.of)) {
+    const Eigen::Vector3d x =
+        device_.mesh.nodes[static_cast<std::size_t>(n)] + state.displacement[static_cast<std::size_t>(n)];
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return component(high - low, quantity.along);
+}
+
+double Measurement::displacement(const Quantity& quantity, const fem::State& state) const {
+  const Eigen::Vector3d moved =
+      position(quantity.of, state) - position(quantity.of, device_.model.initial_state());
+  return quantity.along == along_gravity ? moved.dot(case_.gravity.down()) : component(moved, quantity.along);
+}
+
+/// The inverse of the mean displacement of a place under a unit force that is spread evenly over it. NaN
+/// where the state is not at rest.
+double Measurement::stiffness(const Quantity& quantity, const Measured& measured) const {
+  const fem::DofMap& dofs = device_.model.dofs;
+  const auto& nodes = device_.mesh.node_sets.at(quantity.of);
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(dofs.count()), flexibility;
+  for (const int node : nodes)
+    if (const int e = dofs.equation(node, *quantity.along); e != fem::DofMap::absent)
+      unit[e] += 1 / static_cast<double>(nodes.size());
+  unit = (dofs.jacobian(measured.state).transpose() * unit).eval();
+  if (unit.isZero() || !measured.may_rest || !unrest(measured.equilibrium, measured.state).empty() ||
+      !measured.equilibrium.factor(relaxed(measured.state)))
+    return unknown;
+  measured.equilibrium.tangent().solve(unit, flexibility);
+  return 1 / unit.dot(flexibility);
+}
+
+/// NaN where nothing has a mass, or the state is unstable or not at rest.
+double Measurement::natural_frequency(const Quantity& quantity, const Measured& measured) const {
+  if (!measured.may_rest || !unrest(measured.equilibrium, measured.state).empty()) return unknown;
+  const auto modes = fem::vibration_modes(measured.equilibrium, measured.state, {.count = quantity.mode});
+  if (!modes || std::ssize(*modes) < quantity.mode) return unknown;
+  const fem::VibrationMode& mode = (*modes)[static_cast<std::size_t>(quantity.mode) - 1];
+  return mode.stiffness > 0 ? mode.frequency() : unknown;
+}
+
+std::size_t Measurement::electrode(const std::string& name) const {
+  const auto& names = device_.model.electrodes;
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+
+double Measurement::evaluate(const Quantity& quantity, const Measured& measured) const {
+  const fem::State& state = measured.state;
+  switch (quantity.kind) {
+  case QuantityKind::distance:
+  case QuantityKind::size:
+    return length(quantity, state);
+  case QuantityKind::elongation:
+  case QuantityKind::growth: {
+    if (quantity.since.empty()) {
+      const double drawn = length(quantity, device_.model.initial_state());
+      return length(quantity, state) / drawn - 1;
+    }
+    const auto rest = references.find(quantity.name);
+    return rest == references.end() ? unknown : length(quantity, state) / rest->second - 1;
+  }
+  case QuantityKind::displacement: {
+    const double moved = displacement(quantity, state);
+    if (quantity.since.empty()) return moved;
+    const auto rest = references.find(quantity.name);
+    return rest == references.end() ? unknown : moved - rest->second;
+  }
+  case QuantityKind::angle: {
+    const auto master = static_cast<std::size_t>(device_.mesh.node_sets.at(quantity.of).front());
+    return fem::spin_of(state.rotation[master])[*quantity.along];
+  }
+  case QuantityKind::moment: {
+    const int master = device_.mesh.node_sets.at(quantity.of).front();
+    const int e = device_.model.dofs.equation(master, 3 + *quantity.along);
+    return device_.model.dofs.is_held(e) ? measured.reaction[e] : 0.0;
+  }
+  case QuantityKind::radius: {
+    if (case_.dimension == fem::Dimension::axisymmetric) return position(quantity.of, state).x();
+    const Eigen::Vector3d centre = position(quantity.of, state);
+    const auto& nodes = device_.mesh.node_sets.at(quantity.of);
+    double sum = 0;
+    for (const int n : nodes)
+      sum += (device_.mesh.nodes[static_cast<std::size_t>(n)] +
+              state.displacement[static_cast<std::size_t>(n)] - centre)
+                 .norm();
+    return sum / static_cast<double>(nodes.size());
+  }
+  case QuantityKind::force: {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int c = 0; c < 3; ++c) {
+      std::set<int> equations; // nodes that move as one share theirs
+      for (const int n : device_.mesh.node_sets.at(quantity.of))
+        equations.insert(device_.model.dofs.equation(n, c));
+      for (const int e : equations)
+        if (device_.model.dofs.is_held(e)) sum[c] += measured.reaction[e];
+    }
+    return component(sum, quantity.along);
+  }
+  case QuantityKind::stretch: {
+    const double drawn = length(quantity, device_.model.initial_state());
+    return length(quantity, state) / drawn *
+           case_.film.prestretch.at(static_cast<std::size_t>(*quantity.along));
+  }
+  case QuantityKind::nominal_stress: {
+    const std::vector<char>& near = film_at(quantity.of);
+    double sum = 0, volume = 0;
+    for (const fem::MembraneSample& s : measured.samples.film) {
+      if (!near[static_cast<std::size_t>(s.cell)]) continue;
+      sum += s.volume * s.F.row(*quantity.along).dot(s.S.col(*quantity.along));
+      volume += s.volume;
+    }
+    return volume > 0 ? sum / volume : unknown;
+  }
+  case QuantityKind::energy:
+    return energy(quantity.of, measured.energy);
+  case QuantityKind::capacitance:
+  case QuantityKind::charge: {
+    return (quantity.kind == QuantityKind::charge ? measured.charges.charge
+                                                  : measured.charges.capacitance)[electrode(quantity.of)];
+  }
+  case QuantityKind::current:
+  case QuantityKind::pressure:
+  case QuantityKind::volume:
+  case QuantityKind::pumped_volume: {
+    const std::size_t electrodes = device_.model.electrodes.size();
+    if (quantity.kind == QuantityKind::pressure) return state.voltage[electrodes];
+    if (quantity.kind == QuantityKind::volume) return measured.charges.charge[electrodes];
+    if (quantity.kind == QuantityKind::pumped_volume)
+      return device_.model.chambers[0].pumped(measured.charges.charge[electrodes], state.voltage[electrodes]);
+    const std::size_t e = electrode(quantity.of);
+    const fem::Circuit* circuit = device_.model.circuit_of(e);
+    return circuit && state.supply[e] == fem::Supply::circuit
+               ? circuit->current(state.source[e], state.voltage[e])
+               : unknown;
+  }
+  case QuantityKind::stiffness:
+    return stiffness(quantity, measured);
+  case QuantityKind::natural_frequency:
+    return natural_frequency(quantity, measured);
+  case QuantityKind::radial_stretch:
+    return radial_stretch(device_.mesh, measured.samples, quantity.of);
+  case QuantityKind::peak: // of the others, see all()
+    return unknown;
+  case QuantityKind::extreme: {
+    const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);
+    return extremum ? extremum->value : unknown;
+  }
+  }
+  return unknown;
+}
+
+std::vector<double> Measurement::all(const Measured& measured) {
+  std::vector<double> values;
+  for (const Quantity& quantity : case_.quantities) values.push_back(evaluate(quantity, measured));
+  for (std::size_t q = 0; q < values.size(); ++q) {
+    const Quantity& quantity = case_.quantities[q];
+    if (quantity.kind == QuantityKind::peak)
+      values[q] =
+          peak(quantity, values[static_cast<std::size_t>(&subject(quantity) - case_.quantities.data())]);
+  }
+  return values;
+}
+
+const Quantity& Measurement::subject(const Quantity& peak) const {
+  return *std::ranges::find(case_.quantities, peak.of, &Quantity::name);
+}
+
+/// The peak so far, now that its subject has this value.
+double Measurement::peak(const Quantity& quantity, double now) {
+  double& peak = references.try_emplace(quantity.name, now).first->second;
+  const bool beyond = quantity.extreme == post::Extreme::minimum ? now < peak : now > peak;
+  if (beyond || std::isnan(peak)) peak = now;
+  return peak;
+}
+
+void Measurement::pass(const Measured& measured) {
+  for (const Quantity& quantity : case_.quantities)
+    if (quantity.kind == QuantityKind::peak) peak(quantity, evaluate(subject(quantity), measured));
+}
+
+bool Measurement::has_peaks() const {
+  return std::ranges::count(case_.quantities, QuantityKind::peak, &Quantity::kind) > 0;
+}
+
+bool Measurement::has_peaks_of_fields() const {
+  return std::ranges::any_of(case_.quantities, [this](const Quantity& quantity) {
+    if (quantity.kind != QuantityKind::peak) return false;
+    const QuantityKind kind = subject(quantity).kind;
+    return kind == QuantityKind::extreme || kind == QuantityKind::nominal_stress ||
+           kind == QuantityKind::radial_stretch;
+  });
+}
+
+void Measurement::step_ended(const std::string& step, const Measured& measured) {
+  for (const Quantity& quantity : case_.quantities)
+    if (quantity.since == step && !step.empty())
+      references[quantity.name] = quantity.kind == QuantityKind::displacement
+                                      ? displacement(quantity, measured.state)
+                                      : length(quantity, measured.state);
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/devices/device.hpp"
+#include "fem/paths/energy_balance.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dielast::cases {
+
+/// A state, with what is needed to measure it.
+struct Measured {
+  /// Without fields, samples and extremes are empty.
+  Measured(const Device& device, fem::Equilibrium& equilibrium, const fem::State& state,
+           const fem::EnergyBalance& energy, bool with_fields = true);
+
+  fem::Equilibrium& equilibrium;
+  bool may_rest = true; ///< asked for stiffness and vibrations, where it is at rest; not on the way in time
+
+  const fem::State& state;
+  fem::Samples samples;
+  post::Extremes extremes;  ///< of these samples
+  Eigen::VectorXd reaction; ///< of supports on the device at held equations (see DofMap), N and N m
+  fem::Charges charges;
+  const fem::EnergyBalance& energy;
+};
+
+/// Evaluates the quantities of a case on the states of a device.
+class Measurement {
+ public:
+  Measurement(const Case& one, const Device& device) : case_(one), device_(device) {}
+
+  /// All quantities, in the case's order and in SI; NaN where one has no meaning yet (an elongation since a
+  /// step that has not ended).
+  std::vector<double> all(const Measured& measured);
+
+  /// Sees a state that is not recorded: for peaks.
+  void pass(const Measured& measured);
+  bool has_peaks() const;
+  /// Whether peaks are of quantities that are measured on fields.
+  bool has_peaks_of_fields() const;
+
+  /// Says that a step ended in this state: elongations and displacements since it start here.
+  void step_ended(const std::string& step, const Measured& measured);
+
+  /// Lengths and displacements that quantities are relative to, and peaks so far, by quantity; stored with a
+  /// checkpoint.
+  std::map<std::string, double> references;
+
+ private:
+  const Quantity& subject(const Quantity& peak) const;
+  double peak(const Quantity& quantity, double now);
+  double evaluate(const Quantity& quantity, const Measured& measured) const;
+  double length(const Quantity& quantity, const fem::State& state) const;
+  double displacement(const Quantity& quantity, const fem::State& state) const;
+  double stiffness(const Quantity& quantity, const Measured& measured) const;
+  double natural_frequency(const Quantity& quantity, const Measured& measured) const;
+  std::size_t electrode(const std::string& name) const;
+  Eigen::Vector3d position(const std::string& place, const fem::State& state) const;
+  /// Which triangles belong to a place: its own, or those with a node there.
+  const std::vector<char>& film_at(const std::string& place) const;
+
+  const Case& case_;
+  const Device& device_;
+  mutable std::map<std::string, std::vector<char>> film_at_;
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/text/diagnostics.hpp"
+#include "cases/text/waveform.hpp"
+#include "fem/model/dofs.hpp"
+#include "materials/beam_section.hpp"
+#include "materials/material.hpp"
+#include "post/reductions.hpp"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace dielast::cases {
+
+/// [film]
+struct Film {
+  std::string material_name;
+  materials::Material material;
+  double thickness = 0;               ///< undeformed H, m
+  std::array<double, 2> prestretch{}; ///< lambda_p along x and y
+  bool tension_field = false;         ///< it wrinkles where it would be compressed, and carries tension only
+};
+
+/// [honeycomb]: the geometry template of the unidirectional actuator
+struct Honeycomb {
+  double angle = 0;         ///< interior angle at a cell's four equal vertices, rad
+  std::vector<int> columns; ///< cells in each column, left to right
+  double wall_length = 0, wall_width = 0, wall_height = 0; ///< m
+  std::string wall_material_name;
+  materials::ElasticSolid wall_material;
+};
+
+/// [disc]: clamped at its rim; dimensions as clamped, after the prestretch
+struct Disc {
+  double radius = 0;           ///< m
+  double electrode_radius = 0; ///< m
+};
+
+/// [annulus]: dimensions as clamped, after the prestretch
+struct Annulus {
+  double inner_radius = 0, outer_radius = 0; ///< m
+};
+
+enum class PatchMode {
+  biaxial,       ///< x and y move independently
+  equal_biaxial, ///< both stretches are one
+  pure_shear,    ///< y is held
+};
+
+/// [patch]: a homogeneous block of film. Stretches are with respect to the unstretched film, stresses nominal
+/// (force over undeformed section); a direction with neither is free of stress.
+struct Patch {
+  double length = 0, width = 0; ///< along x and y, before the prestretch, m
+  PatchMode mode{};
+  std::optional<Waveform> stretch_x, stretch_y;
+  std::optional<Waveform> stress_x, stress_y; ///< Pa
+};
+
+/// [mesh] file = "...": the user's own mesh, drawn after the prestretch, physical names as places
+struct MeshFile {
+  std::filesystem::path path;
+};
+
+/// [balloon]: a sphere of film, as drawn
+struct Balloon {
+  double radius = 0; ///< m
+};
+
+using Geometry = std::variant<Honeycomb, Disc, Annulus, Balloon, Patch, MeshFile>;
+
+/// [mesh]
+struct MeshOptions {
+  std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
+  int refine = 0;               ///< how often each triangle of a user's own mesh is split into four
+  int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
+  int wall_elements = 8; ///< beams per wall (honeycomb)
+  double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
+  int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
+  int quadrature = 0;    ///< integration points of a 6-node triangle: 3 or 6
+};
+
+/// [[electrode]]
+struct Electrode {
+  std::string name;
+  std::string place;
+  std::optional<double> sheet_resistance; ///< of both faces together, Ohm per square
+  std::string terminal;                   ///< where a resistive one is connected
+};
+
+/// [[support]]
+struct Support {
+  std::string place;
+  std::array<bool, 6> fixed{};                     ///< displacements along x, y, z, rotations about them
+  std::array<std::optional<Waveform>, 3> motion{}; ///< displacement of fixed directions, m; absent: none
+  bool standard = false;                           ///< brought by the geometry, not written by the user
+
+  bool moves() const { return motion[0] || motion[1] || motion[2]; }
+};
+
+/// [[load]]: a dead force spread evenly over the nodes of a place
+struct Load {
+  std::string place;
+  std::array<Waveform, 3> force{}; ///< N
+  bool standard = false;           ///< brought by the geometry, not written by the user
+};
+
+/// [drive]: what the source of an electrode does; different steps may use the one and the other
+struct Drive {
+  std::optional<Waveform> voltage; ///< V
+  std::optional<Waveform> charge;  ///< C
+
+  bool operator==(const Drive&) const = default;
+};
+
+/// [circuit]: what is between an electrode and its source while time passes
+struct Circuit {
+  double resistance = 0;                    ///< Ohm
+  std::optional<double> leakage_resistance; ///< through the film of the whole electrode, Ohm
+  std::optional<double> current_limit;      ///< of the source, A
+
+  bool operator==(const Circuit&) const = default;
+};
+
+/// [plate]: a rigid plate that closes a place of the film and moves along z only
+struct Plate {
+  std::string place;
+  double mass = 0;    ///< kg
+  double damping = 0; ///< between the plate and the ground, N s/m
+};
+
+/// [[point_mass]]: spread evenly over the nodes of a place, with a damper to the ground along each axis
+struct PointMass {
+  std::string place;
+  double mass = 0;    ///< kg
+  double damping = 0; ///< N s/m
+};
+
+/// [[body]]: rigid, carries all nodes of its places. Its own place, called by its name, is the pivot, or
+/// without one the centre of mass.
+struct Body {
+  std::string name;
+  std::vector<std::string> places;
+  double mass = 0;                             ///< kg
+  std::array<double, 3> inertia{};             ///< about axes along x, y, z through the centre, kg m^2
+  std::optional<std::array<double, 3>> centre; ///< of mass, as drawn, m; absent: the mean of its nodes
+  std::optional<std::array<double, 3>> pivot;  ///< a point that stays where it is drawn, m
+  std::array<bool, 6> fixed{};                 ///< displacements of its own place, rotations about x, y, z
+};
+
+/// [gravity]
+struct Gravity {
+  double acceleration = 0;                   ///< m/s^2
+  std::array<double, 3> direction{0, 0, -1}; ///< any length but 0
+  bool film = false;                         ///< whether the film's own weight counts
+
+  Eigen::Vector3d down() const { return Eigen::Vector3d(direction.data()).normalized(); }
+};
+
+/// [chamber]: what is under the film and the plate, up to z = 0
+struct Chamber {
+  std::optional<Waveform> pressure; ///< Pa
+  std::optional<Waveform> volume;   ///< that is pumped in, m^3
+  double bulk_modulus = 0;          ///< of what fills it, Pa
+};
+
+/// [[spring]]: a linear spring between the centroids of two places, tension stiffness (distance -
+/// free_length)
+struct Spring {
+  std::array<std::string, 2> between;
+  int along = 0;          ///< 0, 1, 2 = x, y, z
+  double stiffness = 0;   ///< N/m
+  double free_length = 0; ///< distance of the centroids along the axis at which it is free, m
+};
+
+/// [[linkage]]: a weight P at the arm b of a triangle whose other sides are the strut a and l = distance +
+/// offset: it pulls two places apart by P (b^2 + l^2 - a^2) / (2 b l) (law of cosines; rolled muscle)
+struct Linkage {
+  std::array<std::string, 2> between;
+  int along = 0;     ///< 0, 1, 2 = x, y, z
+  double force = 0;  ///< P, N
+  double arm = 0;    ///< b, m
+  double strut = 0;  ///< a, m
+  double offset = 0; ///< m
+};
+
+/// A ramp leads from where the device is to the values that waves have at t = 0; `transient` follows the
+/// waves from t = 0 on; in `hold` time passes and everything stays.
+/// `modes` and `harmonic` ask for small vibrations about where the device is, and leave it there.
+enum class StepKind {
+  release,
+  voltage,
+  charge,
+  force,
+  move,
+  weight,
+  pressure,
+  inflate,
+  transient,
+  hold,
+  modes,
+  harmonic
+};
+
+/// What the branches do during a ramp that takes no time.
+enum class Response {
+  relaxed,       ///< they have all the time they need
+  instantaneous, ///< they have none
+};
+
+/// What the electrodes keep when neither voltage nor charge is ramped: connected or isolated.
+enum class Control { voltage, charge };
+
+enum class OnInstability {
+  stop,   ///< the step ends at a limit point
+  follow, ///< along the path past it, by arclength
+  jump,   ///< lands on the next stable state
+};
+
+enum class OnBifurcation { follow, switch_branch };
+
+/// Frequencies at equal ratios
+struct Sweep {
+  double from = 0, to = 0; ///< Hz
+  int points = 0;
+};
+
+/// A run's table, and behind "<case>-" its series of critical points: no analysis may take these names.
+inline constexpr std::string_view history_name = "history", critical_name = "critical";
+
+/// [[step]]
+struct Step {
+  StepKind kind{};
+  std::string name;           ///< default: its kind
+  std::optional<double> to{}; ///< where a ramp of voltage (V), charge (C), pressure (Pa) or volume (m^3)
+                              ///< leads, instead of to what [drive] or [chamber] say
+  std::string electrode{};    ///< the only one that a ramp of voltage or charge is about; empty: all
+  int increments = 1;
+  std::optional<double> duration{}; ///< s; absent: a ramp that takes no time
+  Response response{};              ///< without a duration
+  std::optional<double> record{};   ///< s: history has rows only at its multiples; absent: at every increment
+  Control control{};                ///< of steps that ramp neither voltage nor charge
+  bool inertia = false;             ///< of transient and hold: what has a mass resists acceleration
+  OnInstability on_instability{};
+  OnBifurcation on_bifurcation{};
+  int count = 0; ///< of modes
+  Sweep sweep{}; ///< of harmonic
+  std::string
+      response_of{}; ///< of harmonic: a quantity of kind displacement; empty: the first with a direction
+  std::vector<std::string> driven{}; ///< of harmonic: electrodes whose sources swing; empty: see driven_ports
+
+  bool is_analysis() const { return kind == StepKind::modes || kind == StepKind::harmonic; }
+};
+
+enum class QuantityKind {
+  distance,
+  elongation,
+  stretch,
+  size,
+  growth,
+  displacement,
+  angle,
+  radius,
+  force,
+  moment,
+  nominal_stress,
+  capacitance,
+  charge,
+  current,
+  pressure,
+  volume,
+  pumped_volume,
+  stiffness,
+  natural_frequency,
+  radial_stretch,
+  energy,
+  extreme,
+  peak
+};
+
+/// Where gravity pulls, as a direction of a quantity.
+constexpr int along_gravity = 3;
+
+/// Elongation is the relative change of a distance, growth that of a size.
+constexpr bool is_relative(QuantityKind kind) {
+  return kind == QuantityKind::elongation || kind == QuantityKind::growth;
+}
+
+/// [[quantity]]: a number of the state, in every row of history.csv and in summary.json
+struct Quantity {
+  std::string name;
+  QuantityKind kind{};
+  std::array<std::string, 2> between; ///< distance, elongation, stretch: two places (their centroids)
+  std::string
+      of; ///< size, growth, displacement, radius, force, nominal_stress, stiffness, radial_stretch: a
+          ///< place; capacitance, charge, current: an electrode; extreme: a field; peak: another quantity
+  std::optional<int> along; ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
+  int mode = 1;             ///< natural_frequency: its number, from the lowest
+  post::Extreme extreme{};
+  std::string at; ///< the step at whose end summary.json reads it; empty: the last
+  std::string
+      since; ///< elongation, growth, displacement: the step at whose end it is zero; empty: the mesh as drawn
+  bool standard = false; ///< brought by the geometry's template, not written by the user
+};
+
+/// [[check]]
+struct Check {
+  std::string quantity;
+  double value = 0;
+  double tolerance =
+      0; ///< absolute, in the quantity's unit (a "1 %" in the file is made absolute by the reader)
+  std::string source;
+};
+
+/// [solver]
+struct SolverOptions {
+  double tolerance = 0;          ///< |R_free| over the reaction scale
+  int max_iterations = 0;        ///< Newton iterations before a cutback
+  double smallest_increment = 0; ///< load factor below which a step gives up
+  double time_tolerance = 0;     ///< relative local error of the branches in a time step
+};
+
+/// [[linearise.compare]]: a transfer function to compare with, numerator / denominator in powers of s, the
+/// highest first, from V to the unit of the output
+struct TransferFunction {
+  std::string name;
+  std::vector<double> numerator, denominator;
+};
+
+/// [linearise]: the linear model that `dielast linearise` makes about the state at the end of the steps
+struct Linearise {
+  int order = 0;
+  std::string output;              ///< a quantity of kind displacement; empty: the first with a direction
+  Sweep sweep;                     ///< over which it is compared with the full response
+  std::vector<std::string> driven; ///< electrodes whose sources swing together; empty: see driven_ports
+  std::vector<TransferFunction> compare;
+  bool written = false; ///< the case has a section [linearise]
+};
+
+/// Everything the user asked for: validated, complete, in SI. No type of the file format gets past the
+/// reader.
+struct Case {
+  std::string title;
+  std::filesystem::path source; ///< the case file
+  fem::Dimension dimension{};
+  Film film;
+  Geometry geometry;
+  MeshOptions mesh;
+  std::vector<Electrode> electrodes;
+  std::vector<Support> supports;
+  std::vector<Load> loads;
+  std::map<std::string, Drive> drives;     ///< by the electrode's name
+  std::map<std::string, Circuit> circuits; ///< likewise
+  std::optional<Plate> plate;
+  std::vector<PointMass> point_masses;
+  std::vector<Body> bodies;
+  Gravity gravity;
+  std::optional<Chamber> chamber;
+  std::vector<Spring> springs;
+  std::vector<Linkage> linkages;
+  std::vector<Step> steps;
+  std::vector<Quantity> quantities; ///< the template's and the user's
+  std::vector<Check> checks;
+  int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
+  SolverOptions solver;
+  Linearise linearise;
+  bool error_estimate = true;  ///< [output] error_estimate: solve again with other elements and steps
+  bool fields = true;          ///< [output] fields: write the VTK series
+  std::vector<Mention> places; ///< every place that the case names, for check_places
+  std::vector<Diagnostic> warnings{};
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/devices/bodies.hpp"
+
+#include "cases/text/diagnostics.hpp"
+#include "fem/elements/point_mass_block.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace dielast::cases {
+
+namespace {
+
+Eigen::Vector3d point(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
+
+/// The nodes of its places, each once.
+std::set<int> nodes_of(const Body& body, const meshing::Mesh& mesh) {
+  std::set<int> nodes;
+  for (const std::string& place : body.places) {
+    const auto& at = mesh.node_sets.at(place);
+    nodes.insert(at.begin(), at.end());
+  }
+  return nodes;
+}
+
+Eigen::Vector3d centre_of(const Body& body, const meshing::Mesh& mesh) {
+  if (body.centre) return point(*body.centre);
+  const std::set<int> nodes = nodes_of(body, mesh);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int node : nodes) sum += mesh.nodes[static_cast<std::size_t>(node)];
+  return sum / static_cast<double>(nodes.size());
+}
+
+/// Point masses, from the centre, with the mass and the moments of a body: pairs on the axes, at the distance
+/// d at which nothing is left for the centre, 2 m d^2 = Ix + Iy + Iz. In the plane one pair has all.
+std::vector<std::pair<Eigen::Vector3d, double>> equivalent_masses(const Body& body, bool planar) {
+  if (body.mass == 0) return {};
+  const auto& [x, y, z] = body.inertia;
+  const double sum = planar ? z : (x + y + z) / 2;
+  if (sum == 0) return {{Eigen::Vector3d::Zero(), body.mass}};
+  const double distance = std::sqrt(sum / body.mass);
+  const std::array<double, 3> share =
+      planar ? std::array{1.0, 0.0, 0.0}
+             : std::array{(y + z - x) / (2 * sum), (z + x - y) / (2 * sum), (x + y - z) / (2 * sum)};
+  std::vector<std::pair<Eigen::Vector3d, double>> masses;
+  for (int c = 0; c < 3; ++c)
+    if (const double half = share[static_cast<std::size_t>(c)] / 2; half > 0)
+      for (const double side : {distance, -distance})
+        masses.emplace_back(side * Eigen::Vector3d::Unit(c), half * body.mass);
+  return masses;
+}
+
+} // namespace
+
+std::vector<BodyNodes> add_body_nodes(const Case& one, meshing::Mesh& mesh) {
+  std::vector<BodyNodes> all;
+  const auto add = [&mesh](const Eigen::Vector3d& x) {
+    mesh.nodes.push_back(x);
+    return mesh.node_count() - 1;
+  };
+  for (const Body& body : one.bodies) {
+    const Eigen::Vector3d centre = centre_of(body, mesh);
+    BodyNodes nodes{add(body.pivot ? point(*body.pivot) : centre), {}};
+    for (const auto& [from_centre, mass] : equivalent_masses(body, one.dimension == fem::Dimension::planar))
+      nodes.masses.emplace_back(add(centre + from_centre), mass);
+    mesh.node_sets[body.name] = {nodes.master};
+    all.push_back(std::move(nodes));
+  }
+  return all;
+}
+
+std::vector<std::unique_ptr<fem::ElementBlock>> body_masses(const std::vector<BodyNodes>& bodies,
+                                                            fem::Dimension dimension) {
+  std::vector<std::unique_ptr<fem::ElementBlock>> blocks;
+  for (const BodyNodes& body : bodies)
+    for (const auto& [node, mass] : body.masses)
+      for (int c = 0; c < 3; ++c)
+        if (fem::moves(dimension, c))
+          blocks.push_back(fem::make_point_mass_block({.node = node, .axis = c, .mass = mass}));
+  return blocks;
+}
+
+void tie_bodies(const Case& one, const std::vector<BodyNodes>& nodes, const meshing::Mesh& mesh,
+                fem::DofMap& dofs) {
+  std::map<int, std::string> carrier;
+  for (std::size_t b = 0; b < one.bodies.size(); ++b) {
+    const Body& body = one.bodies[b];
+    const int master = nodes[b].master;
+    for (int c = 0; c < fem::DofMap::components; ++c) {
+      if (!fem::moves(one.dimension, c)) continue;
+      dofs.add(master, c);
+      if (body.fixed[static_cast<std::size_t>(c)] || (body.pivot && c < 3)) dofs.hold(master, c);
+    }
+    const auto tie = [&](int node) {
+      const auto m = static_cast<std::size_t>(master), n = static_cast<std::size_t>(node);
+      dofs.tie({node, master, mesh.nodes[n] - mesh.nodes[m]});
+    };
+    for (const int node : nodes_of(body, mesh)) {
+      if (const auto [other, fresh] = carrier.try_emplace(node, body.name); !fresh)
+        throw CaseError({{{one.source.string()},
+                          fmt::format("body[{}].places", b + 1),
+                          fmt::format("the body \"{}\" carries a part of them, too", other->second)}});
+      tie(node);
+    }
+    for (const auto& [node, mass] : nodes[b].masses) tie(node);
+  }
+}
+
+} // namespace dielast::cases

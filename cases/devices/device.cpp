@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/devices/device.hpp"
+
+#include "cases/devices/bodies.hpp"
+#include "cases/readers/reader.hpp"
+#include "fem/elements/beam_block.hpp"
+#include "fem/elements/chamber_block.hpp"
+#include "fem/elements/distance_block.hpp"
+#include "fem/elements/point_mass_block.hpp"
+#include "fem/films/membrane_block.hpp"
+#include "meshing/mesh_error.hpp"
+#include "post/engineering.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace dielast::cases {
+
+namespace {
+
+/// Electrode over each triangle.
+std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {
+  std::vector<int> map(static_cast<std::size_t>(film.size()), fem::passive);
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    const auto place = mesh.cell_sets.find(one.electrodes[e].place);
+    if (place == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(place->second.block)] != &film)
+      throw meshing::MeshError("electrode \"" + one.electrodes[e].name + "\": the place \"" +
+                               one.electrodes[e].place + "\" is not a part of the film");
+    for (const int cell : place->second.cells) {
+      int& electrode = map[static_cast<std::size_t>(cell)];
+      if (electrode != fem::passive)
+        throw meshing::MeshError("electrodes \"" + one.electrodes[static_cast<std::size_t>(electrode)].name +
+                                 "\" and \"" + one.electrodes[e].name + "\" overlap");
+      electrode = static_cast<int>(e);
+    }
+  }
+  return map;
+}
+
+/// A user's own mesh has no unit in its file: what is taken for a metre may have been a millimetre.
+std::vector<std::string> size_warnings(const Case& one, const Eigen::Vector3d& size) {
+  constexpr double largest = 1; // m, of the templates' dimensions
+  if (!std::holds_alternative<MeshFile>(one.geometry)) return {};
+  const std::string found =
+      fmt::format("the film is {} x {}", post::engineering(size.x(), "m"), post::engineering(size.y(), "m"));
+  if (!one.mesh.unit) return {"mesh.unit is missing, one unit of the mesh file is taken for 1 m: " + found};
+  if (size.maxCoeff() > largest) return {"mesh.unit: " + found};
+  return {};
+}
+
+/// Says which [[load]] cannot act.
+[[noreturn]] void reject_load(const Case& one, std::size_t number, const std::string& reason) {
+  const std::string key = "load[" + std::to_string(number + 1) + "].";
+  for (const Mention& mention : one.places)
+    if (mention.key == key + "place") throw CaseError({{mention.source, key + "force", reason}});
+  throw CaseError({{{one.source.string()}, key + "force", reason}});
+}
+
+/// Times that tell whether the loads balance at all times.
+std::vector<double> telling_times(const Case& one) {
+  std::vector<double> times{0};
+  for (const Load& load : one.loads)
+    for (const Waveform& wave : load.force) {
+      const double period = wave.period();
+      if (std::isfinite(period)) times.insert(times.end(), {period / 3, period / 7});
+      for (const double t : wave.kinks(0, std::isfinite(period) ? period : 1e10)) times.push_back(t);
+    }
+  return times;
+}
+
+/// Every load must have something to act on, and nothing would hold a free body.
+void require_loads_that_act(const Case& one, const Device& device) {
+  for (std::size_t l = 0; l < one.loads.size(); ++l)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Waveform& wave = one.loads[l].force[c];
+      if (wave == Waveform::constant_at(0)) continue;
+      for (const int node : device.mesh.node_sets.at(one.loads[l].place))
+        if (device.model.dofs.equation(node, static_cast<int>(c)) == fem::DofMap::absent)
+          reject_load(one, l, "a planar model does not move along z; use model = \"3d\"");
+    }
+  if (!device.free_body) return;
+  for (const double t : telling_times(one)) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double largest = 0;
+    for (const Load& load : one.loads)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double force = load.force[c].at(t);
+        sum[static_cast<int>(c)] += force;
+        largest = std::max(largest, std::abs(force));
+      }
+    if (sum.norm() > 1e-9 * largest)
+      reject_load(one, 0, "the forces on a free body must balance; hold it with [[support]]");
+  }
+}
+
+/// The sides of a patch stay straight and parallel; in equal-biaxial tension both move alike.
+void keep_homogeneous(const Patch& patch, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  const auto& right = mesh.node_sets.at("right");
+  const auto& top = mesh.node_sets.at("top");
+  for (const int node : right) dofs.share(right.front(), node, 0);
+  for (const int node : top) dofs.share(top.front(), node, 1);
+  if (patch.mode == PatchMode::equal_biaxial) dofs.share(right.front(), 0, top.front(), 1);
+}
+
+/// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
+/// the node next to the middle, one far from it along x and, in space, one far along y.
+void pin(const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& x : mesh.nodes) middle += x / static_cast<double>(mesh.nodes.size());
+  const auto best = [&](auto&& cost) {
+    int found = 0;
+    for (int n = 1; n < mesh.node_count(); ++n)
+      if (cost(mesh.nodes[static_cast<std::size_t>(n)]) < cost(mesh.nodes[static_cast<std::size_t>(found)]))
+        found = n;
+    return found;
+  };
+  const int first = best([&](const Eigen::Vector3d& x) { return (x - middle).norm(); });
+  const Eigen::Vector3d anchor = mesh.nodes[static_cast<std::size_t>(first)];
+  const int along_x =
+      best([&](const Eigen::Vector3d& x) { return x.x() - anchor.x() + 2 * std::abs(x.y() - anchor.y()); });
+  const int along_y =
+      best([&](const Eigen::Vector3d& x) { return x.y() - anchor.y() + 2 * std::abs(x.x() - anchor.x()); });
+  for (const int c : {0, 1, 2}) dofs.hold(first, c);
+  for (const int c : {1, 2}) dofs.hold(along_x, c);
+  dofs.hold(along_y, 2);
+}
+
+fem::Distance distance(const meshing::Mesh& mesh, const std::array<std::string, 2>& between, int axis) {
+  return {{mesh.node_sets.at(between[0]), mesh.node_sets.at(between[1])}, axis};
+}
+
+void add_masses(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  if (one.plate)
+    model.blocks.push_back(fem::make_point_mass_block(
+        {mesh.node_sets.at(one.plate->place).front(), 2, one.plate->mass, one.plate->damping}));
+  for (const PointMass& point : one.point_masses) {
+    const auto& nodes = mesh.node_sets.at(point.place);
+    const auto share = 1 / static_cast<double>(nodes.size());
+    for (const int node : nodes)
+      for (int c = 0; c < 3; ++c)
+        if (fem::moves(one.dimension, c))
+          model.blocks.push_back(
+              fem::make_point_mass_block({node, c, point.mass * share, point.damping * share}));
+  }
+}
+
+/// A body's name is a place beside those of the mesh, and a body carries places of the mesh.
+void check_body_names(const Case& one, const std::vector<std::string>& places) {
+  for (std::size_t b = 0; b < one.bodies.size(); ++b) {
+    const auto fail = [&](const char* key, const std::string& message) {
+      throw CaseError({{{one.source.string()}, fmt::format("body[{}].{}", b + 1, key), message}});
+    };
+    const Body& body = one.bodies[b];
+    if (std::ranges::count(places, body.name) > 0)
+      fail("name", fmt::format("the mesh has a place \"{}\"; call the body otherwise", body.name));
+    for (const std::string& place : body.places)
+      if (std::ranges::count(one.bodies, place, &Body::name) > 0)
+        fail("places", fmt::format("\"{}\" is a body; one body carries places of the mesh", place));
+  }
+}
+
+void hold(const Support& support, const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  bool turns = false, clamps = false;
+  for (int c = 0; c < fem::DofMap::components; ++c) {
+    const bool fixed = support.fixed[static_cast<std::size_t>(c)];
+    clamps = clamps || (fixed && c > 2);
+    for (const int node : mesh.node_sets.at(support.place)) {
+      turns = turns || (c > 2 && dofs.equation(node, c) != fem::DofMap::absent);
+      if (fixed) dofs.hold(node, c);
+    }
+  }
+  if (clamps && !turns)
+    throw CaseError(
+        {{{one.source.string()},
+          "support.fix",
+          fmt::format("nothing turns at \"{}\": film has no rotations, walls have", support.place)}});
+}
+
+/// The plate keeps its edge round and level: it moves along z only.
+void carry_plate(const Plate& plate, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  const auto& edge = mesh.node_sets.at(plate.place);
+  for (const int node : edge) {
+    dofs.hold(node, 0);
+    dofs.hold(node, 1);
+    dofs.share(edge.front(), node, 2);
+  }
+}
+
+void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  if (!one.chamber) return;
+  const std::size_t port = model.electrodes.size();
+  model.chambers = {{"chamber", one.chamber->bulk_modulus}};
+  model.blocks.push_back(fem::make_pressure_block(mesh, *mesh.film(), port));
+  if (const auto* annulus = std::get_if<Annulus>(&one.geometry); annulus && one.plate)
+    model.blocks.push_back(
+        fem::make_lid_block(mesh,
+                            {mesh.node_sets.at(one.plate->place).front(),
+                             std::numbers::pi * annulus->inner_radius * annulus->inner_radius},
+                            port));
+}
+
+constexpr double typical_voltage = 1000; ///< V, that makes charges of order one
+
+void add_circuits(const Case& one, fem::Model& model) {
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    const auto found = one.circuits.find(one.electrodes[e].name);
+    if (found == one.circuits.end()) continue;
+    fem::Circuit circuit{.electrode = static_cast<int>(e), .resistance = found->second.resistance};
+    if (found->second.leakage_resistance) circuit.leakage = 1 / *found->second.leakage_resistance;
+    if (found->second.current_limit) circuit.current_limit = *found->second.current_limit;
+    model.circuits.push_back(circuit);
+  }
+}
+
+/// The charges as drawn are known only when the model's histories are placed.
+void scale_charges(fem::Model& model) {
+  const std::vector<double> capacitance = model.charges(model.initial_state(), false).capacitance;
+  for (fem::Circuit& circuit : model.circuits)
+    circuit.charge_scale = typical_voltage * capacitance[static_cast<std::size_t>(circuit.electrode)];
+}
+
+void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+    if (const Electrode& electrode = one.electrodes[e]; electrode.sheet_resistance)
+      model.sheets.push_back({static_cast<int>(e), *electrode.sheet_resistance,
+                              mesh.node_sets.at(electrode.terminal), typical_voltage});
+}
+
+/// Forces of gravity: on plate and masses, and on the film where its weight counts.
+Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies, const meshing::Mesh& mesh,
+                          const fem::Model& model) {
+  const fem::DofMap& dofs = model.dofs;
+  const Eigen::Vector3d pull = one.gravity.acceleration * one.gravity.down();
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(dofs.count());
+  const auto add = [&](int node, double mass) {
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent) weight[e] += mass * pull[c];
+  };
+  if (one.gravity.film) {
+    Eigen::VectorXd falls = Eigen::VectorXd::Zero(dofs.count());
+    for (int n = 0; n < dofs.node_count(); ++n)
+      for (int c = 0; c < 3; ++c)
+        if (const int e = dofs.equation(n, c); e != fem::DofMap::absent) falls[e] = one.gravity.down()[c];
+    return one.gravity.acceleration * (model.inertia.mass * falls);
+  }
+  for (const BodyNodes& body : bodies)
+    for (const auto& [node, mass] : body.masses) add(node, mass);
+  if (one.plate) add(mesh.node_sets.at(one.plate->place).front(), one.plate->mass);
+  for (const PointMass& point : one.point_masses) {
+    const auto& nodes = mesh.node_sets.at(point.place);
+    for (const int node : nodes) add(node, point.mass / static_cast<double>(nodes.size()));
+  }
+  return weight;
+}
+
+void add_springs(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  for (const Spring& spring : one.springs)
+    model.blocks.push_back(fem::make_distance_block(mesh, distance(mesh, spring.between, spring.along),
+                                                    fem::Spring{spring.stiffness, spring.free_length}));
+  for (const Linkage& linkage : one.linkages)
+    model.blocks.push_back(
+        fem::make_distance_block(mesh, distance(mesh, linkage.between, linkage.along),
+                                 fem::Linkage{linkage.force, linkage.arm, linkage.strut, linkage.offset}));
+}
+
+} // namespace
+
+std::vector<std::string> places_of(const meshing::Mesh& mesh) {
+  std::vector<std::string> places;
+  for (const auto& [name, nodes] : mesh.node_sets) places.push_back(name);
+  return places;
+}
+
+Device build_device(const Case& one) {
+  meshing::Mesh mesh = build_mesh(one);
+  std::vector<std::string> places = places_of(mesh);
+  check_body_names(one, places);
+  for (const Body& body : one.bodies) places.push_back(body.name);
+  check_places(one, places);
+  const fem::Dimension dimension = one.dimension;
+
+  Eigen::Vector3d low = mesh.nodes.front(), high = low;
+  for (const auto& x : mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
+  fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
+  for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
+  model.extent = (high - low).norm();
+  model.drawn = mesh.nodes;
+  model.corners = fem::element_corners(mesh);
+
+  std::vector<std::string> warnings = size_warnings(one, high - low);
+  const bool of_revolution = dimension == fem::Dimension::axisymmetric;
+  if (!of_revolution && high.z() - low.z() > 1e-9 * model.extent)
+    throw meshing::MeshError("the film must lie in a plane of constant z");
+
+  const meshing::CellBlock* film = mesh.film();
+  if (!film) throw meshing::MeshError("the mesh has no triangles: there is no film");
+  if (of_revolution && !meshing::is_meridian(film->type))
+    throw meshing::MeshError("model = \"axisymmetric\" is for discs, annuli and balloons");
+  const auto elements = static_cast<double>(film->size());
+  model.length_scale = model.extent / (of_revolution ? elements : std::sqrt(elements));
+  // Two points of a 3-node meridian: there stretches are one order better than elsewhere.
+  const int points = film->type == meshing::CellType::triangle6   ? one.mesh.quadrature
+                     : film->type == meshing::CellType::meridian3 ? 2
+                                                                  : 1;
+  try {
+    model.blocks.push_back(fem::make_membrane_block(
+        mesh, *film, {one.film.material, one.film.thickness, one.film.prestretch, one.film.tension_field},
+        electrode_map(one, mesh, *film), dimension, points));
+  } catch (const std::invalid_argument& error) {
+    throw meshing::MeshError(error.what());
+  }
+  const auto* lattice = std::get_if<Honeycomb>(&one.geometry);
+  if (const meshing::CellBlock* walls = mesh.walls(); walls && lattice)
+    model.blocks.push_back(fem::make_beam_block(
+        mesh, *walls,
+        materials::rectangular_section(lattice->wall_material, lattice->wall_width, lattice->wall_height)));
+
+  add_springs(one, mesh, model);
+  add_masses(one, mesh, model);
+  for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
+  add_chamber(one, mesh, model);
+  for (const auto& block : model.blocks) block->claim_dofs(model.dofs, dimension);
+  tie_bodies(one, bodies, mesh, model.dofs);
+  for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
+  const bool free_body = one.supports.empty() && one.bodies.empty();
+  if (free_body) pin(mesh, model.dofs);
+  if (of_revolution)
+    for (int n = 0; n < mesh.node_count(); ++n)
+      if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);
+  if (one.plate) carry_plate(*one.plate, mesh, model.dofs);
+  if (const auto* patch = std::get_if<Patch>(&one.geometry)) keep_homogeneous(*patch, mesh, model.dofs);
+  try {
+    model.dofs.number();
+  } catch (const std::invalid_argument& error) {
+    throw CaseError(
+        {{{one.source.string()},
+          "body.places",
+          fmt::format("{}: what a [[body]] carries no [[support]], [plate] or side of a patch can hold",
+                      error.what())}});
+  }
+  model.inertia = fem::Inertia::of(model.blocks, model.dofs);
+  add_circuits(one, model);
+  add_sheets(one, mesh, model);
+  try {
+    model.place_histories();
+  } catch (const std::invalid_argument& error) {
+    throw meshing::MeshError(error.what());
+  }
+  scale_charges(model);
+
+  Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = free_body};
+  device.weight = weight_of(one, bodies, device.mesh, device.model);
+  require_loads_that_act(one, device);
+  device.tension_field = one.film.tension_field;
+  if (lattice) device.wall_width = lattice->wall_width;
+  device.warnings = std::move(warnings);
+  return device;
+}
+
+} // namespace dielast::cases

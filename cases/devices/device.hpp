@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "fem/model/model.hpp"
+#include "meshing/mesh.hpp"
+
+#include <optional>
+
+namespace dielast::cases {
+
+/// A case made computable: its mesh and its model.
+struct Device {
+  meshing::Mesh mesh;
+  fem::Model model;
+  std::optional<double> wall_width; ///< m, of a lattice
+  bool tension_field = false;       ///< the film wrinkles where it would be compressed
+  bool free_body = false;           ///< no support: pinned against rigid motion only, without reactions
+  Eigen::VectorXd weight;           ///< dead forces of gravity, per equation, N
+  std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each
+};
+
+/// The mesh that the case asks for. Throws meshing::MeshError.
+meshing::Mesh build_mesh(const Case& one);
+
+/// Names of all places of a mesh, sorted.
+std::vector<std::string> places_of(const meshing::Mesh& mesh);
+
+/// Mesh and model. Throws meshing::MeshError, and CaseError when the case names a place that the mesh lacks.
+Device build_device(const Case& one);
+
+} // namespace dielast::cases

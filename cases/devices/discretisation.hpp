@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/case/case.hpp"
+
+#include <vector>
+
+namespace dielast::cases {
+
+/// A case with other elements and time steps.
+struct Discretisation {
+  Case one;
+  double size = 1; ///< of its elements and time steps, over those of the case that it was made from
+};
+
+/// Whether time passes in a step.
+bool takes_time(const Case& one);
+
+/// Discretisations that tell, beside the case's own, how much its results depend on elements and time steps:
+/// elements and time steps about twice and four times as large, from the finer to the coarser, as many as
+/// there are. A user's own mesh that is not refined has one with elements half as large and time steps twice
+/// as long. Static steps take a third of their increments: a homogeneous patch without time has that only.
+/// Empty when the mesh is the coarsest already and no time passes.
+std::vector<Discretisation> other_discretisations(const Case& one);
+
+} // namespace dielast::cases

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/fits/fit_files.hpp"
+
+#include "cases/language/convert.hpp"
+#include "cases/text/units.hpp"
+#include "post/files/history.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace dielast::cases {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+const char* word(FitEnding ending) {
+  switch (ending) {
+  case FitEnding::converged:
+    return "converged";
+  case FitEnding::gave_up:
+    return "not converged";
+  case FitEnding::interrupted:
+    break;
+  }
+  return "interrupted";
+}
+
+std::string cell(double value) { return std::isfinite(value) ? fmt::format(",{}", value) : ","; }
+
+double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
+
+/// Keys and values of a section; a branch is told by its relaxation time, and a permittivity of 0 was not
+/// given.
+std::string keys_text(const Section& section, const void* object) {
+  const std::string selected = section.selected_in(object);
+  std::string text;
+  for (const Key& key : section.keys) {
+    if (!key.applies_to(selected) || key.name == "viscosity") continue;
+    const auto value = key.binding.get(object);
+    if (value && !(key.name == "permittivity" && value->at(0).number == 0))
+      text += fmt::format("{} = {}\n", key.name, toml_text(key, *value));
+  }
+  return text;
+}
+
+} // namespace
+
+Json fit_json(const FitResults& results) {
+  const FitOutcome& outcome = results.outcome;
+  Json json{{"title", results.fit.title},
+            {"status", word(outcome.ending)},
+            {"iterations", outcome.iterations},
+            {"deviation", finite(outcome.deviation)},
+            {"parameters", Json::array()},
+            {"correlation", Json::array()},
+            {"tests", Json::array()}};
+  for (std::size_t i = 0; i < outcome.parameters.size(); ++i) {
+    const FittedParameter& one = outcome.parameters[i];
+    const bool known = one.determined();
+    json["parameters"].push_back({{"name", results.task.parameters[i].name},
+                                  {"unit", results.task.parameters[i].unit},
+                                  {"value", one.value},
+                                  {"low_95", known ? Json(one.low) : Json()},
+                                  {"high_95", known ? Json(one.high) : Json()},
+                                  {"start", one.start},
+                                  {"at_bound", one.at_bound}});
+    Json row = Json::array();
+    for (const double r : outcome.correlation.row(static_cast<Eigen::Index>(i))) row.push_back(finite(r));
+    json["correlation"].push_back(std::move(row));
+  }
+  for (std::size_t t = 0; t < results.errors.size(); ++t) {
+    const FitTest& test = results.fit.tests[t];
+    json["tests"].push_back({{"file", test.file.string()},
+                             {"use", test.predict ? "predict" : "fit"},
+                             {"rows", test.lines.size()},
+                             {"weight", test.weight},
+                             {"largest_stress", test.measured.largest_stress()},
+                             {"rms_error", finite(results.errors[t].rms)},
+                             {"largest_error", finite(results.errors[t].largest)},
+                             {"steps_between_rows", outcome.steps[t]}});
+  }
+  json["warnings"] = results.warnings();
+  json["version"] = DIELAST_VERSION;
+  return json;
+}
+
+std::string fit_table(const FitResults& results) {
+  std::string table = "test,use,time[s],stretch[1],measured[Pa],model[Pa]\n";
+  for (std::size_t t = 0; t < results.task.tests.size(); ++t) {
+    const FitTest& test = results.fit.tests[t];
+    const StretchHistory& history = test.measured.history;
+    for (std::size_t i = 0; i < history.stretch.size(); ++i)
+      table += post::csv_cell(test.name()) + (test.predict ? ",predict" : ",fit") +
+               cell(history.time.empty() ? std::nan("") : history.time[i]) + cell(history.stretch[i]) +
+               cell(test.measured.stress[i]) + cell(results.outcome.stress[t][i]) + "\n";
+  }
+  return table;
+}
+
+std::string material_toml(const FitResults& results) {
+  Film film;
+  film.material = results.outcome.material;
+  for (const FitParameter& parameter : results.task.parameters)
+    parameter.set(film.material, rounded(parameter.get(film.material)));
+  const Section& material = *case_schema().find_section("film")->find_section("material");
+  const Section& branch = *material.find_section("branch");
+
+  std::string text = fmt::format("# {}: {}\n", results.fit.title, results.ending());
+  if (film.material.dielectric.permittivity == 0)
+    text += "# a case needs its relative_permittivity as well\n";
+  text += "[film.material]\n" + keys_text(material, &film);
+  for (const materials::Branch& one : film.material.branches) {
+    const double tau = one.viscosity / materials::initial_shear_modulus(one.law);
+    text += "\n[[film.material.branch]]\n" + keys_text(branch, &one) +
+            fmt::format("relaxation_time = \"{}\"\n", format_measure(rounded(tau), "s"));
+  }
+  return text;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/fitting/fit_solver.hpp"
+
+#include "cases/fitting/fit_statistics.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+constexpr double time_tolerance = 2e-4;
+
+/// A parameter as the solver sees it: unbounded in scale.
+class Coordinate {
+ public:
+  Coordinate(const FitParameter& parameter, double start, double modulus, double range)
+      : logarithmic_(std::isfinite(parameter.above)) {
+    if (logarithmic_) {
+      above_ = parameter.above;
+      lower = q(start) - std::log(range), upper = q(start) + std::log(range);
+      if (std::isfinite(parameter.below)) upper = std::min(upper, q(parameter.below));
+    } else {
+      scale_ = start != 0 ? std::abs(start) : parameter.unit == "Pa" ? modulus : 1;
+      lower = q(start) - range, upper = q(start) + range;
+    }
+  }
+  double q(double p) const { return logarithmic_ ? std::log(p - above_) : p / scale_; }
+  double p(double q) const { return logarithmic_ ? above_ + std::exp(q) : scale_ * q; }
+  bool at_bound(double q) const {
+    const double near = 1e-6 * (upper - lower);
+    return q <= lower + near || q >= upper - near;
+  }
+
+  double lower = 0, upper = 0;
+
+ private:
+  bool logarithmic_;
+  double above_ = 0, scale_ = 1;
+};
+
+/// The residuals as a function of the coordinates.
+class Misfit : public ceres::CostFunction {
+ public:
+  Misfit(const FitTask& task, const std::vector<Coordinate>& coordinates, const std::vector<int>& steps)
+      : task_(task), coordinates_(coordinates), steps_(steps) {
+    int rows = 0;
+    for (const MeasuredTest& test : task.tests)
+      if (!test.predict) rows += static_cast<int>(test.stress.size());
+    set_num_residuals(rows);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.size()));
+  }
+
+  materials::Material material(const Eigen::VectorXd& q) const {
+    materials::Material changed = task_.start;
+    for (std::size_t i = 0; i < coordinates_.size(); ++i)
+      task_.parameters[i].set(changed, coordinates_[i].p(q[static_cast<Eigen::Index>(i)]));
+    return changed;
+  }
+
+  /// False where the model has no stress.
+  bool residuals(const Eigen::VectorXd& q, Eigen::VectorXd& r) const {
+    r.resize(num_residuals());
+    const materials::Material changed = material(q);
+    Eigen::Index row = 0;
+    for (std::size_t f = 0; f < task_.tests.size(); ++f) {
+      const MeasuredTest& test = task_.tests[f];
+      if (test.predict) continue;
+      const std::vector<double> model = nominal_stress(changed, test.history, steps_[f]);
+      const double scale = test.weight / test.largest_stress();
+      for (std::size_t i = 0; i < model.size(); ++i) r[row++] = scale * (model[i] - test.stress[i]);
+    }
+    return r.allFinite();
+  }
+
+  /// By central differences, one-sided where only one side has a stress. False where none has.
+  bool jacobian(const Eigen::VectorXd& q, const Eigen::VectorXd& r, Eigen::MatrixXd& J) const {
+    constexpr double h = 1e-4;
+    J.resize(r.size(), q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      Eigen::VectorXd there = q, ahead, behind;
+      there[i] = q[i] + h;
+      const bool has_ahead = residuals(there, ahead);
+      there[i] = q[i] - h;
+      const bool has_behind = residuals(there, behind);
+      if (!has_ahead && !has_behind) return false;
+      J.col(i) = ((has_ahead ? ahead : r) - (has_behind ? behind : r)) / (h * (has_ahead + has_behind));
+    }
+    return true;
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals_out, double** jacobians) const override {
+    const Eigen::VectorXd q =
+        Eigen::Map<const Eigen::VectorXd>(parameters[0], static_cast<Eigen::Index>(coordinates_.size()));
+    Eigen::VectorXd r;
+    if (!residuals(q, r)) return false;
+    std::copy(r.begin(), r.end(), residuals_out);
+    if (!jacobians || !jacobians[0]) return true;
+    Eigen::MatrixXd J;
+    if (!jacobian(q, r, J)) return false;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<RowMajor>(jacobians[0], J.rows(), J.cols()) = J;
+    return true;
+  }
+
+ private:
+  const FitTask& task_;
+  const std::vector<Coordinate>& coordinates_;
+  const std::vector<int>& steps_;
+};
+
+/// Tells how the fit goes on, and stops it.
+class Follower : public ceres::IterationCallback {
+ public:
+  Follower(const FitTask& task, int rows, int& iterations)
+      : task_(task), rows_(rows), iterations_(iterations) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
+    if (now.iteration > 0) ++iterations_;
+    if (task_.on_iteration && !task_.on_iteration(iterations_, std::sqrt(2 * now.cost / rows_))) {
+      stopped = true;
+      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    }
+    return ceres::SOLVER_CONTINUE;
+  }
+
+  bool stopped = false;
+
+ private:
+  const FitTask& task_;
+  int rows_;
+  int& iterations_;
+};
+
+/// Where the solver has come to.
+struct Attempt {
+  Eigen::VectorXd q;
+  double cost = 0;
+  FitEnding ending{};
+};
+
+Attempt minimise(const FitTask& task, const std::vector<Coordinate>& coordinates,
+                 const std::vector<int>& steps, Eigen::VectorXd q, int& iterations) {
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  Misfit misfit(task, coordinates, steps);
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&misfit, nullptr, q.data());
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    problem.SetParameterLowerBound(q.data(), static_cast<int>(i), coordinates[i].lower);
+    problem.SetParameterUpperBound(q.data(), static_cast<int>(i), coordinates[i].upper);
+  }
+  Follower follower(task, misfit.num_residuals(), iterations);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  options.max_num_iterations = task.max_iterations;
+  options.initial_trust_region_radius = 10; // a full first step may leave the neighbourhood of the start
+  options.max_num_consecutive_invalid_steps = 30; // beyond a law's limit
+  options.function_tolerance = options.parameter_tolerance = 1e-10;
+  options.gradient_tolerance = 1e-14;
+  options.update_state_every_iteration = true; // the best so far survives an interrupt
+  options.callbacks.push_back(&follower);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  const FitEnding ending = follower.stopped                                 ? FitEnding::interrupted
+                           : summary.termination_type == ceres::CONVERGENCE ? FitEnding::converged
+                                                                            : FitEnding::gave_up;
+  return {std::move(q), summary.final_cost, ending};
+}
+
+/// Verifies the steps of time at the solution and goes on with finer ones; `steps` are those of the end.
+Attempt minimise_in_time(const FitTask& task, const std::vector<Coordinate>& coordinates,
+                         std::vector<int>& steps, const Eigen::VectorXd& start, int& iterations) {
+  Attempt attempt{start};
+  for (int round = 0; round < 4; ++round) {
+    attempt = minimise(task, coordinates, steps, attempt.q, iterations);
+    const materials::Material reached = Misfit(task, coordinates, steps).material(attempt.q);
+    std::vector<int> finer = steps;
+    for (std::size_t f = 0; f < steps.size(); ++f)
+      finer[f] = steps_needed(reached, task.tests[f].history, time_tolerance, steps[f]);
+    if (attempt.ending != FitEnding::converged || finer == steps) break;
+    steps = std::move(finer);
+  }
+  return attempt;
+}
+
+/// Another start: relaxation times spread evenly, in their logarithms, from the shortest time between rows to
+/// the duration of the tests, and everything in Pa scaled to the measured stresses.
+Eigen::VectorXd other_start(const FitTask& task, const std::vector<Coordinate>& coordinates,
+                            const std::vector<int>& steps, Eigen::VectorXd q) {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (const MeasuredTest& test : task.tests)
+    for (std::size_t i = 1; !test.predict && i < test.history.time.size(); ++i) {
+      shortest = std::min(shortest, test.history.time[i] - test.history.time[i - 1]);
+      longest = std::max(longest, test.history.time[i] - test.history.time[0]);
+    }
+  std::vector<Eigen::Index> times, moduli;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (task.parameters[i].unit == "s") times.push_back(static_cast<Eigen::Index>(i));
+    if (task.parameters[i].unit == "Pa") moduli.push_back(static_cast<Eigen::Index>(i));
+  }
+  const auto limited = [&](Eigen::Index i, double p) {
+    const Coordinate& c = coordinates[static_cast<std::size_t>(i)];
+    q[i] = std::clamp(c.q(p), c.lower, c.upper);
+  };
+  for (std::size_t n = 0; n < times.size() && longest > 0; ++n) {
+    const double part = static_cast<double>(n + 1) / static_cast<double>(times.size() + 1);
+    limited(times[n], shortest * std::pow(longest / shortest, part));
+  }
+  double measured = 0, model = 0;
+  const materials::Material here = Misfit(task, coordinates, steps).material(q);
+  for (std::size_t f = 0; f < task.tests.size(); ++f) {
+    const MeasuredTest& test = task.tests[f];
+    if (test.predict) continue;
+    const std::vector<double> stress = nominal_stress(here, test.history, steps[f]);
+    const double scale = test.weight / test.largest_stress();
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+      measured += scale * scale * stress[i] * test.stress[i];
+      model += scale * scale * stress[i] * stress[i];
+    }
+  }
+  if (measured > 0 && std::isfinite(model))
+    for (const Eigen::Index i : moduli)
+      limited(i, coordinates[static_cast<std::size_t>(i)].p(q[i]) * measured / model);
+  return q;
+}
+
+bool any_at_bound(const std::vector<Coordinate>& coordinates, const Eigen::VectorXd& q) {
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    if (coordinates[i].at_bound(q[static_cast<Eigen::Index>(i)])) return true;
+  return false;
+}
+
+void add_statistics(const Misfit& misfit, const std::vector<Coordinate>& coordinates,
+                    const Eigen::VectorXd& q, FitOutcome& outcome) {
+  Eigen::VectorXd r;
+  Eigen::MatrixXd J;
+  if (!misfit.residuals(q, r) || !misfit.jacobian(q, r, J)) J.setZero(r.size(), q.size());
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    if (coordinates[i].at_bound(q[static_cast<Eigen::Index>(i)]))
+      J.col(static_cast<Eigen::Index>(i)).setZero();
+  const FitStatistics statistics = fit_statistics(J, r);
+  outcome.deviation = statistics.deviation;
+  outcome.correlation = statistics.correlation;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const double at = q[static_cast<Eigen::Index>(i)];
+    const double half_width = statistics.half_widths[static_cast<Eigen::Index>(i)];
+    FittedParameter& one = outcome.parameters[i];
+    one.at_bound = coordinates[i].at_bound(at);
+    one.low = coordinates[i].p(at - half_width), one.high = coordinates[i].p(at + half_width);
+  }
+}
+
+} // namespace
+
+double MeasuredTest::largest_stress() const {
+  double largest = 0;
+  for (const double one : stress) largest = std::max(largest, std::abs(one));
+  return largest;
+}
+
+bool FittedParameter::determined() const { return !at_bound && std::isfinite(low) && std::isfinite(high); }
+
+FitOutcome solve_fit(const FitTask& task) {
+  FitOutcome outcome;
+  std::vector<Coordinate> coordinates;
+  Eigen::VectorXd start(static_cast<Eigen::Index>(task.parameters.size()));
+  const double modulus = materials::initial_shear_modulus(task.start.law);
+  for (const FitParameter& parameter : task.parameters) {
+    const double value = parameter.get(task.start);
+    const auto i = static_cast<Eigen::Index>(coordinates.size());
+    coordinates.emplace_back(parameter, value, modulus, task.range);
+    start[i] = coordinates.back().q(value);
+    outcome.parameters.push_back({.start = value});
+  }
+  for (const MeasuredTest& test : task.tests)
+    outcome.steps.push_back(steps_needed(task.start, test.history, time_tolerance));
+
+  std::vector<int> steps = outcome.steps; // for a second attempt
+  Attempt best = minimise_in_time(task, coordinates, outcome.steps, start, outcome.iterations);
+  if (best.ending != FitEnding::interrupted &&
+      (best.ending == FitEnding::gave_up || any_at_bound(coordinates, best.q))) {
+    const Eigen::VectorXd other = other_start(task, coordinates, steps, start);
+    Attempt second = minimise_in_time(task, coordinates, steps, other, outcome.iterations);
+    const double alike = best.ending == FitEnding::gave_up ? 1 + 1e-6 : 1 - 1e-6;
+    const bool usable = second.cost >= 0; // -1: the model has no stress there
+    const FitEnding ending = second.ending;
+    if (usable && second.cost < alike * best.cost) {
+      best = std::move(second);
+      outcome.steps = std::move(steps);
+    }
+    if (ending == FitEnding::interrupted) best.ending = ending;
+  }
+
+  const Misfit misfit(task, coordinates, outcome.steps);
+  outcome.ending = best.ending;
+  outcome.material = misfit.material(best.q);
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    outcome.parameters[i].value = task.parameters[i].get(outcome.material);
+  for (std::size_t f = 0; f < task.tests.size(); ++f)
+    outcome.stress.push_back(nominal_stress(outcome.material, task.tests[f].history, outcome.steps[f]));
+  add_statistics(misfit, coordinates, best.q, outcome);
+  return outcome;
+}
+
+} // namespace dielast::cases

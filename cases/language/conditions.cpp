@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/language/conditions.hpp"
+
+#include <algorithm>
+
+namespace dielast::cases {
+
+bool has_step(const Case& one, std::initializer_list<StepKind> kinds) {
+  return std::ranges::any_of(
+      one.steps, [&](const Step& step) { return std::ranges::find(kinds, step.kind) != kinds.end(); });
+}
+
+bool has_mass(const Case& one) {
+  const auto heavy = [](const auto& body) { return body.mass > 0; };
+  return one.film.material.density > 0 || (one.plate && heavy(*one.plate)) ||
+         std::ranges::any_of(one.point_masses, heavy) || std::ranges::any_of(one.bodies, heavy);
+}
+
+bool is_linearised(const Case& one) { return one.linearise.written || has_step(one, {StepKind::harmonic}); }
+
+namespace {
+
+bool is_timed(const Case& one) {
+  return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });
+}
+
+bool has_inertia(const Case& one) {
+  return std::ranges::any_of(one.steps, [](const Step& step) { return step.inertia; });
+}
+
+bool has_instantaneous_step(const Case& one) {
+  return std::ranges::any_of(one.steps, [](const Step& step) {
+    return !step.duration && !step.is_analysis() && step.response == Response::instantaneous;
+  });
+}
+
+/// Whether a step reaches the chamber's pressure, or a transient follows it: until a chamber is pumped up it
+/// is open.
+bool opens_chamber(const Case& one) {
+  bool open = true;
+  for (const Step& step : one.steps) {
+    if (step.kind == StepKind::inflate) open = false;
+    if ((step.kind == StepKind::pressure && !step.to) || (step.kind == StepKind::transient && open))
+      return true;
+  }
+  return false;
+}
+
+/// A condition on the case alone.
+template<class Rule>
+Condition on_case(std::string needs, Rule rule) {
+  return {std::move(needs), [rule](const Case& one, const void*) { return rule(one); }};
+}
+
+/// A condition on the object of the key's section, too.
+template<class T, class Rule>
+Condition on(std::string needs, Rule rule) {
+  return {std::move(needs),
+          [rule](const Case& one, const void* object) { return rule(one, *static_cast<const T*>(object)); }};
+}
+
+} // namespace
+
+namespace when {
+
+Condition electrodes() {
+  return on_case("an [[electrode]]", [](const Case& one) { return !one.electrodes.empty(); });
+}
+
+Condition branches() {
+  return on_case("a [[film.material.branch]]",
+                 [](const Case& one) { return !one.film.material.branches.empty(); });
+}
+
+Condition time_passes() { return on_case("a step with a duration", is_timed); }
+
+Condition without_duration() {
+  return on<Step>("a step without a duration", [](const Case&, const Step& step) { return !step.duration; });
+}
+
+Condition weight() {
+  return on_case("a step of kind \"weight\"",
+                 [](const Case& one) { return has_step(one, {StepKind::weight}); });
+}
+
+Condition masses_matter() {
+  return on_case("inertia, a step of kind \"modes\" or \"harmonic\", or a weight", [](const Case& one) {
+    const bool vibrates = std::ranges::any_of(
+        one.quantities, [](const Quantity& q) { return q.kind == QuantityKind::natural_frequency; });
+    return vibrates || has_inertia(one) || is_linearised(one) || has_step(one, {StepKind::modes}) ||
+           (one.gravity.film && has_step(one, {StepKind::weight}));
+  });
+}
+
+Condition dampers_matter() {
+  return on_case("a step with inertia or of kind \"harmonic\"",
+                 [](const Case& one) { return has_inertia(one) || is_linearised(one); });
+}
+
+Condition has_mass() {
+  return on_case("a mass: of the film (its density), a [plate], a [[point_mass]] or a [[body]]",
+                 [](const Case& one) { return cases::has_mass(one); });
+}
+
+Condition branches_flow() {
+  return on<materials::Branch>(
+      "a step with a duration, of kind \"harmonic\", or with response = \"instantaneous\"",
+      [](const Case& one, const materials::Branch& branch) {
+        return is_timed(one) || is_linearised(one) || has_instantaneous_step(one) ||
+               !(branch.directions[0] && branch.directions[1]);
+      });
+}
+
+Condition circuits_matter() {
+  return on<Circuit>("a step with a duration or of kind \"harmonic\", or a leakage_resistance",
+                     [](const Case& one, const Circuit& circuit) {
+                       return is_timed(one) || is_linearised(one) || circuit.leakage_resistance;
+                     });
+}
+
+Condition time_steps_matter() {
+  return on_case("a step with a duration in which branches, a circuit or a sheet_resistance flow, or inertia",
+                 [](const Case& one) {
+                   const bool sheets = std::ranges::any_of(one.electrodes, [](const Electrode& electrode) {
+                     return electrode.sheet_resistance.has_value();
+                   });
+                   const bool flows = !one.film.material.branches.empty() || !one.circuits.empty() || sheets;
+                   return is_timed(one) && (flows || has_inertia(one));
+                 });
+}
+
+Condition voltage_applies() {
+  return on_case("a step of kind \"voltage\" without `to`, or \"transient\" with control = \"voltage\"",
+                 [](const Case& one) {
+                   return std::ranges::any_of(one.steps, [](const Step& step) {
+                     return (step.kind == StepKind::voltage && !step.to) ||
+                            (step.kind == StepKind::transient && step.control == Control::voltage);
+                   });
+                 });
+}
+
+Condition chamber_is_open() {
+  return on_case("a step of kind \"pressure\", or \"transient\" before any of kind \"inflate\"",
+                 opens_chamber);
+}
+
+Condition chamber_is_closed() {
+  return on_case("a step of kind \"inflate\"",
+                 [](const Case& one) { return has_step(one, {StepKind::inflate}); });
+}
+
+Condition volume_applies() {
+  return on_case("a step of kind \"inflate\" without `to`", [](const Case& one) {
+    return std::ranges::any_of(one.steps,
+                               [](const Step& step) { return step.kind == StepKind::inflate && !step.to; });
+  });
+}
+
+Condition curved_triangles() {
+  return on_case("6-node triangles: mesh.order = 2 of a film that is not of revolution", [](const Case& one) {
+    return one.mesh.order == 2 && one.dimension != fem::Dimension::axisymmetric;
+  });
+}
+
+Condition moves_along_it() {
+  return on<Quantity>("motion along that direction: a planar model has none along z, one of revolution none "
+                      "along y",
+                      [](const Case& one, const Quantity& quantity) {
+                        return !quantity.along || fem::moves(one.dimension, std::min(*quantity.along, 2));
+                      });
+}
+
+} // namespace when
+
+} // namespace dielast::cases

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/language/schema.hpp"
+
+namespace dielast::cases {
+
+/// Conditions under which keys act. Each asks the whole case, and says in words what it needs.
+namespace when {
+
+Condition electrodes();        ///< there is an electrode
+Condition branches();          ///< the film has branches
+Condition time_passes();       ///< a step has a duration
+Condition without_duration();  ///< the key's own step has none
+Condition weight();            ///< gravity acts in a step
+Condition masses_matter();     ///< something has inertia, vibrates, or weighs
+Condition dampers_matter();    ///< something moves with inertia, or is linearised
+Condition has_mass();          ///< something has one
+Condition branches_flow();     ///< some of the branch's springs are felt
+Condition circuits_matter();   ///< time passes, something is linearised, or the circuit leaks
+Condition time_steps_matter(); ///< in a step with a duration something flows or has inertia
+Condition voltage_applies();
+Condition chamber_is_open(); ///< a step reaches or follows its pressure
+Condition chamber_is_closed();
+Condition volume_applies();   ///< a step pumps it
+Condition curved_triangles(); ///< the film is of 6-node triangles
+Condition moves_along_it();   ///< of a quantity's direction
+
+} // namespace when
+
+/// Whether a step is of one of these kinds.
+bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
+
+/// Whether the film, the plate or a point mass has a mass.
+bool has_mass(const Case& one);
+bool is_linearised(const Case& one); ///< by a harmonic response or a linear model
+
+} // namespace dielast::cases

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/case_tree.hpp"
+
+#include "cases/case/quantities.hpp"
+#include "cases/language/section_reader.hpp"
+#include "cases/readers/fit_reader.hpp"
+#include "cases/readers/idle_keys.hpp"
+#include "cases/readers/rules.hpp"
+#include "cases/tables/patch.hpp"
+#include "cases/tables/templates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+template<class List, class Name>
+std::vector<std::string> names_of(const List& list, Name name) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.push_back(item.*name);
+  return names;
+}
+
+void require_known(SectionReader& reader, Reference kind, const std::string& noun,
+                   const std::vector<std::string>& known) {
+  for (const Mention& mention : reader.mentions(kind))
+    // what a template brings can only miss something that the user is told about anyway
+    if (mention.source.is_written() && std::find(known.begin(), known.end(), mention.name) == known.end())
+      reader.report(mention.source, mention.key,
+                    fmt::format("found {}: no such {}{}{}", toml_string(mention.name), noun,
+                                known.empty() ? "; the case has none" : ", allowed " + listed(known),
+                                did_you_mean(mention.name, known)));
+}
+
+/// Exactly one geometry must be given.
+void require_one_geometry(SectionReader& reader, const Node& tree) {
+  std::vector<std::string> allowed;
+  for (const Template& device : templates())
+    if (device.with.empty())
+      allowed.push_back(device.name == "file" ? "[mesh] file = \"...\"" : fmt::format("[{}]", device.name));
+  const auto found = geometries_of(tree);
+  if (found.empty())
+    reader.report(tree.source, "",
+                  fmt::format("there is no geometry; add one of {}", fmt::join(allowed, ", ")));
+  else if (found.size() > 1)
+    for (std::size_t i = 1; i < found.size(); ++i)
+      reader.report(
+          found[i]->key_source, "",
+          fmt::format("there are {} geometries; keep one of {}", found.size(), fmt::join(allowed, ", ")));
+}
+
+/// Makes the mesh file's path independent of the working directory.
+void locate_mesh(SectionReader& reader, const Node& tree, Case& one) {
+  auto* file = std::get_if<MeshFile>(&one.geometry);
+  const Node* mesh = tree.find("mesh");
+  const Node* written = file && mesh ? mesh->find("file") : nullptr;
+  if (!written) return;
+  const std::string name = file->path.string();
+  file->path = std::filesystem::absolute(one.source.parent_path() / file->path).lexically_normal();
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(file->path, failure))
+    reader.report(
+        written->source, "mesh.file",
+        fmt::format("found {}: no such file; the path starts at the case file's folder", toml_string(name)));
+}
+
+} // namespace
+
+Case interpret(Node tree, const std::filesystem::path& path) {
+  refuse_fit(tree);
+  if (const Node* base = tree.find("case"))
+    throw CaseError(
+        {{base->key_source, "case", "this file is a study of another case: use `dielast study`"}});
+  Case one;
+  one.source = path;
+  one.title = path.stem().string();
+  const Template* device = template_of(tree);
+  int standard = 0;
+  if (device) {
+    add_defaults(tree, *device);
+    standard = add_standard_quantities(tree, *device);
+  }
+
+  if (const std::string name = path.stem().string(); name.size() > longest_name)
+    throw CaseError(
+        {{tree.source, "",
+          fmt::format("the file's name is too long: results are called after it, allowed {} letters",
+                      longest_name)}});
+  SectionReader reader({geometries_of(tree).size() == 1 ? std::string(device->name) : "", path.parent_path(),
+                        [&] { return names_of(one.electrodes, &Electrode::name); },
+                        [&](const std::string& name) -> std::optional<std::string> {
+                          for (const Quantity& quantity : one.quantities)
+                            if (quantity.name == name) return unit_of(quantity, one.quantities);
+                          return std::nullopt;
+                        }});
+  require_one_geometry(reader, tree);
+  reader.read_table(case_schema(), tree, &one, "");
+  for (int i = 0; i < std::min<int>(standard, static_cast<int>(one.quantities.size())); ++i)
+    one.quantities[static_cast<std::size_t>(i)].standard = true;
+  add_patch_sides(one);
+  if (one.mesh.rings == 0) one.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
+
+  require_known(reader, Reference::electrode, "electrode", names_of(one.electrodes, &Electrode::name));
+  require_known(reader, Reference::step, "step", names_of(one.steps, &Step::name));
+  require_known(reader, Reference::quantity, "quantity", names_of(one.quantities, &Quantity::name));
+  require_known(reader, Reference::body, "body", names_of(one.bodies, &Body::name));
+  std::vector<std::string> supported = names_of(one.supports, &Support::place);
+  for (const Body& body : one.bodies)
+    if (body.pivot || std::ranges::count(body.fixed, true) > 0) supported.push_back(body.name);
+  require_known(reader, Reference::supported_place, "supported place", supported);
+  check_rules(reader, tree, one);
+  locate_mesh(reader, tree, one);
+  if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
+  one.places = reader.mentions(Reference::place);
+  one.linearise.written = tree.find("linearise");
+  one.warnings = reader.warnings();
+  for (Diagnostic& idle : idle_keys(tree, one)) one.warnings.push_back(std::move(idle));
+  return one;
+}
+
+Node read_case_file(const std::filesystem::path& path) {
+  Node tree = read_tree(path);
+  if (const Template* device = template_of(tree)) add_defaults(tree, *device);
+  return tree;
+}
+
+} // namespace dielast::cases

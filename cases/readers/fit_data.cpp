@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/fit_data.hpp"
+
+#include "cases/text/csv.hpp"
+#include "cases/text/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+/// A factor to Pa, when the text is a unit of stress.
+std::optional<double> stress_unit(const std::string& text) {
+  try {
+    return parse_measure("1 " + text, "Pa").value;
+  } catch (const UnitError&) {
+    return std::nullopt;
+  }
+}
+
+/// "P_kPa_raw" -> 1000: the last part of the name that is a unit of stress.
+std::optional<double> unit_in(const std::string& name) {
+  for (std::size_t end = name.size(), begin; end != std::string::npos; end = begin) {
+    begin = end == 0 ? std::string::npos : name.rfind('_', end - 1);
+    if (begin == std::string::npos) break;
+    if (const auto factor = stress_unit(name.substr(begin + 1, end - begin - 1))) return factor;
+  }
+  return std::nullopt;
+}
+
+bool ends_in_stress(const std::string& name) {
+  const auto last = name.rfind('_');
+  return last != std::string::npos && stress_unit(name.substr(last + 1));
+}
+
+/// Finds the columns of a test, and says what is wrong with them.
+class Columns {
+ public:
+  Columns(const CsvTable& csv, const Node& table, const std::string& path, std::vector<Diagnostic>& wrong)
+      : csv_(csv), table_(table), path_(path), wrong_(wrong) {}
+
+  /// Number of the column that `key` names, or of `usual`; -1 when there is none, after a report.
+  int find(const std::string& key, const std::string& named, const std::string& usual) const {
+    const std::string& name = named.empty() ? usual : named;
+    const int column = csv_.find(name);
+    if (column < 0)
+      report(named.empty() ? "file" : key, named.empty()
+                                               ? fmt::format("{} has no column {}: give {}, one of {}",
+                                                             csv_.file, usual, key, listed(csv_.names))
+                                               : missing(named));
+    return column;
+  }
+
+  /// The column of the stress, Pa; empty after a report.
+  std::vector<double> stress(const std::string& named) const {
+    std::string name = named;
+    if (named.empty()) {
+      std::vector<std::string> candidates;
+      std::copy_if(csv_.names.begin(), csv_.names.end(), std::back_inserter(candidates), ends_in_stress);
+      if (candidates.size() != 1) {
+        report("file",
+               candidates.empty()
+                   ? fmt::format("{} has no column that ends in a unit of stress, such as P_kPa: give "
+                                 "stress, one of {}",
+                                 csv_.file, listed(csv_.names))
+                   : fmt::format("{} has several columns of stress: give stress, one of {}", csv_.file,
+                                 listed(candidates)));
+        return {};
+      }
+      name = candidates[0];
+    }
+    const int column = find("stress", name, "");
+    if (column < 0) return {};
+    const auto unit = unit_in(name);
+    if (!unit) {
+      report("stress", fmt::format("found {}: its name has no unit of stress; rename the column, as in {}",
+                                   toml_string(name), toml_string(name + "_kPa")));
+      return {};
+    }
+    std::vector<double> values = csv_.columns[static_cast<std::size_t>(column)];
+    for (double& value : values) value *= *unit;
+    return values;
+  }
+
+  void report(const std::string& key, std::string message) const {
+    const Node* node = table_.find(key);
+    wrong_.push_back({node ? node->source : table_.source, path_ + "." + key, std::move(message)});
+  }
+
+ private:
+  std::string missing(const std::string& name) const {
+    return fmt::format("found {}: {} has no such column, allowed {}{}", toml_string(name), csv_.file,
+                       listed(csv_.names), did_you_mean(name, csv_.names));
+  }
+
+  const CsvTable& csv_;
+  const Node& table_;
+  const std::string& path_;
+  std::vector<Diagnostic>& wrong_;
+};
+
+void move_to_origin(MeasuredTest& measured) {
+  const double stretch = measured.history.stretch[0], stress = measured.stress[0];
+  for (double& one : measured.history.stretch) one += 1 - stretch;
+  for (double& one : measured.stress) one -= stress;
+}
+
+void require_positive(const CsvTable& csv, int column, const std::vector<double>& stretch,
+                      std::vector<Diagnostic>& wrong) {
+  for (std::size_t row = 0; row < stretch.size(); ++row)
+    if (!(stretch[row] > 0))
+      wrong.push_back({{csv.file, csv.lines[row], 1},
+                       csv.names[static_cast<std::size_t>(column)],
+                       fmt::format("found {:.6g}, allowed a stretch above 0", stretch[row])});
+}
+
+/// Times of rows that a film reaches from its undeformed state at a constant rate.
+std::vector<double> times_at(double rate, const std::vector<double>& stretch) {
+  std::vector<double> times;
+  double last = 1, time = 0;
+  for (const double one : stretch) {
+    time += std::abs(one - last) / rate;
+    times.push_back(time);
+    last = one;
+  }
+  return times;
+}
+
+void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Columns& columns,
+               std::vector<Diagnostic>& wrong) {
+  const std::size_t errors_before = wrong.size();
+  constexpr const char* usual_time = "time_s";
+  const int stretch = columns.find("stretch", test.stretch_column, "stretch");
+  test.measured.stress = columns.stress(test.stress_column);
+  int time = -1;
+  if (!test.time_column.empty())
+    time = columns.find("time", test.time_column, "");
+  else if (!test.rate && !test.equilibrium)
+    time = csv.find(usual_time);
+  if (wrong.size() > errors_before) return;
+  if (needs_time && !test.equilibrium && !test.rate && time < 0) {
+    columns.report("file",
+                   fmt::format("{} has no column {}, and the branches need the time: give time, one of "
+                               "{}, or rate, or equilibrium = true",
+                               csv.file, usual_time, listed(csv.names)));
+    return;
+  }
+  test.measured.history.mode = test.kind;
+  test.measured.history.stretch = csv.columns[static_cast<std::size_t>(stretch)];
+  test.measured.weight = test.weight;
+  test.measured.predict = test.predict;
+  test.lines = csv.lines;
+  if (test.zero) move_to_origin(test.measured);
+  require_positive(csv, stretch, test.measured.history.stretch, wrong);
+  if (time >= 0) {
+    require_growing(csv, time, wrong);
+    test.measured.history.time = si_column(csv, time, "s");
+  } else if (test.rate) {
+    test.measured.history.time = times_at(*test.rate, test.measured.history.stretch);
+  }
+  if (test.measured.largest_stress() == 0)
+    columns.report("file", fmt::format("{} has no stress other than 0", csv.file));
+}
+
+} // namespace
+
+void load_test(FitTest& test, const std::filesystem::path& folder, bool needs_time, const Node& table,
+               const std::string& path, std::vector<Diagnostic>& wrong) {
+  const std::size_t errors_before = wrong.size();
+  try {
+    const CsvTable csv = read_csv(folder / test.file, 2, wrong);
+    if (wrong.size() > errors_before) return;
+    read_rows(test, csv, needs_time, Columns(csv, table, path, wrong), wrong);
+  } catch (const FileError& error) {
+    wrong.push_back({table.find("file")->source, path + ".file",
+                     fmt::format("found {}: {}", toml_string(test.file.string()),
+                                 std::filesystem::exists(folder / test.file)
+                                     ? error.what()
+                                     : "no such file; the path starts at this file's folder")});
+  }
+}
+
+} // namespace dielast::cases

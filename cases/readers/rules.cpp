@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/rules.hpp"
+
+#include "cases/case/quantities.hpp"
+#include "cases/language/conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+/// Reports at a section of the tree, or at the file as a whole for what a template has brought.
+void report_at(SectionReader& reader, const Node& tree, const std::string& section,
+               const std::string& message) {
+  const Node* node = tree.find(section);
+  reader.report(node ? node->source : tree.source, section, message);
+}
+
+/// How messages name a step, and where it stands.
+struct Place {
+  std::string key;
+  Source source;
+};
+
+/// Items of a list that the user has written; those of the template stand in front.
+std::size_t written_items(const Node& list) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(list.items, [](const Node& item) { return item.source.is_written(); }));
+}
+
+Place place_of_step(const Node& tree, std::size_t number) {
+  const Node& item = tree.find("step")->items.at(number);
+  return {item.source.line > 0 ? fmt::format("step[{}]", number + 1) : "step", item.source};
+}
+
+void check_loads(SectionReader& reader, const Node& tree, const Case& one) {
+  if (has_step(one, {StepKind::force}) && one.loads.empty())
+    report_at(reader, tree, "step", "a step of kind \"force\" has nothing to apply; add a [[load]]");
+  if (one.loads.empty() || has_step(one, {StepKind::force, StepKind::transient})) return;
+  report_at(reader, tree, one.loads.front().standard ? "patch" : "load",
+            "no step applies it; add a [[step]] with kind = \"force\"");
+}
+
+void check_motions(SectionReader& reader, const Node& tree, const Case& one) {
+  const auto moved = std::ranges::find_if(one.supports, &Support::moves);
+  if (moved == one.supports.end()) {
+    if (has_step(one, {StepKind::move}))
+      report_at(reader, tree, "step",
+                "a step of kind \"move\" has nothing to move; give a [[support]] a displacement");
+  } else if (!has_step(one, {StepKind::move, StepKind::transient})) {
+    report_at(reader, tree, moved->standard ? "patch" : "support",
+              "no step moves it; add a [[step]] with kind = \"move\"");
+  }
+}
+
+void check_drives(SectionReader& reader, const Node& tree, const Case& one) {
+  if (one.electrodes.empty())
+    for (const char* section : {"drive", "circuit"})
+      if (const Node* written = tree.find(section); written && !written->items.empty())
+        reader.report(written->source, section,
+                      "there is no electrode for it; add an [[electrode]] with a name and a place");
+  const bool voltage =
+      std::ranges::any_of(one.drives, [](const auto& d) { return d.second.voltage.has_value(); });
+  const bool charge =
+      std::ranges::any_of(one.drives, [](const auto& d) { return d.second.charge.has_value(); });
+  const auto has_open_step = [&one](StepKind kind) {
+    return std::ranges::any_of(one.steps, [kind](const Step& step) { return step.kind == kind && !step.to; });
+  };
+  if (!charge && has_open_step(StepKind::charge))
+    report_at(reader, tree, "step",
+              "a step of kind \"charge\" has no charge to reach; give [drive] a charge");
+  if (charge && !voltage && has_open_step(StepKind::voltage))
+    report_at(reader, tree, "step",
+              "a step of kind \"voltage\" has no voltage to reach; give [drive] a voltage");
+  const bool follows_charge = std::ranges::any_of(one.steps, [](const Step& step) {
+    return (step.kind == StepKind::charge && !step.to) ||
+           (step.kind == StepKind::transient && step.control == Control::charge);
+  });
+  if (charge && !follows_charge)
+    report_at(reader, tree, "drive", "no step applies its charge; add a [[step]] with kind = \"charge\"");
+}
+
+bool drives_charge(const WrittenWave& written) {
+  return written.key.starts_with("drive") && written.key.ends_with(".charge");
+}
+
+/// Whether the step is a transient that follows the wave: of voltage and charge only the one that it
+/// controls.
+bool follows(const Step& step, const WrittenWave& written) {
+  if (step.kind != StepKind::transient) return false;
+  return !written.key.starts_with("drive") || drives_charge(written) == (step.control == Control::charge);
+}
+
+/// Longest time that a step follows the wave, s.
+double followed_time(const Case& one, const WrittenWave& written) {
+  double longest = 0;
+  for (const Step& step : one.steps)
+    if (follows(step, written)) longest = std::max(longest, *step.duration);
+  return longest;
+}
+
+void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
+  for (const WrittenWave& written : reader.waves()) {
+    using enum Waveform::Kind;
+    const Waveform& wave = written.wave;
+    const bool starts = wave.kind == ramp || wave.kind == step || wave.kind == trapezoid;
+    if (const double end = followed_time(one, written); end > 0 && starts && wave.start >= end)
+      reader.warn(written.source, written.key,
+                  fmt::format("has no effect here: it begins at {:.6g} s, and the step that follows it ends "
+                              "at {:.6g} s",
+                              wave.start, end));
+  }
+  for (const WrittenWave& written : reader.waves())
+    if (std::ranges::none_of(one.steps, [&](const Step& step) { return follows(step, written); }))
+      reader.report(
+          written.source, written.key,
+          fmt::format("no step follows this wave; add a [[step]] with kind = \"transient\"{} and its "
+                      "duration",
+                      drives_charge(written) ? ", control = \"charge\"" : ""));
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    for (const WrittenWave& written : reader.waves()) {
+      if (!follows(step, written)) continue;
+      const double longest = written.wave.period() / 4, dt = *step.duration / step.increments;
+      if (dt <= longest * (1 + 1e-9)) continue;
+      const Place at = place_of_step(tree, s);
+      reader.report(
+          at.source, at.key + ".increments",
+          fmt::format("time steps of {:.6g} s are longer than a quarter of the period {:.6g} s of {}; "
+                      "allowed at least {:.0f} increments",
+                      dt, written.wave.period(), written.key,
+                      std::ceil(*step.duration / longest * (1 - 1e-9))));
+    }
+  }
+}
+
+/// Every row of the history is kept until the run ends.
+void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
+  constexpr double most_rows = 100000;
+  double rows = 0;
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    const double before = rows;
+    rows += step.record ? *step.duration / *step.record : step.increments;
+    if (rows <= most_rows || before > most_rows) continue;
+    const Place at = place_of_step(tree, s);
+    reader.report(
+        at.source, at.key + (step.record ? ".record" : ".increments"),
+        fmt::format(
+            "the history would have {:.6g} rows at the end of this step, allowed {:.0f}; record fewer", rows,
+            most_rows));
+  }
+}
+
+void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    const Place at = place_of_step(tree, s);
+    if (step.kind == StepKind::modes && !has_mass(one))
+      reader.report(at.source, at.key,
+                    "nothing vibrates: film, plate and point masses have no mass; give plate.mass or "
+                    "film.material.density");
+    if (step.kind == StepKind::weight && !one.plate && one.point_masses.empty() && one.bodies.empty() &&
+        !one.gravity.film)
+      reader.report(
+          at.source, at.key,
+          "nothing has a weight; add [plate], a [[point_mass]], a [[body]] or [gravity] with film = true");
+    const auto& [x, y, z] = one.gravity.direction;
+    if (step.kind == StepKind::weight && one.dimension == fem::Dimension::planar && !one.plate && x == 0 &&
+        y == 0)
+      reader.report(at.source, at.key,
+                    "a planar model does not move along z; give [gravity] a direction in the plane");
+    if (step.kind == StepKind::weight && one.dimension == fem::Dimension::axisymmetric && (x != 0 || y != 0))
+      reader.report(at.source, at.key, "a model of revolution moves along z alone; use model = \"3d\"");
+    if (step.kind != StepKind::harmonic) continue;
+    if (one.electrodes.empty())
+      reader.report(at.source, at.key, "there is no electrode whose source could swing");
+    if (!response_quantity(one, step.response_of))
+      reader.report(at.source, at.key + ".response_of",
+                    "needs a quantity of kind \"displacement\" with a direction (along)");
+  }
+}
+
+void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
+  if (one.bodies.empty()) return;
+  const Node& written = *tree.find("body");
+  if (one.dimension == fem::Dimension::axisymmetric)
+    reader.report(written.source, "body",
+                  "in a model of revolution bodies move along z alone: use [plate], or model = \"3d\"");
+  if (one.chamber)
+    reader.report(written.source, "body",
+                  "the chamber's volume under a body that tilts is not known; use [plate]");
+  for (std::size_t b = 0; b < one.bodies.size(); ++b) {
+    const Body& body = one.bodies[b];
+    for (const std::string& place : body.places)
+      for (const Support& support : one.supports)
+        if (support.place == place)
+          reader.report(written.items[b].source, fmt::format("body[{}].places", b + 1),
+                        fmt::format("\"{}\" is held by a [[support]]; fix the body instead", place));
+    const bool spatial = one.dimension == fem::Dimension::spatial;
+    const auto& moment = body.inertia;
+    const bool turns = spatial ? !(body.fixed[3] && body.fixed[4] && body.fixed[5]) : !body.fixed[5];
+    const bool moves = has_step(one, {StepKind::modes}) || std::ranges::any_of(one.steps, &Step::inertia);
+    if (body.mass > 0 && turns && moves && (spatial ? moment[0] + moment[1] + moment[2] : moment[2]) == 0)
+      reader.report(written.items[b].source, fmt::format("body[{}].inertia", b + 1),
+                    "missing; what moves with inertia and can turn has moments of inertia");
+  }
+}
+
+void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
+  const auto need = [&](StepKind kind, const char* word, bool given) {
+    for (std::size_t s = 0; s < one.steps.size(); ++s)
+      if (const Place at = place_of_step(tree, s); one.steps[s].kind == kind && !given && !one.steps[s].to)
+        reader.report(at.source, at.key, fmt::format("has nothing to reach; give [chamber] a {}", word));
+  };
+  need(StepKind::pressure, "pressure", one.chamber && one.chamber->pressure);
+  need(StepKind::inflate, "volume", one.chamber && one.chamber->volume);
+}
+
+/// Linear models have no unknowns for the voltages along a sheet.
+void check_sheets(SectionReader& reader, const Node& tree, const Case& one) {
+  if (!is_linearised(one)) return;
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+    if (one.electrodes[e].sheet_resistance)
+      reader.report(
+          tree.find("electrode")->items.at(e).find("sheet_resistance")->source,
+          fmt::format("electrode[{}].sheet_resistance", e + 1),
+          "steps of kind \"harmonic\" and [linearise] know of no resistance along an electrode; leave "
+          "it out, or follow a sine in a step of kind \"transient\"");
+}
+
+/// What is measured must be there.
+void check_quantities(SectionReader& reader, const Node& tree, const Case& one) {
+  const Node* list = tree.find("quantity");
+  const std::size_t standard = list ? list->items.size() - written_items(*list) : 0;
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    if (!list || q >= list->items.size() || !list->items[q].source.is_written()) continue;
+    const Quantity& quantity = one.quantities[q];
+    const Source& source = list->items[q].source;
+    const std::string key = fmt::format("quantity[{}]", q - standard + 1);
+    const bool of_chamber = quantity.kind == QuantityKind::pressure ||
+                            quantity.kind == QuantityKind::volume ||
+                            quantity.kind == QuantityKind::pumped_volume;
+    if (of_chamber && !one.chamber) reader.report(source, key, "there is no chamber; add [chamber]");
+    if (quantity.kind == QuantityKind::current && !one.circuits.contains(quantity.of))
+      reader.warn(source, key,
+                  "has no value here: the current is that through a [circuit], and there is none");
+    if (quantity.kind == QuantityKind::natural_frequency && !has_mass(one))
+      reader.warn(source, key, "has no value here: nothing has a mass");
+    for (const auto& [name, step] : {std::pair{"at", quantity.at}, {"since", quantity.since}})
+      if (const auto named = std::ranges::find(one.steps, step, &Step::name);
+          named != one.steps.end() && named->is_analysis())
+        reader.report(
+            list->items[q].find(name)->source, key + "." + name,
+            fmt::format("found \"{}\": a step of this kind leaves the state as it is; name the step "
+                        "before it",
+                        step));
+  }
+}
+
+/// Files are named after steps and columns after quantities: none may take the name of one that is there.
+void check_names(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const std::string& name = one.steps[s].name;
+    if (!one.steps[s].is_analysis() || (name != history_name && name != critical_name)) continue;
+    const Node& item = tree.find("step")->items.at(s);
+    reader.report(item.find("name")->source, place_of_step(tree, s).key + ".name",
+                  fmt::format("found \"{}\": a file of the results has this name; choose another", name));
+  }
+  const Node* list = tree.find("quantity");
+  const std::size_t standard = list ? list->items.size() - written_items(*list) : 0;
+  const std::vector<post::Column> columns = history_columns(one);
+  for (std::size_t q = 0; list && q < list->items.size(); ++q) {
+    const std::string& name = one.quantities[q].name;
+    if (list->items[q].source.is_written() && std::ranges::count(columns, name, &post::Column::name) > 1)
+      reader.report(list->items[q].find("name")->source, fmt::format("quantity[{}].name", q - standard + 1),
+                    fmt::format("found \"{}\": a column of the history has this name; choose another", name));
+  }
+}
+
+/// What moves along an axis needs a model that moves along it.
+void check_axes(SectionReader& reader, const Node& tree, const Case& one) {
+  constexpr std::array names{"x", "y", "z"};
+  const auto check = [&](const Node* node, const std::string& key, int axis) {
+    if (node && node->source.is_written() && !fem::moves(one.dimension, axis))
+      reader.report(node->source, key,
+                    fmt::format("found {}: {} model does not move along {}", text_of(*node),
+                                one.dimension == fem::Dimension::planar ? "a planar" : "an axisymmetric",
+                                names[static_cast<std::size_t>(axis)]));
+  };
+  const Node* supports = tree.find("support");
+  for (std::size_t i = 0; supports && i < supports->items.size(); ++i)
+    if (const Node* motion = supports->items[i].find("displacement"))
+      for (int axis = 0; axis < 3; ++axis) {
+        const char* name = names[static_cast<std::size_t>(axis)];
+        check(motion->find(name), fmt::format("support[{}].displacement.{}", i + 1, name), axis);
+      }
+  const auto check_list = [&](const char* section, const auto& objects) {
+    const Node* list = tree.find(section);
+    for (std::size_t i = 0; list && i < list->items.size() && i < objects.size(); ++i)
+      check(list->items[i].find("along"), fmt::format("{}[{}].along", section, i + 1), objects[i].along);
+  };
+  check_list("spring", one.springs);
+  check_list("linkage", one.linkages);
+}
+
+/// What moves out of its plane, or has none.
+void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
+  const bool annulus = std::holds_alternative<Annulus>(one.geometry);
+  const bool round = annulus || std::holds_alternative<Disc>(one.geometry);
+  const bool balloon = std::holds_alternative<Balloon>(one.geometry);
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  if (balloon && !of_revolution)
+    report_at(reader, tree, "model", "a balloon is a film of revolution: model = \"axisymmetric\"");
+  if (of_revolution && !round && !balloon)
+    report_at(reader, tree, "model", "\"axisymmetric\" is for [disc], [annulus] and [balloon]");
+  if (of_revolution && one.film.prestretch[0] != one.film.prestretch[1])
+    report_at(reader, tree, "film", "a film of revolution has one prestretch in all directions");
+  if (one.dimension == fem::Dimension::planar)
+    for (const char* section : {"plate", "chamber"})
+      if (tree.find(section))
+        report_at(reader, tree, section,
+                  "a planar model does not move along z; use model = \"axisymmetric\" or \"3d\"");
+  if (balloon && !one.chamber) report_at(reader, tree, "balloon", "a balloon needs a [chamber]");
+}
+
+void check_patch(SectionReader& reader, const Node& tree, const Case& one) {
+  const auto* patch = std::get_if<Patch>(&one.geometry);
+  if (!patch || patch->mode != PatchMode::equal_biaxial || one.film.prestretch[0] == one.film.prestretch[1])
+    return;
+  const Node* written = tree.find("film")->find("prestretch");
+  reader.report(
+      written->source, "film.prestretch",
+      fmt::format("found {}: in equal-biaxial tension x and y are stretched alike", text_of(*written)));
+}
+
+} // namespace
+
+void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
+  if (!reader.diagnostics().empty()) return; // these would complain of what is only misspelt
+  check_loads(reader, tree, one);
+  check_motions(reader, tree, one);
+  check_drives(reader, tree, one);
+  check_waves(reader, tree, one);
+  check_rows(reader, tree, one);
+  check_masses(reader, tree, one);
+  check_bodies(reader, tree, one);
+  check_chamber(reader, tree, one);
+  check_sheets(reader, tree, one);
+  check_quantities(reader, tree, one);
+  check_names(reader, tree, one);
+  check_axes(reader, tree, one);
+  check_dimension(reader, tree, one);
+  check_patch(reader, tree, one);
+}
+
+} // namespace dielast::cases

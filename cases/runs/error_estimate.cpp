@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/error_estimate.hpp"
+
+#include "cases/case/quantities.hpp"
+#include "cases/devices/discretisation.hpp"
+#include "post/engineering.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <set>
+
+namespace dielast::cases {
+
+namespace {
+
+constexpr int most_to_refine = 20000; ///< triangles of a user's own mesh
+
+/// What has become of the case on one discretisation.
+struct Solution {
+  double size = 1;
+  std::vector<double> values;
+  std::vector<double> rises;    ///< of extremes at the end, otherwise 0
+  std::vector<std::string> way; ///< what happened to the equilibrium, in order
+  std::set<std::string> events; ///< kinds of whatever else happened
+  std::string trouble;          ///< why there are no values; empty otherwise
+};
+
+void note(Solution& solution, const post::StepRecord& record) {
+  constexpr std::array of_the_way{"limit point", "bifurcation", "jump", "instability"};
+  for (const post::Event& event : record.events)
+    if (std::ranges::find(of_the_way, event.kind) != of_the_way.end())
+      solution.way.push_back(fmt::format("{} in step \"{}\"", event.kind, record.step));
+    else
+      solution.events.insert(event.kind);
+}
+
+/// The quantity, or the one whose peak it is.
+const Quantity& measured(const Quantity& quantity, const std::vector<Quantity>& all) {
+  return quantity.kind == QuantityKind::peak ? *std::ranges::find(all, quantity.of, &Quantity::name)
+                                             : quantity;
+}
+
+void add_results(Solution& solution, const Case& one, const Simulation& simulation) {
+  solution.values = simulation.results();
+  const Device& device = simulation.device();
+  const fem::Samples samples = device.model.sample(simulation.state());
+  const post::Extremes extremes(samples);
+  for (const Quantity& each : one.quantities) {
+    const Quantity& quantity = measured(each, one.quantities);
+    const auto extremum = quantity.kind == QuantityKind::extreme && each.at.empty()
+                              ? extremes.find(quantity.of, quantity.extreme)
+                              : std::nullopt;
+    solution.rises.push_back(extremum ? post::rise_at(*extremum, samples, device.mesh, quantity.of) : 0);
+  }
+}
+
+Solution solve(const Discretisation& discretisation, int threads) {
+  Solution solution{.size = discretisation.size};
+  try {
+    Simulation simulation(discretisation.one, threads);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      note(solution, frame.record);
+      return true;
+    };
+    const Outcome outcome = simulation.run(observer);
+    if (outcome.ending == Ending::complete)
+      add_results(solution, discretisation.one, simulation);
+    else
+      solution.trouble = outcome.kind;
+  } catch (const std::exception& error) { // no mesh, a place that it lacks, no memory: the run itself is done
+    solution.trouble = error.what();
+  }
+  return solution;
+}
+
+std::string size_text(double size) {
+  return size < 1 ? "elements half as large"
+                  : fmt::format("elements and time steps {:.3g} times as large", size);
+}
+
+std::string way_text(const Solution& solution) {
+  return solution.way.empty() ? "without critical point" : fmt::format("{}", fmt::join(solution.way, ", "));
+}
+
+/// Why a solution cannot be compared; empty when it can.
+std::string why_not(const Solution& own, const Solution& other) {
+  if (!other.trouble.empty())
+    return fmt::format("with {} the run does not reach its end ({})", size_text(other.size), other.trouble);
+  if (own.way == other.way) return "";
+  return fmt::format("with {} the device takes another way ({}; here {})", size_text(other.size),
+                     way_text(other), way_text(own));
+}
+
+/// Orders that the elements may have, measured on the cases of docs/verification.md.
+OrderRange orders_of(const Quantity& quantity, const Case& one, bool smooth) {
+  switch (quantity.kind) {
+  case QuantityKind::extreme:
+    return {0.5, 1};
+  case QuantityKind::peak:
+    return {1, 1}; // read at some times only
+  case QuantityKind::radial_stretch:
+  case QuantityKind::nominal_stress:
+    return {0.5, 2}; // read in the elements next to a place
+  case QuantityKind::size:
+  case QuantityKind::growth:
+    return {1, 2}; // whichever node is outermost
+  default:
+    return {1, smooth && !takes_time(one) ? 3.0 : 2.0};
+  }
+}
+
+int direction_of(const Quantity& quantity) {
+  if (quantity.kind != QuantityKind::extreme) return 0;
+  return quantity.extreme == post::Extreme::maximum ? 1 : -1;
+}
+
+/// A kind of event, and the extreme that crosses a limit when it happens.
+struct Threshold {
+  std::string_view kind, field;
+  post::Extreme extreme;
+  double limit;
+};
+constexpr std::array thresholds{
+    Threshold{"loss of tension", "min_principal_stress", post::Extreme::minimum, -smallest_stress},
+    Threshold{"breakdown", "breakdown_ratio", post::Extreme::maximum, 1},
+    Threshold{"wall yield", "yield_ratio", post::Extreme::maximum, 1}};
+
+/// Rises over one element within which a singular extreme reaches a limit on a finer mesh.
+constexpr double reach = 4;
+
+/// What the extreme's estimate tells of the event; empty when the event is certain or out of reach.
+std::string threshold_remark(const Quantity& quantity, double value, double rise,
+                             const ErrorEstimate& estimate, double limit, const std::string& unit) {
+  if (estimate.singular && std::abs(value - limit) < reach * rise)
+    return fmt::format("depends on the mesh: {} ({}) grows as the mesh is refined", quantity.name,
+                       post::engineering(value, unit));
+  if (estimate.error && std::abs(value - limit) <= *estimate.error)
+    return fmt::format("depends on the mesh: {} is {} ± {}", quantity.name, post::engineering(value, unit),
+                       post::engineering(*estimate.error, unit, post::Ratio::plain, 2));
+  return "";
+}
+
+std::vector<EventRemark> event_remarks(const Case& one, const Solution& own,
+                                       const std::vector<Solution>& others,
+                                       const std::vector<ErrorEstimate>& estimates) {
+  std::vector<EventRemark> remarks;
+  for (const Threshold& threshold : thresholds)
+    for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+      const Quantity& quantity = one.quantities[q];
+      if (quantity.kind != QuantityKind::extreme || quantity.of != threshold.field ||
+          quantity.extreme != threshold.extreme || !quantity.at.empty() || !std::isfinite(own.values[q]) ||
+          (one.film.tension_field && threshold.kind == "loss of tension"))
+        continue;
+      std::string remark = threshold_remark(quantity, own.values[q], own.rises[q], estimates[q],
+                                            threshold.limit, unit_of(quantity, one.quantities));
+      if (remark.empty()) continue;
+      if (!own.events.contains(std::string(threshold.kind))) remark = "not on this mesh, but it " + remark;
+      remarks.push_back({std::string(threshold.kind), std::move(remark)});
+      break;
+    }
+  for (const char* kind : {"loss of tension", "breakdown", "wall yield", "wall contact"}) {
+    if (std::ranges::find(remarks, kind, &EventRemark::kind) != remarks.end()) continue;
+    const bool here = own.events.contains(kind);
+    const auto different =
+        std::ranges::find_if(others, [&](const Solution& s) { return s.events.contains(kind) != here; });
+    if (different != others.end())
+      remarks.push_back({kind, fmt::format("depends on the mesh: {}, {} with {}", here ? "here" : "not here",
+                                           here ? "not" : "but", size_text(different->size))});
+  }
+  return remarks;
+}
+
+} // namespace
+
+Estimates estimate_errors(const Case& one, const Simulation& own_run,
+                          std::span<const post::StepRecord> records, int threads) {
+  const std::vector<Discretisation> discretisations = other_discretisations(one);
+  Estimates estimates;
+  if (discretisations.empty()) {
+    estimates.reason = "the mesh is the coarsest already";
+    return estimates;
+  }
+  if (discretisations.front().size < 1 && one.film.tension_field) {
+    estimates.reason =
+        "a finer mesh of film that wrinkles may take far longer than this one; mesh.refine = 1 "
+        "tells what it changes";
+    return estimates;
+  }
+  if (discretisations.front().size < 1 && own_run.device().mesh.film()->size() > most_to_refine) {
+    estimates.reason = fmt::format("the mesh has more than {} triangles, which are not refined unasked; "
+                                   "mesh.refine = 1 tells what it changes",
+                                   most_to_refine);
+    return estimates;
+  }
+  Solution own;
+  for (const post::StepRecord& record : records) note(own, record);
+  add_results(own, one, own_run);
+  std::vector<Solution> others;
+  for (const Discretisation& discretisation : discretisations) {
+    Solution other = solve(discretisation, threads);
+    if (const std::string reason = why_not(own, other); reason.empty()) {
+      others.push_back(std::move(other));
+    } else {
+      if (others.empty()) estimates.reason = reason;
+      break;
+    }
+  }
+  if (!estimates.reason.empty()) return estimates;
+
+  const meshing::CellType type = own_run.device().mesh.film()->type;
+  const bool corners =
+      std::holds_alternative<Honeycomb>(one.geometry) || std::holds_alternative<MeshFile>(one.geometry);
+  const bool smooth =
+      !corners && (type == meshing::CellType::triangle6 || type == meshing::CellType::meridian3);
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = measured(one.quantities[q], one.quantities);
+    ErrorEstimate& estimate = estimates.quantities.emplace_back();
+    if (quantity.kind == QuantityKind::energy && quantity.of == "error") {
+      estimate.remark = "an error itself";
+    } else {
+      std::vector<Sampled> sampled;
+      for (const Solution& other : others) sampled.push_back({other.size, other.values[q], other.rises[q]});
+      estimate = estimate_error({1, own.values[q], own.rises[q]}, sampled,
+                                orders_of(one.quantities[q], one, smooth), direction_of(quantity));
+      if (estimate.error && takes_time(one)) // the steps were chosen to be no better than that
+        estimate.error = std::max(*estimate.error, one.solver.time_tolerance * std::abs(own.values[q]));
+    }
+  }
+  estimates.events = event_remarks(one, own, others, estimates.quantities);
+  return estimates;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/linearise.hpp"
+
+#include "cases/case/quantities.hpp"
+#include "cases/console/terminal.hpp"
+#include "cases/runs/simulation.hpp"
+#include "fem/algebra/dense_algebra.hpp"
+#include "fem/linear/balanced_truncation.hpp"
+#include "fem/linear/harmonic.hpp"
+#include "post/engineering.hpp"
+#include "post/files/results_folder.hpp"
+#include "post/pictures/bode.hpp"
+#include "post/pictures/report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// The models over the same frequencies: everything that the outputs tell.
+struct Linearised {
+  fem::StateSpace model;
+  std::string output;
+  std::vector<std::string> driven; ///< electrodes whose sources are the input together
+  std::vector<double> voltage;     ///< of these at the operating point, V
+  double error = 0;                ///< largest, relative to the full response
+  std::vector<double> frequency;   ///< Hz
+  std::vector<Complex> full, reduced;
+  std::vector<std::vector<Complex>> compared; ///< as in the case
+};
+
+Complex polynomial(const std::vector<double>& coefficients, Complex s) {
+  Complex value = 0;
+  for (const double c : coefficients) value = value * s + c;
+  return value;
+}
+
+Linearised linearise(const Case& one, Simulation& simulation) {
+  const Device& device = simulation.device();
+  require_rest(simulation.equilibrium(), simulation.state());
+  const Quantity& output = *response_quantity(one, one.linearise.output);
+  const fem::State state = operating_point(device, simulation.state());
+  const std::vector<std::size_t> driven = driven_ports(one, one.linearise.driven);
+  const fem::HarmonicDrive drive = common_drive(device, state, driven);
+  const fem::Channels channels{driven, response_row(one, device, state, output).transpose(), {}};
+  Linearised result{.output = output.name, .frequency = frequencies(one.linearise.sweep)};
+  for (const std::size_t port : driven) {
+    result.driven.push_back(device.model.electrodes[port]);
+    result.voltage.push_back(state.voltage[port]);
+  }
+  std::vector<double> omega = result.frequency;
+  for (double& w : omega) w *= 2 * std::numbers::pi;
+  fem::StateSpace large =
+      fem::state_space(simulation.equilibrium(), state, channels, {.highest_frequency = omega.back()});
+  large.B = large.B.rowwise().sum().eval(); // the sources swing together: one input
+  large.D = large.D.rowwise().sum().eval();
+  result.model = fem::balanced_truncation(large, one.linearise.order);
+  const fem::Linearisation full(simulation.equilibrium(), state);
+  for (const auto& at : fem::harmonic_response(full, drive, omega))
+    result.full.push_back((channels.rows.row(0) * at.displacement).value());
+  result.compared.resize(one.linearise.compare.size());
+  for (const double w : omega) {
+    const Complex s(0, w);
+    const Complex y = result.full[result.reduced.size()];
+    result.reduced.push_back(result.model.transfer(s)(0, 0));
+    result.error = std::max(result.error, std::abs(result.reduced.back() - y) / std::abs(y));
+    for (std::size_t c = 0; c < result.compared.size(); ++c)
+      result.compared[c].push_back(polynomial(one.linearise.compare[c].numerator, s) /
+                                   polynomial(one.linearise.compare[c].denominator, s));
+  }
+  return result;
+}
+
+nlohmann::json rows_of(const Eigen::MatrixXd& matrix) {
+  auto rows = nlohmann::json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    auto row = nlohmann::json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+nlohmann::ordered_json model_json(const Case& one, const Linearised& found) {
+  auto poles = nlohmann::json::array();
+  for (const Complex& pole : fem::eigenvalues(found.model.A)) poles.push_back({pole.real(), pole.imag()});
+  return {{"program", "dielast " DIELAST_VERSION},
+          {"title", one.title},
+          {"input", {{"name", "source voltage"}, {"unit", "V"}, {"electrodes", found.driven}}},
+          {"output", {{"name", found.output}, {"unit", "m"}}},
+          {"operating_voltage_V", found.voltage.size() == 1 ? nlohmann::ordered_json(found.voltage.front())
+                                                            : nlohmann::ordered_json(found.voltage)},
+          {"order", found.model.order()},
+          {"largest_relative_error", found.error},
+          {"compared_from_Hz", found.frequency.front()},
+          {"compared_to_Hz", found.frequency.back()},
+          {"poles_1_per_s", poles},
+          {"A", rows_of(found.model.A)},
+          {"B", rows_of(found.model.B)},
+          {"C", rows_of(found.model.C)},
+          {"D", rows_of(found.model.D)}};
+}
+
+std::string matlab_matrix(const char* name, const Eigen::MatrixXd& matrix) {
+  std::string text = fmt::format("{} = [", name);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      text += fmt::format("{}{:.17g}", j > 0 ? ", " : i > 0 ? ";\n  " : "", matrix(i, j));
+  return text + "];\n";
+}
+
+std::string matlab_script(const Case& one, const Linearised& found) {
+  std::string title = one.title;
+  std::ranges::replace(title, '\n', ' ');
+  return fmt::format("% {}\n% x' = A x + B u, y = C x + D u; u: source voltage of {} (V), y: {} (m)\n"
+                     "% largest relative error {:.3g} from {:.6g} to {:.6g} Hz\n{}{}{}{}",
+                     title, fmt::join(found.driven, ", "), found.output, found.error, found.frequency.front(),
+                     found.frequency.back(), matlab_matrix("A", found.model.A),
+                     matlab_matrix("B", found.model.B), matlab_matrix("C", found.model.C),
+                     matlab_matrix("D", found.model.D));
+}
+
+post::Report report_of(const Case& one, const Linearised& found) {
+  std::vector<post::FrequencyResponse> curves{
+      {"full model", found.frequency, found.full, post::Series::Style::points},
+      {fmt::format("order {}", found.model.order()), found.frequency, found.reduced}};
+  for (std::size_t c = 0; c < found.compared.size(); ++c)
+    curves.push_back({one.linearise.compare[c].name, found.frequency, found.compared[c]});
+  post::Section plots{"Response", {}};
+  for (std::string& svg : post::render_svg(post::bode(found.output, found.output + " [m/V]", curves)))
+    if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
+  post::Table gains{{"model", "static gain [m/V]"}, {}};
+  for (const post::FrequencyResponse& curve : curves)
+    gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::abs(curve.value.front()))});
+  plots.blocks.push_back(std::move(gains));
+  post::Table poles{{"pole [1/s]", "frequency [rad/s]", "damping ratio"}, {}};
+  for (const Complex& pole : fem::eigenvalues(found.model.A))
+    poles.rows.push_back({fmt::format("{:.6g} {:+.6g} i", pole.real(), pole.imag()),
+                          fmt::format("{:.6g}", std::abs(pole)),
+                          fmt::format("{:.4g}", -pole.real() / std::abs(pole))});
+  std::string voltages;
+  for (const double voltage : found.voltage)
+    voltages += (voltages.empty() ? "" : ", ") + post::engineering(voltage, "V");
+  return {
+      .title = one.title,
+      .subtitle = one.source.filename().string(),
+      .status = {"linear model", post::Tone::good},
+      .highlights = {{"order", std::to_string(found.model.order()), ""},
+                     {"largest error", fmt::format("{:.3g} %", 100 * found.error),
+                      fmt::format("of the full response, {:.4g} to {:.4g} Hz", found.frequency.front(),
+                                  found.frequency.back())},
+                     {"operating point", voltages,
+                      "source of " + fmt::format("{}", fmt::join(found.driven, ", "))},
+                     {"static gain", fmt::format("{:.4g} m/V", found.model.transfer(0)(0, 0).real()), ""}},
+      .sections = {std::move(plots), {"Poles", {std::move(poles)}}},
+      .footer = "dielast " DIELAST_VERSION};
+}
+
+} // namespace
+
+ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
+  if (one.electrodes.empty() || !response_quantity(one, one.linearise.output))
+    throw CaseError({{{one.source.string()},
+                      "linearise",
+                      "needs an electrode and a quantity of kind \"displacement\" with a direction"}});
+  post::ResultsFolder folder(settings.directory, "linearise");
+  folder.begin();
+  Simulation simulation(one, settings.threads);
+  for (const std::string& warning : simulation.warnings()) say(stderr, "{}\n", warning);
+  const Outcome outcome = simulation.run({});
+  if (outcome.ending != Ending::complete) {
+    say(stderr, "error: {}\n", outcome.message);
+    return ExitCode::not_converged;
+  }
+  try {
+    const Linearised found = linearise(one, simulation);
+    folder.write("linear_model.m", matlab_script(one, found));
+    folder.write("report.html", report_of(one, found).html());
+    folder.write("linear_model.json", model_json(one, found).dump(2) + "\n");
+    folder.set_complete(static_cast<int>(ExitCode::ok));
+    say("order {}, largest error {:.3g} of the full response, static gain {:.6g} m/V of the source of {}\n",
+        found.model.order(), found.error, found.model.transfer(0)(0, 0).real(),
+        fmt::format("{}", fmt::join(found.driven, ", ")));
+    say("written to {}\n", settings.directory.string());
+    return ExitCode::ok;
+  } catch (const AnalysisError& error) {
+    say(stderr, "error: {}\n", error.what());
+    return ExitCode::not_converged;
+  } catch (const std::domain_error& error) {
+    say(stderr, "error: {}\n", error.what());
+    return ExitCode::not_converged;
+  }
+}
+
+} // namespace dielast::cases

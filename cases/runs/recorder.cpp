@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/recorder.hpp"
+
+#include "cases/case/quantities.hpp"
+#include "cases/readers/resolved.hpp"
+#include "post/files/checkpoint.hpp"
+#include "post/reductions.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+
+using nlohmann::json;
+
+namespace {
+
+/// Shorter runs are repeated faster than their checkpoints are written.
+constexpr std::chrono::seconds checkpoint_interval{2};
+
+json archive(const post::StepRecord& record) {
+  json events = json::array();
+  for (const post::Event& event : record.events) events.push_back({event.kind, event.place, event.message});
+  return {{"index", record.index},
+          {"step", record.step},
+          {"load_factor", record.load_factor},
+          {"time", record.time},
+          {"voltages", record.voltages},
+          {"iterations", record.iterations},
+          {"residual", record.residual},
+          {"unstable_modes", record.unstable_modes},
+          {"events", std::move(events)},
+          {"jumped", record.jumped}};
+}
+
+post::StepRecord restore_record(const json& archived) {
+  post::StepRecord record{archived.at("index"),    archived.at("step"),           archived.at("load_factor"),
+                          archived.at("time"),     archived.at("voltages"),       archived.at("iterations"),
+                          archived.at("residual"), archived.at("unstable_modes"), {}};
+  for (const json& event : archived.at("events"))
+    record.events.push_back({event.at(0), event.at(1), event.at(2)});
+  record.jumped = archived.at("jumped");
+  return record;
+}
+
+json archive(const Snapshot& snapshot) {
+  return {
+      {"title", snapshot.title},
+      {"voltage", snapshot.voltage},
+      {"displacement", post::pack({snapshot.displacement.front().data(), 3 * snapshot.displacement.size()})},
+      {"thickness", post::pack(snapshot.thickness)},
+      {"field", post::pack(snapshot.field)}};
+}
+
+Snapshot restore_snapshot(const json& archived, const meshing::Mesh& mesh) {
+  const auto triangles = static_cast<std::size_t>(mesh.film()->size());
+  Snapshot snapshot{archived.at("title"),
+                    archived.at("voltage"),
+                    {},
+                    post::unpack(archived.at("thickness"), triangles),
+                    post::unpack(archived.at("field"), triangles)};
+  const std::vector<double> displacement = post::unpack(archived.at("displacement"), 3 * mesh.nodes.size());
+  for (std::size_t i = 0; i + 2 < displacement.size(); i += 3)
+    snapshot.displacement.emplace_back(&displacement[i]);
+  return snapshot;
+}
+
+json archive(const Analysis& analysis) {
+  json rows = json::array();
+  for (const auto& row : analysis.rows) rows.push_back(post::pack(row));
+  return {{"kind", analysis.kind},     {"step", analysis.step},       {"of", analysis.of},
+          {"driven", analysis.driven}, {"columns", analysis.columns}, {"rows", std::move(rows)}};
+}
+
+Analysis restore_analysis(const json& archived) {
+  Analysis analysis{archived.at("kind"),   archived.at("step"),    archived.at("of"),
+                    archived.at("driven"), archived.at("columns"), {}};
+  for (const json& row : archived.at("rows"))
+    analysis.rows.push_back(post::unpack(row, analysis.columns.size()));
+  return analysis;
+}
+
+std::vector<double> history_row(const post::StepRecord& record, const std::vector<double>& quantities) {
+  std::vector<double> row{record.load_factor, record.time};
+  row.insert(row.end(), record.voltages.begin(), record.voltages.end());
+  row.insert(row.end(), quantities.begin(), quantities.end());
+  for (const double number :
+       {double(record.iterations), record.residual, double(record.unstable_modes), double(record.jumped)})
+    row.push_back(number);
+  return row;
+}
+
+/// How an electrode's voltage is called in tables and series.
+std::string table_name(std::string_view of) { return fmt::format("{}.csv", of); }
+
+} // namespace
+
+Recorder::Recorder(const Case& one, Simulation& simulation, post::ResultsFolder& folder, bool resume)
+    : case_(one), simulation_(simulation), folder_(folder), fingerprint_(resolved_text(one)) {
+  if (resume) restore_checkpoint();
+  folder_.write(resolved_name, fingerprint_);
+  folder_.add(checkpoint_name);
+  folder_.add(table_name(history_name));
+  history_.emplace(folder_ / table_name(history_name), history_columns(one));
+  for (std::size_t r = 0; r < journal_.records.size(); ++r)
+    history_->append(journal_.records[r].step, history_row(journal_.records[r], journal_.values[r]));
+  if (one.fields && !series_) open_series(series_, "");
+}
+
+std::string Recorder::series_name(std::string_view part) const {
+  return fmt::format("{}{}{}", case_.source.stem().string(), part.empty() ? "" : "-", part);
+}
+
+void Recorder::open_series(std::optional<post::VtkSeries>& series, std::string_view part,
+                           std::vector<std::string> entries) {
+  series.emplace(folder_, series_name(part), simulation_.device().mesh, std::move(entries));
+}
+
+/// A time for every state, none twice: ParaView shows all states of a time at once. Where time passes it is
+/// time, with steps before time starts counted backwards from 0, one unit each; without time it is the steps
+/// that have ended and the load factor, or, as that goes back along a followed path, the number of the
+/// record. A state at the time of the one before (behind a jump, in a ramp between two steps that take time)
+/// comes a billionth of a step later.
+double Recorder::series_time(const post::StepRecord& record) {
+  const std::vector<Step>& steps = simulation_.steps();
+  const auto timed = std::ranges::find_if(steps, [](const Step& step) { return step.duration.has_value(); });
+  const bool follows = std::ranges::any_of(
+      steps, [](const Step& step) { return step.on_instability == OnInstability::follow; });
+  double time = steps_ended_ + record.load_factor, unit = 1;
+  if (timed != steps.end()) {
+    const auto before =
+        std::count_if(steps.begin(), timed, [](const Step& step) { return !step.is_analysis(); });
+    time = steps_ended_ < before ? time - static_cast<double>(before) : record.time;
+    unit = *timed->duration;
+  } else if (follows) {
+    time = record.index;
+  }
+  constexpr double smallest_gap = 1e-9;
+  if (series_time_ && time <= *series_time_)
+    time = *series_time_ + smallest_gap * std::max(unit, std::abs(*series_time_));
+  series_time_ = time;
+  return time;
+}
+
+post::SeriesStep Recorder::series_step(double time, const std::string& name, double load_factor,
+                                       std::span<const double> voltages) const {
+  post::SeriesStep step{time, name, load_factor, {}};
+  for (std::size_t e = 0; e < case_.electrodes.size() && e < voltages.size(); ++e)
+    step.voltages.push_back({voltage_name(case_, e), voltages[e]});
+  return step;
+}
+
+void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event& event) {
+  if (!case_.fields) return;
+  const Device& device = simulation_.device();
+  if (!modes_) open_series(modes_, critical_name);
+  modes_->write(series_step(journal_.modes++, event.message, critical.load_factor, critical.state.voltage),
+                critical.state.displacement, device.model.sample(critical.state),
+                fem::displacements(device.model.dofs, critical.state, critical.mode.direction));
+}
+
+void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
+  std::string table = fmt::format("{}\n", fmt::join(analysis.columns, ","));
+  for (const auto& row : analysis.rows) table += fmt::format("{}\n", fmt::join(row, ","));
+  folder_.write(table_name(analysis.step), table);
+  if (case_.fields) {
+    const Device& device = simulation_.device();
+    post::VtkSeries series(folder_, series_name(analysis.step), device.mesh);
+    const fem::Samples samples = device.model.sample(state);
+    for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
+      series.write(series_step(static_cast<double>(i), analysis.shapes[i].name, 1, state.voltage),
+                   state.displacement, samples, analysis.shapes[i].displacement);
+  }
+  analysis.shapes.clear();
+  journal_.analyses.push_back(std::move(analysis));
+}
+
+void Recorder::record(const Frame& frame) {
+  const post::StepRecord& record = frame.record;
+  history_->append(record.step, history_row(record, frame.values));
+  if (series_)
+    series_->write(series_step(series_time(record), record.step, record.load_factor, record.voltages),
+                   frame.measured.state.displacement, frame.measured.samples);
+
+  const Device& device = simulation_.device();
+  const int triangles = device.mesh.film()->size();
+  Snapshot snapshot{record.step, record.largest_voltage(), frame.measured.state.displacement,
+                    post::average(frame.measured.samples, "thickness", triangles),
+                    post::average(frame.measured.samples, "electric_field", triangles)};
+  // The last accepted state is replaced until its step has ended.
+  const bool replaces = record.index > 1 && journal_.records.back().step == record.step;
+  if (replaces)
+    journal_.snapshots.back() = std::move(snapshot);
+  else
+    journal_.snapshots.push_back(std::move(snapshot));
+  journal_.records.push_back(record);
+  journal_.values.push_back(frame.values);
+  steps_ended_ += frame.ends_step;
+  if (std::chrono::steady_clock::now() - saved_ > checkpoint_interval) save_checkpoint();
+}
+
+void Recorder::save_checkpoint() {
+  const SimulationProgress progress = simulation_.progress();
+  json records = json::array(), values = json::array(), snapshots = json::array(), analyses = json::array();
+  for (const auto& analysis : journal_.analyses) analyses.push_back(archive(analysis));
+  for (const auto& record : journal_.records) records.push_back(archive(record));
+  for (const auto& row : journal_.values) values.push_back(post::pack(row));
+  for (const auto& snapshot : journal_.snapshots) snapshots.push_back(archive(snapshot));
+  const auto entries = [](const auto& series) { return series ? json(series->entries()) : json::array(); };
+  post::write_checkpoint(
+      folder_ / checkpoint_name,
+      {{"case", fingerprint_},
+       {"files", folder_.names().size()},
+       {"step", progress.step},
+       {"records", progress.records},
+       {"ramp", post::archive(progress.in_step.ramp)},
+       {"followed", progress.in_step.followed ? post::archive(*progress.in_step.followed) : json(nullptr)},
+       {"jumps", progress.in_step.jumps},
+       {"energy", post::archive(progress.energy)},
+       {"references", progress.references},
+       {"active_events", progress.active_events},
+       {"time_error", progress.time_error},
+       {"results", post::pack(simulation_.results())},
+       {"steps_ended", steps_ended_},
+       {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
+       {"series", entries(series_)},
+       {"modes_series", entries(modes_)},
+       {"journal",
+        {{"records", records},
+         {"values", values},
+         {"snapshots", snapshots},
+         {"modes", journal_.modes},
+         {"analyses", analyses}}}});
+  saved_ = std::chrono::steady_clock::now();
+}
+
+void Recorder::restore_checkpoint() try {
+  if (!std::filesystem::exists(folder_ / checkpoint_name))
+    return folder_.begin(); // stopped before the first checkpoint: nothing is lost by starting over
+  const json saved = post::read_checkpoint(folder_ / checkpoint_name);
+  if (saved.at("case") != fingerprint_) throw post::CheckpointError("the case has changed since");
+  const std::size_t files = saved.at("files");
+  if (files > folder_.names().size()) throw post::CheckpointError("the manifest beside it is of another run");
+  std::vector<std::string> kept(folder_.names().begin(),
+                                folder_.names().begin() + static_cast<std::ptrdiff_t>(files));
+  for (const std::string& name : kept)
+    if (!std::filesystem::exists(folder_ / name))
+      throw post::CheckpointError(fmt::format("{}, which belongs to it, is missing", name));
+  const Device& device = simulation_.device();
+  const auto sizes = post::StateSizes::of(device.model);
+  StepProgress in_step{post::restore_ramp(saved.at("ramp"), sizes), {}, saved.at("jumps")};
+  if (const json& followed = saved.at("followed"); !followed.is_null())
+    in_step.followed = post::restore_continuation(followed, sizes);
+  simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
+                      post::restore_energy(saved.at("energy"), sizes), saved.at("references"),
+                      saved.at("active_events"), saved.at("time_error")});
+  simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
+  steps_ended_ = saved.at("steps_ended");
+  if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();
+  const json& journal = saved.at("journal");
+  journal_.modes = journal.at("modes");
+  for (const json& analysis : journal.at("analyses")) journal_.analyses.push_back(restore_analysis(analysis));
+  for (const json& record : journal.at("records")) journal_.records.push_back(restore_record(record));
+  for (const json& row : journal.at("values"))
+    journal_.values.push_back(post::unpack(row, case_.quantities.size()));
+  if (journal_.values.size() != journal_.records.size()) throw post::CheckpointError("damaged");
+  for (const json& snapshot : journal.at("snapshots"))
+    journal_.snapshots.push_back(restore_snapshot(snapshot, device.mesh));
+  folder_.begin(std::move(kept));
+  if (!case_.fields) return;
+  open_series(series_, "", saved.at("series"));
+  if (journal_.modes > 0) open_series(modes_, critical_name, saved.at("modes_series"));
+} catch (const json::exception&) {
+  throw FileError((folder_ / checkpoint_name).string() + ": damaged; run again without --resume");
+} catch (const post::CheckpointError& error) {
+  throw FileError(
+      fmt::format("{}: {}; run again without --resume", (folder_ / checkpoint_name).string(), error.what()));
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/runs/simulation.hpp"
+#include "post/files/history.hpp"
+#include "post/files/vtk_series.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+namespace dielast::cases {
+
+/// A state kept for the report's pictures.
+struct Snapshot {
+  std::string title;
+  double voltage = 0;                        ///< largest, V
+  std::vector<Eigen::Vector3d> displacement; ///< per node, m
+  std::vector<double> thickness;             ///< m, per triangle
+  std::vector<double> field;                 ///< true electric field, V/m, per triangle
+};
+
+/// File of a run's checkpoint in its folder of results; removed when they are complete.
+inline constexpr const char* checkpoint_name = "checkpoint.cbor";
+
+/// What a run has gathered so far.
+struct Journal {
+  std::vector<post::StepRecord> records;
+  std::vector<std::vector<double>> values; ///< of the quantities, per record
+  std::vector<Snapshot> snapshots;         ///< drawn, the end of each step, and the last accepted state
+  int modes = 0;                           ///< of critical points, written so far
+  std::vector<Analysis> analyses;
+};
+
+/// Writes history.csv, the ParaView series and the checkpoint of a run as it goes, and keeps its journal.
+/// Everything throws post::WriteError when a file cannot be written.
+class Recorder {
+ public:
+  /// With `resume`, restores the simulation and the journal from the directory's checkpoint, and makes the
+  /// history and the series' lists anew of what it holds; starts over when there is none. Throws FileError
+  /// when the checkpoint is damaged or of another case.
+  Recorder(const Case& one, Simulation& simulation, post::ResultsFolder& folder, bool resume);
+
+  void record(const Frame& frame);
+  /// Adds the mode of a critical point to the series `<case>-critical`.
+  void record_mode(const fem::CriticalPoint& critical, const post::Event& event);
+  /// Writes `<step>.csv` and the shapes as the series `<case>-<step>`, about `state`.
+  void record_analysis(Analysis analysis, const fem::State& state);
+  /// Writes the checkpoint now; the run can be resumed from it.
+  void save_checkpoint();
+
+  const Journal& journal() const { return journal_; }
+
+ private:
+  double series_time(const post::StepRecord& record);
+  post::SeriesStep series_step(double time, const std::string& name, double load_factor,
+                               std::span<const double> voltages) const;
+  void restore_checkpoint();
+  /// Name of a series: `<case>`, or `<case>-<part>`.
+  std::string series_name(std::string_view part) const;
+  /// Opens a series behind the `entries` of its list that are kept.
+  void open_series(std::optional<post::VtkSeries>& series, std::string_view part,
+                   std::vector<std::string> entries = {});
+
+  const Case& case_;
+  Simulation& simulation_;
+  post::ResultsFolder& folder_;
+  std::string fingerprint_; ///< the resolved case
+  Journal journal_;
+  int steps_ended_ = 0;
+  std::optional<double> series_time_; ///< of the last state
+  std::optional<post::History> history_;
+  std::optional<post::VtkSeries> series_, modes_;
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
+};
+
+} // namespace dielast::cases

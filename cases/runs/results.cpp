@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/results.hpp"
+
+#include "cases/analyses/analysis_report.hpp"
+#include "cases/case/quantities.hpp"
+#include "meshing/quality.hpp"
+#include "post/pictures/picture.hpp"
+#include "post/pictures/plot.hpp"
+#include "post/pictures/profile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dielast::cases {
+
+using nlohmann::json;
+
+namespace {
+
+const char* word(Ending ending) {
+  switch (ending) {
+  case Ending::complete:
+    return "complete";
+  case Ending::gave_up:
+    return "not converged";
+  case Ending::interrupted:
+    return "interrupted";
+  }
+  return "";
+}
+
+post::Ratio ratio_of(const Quantity& quantity) {
+  return is_relative(quantity.kind) ? post::Ratio::percent : post::Ratio::plain;
+}
+
+/// A quantity in words, for a person who did not write the case.
+std::string meaning(const Quantity& q) {
+  static constexpr const char* axes[] = {"x", "y", "z", "gravity"};
+  const std::string along = q.along ? fmt::format(" along {}", axes[*q.along]) : "";
+  const std::string at = q.at.empty() ? "" : fmt::format(", at the end of \"{}\"", q.at);
+  switch (q.kind) {
+  case QuantityKind::distance:
+    return fmt::format("distance of {} and {}{}{}", q.between[0], q.between[1], along, at);
+  case QuantityKind::elongation:
+    return fmt::format("elongation from {} to {}{}, since {}{}", q.between[0], q.between[1], along,
+                       q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
+  case QuantityKind::size:
+    return fmt::format("size of {}{}{}", q.of, along, at);
+  case QuantityKind::growth:
+    return fmt::format("growth of {}{}, since {}{}", q.of, along,
+                       q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
+  case QuantityKind::displacement:
+    return fmt::format("displacement of {}{}{}{}", q.of, along,
+                       q.since.empty() ? "" : ", since \"" + q.since + "\"", at);
+  case QuantityKind::radius:
+    return fmt::format("mean radius of {}{}", q.of, at);
+  case QuantityKind::angle:
+    return fmt::format("rotation of {}{}{}", q.of, along, at);
+  case QuantityKind::moment:
+    return fmt::format("moment of the support of {} on it{}{}", q.of, along, at);
+  case QuantityKind::force:
+    return fmt::format("force of the support {} on the device{}{}", q.of, along, at);
+  case QuantityKind::capacitance:
+    return fmt::format("capacitance of electrode {}{}", q.of, at);
+  case QuantityKind::charge:
+    return fmt::format("charge on electrode {}{}", q.of, at);
+  case QuantityKind::current:
+    return fmt::format("current from the source of electrode {}{}", q.of, at);
+  case QuantityKind::pressure:
+    return fmt::format("pressure in the chamber{}", at);
+  case QuantityKind::volume:
+    return fmt::format("volume of the chamber{}", at);
+  case QuantityKind::pumped_volume:
+    return fmt::format("volume pumped into the chamber, as it is without pressure{}", at);
+  case QuantityKind::stiffness:
+    return fmt::format("force on {} per displacement{}{}", q.of, along, at);
+  case QuantityKind::natural_frequency:
+    return fmt::format("natural frequency number {}{}", q.mode, at);
+  case QuantityKind::radial_stretch:
+    return fmt::format("stretch along the radius at {}{}", q.of, at);
+  case QuantityKind::peak:
+    return fmt::format("{} {} so far{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
+                       at);
+  case QuantityKind::stretch:
+    return fmt::format("stretch between {} and {}{}{}", q.between[0], q.between[1], along, at);
+  case QuantityKind::nominal_stress:
+    return fmt::format("mean nominal stress of {}{}{}", q.of, along, at);
+  case QuantityKind::energy:
+    return fmt::format("energy balance: {}{}", q.of, at);
+  case QuantityKind::extreme:
+    return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
+                       at);
+  }
+  return "";
+}
+
+std::string meshing_summary(const Device& device) {
+  return meshing::format(meshing::quality(device.mesh)) +
+         fmt::format("unknowns: {} free, {} held\n", device.model.dofs.free_count(),
+                     device.model.dofs.held_count());
+}
+
+post::Panel panel(const Device& device, const Snapshot& snapshot, const std::vector<double>& values) {
+  post::Panel panel{.title = fmt::format("{}, {}", snapshot.title, post::engineering(snapshot.voltage, "V")),
+                    .positions = device.mesh.nodes,
+                    .values = values};
+  for (std::size_t n = 0; n < panel.positions.size(); ++n) panel.positions[n] += snapshot.displacement[n];
+  return panel;
+}
+
+/// The shape before and after the last step, and the field that drives it.
+std::vector<post::Section> picture_sections(const Device& device, const Journal& journal) {
+  const auto& all = journal.snapshots;
+  const Snapshot& last = all.back();
+  post::Picture shapes{
+      .quantity = "Film thickness", .unit = "m", .wall_width = device.wall_width.value_or(0)};
+  if (all.size() > 1)
+    shapes.panels.push_back(panel(device, all[all.size() - 2], all[all.size() - 2].thickness));
+  shapes.panels.push_back(panel(device, last, last.thickness));
+  if (meshing::is_meridian(device.mesh.film()->type)) {
+    post::Section profile{"Shape", {}};
+    for (std::string& svg : post::render_svg({post::profile_plot(device.mesh, "Meridian", shapes.panels)}))
+      if (!svg.empty())
+        profile.blocks.push_back(post::Image{std::move(svg), "Before and after the last step."});
+    return {std::move(profile)};
+  }
+  std::vector<post::Section> sections{{"Shape",
+                                       {post::Image{post::render_png(device.mesh, shapes),
+                                                    "Before and after the last step, to one scale."}}}};
+  if (last.voltage != 0) {
+    post::Picture field{.quantity = "True electric field", .unit = "V/m", .wall_width = shapes.wall_width};
+    field.panels.push_back(panel(device, last, last.field));
+    sections.push_back(
+        {"Electric field", {post::Image{post::render_png(device.mesh, field), "What the film must bear."}}});
+  }
+  return sections;
+}
+
+/// Every quantity against time, where it passes; otherwise against the largest voltage from where it rises,
+/// or against the load factor of the last step in a run without voltage; strains in one plot.
+std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
+  std::vector<post::Plot> plots;
+  std::map<std::string, std::size_t> by_label;
+  const auto& records = journal.records;
+  const auto charged = std::find_if(records.begin(), records.end(), [](const post::StepRecord& record) {
+    return record.largest_voltage() != 0;
+  });
+  const bool electric = charged != records.end();
+  const bool timed = records.back().time > 0;
+  const auto begin = timed ? records.begin()
+                     : electric
+                         ? charged - (charged != records.begin())
+                         : std::find_if(records.begin(), records.end(), [&](const post::StepRecord& record) {
+                             return record.step == records.back().step;
+                           });
+  const std::string x_label = timed      ? "time [s]"
+                              : electric ? "voltage [kV]"
+                                         : fmt::format("load factor of \"{}\"", begin->step);
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = one.quantities[q];
+    if (!quantity.at.empty()) continue;
+    double size = 0;
+    for (const auto& row : journal.values)
+      if (std::isfinite(row[q])) size = std::max(size, std::abs(row[q]));
+    const auto scaled = post::scaled_unit(size, unit_of(quantity, one.quantities), ratio_of(quantity));
+    const bool strain = is_relative(quantity.kind);
+    post::Series series{.label = quantity.name,
+                        .style = records.size() > 100 ? post::Series::Style::line
+                                                      : post::Series::Style::line_and_points};
+    for (auto r = static_cast<std::size_t>(begin - records.begin()); r < records.size(); ++r) {
+      series.x.push_back(timed      ? records[r].time
+                         : electric ? records[r].largest_voltage() / 1000
+                                    : records[r].load_factor);
+      series.y.push_back(journal.values[r][q] * scaled.factor);
+    }
+    const std::string label = strain                ? "strain [%]"
+                              : scaled.unit.empty() ? quantity.name
+                                                    : fmt::format("{} [{}]", quantity.name, scaled.unit);
+    const auto [place, fresh] = by_label.try_emplace(label, plots.size());
+    if (fresh) plots.push_back({strain ? "strains" : quantity.name, x_label, label, {}});
+    plots[place->second].series.push_back(std::move(series));
+  }
+  return plots;
+}
+
+/// What happened, and whether it depends on the mesh.
+std::string message_of(const post::Event& event, const Results& results) {
+  const auto remark = std::ranges::find(results.event_remarks, event.kind, &EventRemark::kind);
+  return remark == results.event_remarks.end() ? event.message
+                                               : fmt::format("{}; this {}", event.message, remark->remark);
+}
+
+std::vector<post::StepRecord> with_remarks(std::vector<post::StepRecord> records, const Results& results) {
+  for (post::StepRecord& record : records)
+    for (post::Event& event : record.events) event.message = message_of(event, results);
+  return records;
+}
+
+std::string error_paragraph(const Results& results) {
+  if (!results.no_errors_because.empty())
+    return fmt::format("No estimate of the errors: {}.", results.no_errors_because);
+  return "Errors are estimates of what elements and time steps leave: from solutions with both about two and "
+         "four times as large (or elements half as large), by the order of convergence that is seen, with a "
+         "safety factor; for extremes of fields at least what the field changes over one element there.";
+}
+
+} // namespace
+
+bool Results::checks_passed() const {
+  return std::all_of(checks.begin(), checks.end(), [](const post::CheckRow& check) { return check.passed; });
+}
+
+Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
+                        const Estimates& estimates) {
+  Results results{.outcome = outcome,
+                  .warnings = simulation.warnings(),
+                  .no_errors_because = estimates.reason,
+                  .event_remarks = estimates.events,
+                  .time_error = simulation.time_error()};
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = one.quantities[q];
+    post::QuantityRow row{.name = quantity.name,
+                          .value = simulation.results()[q],
+                          .unit = unit_of(quantity, one.quantities),
+                          .ratio = ratio_of(quantity),
+                          .meaning = meaning(quantity)};
+    if (q < estimates.quantities.size()) {
+      row.error = estimates.quantities[q].error;
+      row.error_remark = estimates.quantities[q].remark;
+    }
+    results.quantities.push_back(std::move(row));
+  }
+  for (const Check& check : one.checks) {
+    const auto row = std::find_if(results.quantities.begin(), results.quantities.end(),
+                                  [&](const post::QuantityRow& r) { return r.name == check.quantity; });
+    // What is read at the end has no value in a run that did not get there.
+    const std::string& at = one.quantities[static_cast<std::size_t>(row - results.quantities.begin())].at;
+    const bool reached = outcome.ending == Ending::complete || !at.empty();
+    const double value = reached ? row->value : std::numeric_limits<double>::quiet_NaN();
+    results.checks.push_back({check.quantity, value, check.value, check.tolerance, row->unit, row->ratio,
+                              check.source, std::abs(value - check.value) <= check.tolerance});
+  }
+  if (const auto& energy = simulation.energy().worst(); energy.is_poor())
+    results.checks.push_back({"energy error", energy.error, 0, 0.01 * energy.exchanged, "J",
+                              post::Ratio::plain, "every run: 1 % of the energy that was exchanged", false});
+  return results;
+}
+
+json summary_json(const Case& one, const Device& device, const Results& results, const Journal& journal) {
+  const auto number = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
+  nlohmann::ordered_json summary{{"program", "dielast " DIELAST_VERSION},
+                                 {"title", one.title},
+                                 {"status", word(results.outcome.ending)},
+                                 {"message", results.outcome.message}};
+  nlohmann::ordered_json quantities = nlohmann::ordered_json::object();
+  for (const auto& row : results.quantities)
+    quantities[row.name] = {{"value", number(row.value)},
+                            {"unit", row.unit},
+                            {"error_estimate", row.error ? number(*row.error) : json(nullptr)},
+                            {"error_remark", row.error_remark},
+                            {"meaning", row.meaning}};
+  summary["quantities"] = quantities;
+  summary["no_error_estimate_because"] = results.no_errors_because;
+  json checks = json::array();
+  for (const auto& check : results.checks)
+    checks.push_back({{"quantity", check.quantity},
+                      {"value", number(check.value)},
+                      {"expected", check.expected},
+                      {"tolerance", check.tolerance},
+                      {"passed", check.passed},
+                      {"source", check.source}});
+  summary["checks"] = checks;
+  if (results.time_error > 0) summary["time_error"] = results.time_error;
+  json events = json::array();
+  for (const auto& record : journal.records)
+    for (const auto& event : record.events)
+      events.push_back({{"kind", event.kind},
+                        {"step", record.step},
+                        {"record", record.index},
+                        {"load_factor", record.load_factor},
+                        {"voltages", record.voltages},
+                        {"place", event.place},
+                        {"message", message_of(event, results)}});
+  // The bifurcation at which a run ends as at a limit point is told by the event that located it.
+  const auto tells = [&](const post::Event& event) {
+    return event.kind == results.outcome.kind ||
+           (is_critical(event.kind) && is_critical(results.outcome.kind));
+  };
+  if (!results.outcome.kind.empty() && !journal.records.empty() &&
+      std::ranges::none_of(journal.records.back().events, tells)) {
+    const auto& last = journal.records.back();
+    events.push_back({{"kind", results.outcome.kind},
+                      {"step", last.step},
+                      {"record", last.index},
+                      {"load_factor", last.load_factor},
+                      {"voltages", last.voltages},
+                      {"place", ""},
+                      {"message", results.outcome.message}});
+  }
+  summary["events"] = events;
+  summary["warnings"] = results.warnings;
+  json remarks = json::array();
+  for (const EventRemark& event : results.event_remarks)
+    remarks.push_back({{"kind", event.kind}, {"remark", event.remark}});
+  summary["event_remarks"] = remarks;
+  json analyses = json::array();
+  for (const Analysis& analysis : journal.analyses)
+    analyses.push_back({{"step", analysis.step}, {"columns", analysis.columns}, {"rows", analysis.rows}});
+  summary["analyses"] = analyses;
+  int iterations = 0;
+  for (const auto& record : journal.records) iterations += record.iterations;
+  summary["steps"] = {{"accepted", journal.records.size()}, {"newton_iterations", iterations}};
+  const auto quality = meshing::quality(device.mesh);
+  summary["mesh"] = {{"nodes", quality.nodes},
+                     {"triangles", quality.triangles},
+                     {"beams", quality.lines},
+                     {"unknowns", device.model.dofs.free_count()},
+                     {"smallest_angle_deg", quality.smallest_angle}};
+  return summary;
+}
+
+post::Report run_report(const Case& one, const Device& device, const Results& results, const Journal& journal,
+                        const std::string& log) {
+  post::Report report{
+      .title = one.title, .subtitle = one.source.filename().string(), .footer = "dielast " DIELAST_VERSION};
+  const bool converged = results.outcome.ending == Ending::complete;
+  const bool quiet = std::all_of(journal.records.begin(), journal.records.end(),
+                                 [](const post::StepRecord& record) { return record.events.empty(); });
+  report.status = {std::string(word(results.outcome.ending)) + (quiet ? "" : ", see the events"),
+                   converged && quiet && results.checks_passed() ? post::Tone::good : post::Tone::warning};
+  for (const auto& row : results.quantities)
+    if (report.highlights.size() < 6)
+      report.highlights.push_back(
+          {row.name, post::engineering(row.value, row.unit, row.ratio),
+           row.error ? "± " + post::engineering(*row.error, row.unit, row.ratio, 2) : ""});
+  if (!results.outcome.message.empty())
+    report.sections.push_back({"How it ended", {post::Paragraph{results.outcome.message}}});
+
+  if (!results.warnings.empty()) {
+    report.sections.push_back({"Warnings", {}});
+    for (const std::string& warning : results.warnings)
+      report.sections.back().blocks.push_back(post::Paragraph{warning});
+  }
+  for (post::Section& section : picture_sections(device, journal))
+    report.sections.push_back(std::move(section));
+
+  post::Section plots{"Curves", {}};
+  for (std::string& svg : post::render_svg(curves(one, journal)))
+    if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
+  if (plots.blocks.empty()) plots.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
+  report.sections.push_back(std::move(plots));
+
+  for (const Analysis& analysis : journal.analyses) report.sections.push_back(analysis_section(analysis));
+  report.sections.push_back(
+      {"Quantities", {post::quantity_table(results.quantities), post::Paragraph{error_paragraph(results)}}});
+  if (!results.checks.empty()) report.sections.push_back({"Checks", {post::check_table(results.checks)}});
+  if (post::Table events = post::event_table(with_remarks(journal.records, results)); !events.rows.empty())
+    report.sections.push_back({"Events", {std::move(events)}});
+  if (!results.event_remarks.empty()) {
+    post::Section section{"Events that depend on the mesh", {}};
+    for (const EventRemark& event : results.event_remarks)
+      section.blocks.push_back(post::Paragraph{fmt::format("{}: {}.", event.kind, event.remark)});
+    report.sections.push_back(std::move(section));
+  }
+  report.sections.push_back({"Increments", {post::increment_table(journal.records)}});
+  report.sections.push_back({"Mesh", {post::Listing{meshing_summary(device)}}});
+  if (!log.empty()) report.sections.push_back({"Log", {post::Listing{log}}});
+  return report;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/runs/error_estimate.hpp"
+#include "cases/runs/recorder.hpp"
+#include "post/pictures/report_tables.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dielast::cases {
+
+/// Everything that a finished run says of itself.
+struct Results {
+  Outcome outcome;
+  std::vector<post::QuantityRow> quantities; ///< in the case's order
+  std::vector<post::CheckRow> checks;
+  std::vector<std::string> warnings{}; ///< before the run: keys without effect, a film of odd size
+  std::string no_errors_because;       ///< why no quantity has an error estimate; empty otherwise
+  std::vector<EventRemark> event_remarks;
+  double time_error = 0; ///< see Simulation::time_error()
+
+  bool checks_passed() const;
+};
+
+/// Values and checks of a run.
+Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
+                        const Estimates& estimates);
+
+/// summary.json: status, quantities.<name>.{value, unit, error_estimate, error_remark}, checks, events,
+/// warnings, mesh.
+/// Nothing in it depends on the machine or the time.
+nlohmann::json summary_json(const Case& one, const Device& device, const Results& results,
+                            const Journal& journal);
+
+/// report.html: what a person wants to see of a run.
+post::Report run_report(const Case& one, const Device& device, const Results& results, const Journal& journal,
+                        const std::string& log);
+
+} // namespace dielast::cases

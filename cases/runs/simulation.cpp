@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/simulation.hpp"
+
+#include "post/engineering.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace dielast::cases {
+
+namespace {
+
+/// Forces below this fraction of the film's own leave the drawn state in equilibrium.
+constexpr double balanced = 1e-9;
+
+const std::string drawn = "drawn"; ///< name of the state before the first step
+
+post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step& step) {
+  return {"unresolved energy", "",
+          fmt::format("works and heat are known to {} only, of {} that were exchanged: give the step \"{}\" "
+                      "more increments{}",
+                      post::engineering(energy.error, "J"), post::engineering(energy.exchanged, "J"),
+                      step.name, step.duration ? " or [solver] a smaller time_tolerance" : "")};
+}
+
+} // namespace
+
+Simulation::Simulation(const Case& one, int threads)
+    : case_(one), device_(build_device(one)), equilibrium_(device_.model, threads),
+      measurement_(one, device_), watch_(device_), steps_(one.steps),
+      results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
+  const Eigen::VectorXd frame = frame_force();
+  const double film_force = equilibrium_.assembler().block_residuals().front().norm();
+  const bool at_rest = frame.norm() <= std::max(balanced * film_force, equilibrium_.round_off());
+  // A film drawn in tension with free edges must find its equilibrium before it can be driven.
+  const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
+  if (settles) steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
+  for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
+  for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
+  if (settles && !std::holds_alternative<Patch>(one.geometry))
+    warnings_.push_back(
+        fmt::format("the film is not held in its prestretch{}: a step \"settle\" before the first cuts it "
+                    "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",
+                    one.supports.empty() ? ", there is no [[support]]" : ""));
+  fem::State drawn_state = device_.model.initial_state();
+  drawn_state.dead_force = frame;
+  in_step_.ramp.points = {{0, std::move(drawn_state)}};
+  loads_.emplace(case_, device_, steps_, frame);
+}
+
+Eigen::VectorXd Simulation::frame_force() {
+  Eigen::VectorXd force;
+  equilibrium_.assembler().residual(device_.model.initial_state(), force); // on tied nodes where they are
+  force.segment(device_.model.dofs.free_count(), device_.model.dofs.held_count()).setZero();
+  return force;
+}
+
+SimulationProgress Simulation::progress() const {
+  return {step_, records_, in_step_, energy_.record(), measurement_.references, watch_.active, time_error_};
+}
+
+void Simulation::resume(const SimulationProgress& progress) {
+  step_ = progress.step + (progress.in_step.ramp.load_factor >= 1 ? 1 : 0); // that step is done
+  records_ = progress.records;
+  in_step_ = progress.in_step;
+  energy_ = fem::EnergyBalance(progress.energy);
+  accounted_ = state();
+  measurement_.references = progress.references;
+  watch_.active = progress.active_events;
+  time_error_ = progress.time_error;
+}
+
+void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {
+  if (increment.turns) energy_.corner();
+  fem::EnergyPoint point = fem::energy_point(equilibrium_, state, increment.length);
+  if (!energy_.empty()) point.flow = fem::flow_heat(equilibrium_, accounted_, state);
+  accounted_ = state;
+  time_error_ += increment.time_error;
+  if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release)
+    energy_.add_cut_free(std::move(point));
+  else if (reached == Reached::by_jump)
+    energy_.add_after_jump(std::move(point));
+  else
+    energy_.add(std::move(point));
+}
+
+/// Whether the permittivity is positive everywhere; otherwise refusal_ says where it is not.
+bool Simulation::admits(const Step& step, double load_factor, const fem::State& state) {
+  refusal_.reset();
+  const double left = smallest_permittivity(state);
+  if (left > 0) return true;
+  refusal_ = {
+      Ending::gave_up, "loss of permittivity",
+      fmt::format("step \"{}\" stopped: at load factor {:.4g} electrostriction = {:.6g} would make the "
+                  "permittivity of film under an electrode negative, {:.3g} of the undeformed film's",
+                  step.name, load_factor, case_.film.material.dielectric.electrostriction, left)};
+  return false;
+}
+
+/// The smallest permittivity of film under an electrode, over that of the undeformed film.
+double Simulation::smallest_permittivity(const fem::State& state) const {
+  const materials::Dielectric& dielectric = case_.film.material.dielectric;
+  double smallest = std::numeric_limits<double>::infinity();
+  if (dielectric.electrostriction == 0) return smallest;
+  for (const fem::MembraneSample& at : device_.model.sample(state).film) {
+    if (at.electrode < 0) continue;
+    const Eigen::Matrix2d C = at.F.transpose() * at.F;
+    const double det = C.determinant() * at.widening * at.widening;
+    smallest = std::min(smallest, dielectric.permittivity_at(C.trace(), det) / dielectric.permittivity);
+  }
+  return smallest;
+}
+
+bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
+                        const fem::Increment& increment, Reached reached) {
+  if (!admits(step, increment.load_factor, state)) return false;
+  account(state, increment, reached);
+  if (increment.lands) return record(observer, step, state, increment, reached);
+  unrecorded_ = increment;
+  if (measurement_.has_peaks())
+    measurement_.pass({device_, equilibrium_, state, energy_, measurement_.has_peaks_of_fields()});
+  return !observer.on_pass || observer.on_pass();
+}
+
+bool Simulation::record(const SimulationObserver& observer, const Step& step, const fem::State& state,
+                        const fem::Increment& increment, Reached reached) {
+  unrecorded_.reset();
+  const bool is_drawn = records_ == 0;
+  const bool ends = !is_drawn && increment.load_factor >= 1;
+  Measured measured(device_, equilibrium_, state, energy_);
+  measured.may_rest = ends || !step.duration;
+  if (ends) measurement_.step_ended(step.name, measured);
+  const std::vector<double> values = measurement_.all(measured);
+  for (std::size_t q = 0; q < values.size(); ++q) {
+    const std::string& at = case_.quantities[q].at;
+    if (at.empty() || (ends && at == step.name)) results_[q] = values[q];
+  }
+  const fem::NewtonResult& newton = increment.newton;
+  std::vector<post::Event> events = std::exchange(news_, {});
+  if (reached == Reached::by_jump)
+    events.push_back({"jump", "",
+                      fmt::format("jumped to another stable state; {} were released",
+                                  post::engineering(energy_.work().released, "J"))});
+  if (energy_.turns_poor()) events.push_back(poor_energy(energy_.worst(), step));
+  for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes))
+    events.push_back(std::move(event));
+  const post::StepRecord record{
+      .index = records_++,
+      .step = is_drawn ? drawn : step.name,
+      .load_factor = increment.load_factor,
+      .time = state.time,
+      .voltages = {state.voltage.begin(),
+                   state.voltage.begin() + static_cast<std::ptrdiff_t>(case_.electrodes.size())},
+      .iterations = newton.iterations,
+      .residual = newton.residual,
+      .unstable_modes = newton.unstable_modes,
+      .events = std::move(events),
+      .jumped = increment.jumped};
+  return !observer.on_accept || observer.on_accept({record, measured, values, ends});
+}
+
+Outcome Simulation::run(const SimulationObserver& observer) {
+  fem::RampProgress& ramp = in_step_.ramp;
+  if (records_ == 0 && !accept(observer, {}, ramp.points.back().state, {}, Reached::along_path))
+    return {Ending::interrupted};
+  for (; step_ < static_cast<int>(steps_.size()); ++step_) {
+    const Step& step = steps_[static_cast<std::size_t>(step_)];
+    if (observer.on_step) observer.on_step(step);
+    if (step.is_analysis()) {
+      if (!observer.on_analysis) continue;
+      try {
+        observer.on_analysis(analyse(case_, device_, equilibrium_, state(), step), state());
+      } catch (const AnalysisError& error) {
+        return {Ending::gave_up, "no vibration", fmt::format("step \"{}\": {}", step.name, error.what())};
+      }
+      continue;
+    }
+    const fem::RampOptions options = loads_->options(step_);
+    if (ramp.load_factor >= 1 || ramp.increment == 0) {
+      fem::State state = std::move(ramp.points.back().state);
+      loads_->begin(step_, state);
+      ramp = fem::RampProgress::begin(state, device_.model.dofs, options);
+    }
+    const fem::LoadPath path = loads_->path(step_, ramp.start);
+    const StepObserver watcher{
+        observer.on_try,
+        observer.on_iteration,
+        observer.on_cutback,
+        [&](const fem::CriticalPoint& critical, const post::Event& event) {
+          news_.push_back(event);
+          if (observer.on_critical) observer.on_critical(critical, event);
+        },
+        [&](double s, const fem::State& state) { return admits(step, s, state); },
+        [&](const fem::State& state, const fem::Increment& increment, Reached reached) {
+          return accept(observer, step, state, increment, reached);
+        }};
+    const Outcome outcome = StepRun(equilibrium_, step, path, options, in_step_, watcher).run();
+    if (outcome.ending == Ending::gave_up && unrecorded_)
+      record(observer, step, state(), *unrecorded_, Reached::along_path);
+    if (refusal_) return *std::exchange(refusal_, std::nullopt);
+    if (outcome.ending != Ending::complete) return outcome;
+  }
+  return {Ending::complete};
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/analyses/analysis.hpp"
+#include "cases/analyses/measurement.hpp"
+#include "cases/runs/step_run.hpp"
+#include "cases/runs/watch.hpp"
+#include "fem/paths/energy_balance.hpp"
+
+#include <functional>
+
+namespace dielast::cases {
+
+/// Where a simulation stands between two increments: with it, it goes on bit for bit.
+struct SimulationProgress {
+  int step = 0;    ///< number of the current step, from 0
+  int records = 0; ///< accepted states so far, the drawn one included
+  StepProgress in_step;
+  fem::EnergyBalance::Record energy;
+  std::map<std::string, double> references;
+  std::set<std::string> active_events;
+  double time_error = 0; ///< sum over the time steps
+};
+
+/// An accepted state.
+struct Frame {
+  const post::StepRecord& record;
+  const Measured& measured;
+  const std::vector<double>& values; ///< of the quantities, in the case's order, SI
+  bool ends_step = false;
+};
+
+/// Watches a simulation; every member may be left out.
+struct SimulationObserver {
+  std::function<void(const Step&)> on_step;
+  std::function<void(double load_factor)> on_try;
+  std::function<void(const fem::Iteration&)> on_iteration;
+  std::function<void(double load_factor, const fem::NewtonResult&)> on_cutback;
+  std::function<void(const fem::CriticalPoint&, const post::Event&)> on_critical;
+  /// Returns false to stop here (interrupt).
+  std::function<bool(const Frame&)> on_accept;
+  /// Left out where nobody wants the analyses: then they are not made.
+  std::function<void(const Analysis&, const fem::State&)> on_analysis;
+  /// The same as on_accept, at an accepted state that is not recorded.
+  std::function<bool()> on_pass;
+};
+
+/// Takes a case through its steps.
+class Simulation {
+ public:
+  /// Meshes and builds the model. `threads`: 0 uses every core. The case must outlive this. Throws as
+  /// build_device().
+  Simulation(const Case& one, int threads);
+
+  /// Runs all steps, or goes on where progress() was restored to.
+  Outcome run(const SimulationObserver& observer);
+
+  const Device& device() const { return device_; }
+  fem::Equilibrium& equilibrium() { return equilibrium_; }
+  /// The last accepted state.
+  const fem::State& state() const { return in_step_.ramp.points.back().state; }
+  const fem::Timings& timings() const { return equilibrium_.timings(); }
+  SimulationProgress progress() const;
+  void resume(const SimulationProgress& progress);
+  /// What the user should know before looking at results, one sentence each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// The steps that are taken, one that nobody wrote included.
+  const std::vector<Step>& steps() const { return steps_; }
+  /// Values of the quantities, each at the end of the step that it is read at; NaN where that did not happen.
+  const std::vector<double>& results() const { return results_; }
+  /// Works, heat and how well they are resolved.
+  const fem::EnergyBalance& energy() const { return energy_; }
+  /// Sum of the errors that the time steps may have added to internal variables and motion, relative.
+  double time_error() const { return time_error_; }
+  void set_results(std::vector<double> results) { results_ = std::move(results); }
+
+ private:
+  Eigen::VectorXd frame_force();
+  bool admits(const Step& step, double load_factor, const fem::State& state);
+  double smallest_permittivity(const fem::State& state) const;
+  bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
+              const fem::Increment& increment, Reached reached);
+  void account(const fem::State& state, const fem::Increment& increment, Reached reached);
+  bool record(const SimulationObserver& observer, const Step& step, const fem::State& state,
+              const fem::Increment& increment, Reached reached);
+
+  const Case& case_;
+  Device device_;
+  fem::Equilibrium equilibrium_;
+  Measurement measurement_;
+  Watch watch_;
+  std::vector<Step> steps_;
+  std::vector<std::string> warnings_;
+  std::optional<Outcome> refusal_; ///< of a state that no physics allows
+  std::optional<StepLoads> loads_;
+  std::vector<double> results_;
+  int step_ = 0, records_ = 0;
+  StepProgress in_step_;
+  std::vector<post::Event> news_; ///< for the next record
+  fem::EnergyBalance energy_;
+  std::optional<fem::Increment> unrecorded_; ///< that led to the last accepted state
+  double time_error_ = 0;
+  fem::State accounted_; ///< the last state in energy_
+};
+
+} // namespace dielast::cases

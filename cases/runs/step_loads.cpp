@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/step_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace dielast::cases {
+
+namespace {
+
+/// Kinks closer than this part of the step are one break.
+constexpr double same_break = 2e-9;
+
+/// Where ramps lead: a wave that jumps at t = 0 jumps in the transient that follows it.
+constexpr StepLoads::Instant just_before_start{0, true};
+
+/// Shortest relaxation time of the film's branches, of its circuits and of its sheets, s; infinite without.
+double shortest_relaxation(const materials::Material& material, const fem::Model& model) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const materials::Branch& branch : material.branches)
+    shortest = std::min(shortest, branch.viscosity / materials::initial_shear_modulus(branch.law));
+  const fem::Charges drawn = model.charges(model.initial_state(), false);
+  for (const fem::Circuit& circuit : model.circuits)
+    shortest = std::min(shortest,
+                        circuit.resistance * drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
+  for (const fem::Sheet& sheet : model.sheets)
+    shortest =
+        std::min(shortest, sheet.resistance * drawn.capacitance[static_cast<std::size_t>(sheet.electrode)]);
+  return shortest;
+}
+
+} // namespace
+
+StepLoads::StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps,
+                     Eigen::VectorXd frame_force)
+    : case_(one), device_(device), steps_(steps), frame_force_(std::move(frame_force)) {}
+
+const Drive* StepLoads::drive(std::size_t electrode) const {
+  const auto found = case_.drives.find(case_.electrodes[electrode].name);
+  return found == case_.drives.end() ? nullptr : &found->second;
+}
+
+std::optional<double> StepLoads::goal_of(const Step& step, const std::optional<Waveform>& wave, Instant t) {
+  if (step.to) return step.to;
+  return wave ? std::optional(t.of(*wave)) : std::nullopt;
+}
+
+std::optional<double> StepLoads::goal_of(const Step& step, std::size_t electrode,
+                                         std::optional<Waveform> Drive::*part, Instant t) const {
+  if (!step.electrode.empty() && step.electrode != case_.electrodes[electrode].name) return std::nullopt;
+  const Drive* source = drive(electrode);
+  return goal_of(step, source ? source->*part : std::nullopt, t);
+}
+
+/// Circuits take time; without, an electrode is at its source's voltage.
+fem::Supply StepLoads::supply(const Step& step, std::size_t electrode) const {
+  const bool is_ramp = step.kind == StepKind::voltage || step.kind == StepKind::release;
+  if (step.kind == StepKind::charge ? goal_of(step, electrode, &Drive::charge, {}).has_value()
+                                    : !is_ramp && step.control == Control::charge)
+    return fem::Supply::charge;
+  return step.duration && device_.model.circuit_of(electrode) ? fem::Supply::circuit : fem::Supply::voltage;
+}
+
+/// A chamber stays open to its pressure or closed, as the last step that was about it has left it.
+void StepLoads::connect_chamber(const Step& step, const fem::Charges& held, fem::State& state) const {
+  if (!case_.chamber) return;
+  const std::size_t port = case_.electrodes.size();
+  if (step.kind == StepKind::pressure) state.supply[port] = fem::Supply::voltage;
+  if (step.kind != StepKind::inflate) return;
+  state.supply[port] = fem::Supply::charge;
+  state.charge[port] = device_.model.chambers[0].pumped(held.charge[port], state.voltage[port]);
+}
+
+void StepLoads::begin(int number, fem::State& state) const {
+  const Step& step = steps_[static_cast<std::size_t>(number)];
+  const fem::Charges held = device_.model.charges(state, false);
+  bool connects = false;
+  for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
+    const fem::Supply next = supply(step, e);
+    if (next == state.supply[e]) continue;
+    state.charge[e] = held.charge[e];
+    if (next == fem::Supply::circuit) {
+      state.source[e] = state.voltage[e] / device_.model.circuit_of(e)->steady_share();
+      connects = true;
+    }
+    state.supply[e] = next;
+  }
+  connect_chamber(step, held, state);
+  if (connects) device_.model.charge_circuits(state);
+  if (!step.inertia) state.motion.reset();
+}
+
+bool StepLoads::happened(int step, StepKind kind) const {
+  return std::any_of(steps_.begin(), steps_.begin() + step + 1,
+                     [kind](const Step& s) { return s.kind == kind; });
+}
+
+/// The frame's forces until a release, the loads from the first step that applies them.
+Eigen::VectorXd StepLoads::dead_force(int step, Instant t) const {
+  const fem::DofMap& dofs = device_.model.dofs;
+  Eigen::VectorXd force = frame_force_;
+  if (happened(step, StepKind::release)) force.setZero();
+  if (happened(step, StepKind::weight)) force += device_.weight;
+  if (!happened(step, StepKind::force) && !happened(step, StepKind::transient)) return force;
+  for (const Load& load : case_.loads) {
+    const auto& nodes = device_.mesh.node_sets.at(load.place);
+    for (int c = 0; c < 3; ++c)
+      for (const int node : nodes)
+        if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
+          force[e] += t.of(load.force[static_cast<std::size_t>(c)]) / static_cast<double>(nodes.size());
+  }
+  return force;
+}
+
+void StepLoads::move(Eigen::VectorXd& held, Instant t) const {
+  const fem::DofMap& dofs = device_.model.dofs;
+  for (const Support& support : case_.supports)
+    for (int c = 0; c < 3; ++c)
+      if (const auto& motion = support.motion[static_cast<std::size_t>(c)])
+        for (const int node : device_.mesh.node_sets.at(support.place))
+          if (const int e = dofs.equation(node, c); dofs.is_held(e))
+            held[e - dofs.free_count()] = t.of(*motion);
+}
+
+/// The loads that the step leads to (a ramp: just before t = 0) or has at t (a transient).
+fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
+  const Step& step = steps_[static_cast<std::size_t>(number)];
+  fem::Loads loads = start;
+  const auto does = [&step](StepKind kind) { return step.kind == kind || step.kind == StepKind::transient; };
+  if (does(StepKind::force) || step.kind == StepKind::release || step.kind == StepKind::weight)
+    loads.dead_force = dead_force(number, t);
+  if (does(StepKind::move)) move(loads.held, t);
+  for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
+    const bool isolated = supply(step, e) == fem::Supply::charge;
+    if (const auto goal = goal_of(step, e, &Drive::voltage, t);
+        does(StepKind::voltage) && goal && !isolated) {
+      loads.source[e] = *goal;
+      const fem::Circuit* circuit = device_.model.circuit_of(e);
+      loads.voltage[e] = loads.source[e] * (circuit ? circuit->steady_share() : 1);
+    }
+    if (const auto goal = goal_of(step, e, &Drive::charge, t); does(StepKind::charge) && goal && isolated)
+      loads.charge[e] = *goal;
+  }
+  if (case_.chamber) {
+    const std::size_t port = case_.electrodes.size();
+    if (const auto goal = goal_of(step, case_.chamber->pressure, t); does(StepKind::pressure) && goal)
+      loads.voltage[port] = *goal;
+    if (const auto goal = goal_of(step, case_.chamber->volume, t); does(StepKind::inflate) && goal)
+      loads.charge[port] = *goal;
+  }
+  return loads;
+}
+
+std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
+  std::vector<double> all{0.0, *step.duration};
+  const auto add = [&](const Waveform& wave) {
+    const std::vector<double> kinks = wave.kinks(0, *step.duration);
+    all.insert(all.end(), kinks.begin(), kinks.end());
+  };
+  for (const auto& [name, source] : case_.drives)
+    for (const auto& wave : {source.voltage, source.charge})
+      if (wave) add(*wave);
+  for (const Load& load : case_.loads)
+    for (const Waveform& wave : load.force) add(wave);
+  for (const Support& support : case_.supports)
+    for (const auto& wave : support.motion)
+      if (wave) add(*wave);
+  if (case_.chamber)
+    for (const auto& wave : {case_.chamber->pressure, case_.chamber->volume})
+      if (wave) add(*wave);
+  std::ranges::sort(all);
+  std::vector<Break> breaks;
+  for (const double t : all)
+    if (breaks.empty() || t - breaks.back().first > same_break * *step.duration)
+      breaks.push_back({t, t});
+    else
+      breaks.back().last = t;
+  return breaks;
+}
+
+fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
+  const Step& step = steps_[static_cast<std::size_t>(number)];
+  if (step.kind != StepKind::transient)
+    return fem::linear_path(device_.model.dofs, start, at(number, start, just_before_start),
+                            case_.electrodes.size());
+  fem::LoadPath path;
+  const double duration = *step.duration;
+  const std::vector<Break> all = breaks(step);
+  const auto apply = [this, number, start](fem::State& state, Instant instant) {
+    at(number, start, instant).apply(state, device_.model.dofs);
+  };
+  // Beside a break waves are taken on the side of t, whatever they take for the same time.
+  const auto instant = [all, duration](double s, bool before) {
+    const double t = s * duration, tolerance = same_break / 2 * duration;
+    const auto next = std::ranges::lower_bound(all, t - tolerance, {}, &Break::first);
+    if (next == all.end()) return Instant{t, before};
+    if (next->first <= t + tolerance) return Instant{before ? next->first : next->last, before};
+    return Instant{t, next != all.begin() && next->first - t < t - std::prev(next)->last};
+  };
+  path.apply = [apply, instant](fem::State& state, double s) { apply(state, instant(s, false)); };
+  path.apply_before = [apply, instant](fem::State& state, double s) { apply(state, instant(s, true)); };
+  for (const Break& b : all)
+    if (b.first > 0 && b.last < duration) path.breaks.push_back(b.first / duration);
+  return path;
+}
+
+fem::RampOptions StepLoads::options(int number) const {
+  const Step& step = steps_[static_cast<std::size_t>(number)];
+  fem::RampOptions options{
+      .newton = {case_.solver.tolerance, case_.solver.max_iterations, case_.film.tension_field},
+      .increments = step.increments,
+      .smallest_increment = case_.solver.smallest_increment,
+      .instantaneous = step.response == Response::instantaneous,
+      .time_tolerance = case_.solver.time_tolerance};
+  if (!step.duration) return options;
+  options.duration = *step.duration;
+  options.inertia = step.inertia && device_.model.inertia.mass.nonZeros() > 0;
+  if (step.record) options.landing = *step.record / *step.duration;
+  // One backward Euler step of h errs by (h / tau)^2 / 2 of what is left to relax.
+  const double shortest = shortest_relaxation(case_.film.material, device_.model);
+  if (std::isfinite(shortest)) options.first_time_step = std::sqrt(2 * options.time_tolerance) * shortest;
+  return options;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/devices/device.hpp"
+#include "fem/paths/ramp.hpp"
+
+namespace dielast::cases {
+
+/// What the steps of a case do to the loads of its device.
+class StepLoads {
+ public:
+  /// A time of a step, or the moment before it.
+  struct Instant {
+    double t = 0; ///< s
+    bool before = false;
+
+    double of(const Waveform& wave) const { return before ? wave.before(t) : wave.at(t); }
+  };
+
+  /// `frame_force`: dead forces by which a frame holds the free nodes as drawn, until a step releases them.
+  StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps,
+            Eigen::VectorXd frame_force);
+
+  /// Connects and isolates electrodes as the step wants; what becomes isolated keeps its charge. Without
+  /// inertia the device comes to rest.
+  void begin(int step, fem::State& state) const;
+  /// From the loads `start` on: straight to the goals of a ramp, along the waves of a transient.
+  fem::LoadPath path(int step, const fem::Loads& start) const;
+  fem::RampOptions options(int step) const;
+
+ private:
+  fem::Supply supply(const Step& step, std::size_t electrode) const;
+  /// What a ramp leads to, or a transient has at t; nothing where the step is not about it.
+  static std::optional<double> goal_of(const Step& step, const std::optional<Waveform>& wave, Instant t);
+  std::optional<double> goal_of(const Step& step, std::size_t electrode, std::optional<Waveform> Drive::*part,
+                                Instant t) const;
+  void connect_chamber(const Step& step, const fem::Charges& held, fem::State& state) const;
+  const Drive* drive(std::size_t electrode) const;
+  /// Kinds of the steps up to this one.
+  bool happened(int step, StepKind kind) const;
+  Eigen::VectorXd dead_force(int step, Instant t) const;
+  void move(Eigen::VectorXd& held, Instant t) const;
+  fem::Loads at(int step, const fem::Loads& start, Instant t) const;
+  /// Kinks of waves that are as good as one, s.
+  struct Break {
+    double first = 0, last = 0;
+  };
+  /// All of them in a step that takes time, in order; the first begins with it, the last ends with it.
+  std::vector<Break> breaks(const Step& step) const;
+
+  const Case& case_;
+  const Device& device_;
+  const std::vector<Step>& steps_;
+  Eigen::VectorXd frame_force_;
+};
+
+} // namespace dielast::cases

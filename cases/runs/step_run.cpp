@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/step_run.hpp"
+
+#include "fem/paths/jump.hpp"
+#include "post/engineering.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dielast::cases {
+
+namespace {
+
+constexpr int most_jumps = 100;
+/// Loads beyond a limit point at which the device jumps, as a part of the step.
+constexpr double beyond = 1e-6;
+/// Displacement along a mode at which another branch is looked for, over the model's extent.
+constexpr double branch_amplitude = 1e-3;
+/// Eigenvalue of the lowest mode, over the stiffness as drawn, below which a timed step has come to a limit.
+constexpr double critical_in_time = 1e-3;
+
+const char* word(fem::Instability kind) {
+  return kind == fem::Instability::limit_point ? "limit point" : "bifurcation";
+}
+
+} // namespace
+
+bool is_critical(const std::string& kind) {
+  return kind == word(fem::Instability::limit_point) || kind == word(fem::Instability::bifurcation);
+}
+
+/// Loads of s, and dashpots that do what they do in this step.
+fem::State StepRun::loaded(fem::State state, double s) const {
+  path_.apply(state, s);
+  state.scheme =
+      timed() || options_.instantaneous ? materials::TimeScheme::frozen() : materials::TimeScheme::relaxed();
+  return state;
+}
+
+/// The loads at s, as a person would name them.
+std::string StepRun::load_text(double s) const {
+  fem::State at = last(), begin = at;
+  path_.apply(at, s);
+  path_.apply(begin, 0);
+  std::string text;
+  double largest = 0;
+  for (std::size_t e = 0; e < at.voltage.size(); ++e) {
+    const bool isolated = at.supply[e] == fem::Supply::charge;
+    const double from = isolated ? begin.charge[e] : begin.voltage[e];
+    const double to = isolated ? at.charge[e] : at.voltage[e];
+    if (std::abs(to - from) <= largest) continue;
+    largest = std::abs(to - from);
+    const bool chamber = e >= model().electrodes.size();
+    const char* unit = chamber ? (isolated ? "m^3" : "Pa") : (isolated ? "C" : "V");
+    text = post::engineering(to, unit, post::Ratio::plain, 5);
+  }
+  return text.empty() ? fmt::format("load factor {:.5g}", s) : text;
+}
+
+/// A critical point at which the step ends is called what the step's failure() is.
+void StepRun::announce(const fem::CriticalPoint& critical, bool ends) {
+  if (!observer_.on_critical) return;
+  const bool branches_off = critical.kind == fem::Instability::bifurcation;
+  const std::string load = load_text(critical.load_factor);
+  observer_.on_critical(
+      critical,
+      ends ? post::Event{word(fem::Instability::limit_point), "",
+                         fmt::format("limit point near {}{}", load, branches_off ? " (a bifurcation)" : "")}
+           : post::Event{word(critical.kind), "", fmt::format("{} at {}", word(critical.kind), load)});
+}
+
+/// The last equilibrium before stability is lost is a result of its own.
+bool StepRun::accept_critical(const fem::CriticalPoint& critical) {
+  fem::RampProgress& ramp = progress_.ramp;
+  const double length = critical.load_factor - ramp.load_factor;
+  if (length <= 0) return true;
+  ramp.load_factor = critical.load_factor;
+  ramp.slope.reset();
+  ramp.points = {{0, model().settled(critical.state)}};
+  return accept(ramp.points.back().state, {ramp.load_factor, {}, true, length}, Reached::along_path);
+}
+
+bool StepRun::accept(const fem::State& state, const fem::Increment& increment, Reached reached) {
+  return !observer_.on_accept || observer_.on_accept(state, increment, reached);
+}
+
+/// Whether the path is followed by arclength where load control ends: that finds its critical points, too.
+bool StepRun::follows() const {
+  return step_.on_instability == OnInstability::follow && step_.on_bifurcation == OnBifurcation::follow;
+}
+
+/// The critical point between the last accepted state and the load factor s.
+std::optional<fem::CriticalPoint> StepRun::locate(double s) const {
+  const double reached = progress_.ramp.load_factor;
+  return fem::locate_by_load_control(equilibrium_, path_, loaded(last(), reached), reached, s,
+                                     options_.newton);
+}
+
+/// The last accepted state, where it is about to lose its stability at the pace of the step.
+std::optional<fem::CriticalPoint> StepRun::limit_in_time() const {
+  const double reached = progress_.ramp.load_factor;
+  fem::State state = loaded(last(), reached);
+  auto mode = fem::lowest_mode(equilibrium_, state);
+  if (!mode || std::abs(mode->eigenvalue) > critical_in_time) return std::nullopt;
+  return fem::CriticalPoint{fem::Instability::limit_point, reached, std::move(state), std::move(*mode)};
+}
+
+/// A state under load control. Where stability was lost on the way, the critical point is located; a step
+/// that leaves its path there does not accept the unstable state, nor one that stops at instabilities any.
+bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increment) {
+  int unstable = increment.newton.unstable_modes;
+  const auto loses = [&] { return increment.unstable_before >= 0 && unstable > increment.unstable_before; };
+  if (loses() && !timed() && equilibrium_.factor(loaded(now.points.back().state, increment.load_factor)))
+    unstable = equilibrium_.tangent().unstable_modes(); // Newton's method may know that of a step before
+  const bool lost = loses();
+  const bool switches = step_.on_bifurcation == OnBifurcation::switch_branch;
+  const bool leaves =
+      stops() ? unstable > 0 : lost && (switches || step_.on_instability == OnInstability::jump);
+  if (!leaves && (timed() || !lost)) return accept(now.points.back().state, increment, Reached::along_path);
+  Trouble trouble{{fem::RampEnd::gave_up, increment.load_factor, increment.newton}, {}, unstable};
+  // back to the last stable state
+  const fem::RampProgress beyond_it = progress_.ramp;
+  if (now.points.size() > 1) progress_.ramp.points.pop_back();
+  progress_.ramp.load_factor = increment.load_factor - increment.length;
+  if (lost) trouble.critical = timed() ? limit_in_time() : locate(increment.load_factor);
+  if (leaves && (trouble.critical || stops())) {
+    leaving_ = std::move(trouble);
+    return false;
+  }
+  progress_.ramp = beyond_it;
+  if (trouble.critical) announce(*trouble.critical, false);
+  return accept(now.points.back().state, increment, Reached::along_path);
+}
+
+Outcome StepRun::run() {
+  fem::RampObserver watcher{observer_.on_try, observer_.on_iteration, observer_.on_cutback, observer_.admits,
+                            [this](const fem::RampProgress& now, const fem::Increment& increment) {
+                              return on_ramp(now, increment);
+                            }};
+  while (progress_.followed || progress_.ramp.load_factor < 1) {
+    if (progress_.followed) {
+      if (const auto outcome = follow()) return *outcome;
+      continue;
+    }
+    Trouble trouble{fem::ramp(equilibrium_, path_, options_, progress_.ramp, watcher)};
+    if (trouble.ramp.end == fem::RampEnd::complete) break;
+    if (trouble.ramp.end == fem::RampEnd::endless)
+      return {
+          Ending::gave_up, "no end",
+          fmt::format("step \"{}\" stopped at load factor {:.4g}, after {} increments: they have become so "
+                      "small that it would not end. A larger solver.time_tolerance or "
+                      "solver.smallest_increment makes them longer, or says where it fails",
+                      step_.name, progress_.ramp.load_factor, options_.most_tries)};
+    if (trouble.ramp.end == fem::RampEnd::stopped) {
+      if (!leaving_) return {Ending::interrupted};
+      trouble = *std::exchange(leaving_, std::nullopt);
+    } else if (trouble.ramp.failure.outcome == fem::Outcome::refused) {
+      return {Ending::gave_up}; // whoever refuses says why
+    } else if (timed()) {
+      if (!options_.inertia) trouble.critical = limit_in_time();
+    } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows() &&
+               !equilibrium_.is_slack(last())) {
+      trouble.critical = locate(trouble.ramp.failed_at);
+    }
+    if (const auto outcome = leave(trouble)) return *outcome;
+  }
+  return {};
+}
+
+/// Load control has ended; nothing where the step goes on.
+std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
+  const bool branches_off = trouble.critical && trouble.critical->kind == fem::Instability::bifurcation;
+  const bool switches = branches_off && step_.on_bifurcation == OnBifurcation::switch_branch;
+  const bool jumps = step_.on_instability == OnInstability::jump || step_.kind == StepKind::release;
+  const bool ends = !switches && !jumps && (step_.on_instability == OnInstability::stop || timed());
+  if (trouble.critical) announce(*trouble.critical, ends);
+  const fem::ContinuationOptions arcs{.newton = options_.newton};
+  if (switches) {
+    progress_.followed =
+        fem::switch_branch(equilibrium_, path_, *trouble.critical, branch_amplitude * model().extent, arcs);
+    if (progress_.followed) return std::nullopt;
+    accept_critical(*trouble.critical);
+    return failure(trouble);
+  }
+  if (jumps) return jump(trouble);
+  if (ends) {
+    if (trouble.critical && !accept_critical(*trouble.critical)) return Outcome{Ending::interrupted};
+    return failure(trouble);
+  }
+  const double s = progress_.ramp.load_factor;
+  progress_.followed = fem::begin_continuation(equilibrium_, path_, loaded(last(), s), s, 1, arcs);
+  if (!progress_.followed) return failure(trouble);
+  return std::nullopt;
+}
+
+std::optional<Outcome> StepRun::follow() {
+  fem::ContinuationProgress before = *progress_.followed;
+  bool interrupted = false;
+  fem::ContinuationObserver watcher;
+  watcher.on_accept = [&](const fem::ContinuationProgress& now) {
+    if (now.newton.unstable_modes != before.newton.unstable_modes)
+      if (const auto critical = fem::locate(equilibrium_, path_, before, now, options_.newton))
+        announce(*critical, false);
+    before = now;
+    fem::State state = model().settled(now.state);
+    progress_.followed = now;
+    progress_.ramp.points = {{0, state}};
+    progress_.ramp.load_factor = std::min(now.load_factor, std::nextafter(1.0, 0.0)); // until the end
+    interrupted = !accept(state, {now.load_factor, now.newton, true, now.last_arc}, Reached::along_path);
+    return !interrupted;
+  };
+  watcher.on_cutback = [this](double) {
+    if (observer_.on_cutback) observer_.on_cutback(progress_.followed->load_factor, {});
+  };
+  const fem::ContinuationOptions arcs{.newton = options_.newton};
+  fem::ContinuationProgress progress = before;
+  const fem::ContinuationEnd end = fem::continuation(equilibrium_, path_, arcs, progress, watcher);
+  if (interrupted) return Outcome{Ending::interrupted};
+  const double s = progress.load_factor;
+  progress_.followed.reset();
+  if (end == fem::ContinuationEnd::reached_load && s >= 1) {
+    progress_.ramp.load_factor = 1;
+    return std::nullopt;
+  }
+  return Outcome{
+      Ending::gave_up, "no equilibrium",
+      end == fem::ContinuationEnd::reached_load
+          ? fmt::format("step \"{}\": the path led back to the loads at the step's beginning", step_.name)
+          : fmt::format("step \"{}\": the path was followed through {} states, to {}; there it {}",
+                        step_.name, progress.steps, load_text(s),
+                        end == fem::ContinuationEnd::gave_up ? "could not be followed any further"
+                                                             : "was left: that is the most")};
+}
+
+/// Where a film cannot be let go slowly, as its frame gives way under dead forces, it is let go at once.
+std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
+  if (++progress_.jumps > most_jumps) return failure(trouble);
+  fem::RampProgress& ramp = progress_.ramp;
+  fem::State state = last();
+  double s = trouble.ramp.failed_at;
+  Eigen::VectorXd direction;
+  if (step_.kind == StepKind::release) {
+    s = 1;
+    fem::Balance pull;
+    fem::State released = loaded(state, s);
+    equilibrium_.balance(released, pull);
+    direction = -pull.force.head(model().dofs.free_count());
+  } else if (trouble.critical) {
+    state = trouble.critical->state;
+    s = std::min(1.0, trouble.critical->load_factor + beyond);
+    direction = trouble.critical->mode.direction;
+    accept_critical(*trouble.critical); // an interrupt waits until the device has landed
+  } else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(state, ramp.load_factor))) {
+    direction = mode->direction;
+  } else {
+    return failure(trouble);
+  }
+  state = loaded(std::move(state), s);
+  const fem::JumpResult result = fem::jump(equilibrium_, state, direction, {.newton = options_.newton});
+  if (result.end != fem::JumpEnd::landed) {
+    Outcome outcome = failure(trouble);
+    outcome.message += fmt::format(". No stable state was found to jump to: the device {}",
+                                   result.end == fem::JumpEnd::ran_away ? "runs away" : "is stuck");
+    return outcome;
+  }
+  state = model().settled(std::move(state));
+  ramp.load_factor = s;
+  ramp.increment = 1.0 / options_.increments;
+  ramp.at_break = ramp.turns = true;
+  ramp.unstable_modes = result.newton.unstable_modes;
+  ramp.slope.reset();
+  ramp.points = {{0, state}};
+  if (!accept(state, {s, result.newton}, Reached::by_jump)) return Outcome{Ending::interrupted};
+  return std::nullopt;
+}
+
+/// Integration points at which wrinkled film has no width that balances the field of these loads, and how
+/// many there are; empty where there is none.
+std::vector<std::size_t> StepRun::lost_film(double s) const {
+  const auto film = model().sample(loaded(last(), s)).film;
+  const auto lost = static_cast<std::size_t>(std::ranges::count_if(
+      film, [](const fem::MembraneSample& sample) { return sample.tension == materials::Tension::lost; }));
+  if (lost == 0) return {};
+  return {lost, film.size()};
+}
+
+Outcome StepRun::failure(const Trouble& trouble) const {
+  const double reached = progress_.ramp.load_factor;
+  if (trouble.ramp.failure.outcome == fem::Outcome::singular)
+    return {Ending::gave_up, "singular tangent",
+            fmt::format(
+                "step \"{}\" stopped at load factor {:.4g}: the tangent is singular. Part of the device can "
+                "move freely: hold it with [[support]]; an unstretched film in space has no stiffness normal "
+                "to itself: stretch it or use model = \"planar\"",
+                step_.name, reached)};
+  if (const auto lost = lost_film(trouble.ramp.failed_at); !lost.empty())
+    return {Ending::gave_up, "electromechanical loss",
+            fmt::format(
+                "step \"{}\" stopped at {}: beyond it the field pulls wrinkled film wider without limit (in "
+                "{} of "
+                "{} integration points at {}), whatever its wrinkles take up. Lower the drive or stretch the "
+                "film more",
+                step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
+  if (!trouble.critical && !timed() && equilibrium_.is_slack(last()))
+    return {
+        Ending::gave_up, "slack film",
+        fmt::format("slack film: step \"{}\" stopped at {}, where the film carries no tension, and no state "
+                    "was found in which it carries the loads at {}. {}",
+                    step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
+                    options_.newton.wrinkles ? "Stretch it a little"
+                                             : "Let it wrinkle (wrinkling = \"tension field\") or stretch it "
+                                               "a little")};
+  const std::string more =
+      " Lower the drive, or stiffen the device or stretch the film more, to stay below it; "
+      "or let the step go on with on_instability = ";
+  if (trouble.critical) {
+    const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
+    if (timed())
+      return {Ending::gave_up, "limit point",
+              fmt::format("limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of "
+                          "the step.{}\"jump\"",
+                          load_text(reached), last().time, more)};
+    return {
+        Ending::gave_up, "limit point",
+        fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}\"follow\" or \"jump\"",
+                    load_text(trouble.critical->load_factor),
+                    reached > 0 ? "up to " + load_text(reached) : "at the beginning of the step",
+                    trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
+                    branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable"
+                                 : "",
+                    more)};
+  }
+  if (trouble.unstable_modes > 0)
+    return {
+        Ending::gave_up, "instability",
+        fmt::format("step \"{}\" stopped at {}: the equilibrium at {} has {} unstable mode{}, so a device "
+                    "would leave it. Change what makes it unstable (compressed film, a voltage beyond a "
+                    "limit point); or let the step go on with on_instability = \"follow\" or \"jump\"",
+                    step_.name, load_text(reached), load_text(trouble.ramp.failed_at), trouble.unstable_modes,
+                    trouble.unstable_modes == 1 ? "" : "s")};
+  if (trouble.ramp.failure.outcome == fem::Outcome::off_path)
+    return {Ending::gave_up, "limit point",
+            fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
+                        "of another branch beyond it.{}\"follow\" or \"jump\"",
+                        load_text(reached), more)};
+  return {Ending::gave_up, "no equilibrium",
+          fmt::format("step \"{}\" stopped at load factor {:.4g}: no equilibrium found at {:.4g}, and the "
+                      "increments are smaller than solver.smallest_increment. A finer mesh may help{}",
+                      step_.name, reached, trouble.ramp.failed_at,
+                      timed() ? "; or let the step go on with on_instability = \"jump\"" : "")};
+}
+
+} // namespace dielast::cases

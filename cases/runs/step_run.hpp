@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/runs/step_loads.hpp"
+#include "fem/paths/instability.hpp"
+#include "post/step_record.hpp"
+
+namespace dielast::cases {
+
+/// Where a step stands between two accepted states: with it, it goes on bit for bit.
+struct StepProgress {
+  fem::RampProgress ramp;
+  std::optional<fem::ContinuationProgress> followed; ///< a path past a critical point, while it is followed
+  int jumps = 0;
+};
+
+/// How an accepted state was reached.
+enum class Reached { along_path, by_jump };
+
+/// Whether events of this kind are critical points: "limit point" or "bifurcation".
+bool is_critical(const std::string& kind);
+
+/// What a step tells of itself; every member may be left out.
+struct StepObserver {
+  std::function<void(double load_factor)> on_try;
+  std::function<void(const fem::Iteration&)> on_iteration;
+  std::function<void(double load_factor, const fem::NewtonResult&)> on_cutback;
+  /// A critical point has been located; the event says what it is.
+  std::function<void(const fem::CriticalPoint&, const post::Event&)> on_critical;
+  /// Whether physics allows a state under load control; a step that gets to no other one gives up.
+  std::function<bool(double load_factor, const fem::State&)> admits;
+  /// Returns false to stop here (interrupt). Dashpots of the state are frozen.
+  std::function<bool(const fem::State&, const fem::Increment&, Reached)> on_accept;
+};
+
+enum class Ending { complete, gave_up, interrupted };
+
+struct Outcome {
+  Ending ending = Ending::complete;
+  std::string kind{};    ///< gave_up: "limit point", "instability", "singular tangent", "no equilibrium", ...
+  std::string message{}; ///< gave_up: what happened and what to do
+};
+
+/// Takes a device through one step: under load control and, where that ends, along the path by arclength or
+/// to the next stable state, as the step wants it.
+class StepRun {
+ public:
+  StepRun(fem::Equilibrium& equilibrium, const Step& step, const fem::LoadPath& path,
+          const fem::RampOptions& options, StepProgress& progress, const StepObserver& observer)
+      : equilibrium_(equilibrium), step_(step), path_(path), options_(options), progress_(progress),
+        observer_(observer) {}
+
+  Outcome run();
+
+ private:
+  struct Trouble {
+    fem::RampResult ramp;                       ///< how load control ended
+    std::optional<fem::CriticalPoint> critical; ///< where, if it could be located
+    int unstable_modes = 0;                     ///< of a state that was reached and is not accepted
+  };
+  bool timed() const { return options_.duration > 0; }
+  const fem::Model& model() const { return equilibrium_.model(); }
+  const fem::State& last() const { return progress_.ramp.points.back().state; }
+  fem::State loaded(fem::State state, double s) const;
+  bool accept(const fem::State& state, const fem::Increment& increment, Reached reached);
+  bool on_ramp(const fem::RampProgress& now, const fem::Increment& increment);
+  bool stops() const { return step_.on_instability == OnInstability::stop && !options_.inertia; }
+  bool follows() const;
+  std::optional<fem::CriticalPoint> locate(double s) const;
+  std::optional<fem::CriticalPoint> limit_in_time() const;
+  void announce(const fem::CriticalPoint& critical, bool ends);
+  bool accept_critical(const fem::CriticalPoint& critical);
+  std::optional<Outcome> leave(const Trouble& trouble);
+  std::optional<Outcome> follow();
+  std::optional<Outcome> jump(const Trouble& trouble);
+  std::string load_text(double s) const;
+  std::vector<std::size_t> lost_film(double s) const;
+  Outcome failure(const Trouble& trouble) const;
+
+  fem::Equilibrium& equilibrium_;
+  const Step& step_;
+  const fem::LoadPath& path_;
+  const fem::RampOptions& options_;
+  StepProgress& progress_;
+  const StepObserver& observer_;
+  std::optional<Trouble> leaving_; ///< the step leaves its path
+};
+
+} // namespace dielast::cases

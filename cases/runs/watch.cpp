@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/watch.hpp"
+
+#include "post/engineering.hpp"
+#include "post/reductions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+
+namespace {
+
+bool is_cell(const std::string& place) { return place.starts_with("cell["); }
+
+} // namespace
+
+Watch::Watch(const Device& device) : device_(device), lines_(device.mesh.walls()) {
+  if (device.wall_width && lines_) contacts_.emplace(device.mesh, *lines_, *device.wall_width);
+}
+
+std::string Watch::place_of_triangle(int triangle) const {
+  for (const auto& [name, set] : device_.mesh.cell_sets)
+    if (is_cell(name) && std::binary_search(set.cells.begin(), set.cells.end(), triangle)) return name;
+  return "";
+}
+
+std::string Watch::place_of_line(int line) const { return cell_of(line, line); }
+
+/// The lattice cell whose outline has both beams, or one cell of each.
+std::string Watch::cell_of(int line, int other) const {
+  std::string one_of_first, one_of_other;
+  for (const auto& [name, nodes] : device_.mesh.node_sets) {
+    if (!is_cell(name)) continue;
+    const auto has = [&nodes = nodes, this](int beam) {
+      const auto ends = lines_->cell(beam);
+      return std::binary_search(nodes.begin(), nodes.end(), ends[0]) &&
+             std::binary_search(nodes.begin(), nodes.end(), ends[1]);
+    };
+    const bool first = has(line), second = has(other);
+    if (first && second) return name;
+    if (first) one_of_first = name;
+    if (second) one_of_other = name;
+  }
+  return one_of_first + " and " + one_of_other;
+}
+
+std::vector<post::Event> Watch::check(const fem::State& state, const post::Extremes& extremes,
+                                      int unstable_modes) {
+  std::vector<post::Event> events;
+  const auto begins = [&](bool holds, const std::string& kind) {
+    if (!holds) active.erase(kind);
+    return holds && active.insert(kind).second;
+  };
+  if (const auto wrinkles = extremes.find("tension_state", post::Extreme::maximum);
+      device_.tension_field && wrinkles && begins(wrinkles->value > 0, "loss of tension"))
+    events.push_back({"loss of tension", place_of_triangle(wrinkles->cell),
+                      fmt::format("the film is {} here: it carries tension in {}",
+                                  wrinkles->value > 1 ? "slack" : "wrinkled",
+                                  wrinkles->value > 1 ? "no direction" : "one direction only")});
+  if (const auto stress = extremes.find("min_principal_stress", post::Extreme::minimum);
+      !device_.tension_field && stress && begins(stress->value < -smallest_stress, "loss of tension"))
+    events.push_back(
+        {"loss of tension", place_of_triangle(stress->cell),
+         fmt::format(
+             "the film is compressed here ({}): it would wrinkle, which this membrane does not resolve",
+             post::engineering(stress->value, "Pa"))});
+  if (const auto ratio = extremes.find("breakdown_ratio", post::Extreme::maximum);
+      ratio && begins(ratio->value >= 1, "breakdown"))
+    events.push_back({"breakdown", place_of_triangle(ratio->cell),
+                      fmt::format("the electric field is {:.3g} times the breakdown field", ratio->value)});
+  if (const auto ratio = extremes.find("yield_ratio", post::Extreme::maximum);
+      ratio && begins(ratio->value >= 1, "wall yield"))
+    events.push_back({"wall yield", place_of_line(ratio->cell),
+                      fmt::format("a wall's fibre is strained {:.3g} times its yield strain", ratio->value)});
+  if (contacts_) {
+    const auto found = contacts_->find(state);
+    if (begins(!found.empty(), "wall contact")) {
+      const auto& worst = found.front();
+      events.push_back(
+          {"wall contact", cell_of(worst.lines[0], worst.lines[1]),
+           fmt::format("walls touch at {} place{}; the nearest centrelines are {} apart, the walls are {} "
+                       "wide. Contact is not resisted: the shape beyond it is not what a device does",
+                       found.size(), found.size() == 1 ? "" : "s",
+                       worst.distance > 1e-9 ? post::engineering(worst.distance, "m") : "0",
+                       post::engineering(*device_.wall_width, "m"))});
+    }
+  }
+  if (begins(unstable_modes > 0, "instability"))
+    events.push_back(
+        {"instability", "",
+         fmt::format("the equilibrium is unstable ({} unstable mode{}): a device under these loads would "
+                     "leave it",
+                     unstable_modes, unstable_modes == 1 ? "" : "s")});
+  return events;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/devices/device.hpp"
+#include "fem/elements/wall_contact.hpp"
+#include "post/reductions.hpp"
+#include "post/step_record.hpp"
+
+#include <optional>
+#include <set>
+#include <string>
+
+namespace dielast::cases {
+
+/// Below this a stress is round-off (Pa); moduli are thousands.
+constexpr double smallest_stress = 1e-3;
+
+/// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
+/// that touch, unstable equilibrium. An event is told when its condition begins, not again while it lasts.
+class Watch {
+ public:
+  /// The device must outlive this.
+  explicit Watch(const Device& device);
+
+  std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes);
+
+  /// Kinds of the conditions that hold now; stored with a checkpoint.
+  std::set<std::string> active;
+
+ private:
+  std::string cell_of(int line, int other) const;
+  std::string place_of_triangle(int triangle) const;
+  std::string place_of_line(int line) const;
+
+  const Device& device_;
+  std::optional<fem::WallContactSearch> contacts_;
+  const meshing::CellBlock* lines_;
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/studies/study.hpp"
+
+#include "cases/console/terminal.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/readers/resolved.hpp"
+#include "cases/runs/run.hpp"
+#include "cases/studies/study_report.hpp"
+#include "cases/studies/study_targets.hpp"
+#include "meshing/mesh_error.hpp"
+#include "post/files/results_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace dielast::cases {
+
+namespace {
+
+/// In the child: runs one point and ends the process. Why it failed is left in the point's mark.
+[[noreturn]] void run_point(const Study& study, const StudyPoint& point, bool resume) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  int code = static_cast<int>(ExitCode::usage_or_file);
+  std::string message;
+  try {
+    code = static_cast<int>(
+        run_case(read_case(study.base, point.overrides),
+                 {.directory = point.directory, .threads = 1, .resume = resume, .quiet = true}));
+  } catch (const CaseError& error) {
+    code = static_cast<int>(ExitCode::invalid_case);
+    message = error.what();
+  } catch (const meshing::MeshError& error) {
+    code = static_cast<int>(ExitCode::mesh);
+    message = error.what();
+  } catch (const std::exception& error) {
+    message = error.what();
+  }
+  try {
+    if (code != static_cast<int>(ExitCode::interrupted)) mark_done(point, code, message);
+  } catch (const std::exception&) {
+    code = static_cast<int>(ExitCode::usage_or_file);
+  }
+  std::fflush(nullptr);
+  _exit(code);
+}
+
+/// The point's directory, as far as it goes, is of the case as it is now.
+bool is_current(const Study& study, const StudyPoint& point) {
+  std::ostringstream resolved;
+  resolved << std::ifstream(point.directory / resolved_name).rdbuf();
+  try {
+    return resolved.str() == resolved_text(read_case(study.base, point.overrides));
+  } catch (const CaseError&) {
+    return false; // it fails again as quickly
+  }
+}
+
+/// Takes up how the process of a point ended; returns its exit code, -signal when it crashed.
+int exit_code_of(const StudyPoint& point, int status) {
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  if (code < 0 && !interrupted()) mark_done(point, code, fmt::format("crashed (signal {})", -code));
+  return code;
+}
+
+pid_t start(const Study& study, const StudyPoint& point, bool resume) {
+  std::fflush(nullptr); // or every child would print it again
+  const pid_t child = fork();
+  if (child == 0) run_point(study, point, resume);
+  if (child < 0) throw FileError("cannot start another process for the study's points");
+  return child;
+}
+
+/// What is there of a point before it runs.
+struct Kept {
+  std::optional<PointResult> result; ///< it need not run
+  bool resume = false;               ///< otherwise: it goes on where it was stopped
+};
+
+/// A point that has crashed or could not write its files is run again.
+Kept kept_of(const Study& study, const StudyPoint& point, bool resume) {
+  const bool current = resume && is_current(study, point);
+  auto result = current ? result_of(study, point) : std::nullopt;
+  if (result && result->exit_code >= 0 && result->exit_code != static_cast<int>(ExitCode::usage_or_file))
+    return {std::move(result)};
+  if (!current) std::filesystem::remove(point.directory / "point.json");
+  return {std::nullopt, current && !std::filesystem::exists(point.directory / "summary.json")};
+}
+
+/// One line that says how far the study is: rewritten in place on a terminal, one per point in a pipe.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::size_t total) : total_(total) {}
+
+  void done(const StudyPoint& point, int exit_code) {
+    ++done_;
+    ++ran_;
+    failed_ += exit_code != 0;
+    if (!terminal_) {
+      say("{}/{}  {}  exit {}\n", done_, total_, fmt::join(point.overrides, "  "), exit_code);
+      std::fflush(stdout);
+    }
+    show();
+  }
+  void skipped() { ++done_; }
+  void show() const {
+    if (!terminal_) return;
+    constexpr std::size_t width = 30;
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const std::size_t filled = total_ ? width * done_ / total_ : width;
+    const std::string left = ran_
+                                 ? fmt::format("about {:.0f} s left", elapsed / static_cast<double>(ran_) *
+                                                                          static_cast<double>(total_ - done_))
+                                 : "";
+    say("\r[{:#>{}}{:->{}}] {}/{}  {} failed  {:.0f} s  {}\033[K", "", filled, "", width - filled, done_,
+        total_, failed_, elapsed, left);
+    std::fflush(stdout);
+  }
+  void end() const {
+    if (terminal_) say("\n");
+  }
+
+ private:
+  bool terminal_ = isatty(STDOUT_FILENO);
+  std::size_t total_, done_ = 0, ran_ = 0, failed_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+ExitCode run_study(const Study& study, const StudySettings& settings) {
+  post::ResultsFolder folder(settings.directory, "study");
+  const Case base = read_case(study.base);
+  const std::string resolved = resolved_text(base);
+  if (settings.resume) require_unchanged(settings.directory, resolved);
+  const std::vector<StudyPoint> points = study_points(study, settings.directory);
+  std::vector<std::string> names;
+  for (const StudyPoint& point : points) names.push_back(point.directory.filename());
+  std::vector<std::string> keep{resolved_name};
+  keep.insert(keep.end(), names.begin(), names.end());
+  for (const std::string& name : folder.names())
+    if (name.starts_with(target_folder)) keep.push_back(name);
+  folder.begin(settings.resume ? std::move(keep) : std::vector<std::string>{});
+  folder.write(resolved_name, resolved);
+  for (const std::string& name : names) folder.add(name);
+  const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
+                                                       : std::max(1U, std::thread::hardware_concurrency());
+  say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
+      settings.directory.string());
+  for (const Diagnostic& warning : base.warnings) say(stderr, "{}\n", warning.text());
+  ProgressLine progress(points.size());
+  struct Waiting {
+    const StudyPoint* point;
+    bool resume;
+  };
+  std::vector<Waiting> waiting;
+  for (const StudyPoint& point : points) {
+    const Kept kept = kept_of(study, point, settings.resume);
+    if (kept.result)
+      progress.skipped();
+    else
+      waiting.push_back({&point, kept.resume});
+  }
+  progress.show();
+
+  std::map<pid_t, const StudyPoint*> running;
+  for (std::size_t next = 0; next < waiting.size() || !running.empty();) {
+    while (next < waiting.size() && running.size() < processes && !interrupted()) {
+      const auto& [point, resume] = waiting[next++];
+      running[start(study, *point, resume)] = point;
+    }
+    if (running.empty()) break; // interrupted
+    int status = 0;
+    const pid_t ended = waitpid(-1, &status, 0);
+    const auto found = running.find(ended);
+    if (found == running.end()) continue;
+    const StudyPoint& point = *found->second;
+    running.erase(found);
+    const int code = exit_code_of(point, status);
+    if (code != static_cast<int>(ExitCode::interrupted)) progress.done(point, code);
+    folder.write("study.csv", study_table(study, points));
+  }
+  progress.end();
+  if (interrupted()) {
+    say("interrupted; go on with --resume\n");
+    return ExitCode::interrupted;
+  }
+  folder.write("study.csv", study_table(study, points));
+  const auto solutions = solve_targets(
+      study, points, settings.directory, [&](const StudyPoint& point) -> std::optional<PointResult> {
+        folder.add(point.directory.filename());
+        const Kept kept = kept_of(study, point, settings.resume);
+        if (kept.result || interrupted()) return kept.result;
+        int status = 0;
+        const pid_t child = start(study, point, kept.resume);
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        }
+        const int code = exit_code_of(point, status);
+        if (code == static_cast<int>(ExitCode::interrupted)) return std::nullopt;
+        say("target: {}  exit {}\n", fmt::join(point.overrides, "  "), code);
+        return result_of(study, point);
+      });
+  if (interrupted()) {
+    say("interrupted; go on with --resume\n");
+    return ExitCode::interrupted;
+  }
+  const std::vector<std::string> targets = target_lines(study, points, solutions);
+  folder.write("report.html", study_report(study, points, targets).html());
+
+  int failed = 0;
+  for (const StudyPoint& point : points)
+    if (const auto result = result_of(study, point); !result || result->exit_code != 0) {
+      ++failed;
+      say("failed: {}: {}\n", fmt::join(point.overrides, "  "), result ? result->message : "not finished");
+    }
+  for (const std::string& line : targets) say("{}\n", line);
+  say("{} of {} points in {}\n", points.size() - static_cast<std::size_t>(failed), points.size(),
+      (settings.directory / "study.csv").string());
+  const bool solved =
+      std::ranges::all_of(solutions, [](const TargetSolution& one) { return one.problem.empty(); });
+  const ExitCode code = failed || !solved ? ExitCode::not_converged : ExitCode::ok;
+  folder.set_complete(static_cast<int>(code));
+  return code;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/case/study_spec.hpp"
+#include "cases/console/exit_code.hpp"
+
+#include <filesystem>
+
+namespace dielast::cases {
+
+struct StudySettings {
+  std::filesystem::path directory; ///< study.csv, report.html and one directory per point
+  int processes = 0;               ///< points at a time; 0: one per core
+  bool resume = false;             ///< keep the points that are done, go on with the others
+};
+
+/// Runs every point of a study's grid in a process of its own, so that a point that fails, or crashes, is
+/// recorded and does not stop the rest; processes die with this one. study.csv is brought up to date after
+/// every point and does not depend on their order. Returns not_converged when some point did. Throws
+/// FileError, on `resume` of another base case, too, CaseError and post::WriteError.
+ExitCode run_study(const Study& study, const StudySettings& settings);
+
+} // namespace dielast::cases

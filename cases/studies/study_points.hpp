@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/case/study_spec.hpp"
+#include "cases/console/exit_code.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dielast::cases {
+
+/// One case of a study's grid.
+struct StudyPoint {
+  int number = 0;                     ///< from 1, the last axis running fastest
+  std::vector<std::string> values;    ///< of the axes, TOML texts
+  std::vector<std::string> overrides; ///< "key=value"
+  std::filesystem::path directory;
+};
+
+/// What became of a point.
+struct PointResult {
+  int exit_code = 0;                             ///< of its run; -signal when it crashed
+  std::string message;                           ///< why it failed, "" when it did not
+  std::vector<std::optional<double>> quantities; ///< the collected ones, SI
+  std::vector<std::string> units;
+  std::vector<std::string> events; ///< kinds, in order of their first appearance
+};
+
+/// The full grid of a study, point directories below `directory`.
+std::vector<StudyPoint> study_points(const Study& study, const std::filesystem::path& directory);
+
+/// Remembers in the point's directory how its run ended; reads it back, nothing when the point was not
+/// finished, has other values or damaged results.
+void mark_done(const StudyPoint& point, int exit_code, const std::string& message);
+std::optional<PointResult> result_of(const Study& study, const StudyPoint& point);
+
+} // namespace dielast::cases

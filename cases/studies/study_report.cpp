@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/studies/study_report.hpp"
+
+#include "cases/text/units.hpp"
+#include "post/engineering.hpp"
+#include "post/files/history.hpp"
+#include "post/pictures/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace dielast::cases {
+
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+std::string unquoted(const std::string& toml) {
+  return toml.size() > 1 && toml.front() == '"' ? toml.substr(1, toml.size() - 2) : toml;
+}
+
+/// Results of the points, with the unit of each collected quantity.
+struct Collected {
+  std::vector<std::optional<PointResult>> results;
+  std::vector<std::string> units;
+
+  Collected(const Study& study, const std::vector<StudyPoint>& points) : units(study.collect.size()) {
+    for (const StudyPoint& point : points) {
+      results.push_back(result_of(study, point));
+      for (std::size_t q = 0; results.back() && q < units.size(); ++q)
+        if (units[q].empty()) units[q] = results.back()->units[q];
+    }
+  }
+  double value(std::size_t point, std::size_t quantity) const {
+    return results[point] ? results[point]->quantities[quantity].value_or(missing) : missing;
+  }
+};
+
+template<class Names>
+std::optional<std::size_t> position(const Names& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
+}
+
+std::vector<std::string> axis_names(const Study& study) {
+  std::vector<std::string> names;
+  for (const StudyAxis& axis : study.axes) names.push_back(axis.key);
+  return names;
+}
+
+/// A pure number is a strain or a ratio; studies of strains are read in percent.
+post::Ratio ratio_of(const std::string& quantity) {
+  return quantity.starts_with("eps") ? post::Ratio::percent : post::Ratio::plain;
+}
+
+post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vector<StudyPoint>& points,
+                     const Collected& collected) {
+  const auto axes = axis_names(study);
+  const auto x_axis = position(axes, spec.x), group = position(axes, spec.group);
+  const auto x_quantity = position(study.collect, spec.x);
+  post::Plot plot{.x_label = spec.x};
+  double size = 0;
+  for (const std::string& y : spec.y)
+    if (const auto q = position(study.collect, y))
+      for (std::size_t p = 0; p < points.size(); ++p)
+        if (std::isfinite(collected.value(p, *q))) size = std::max(size, std::abs(collected.value(p, *q)));
+  for (const std::string& y : spec.y) {
+    const auto q = position(study.collect, y);
+    if (!q) continue;
+    const auto scale = post::scaled_unit(size, collected.units[*q], ratio_of(y));
+    plot.y_label +=
+        fmt::format("{}{} [{}]", plot.y_label.empty() ? "" : ", ", y, scale.unit.empty() ? "1" : scale.unit);
+    std::map<std::string, post::Series> curves;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const std::string name = group ? unquoted(points[p].values[*group]) : "";
+      post::Series& series = curves[name];
+      series.label = group ? fmt::format("{}, {} = {}", y, spec.group, name) : y;
+      series.style = post::Series::Style::line_and_points;
+      if (x_axis) {
+        const auto number = written_measure(points[p].values[*x_axis]);
+        series.x.push_back(number ? number->number : static_cast<double>(p + 1));
+        plot.x_label =
+            number && !number->unit.empty() ? fmt::format("{} [{}]", spec.x, number->unit) : spec.x;
+      } else {
+        series.x.push_back(x_quantity ? collected.value(p, *x_quantity) : static_cast<double>(p + 1));
+      }
+      series.y.push_back(collected.value(p, *q) * scale.factor);
+    }
+    for (auto& [name, series] : curves) plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+} // namespace
+
+std::string study_table(const Study& study, const std::vector<StudyPoint>& points) {
+  const Collected collected(study, points);
+  std::string table = "point";
+  for (const StudyAxis& axis : study.axes) table += "," + post::csv_cell(axis.key);
+  for (std::size_t q = 0; q < study.collect.size(); ++q)
+    table += fmt::format(",{}[{}]", study.collect[q], collected.units[q]);
+  table += ",exit_code,events,message\n";
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    table += fmt::format("{}", points[p].number);
+    for (const std::string& value : points[p].values) table += "," + post::csv_cell(unquoted(value));
+    for (std::size_t q = 0; q < study.collect.size(); ++q) {
+      const double value = collected.value(p, q);
+      table += std::isfinite(value) ? fmt::format(",{}", value) : ",";
+    }
+    const auto& result = collected.results[p];
+    table += result ? fmt::format(",{},{},{}\n", result->exit_code,
+                                  post::csv_cell(fmt::format("{}", fmt::join(result->events, "; "))),
+                                  post::csv_cell(result->message))
+                    : ",,,\n";
+  }
+  return table;
+}
+
+post::Report study_report(const Study& study, const std::vector<StudyPoint>& points,
+                          const std::vector<std::string>& targets) {
+  const Collected collected(study, points);
+  post::Report report{
+      .title = study.title,
+      .subtitle = fmt::format("study of {}, {} points", study.base.filename().string(), points.size()),
+      .footer = "dielast " DIELAST_VERSION};
+  const auto failed = std::count_if(collected.results.begin(), collected.results.end(),
+                                    [](const auto& result) { return !result || result->exit_code != 0; });
+  report.status = failed ? post::Cell{fmt::format("{} points failed", failed), post::Tone::warning}
+                         : post::Cell{"complete", post::Tone::good};
+  if (!targets.empty()) {
+    post::Section found{"Targets", {}};
+    for (const std::string& line : targets) found.blocks.push_back(post::Paragraph{line});
+    report.sections.push_back(std::move(found));
+  }
+  std::vector<post::Plot> plots;
+  for (const StudyPlot& spec : study.plots) plots.push_back(make_plot(study, spec, points, collected));
+  post::Section drawn{"Plots", {}};
+  for (std::string& svg : post::render_svg(plots))
+    if (!svg.empty()) drawn.blocks.push_back(post::Image{std::move(svg), ""});
+  if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
+
+  post::Table table{{"point"}, {}};
+  for (const StudyAxis& axis : study.axes) table.header.push_back(axis.key);
+  for (const std::string& name : study.collect) table.header.push_back(name);
+  for (const char* last : {"exit", "events", "message"}) table.header.emplace_back(last);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    std::vector<post::Cell> row{std::to_string(points[p].number)};
+    for (const std::string& value : points[p].values) row.emplace_back(unquoted(value));
+    for (std::size_t q = 0; q < study.collect.size(); ++q)
+      row.emplace_back(
+          post::engineering(collected.value(p, q), collected.units[q], ratio_of(study.collect[q])));
+    if (const auto& result = collected.results[p]) {
+      row.emplace_back(std::to_string(result->exit_code),
+                       result->exit_code ? post::Tone::bad : post::Tone::plain);
+      row.emplace_back(fmt::format("{}", fmt::join(result->events, "; ")), post::Tone::warning);
+      row.emplace_back(result->message);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  report.sections.push_back({"Points", {std::move(table)}});
+  return report;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/language/conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+constexpr double smallest_resistance = 1e-3; ///< Ohm: below, charging is quicker than any step of time
+
+const std::vector<Choice> axes{{"x", "along x"}, {"y", "along y"}, {"z", "normal to the undeformed film"}};
+
+/// A key whose words are the indices at which an array of flags is set.
+template<class T, class Flags>
+Binding flags(Flags T::*member) {
+  return {[member](void* object, const Value& value) {
+            auto& set = static_cast<T*>(object)->*member;
+            set = {};
+            for (const Scalar& word : value) set.at(static_cast<std::size_t>(word.number)) = true;
+          },
+          [member](const void* object) -> std::optional<Value> {
+            Value value;
+            const auto& set = static_cast<const T*>(object)->*member;
+            for (std::size_t i = 0; i < set.size(); ++i)
+              if (set[i]) value.push_back({static_cast<double>(i), ""});
+            return value.empty() ? std::nullopt : std::optional(value);
+          }};
+}
+
+const std::vector<Choice> motions{
+    {"x", "along x"},      {"y", "along y"},      {"z", "normal to the undeformed film"},
+    {"turn_x", "about x"}, {"turn_y", "about y"}, {"turn_z", "about z, the normal of the undeformed film"}};
+
+Section electrode_section() {
+  Section section = list_section("electrode", "a charged part of the film", each(&Case::electrodes));
+  section.keys = {
+      text("name", to(&Electrode::name), "its name, for [drive.<name>]").distinct(),
+      text("place", to(&Electrode::place), "the part of the film that it covers").refers_to(Reference::place),
+      measure("sheet_resistance", "Ohm", to(&Electrode::sheet_resistance),
+              "per square of the deformed film, both faces together; without it the voltage is the same "
+              "everywhere")
+          .at_least(smallest_resistance)
+          .optional()
+          .only_with(when::time_passes()),
+      text("terminal", to(&Electrode::terminal),
+           "place where an electrode with a sheet_resistance is connected")
+          .optional()
+          .refers_to(Reference::place),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& electrode = *static_cast<const Electrode*>(object);
+    for (const Section& one : case_schema().sections)
+      if (one.shape == Section::Shape::by_electrode && one.find_key(electrode.name, ""))
+        return Conflict{"name", fmt::format("a key of [{0}], from which [{0}.{1}] could not be told",
+                                            one.name, electrode.name)};
+    if (electrode.sheet_resistance.has_value() == !electrode.terminal.empty()) return std::nullopt;
+    return electrode.terminal.empty()
+               ? Conflict{"terminal", "missing; say where the resistive electrode is connected"}
+               : Conflict{"sheet_resistance", "missing; only a resistive electrode has a terminal"};
+  };
+  return section;
+}
+
+/// [support.displacement]
+Section displacement_section() {
+  Section section;
+  section.name = "displacement";
+  section.meaning = "where the steps of kind \"move\" and \"transient\" take a support";
+  section.access = same_object();
+  section.access.entries = [](const void* parent) {
+    return static_cast<const Support*>(parent)->moves() ? std::vector<Access::Entry>{{"", parent}}
+                                                        : std::vector<Access::Entry>{};
+  };
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    Binding motion = to_part<Support>([i](auto& support) -> auto& { return support.motion[i]; });
+    motion.set = [i](void* object, const Value& value) {
+      auto& support = *static_cast<Support*>(object);
+      assign(support.motion[i], value);
+      support.fixed[i] = true; // what is moved is held
+    };
+    section.keys.push_back(
+        wave(axes[i].word, "m", motion, "displacement " + axes[i].meaning + ", from the film as drawn")
+            .optional());
+  }
+  return section;
+}
+
+Section support_section() {
+  Section section = list_section("support", "a place that is held or moved", each(&Case::supports));
+  section.keys = {
+      text("place", to(&Support::place), "the place that is held").refers_to(Reference::place),
+      word("fix", motions, flags(&Support::fixed),
+           "what its nodes cannot do; walls have rotations, film has none")
+          .values(1, 6)
+          .optional(),
+  };
+  section.sections.push_back(displacement_section());
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    if (std::ranges::count(static_cast<const Support*>(object)->fixed, true) > 0) return std::nullopt;
+    return Conflict{"fix", "missing; give the directions in which it is held, such as [\"x\", \"y\"], or a "
+                           "displacement"};
+  };
+  return section;
+}
+
+Section load_section() {
+  Section section = list_section(
+      "load", "a dead force, applied by the steps of kind \"force\" and \"transient\"", each(&Case::loads));
+  section.keys = {
+      text("place", to(&Load::place), "the place over whose nodes it is spread evenly")
+          .refers_to(Reference::place),
+      wave("force", "N", to(&Load::force), "components along x, y and z").values(3, 3),
+  };
+  return section;
+}
+
+/// Keys of what pulls at the distance of two places.
+template<class T>
+std::vector<Key> distance_keys() {
+  return {text("between", to(&T::between), "the two places (their centroids)")
+              .values(2, 2)
+              .refers_to(Reference::place),
+          word("along", axes, to(&T::along), "axis along which the distance is taken")};
+}
+
+Section spring_section() {
+  Section section = list_section("spring", "a linear spring between two places", each(&Case::springs));
+  section.keys = distance_keys<Spring>();
+  section.keys.push_back(
+      measure("stiffness", "N/m", to(&Spring::stiffness), "force per change of the distance").above(0));
+  section.keys.push_back(
+      measure("free_length", "m", to(&Spring::free_length), "distance at which it is free").at_least(0));
+  return section;
+}
+
+Section linkage_section() {
+  Section section = list_section(
+      "linkage",
+      "a weight P on a linkage; with l = distance + offset it pulls two places "
+      "apart by P (arm^2 + l^2 - strut^2) / (2 arm l); its potential, but for a constant, is part of "
+      "the elastic energy",
+      each(&Case::linkages));
+  section.keys = distance_keys<Linkage>();
+  section.keys.push_back(measure("force", "N", to(&Linkage::force), "the weight P"));
+  section.keys.push_back(
+      measure("arm", "m", to(&Linkage::arm), "side of the triangle that carries the weight").above(0));
+  section.keys.push_back(
+      measure("strut", "m", to(&Linkage::strut), "side of the triangle that holds it").above(0));
+  section.keys.push_back(
+      measure("offset", "m", to(&Linkage::offset), "length of the third side beyond the distance")
+          .otherwise("0 m"));
+  return section;
+}
+
+/// Access to what there is for each electrode.
+template<class T>
+Access of_electrodes(std::map<std::string, T> Case::*part) {
+  return {[part](void* parent, const std::string& electrode) -> void* {
+            return &(static_cast<Case*>(parent)->*part)[electrode];
+          },
+          [part](const void* parent) {
+            std::vector<Access::Entry> entries;
+            for (const auto& [electrode, object] : static_cast<const Case*>(parent)->*part)
+              entries.push_back({electrode, &object});
+            return entries;
+          }};
+}
+
+Section circuit_section() {
+  Section section;
+  section.name = "circuit";
+  section.meaning = "what is between an electrode and its source while time passes; with several electrodes "
+                    "[circuit.<electrode>]";
+  section.presence = Section::Presence::optional;
+  section.shape = Section::Shape::by_electrode;
+  section.access = of_electrodes(&Case::circuits);
+  section.acts = when::circuits_matter();
+  section.keys = {
+      measure("resistance", "Ohm", to(&Circuit::resistance), "between the source and the electrode")
+          .at_least(smallest_resistance),
+      measure("leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
+              "through the film under the whole electrode; without it none leaks. In steps without a "
+              "duration it divides the voltage as it does in the long run")
+          .at_least(smallest_resistance)
+          .optional(),
+      measure("current_limit", "A", to(&Circuit::current_limit),
+              "current that the source gives or takes at most")
+          .above(0)
+          .optional()
+          .only_with(when::time_passes()),
+  };
+  return section;
+}
+
+/// Access to a section that is there or not.
+template<class T>
+Access present(std::optional<T> Case::*part) {
+  return {[part](void* parent, const std::string&) -> void* {
+            return &(static_cast<Case*>(parent)->*part).emplace();
+          },
+          [part](const void* parent) {
+            const auto& object = static_cast<const Case*>(parent)->*part;
+            return object ? std::vector<Access::Entry>{{"", &*object}} : std::vector<Access::Entry>{};
+          }};
+}
+
+template<class T>
+std::vector<Key> mass_keys() {
+  return {measure("mass", "kg", to(&T::mass), "its mass").at_least(0),
+          measure("damping", "N s/m", to(&T::damping), "of a damper between it and the ground")
+              .at_least(0)
+              .otherwise("0 N.s/m")
+              .only_with(when::dampers_matter())};
+}
+
+Section plate_section() {
+  Section section;
+  section.name = "plate";
+  section.meaning = "a rigid plate that moves along z and carries the film's edge with it";
+  section.presence = Section::Presence::optional;
+  section.access = present(&Case::plate);
+  section.keys = mass_keys<Plate>();
+  section.keys.push_back(text("at", to(&Plate::place), "the place of the film that it carries")
+                             .refers_to(Reference::place)
+                             .otherwise("inner"));
+  return section;
+}
+
+Section point_mass_section() {
+  Section section = list_section("point_mass", "a mass on the film", each(&Case::point_masses));
+  section.keys = mass_keys<PointMass>();
+  section.keys.push_back(
+      text("place", to(&PointMass::place), "the place over whose nodes it is spread evenly")
+          .refers_to(Reference::place));
+  return section;
+}
+
+Section body_section() {
+  Section section = list_section(
+      "body",
+      "a rigid body that carries places of the film; its name is a place, too: its pivot or its centre",
+      each(&Case::bodies));
+  section.keys = {
+      text("name", to(&Body::name), "its name").distinct(),
+      text("places", to(&Body::places), "the places whose nodes move with it")
+          .values(1, 100)
+          .refers_to(Reference::place),
+      measure("mass", "kg", to(&Body::mass), "its mass").at_least(0).otherwise("0 kg"),
+      measure("inertia", "kg m^2", to(&Body::inertia),
+              "moments of inertia about axes along x, y and z through its centre; in the plane only the last "
+              "acts")
+          .values(3, 3)
+          .at_least(0)
+          .otherwise("0 kg.m^2")
+          .or_one_for_all()
+          .only_with(when::masses_matter()),
+      measure("centre", "m", to(&Body::centre), "of its mass, as drawn; without it the mean of its nodes")
+          .values(3, 3)
+          .optional(),
+      measure("pivot", "m", to(&Body::pivot), "a point of the body, as drawn, that stays where it is")
+          .values(3, 3)
+          .optional(),
+      word("fix", motions, flags(&Body::fixed), "what its own place cannot do").values(1, 6).optional(),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& body = *static_cast<const Body*>(object);
+    const auto& [x, y, z] = body.inertia;
+    if (body.mass == 0 && x + y + z > 0) return Conflict{"inertia", "a body without a mass has none"};
+    if (x > y + z || y > z + x || z > x + y)
+      return Conflict{"inertia", "no body has it: each moment is at most the sum of the two others"};
+    return std::nullopt;
+  };
+  return section;
+}
+
+Section gravity_section() {
+  Section section;
+  section.name = "gravity";
+  section.meaning = "what the steps of kind \"weight\" apply";
+  section.access = member(&Case::gravity);
+  section.keys = {measure("acceleration", "m/s^2", to(&Gravity::acceleration), "of free fall")
+                      .at_least(0)
+                      .otherwise("9.81 m/s^2")
+                      .only_with(when::weight()),
+                  number("direction", to(&Gravity::direction), "where it pulls; any length")
+                      .values(3, 3)
+                      .otherwise("[0, 0, -1]")
+                      .checked([](const Value& value) {
+                        const bool zero =
+                            std::ranges::all_of(value, [](const Scalar& c) { return c.number == 0; });
+                        return std::string(zero ? "found no direction" : "");
+                      })
+                      .only_with(when::weight()),
+                  flag("film", to(&Gravity::film), "whether the film's own weight counts")
+                      .otherwise("false")
+                      .only_with(when::weight())};
+  return section;
+}
+
+Section chamber_section() {
+  Section section;
+  section.name = "chamber";
+  section.meaning = "a chamber between the film, with its plate, and the plane z = 0; inside a balloon";
+  section.presence = Section::Presence::optional;
+  section.access = present(&Case::chamber);
+  section.keys = {
+      wave("pressure", "Pa", to(&Chamber::pressure),
+           "pressure that the steps of kind \"pressure\" reach, and \"transient\" follows")
+          .optional()
+          .only_with(when::chamber_is_open()),
+      wave(
+          "volume", "m^3", to(&Chamber::volume),
+          "pumped volume Q that the steps of kind \"inflate\" reach, measured without pressure: the pressure "
+          "follows, and the chamber's own volume is Q / (1 + pressure / bulk_modulus)")
+          .at_least(0)
+          .optional()
+          .only_with(when::volume_applies()),
+      measure("bulk_modulus", "Pa", to(&Chamber::bulk_modulus),
+              "of the liquid that fills the chamber; of a gas the pressure outside")
+          .at_least(1)
+          .otherwise("2.2 GPa")
+          .only_with(when::chamber_is_closed()),
+  };
+  return section;
+}
+
+Section drive_section() {
+  Section section;
+  section.name = "drive";
+  section.meaning = "how an electrode is driven; with several electrodes [drive.<electrode>]";
+  section.shape = Section::Shape::by_electrode;
+  section.access = of_electrodes(&Case::drives);
+  section.keys = {
+      wave("voltage", "V", to(&Drive::voltage),
+           "voltage that the steps of kind \"voltage\" reach, and \"transient\" follow")
+          .optional()
+          .only_with(when::voltage_applies()),
+      wave("charge", "C", to(&Drive::charge),
+           "charge that the steps of kind \"charge\" reach, and \"transient\" with control = \"charge\" "
+           "follow")
+          .optional(),
+  };
+  return section;
+}
+
+} // namespace
+
+std::vector<Section> action_sections() {
+  return {electrode_section(),  support_section(), load_section(),    spring_section(),
+          linkage_section(),    drive_section(),   circuit_section(), plate_section(),
+          point_mass_section(), body_section(),    gravity_section(), chamber_section()};
+}
+
+} // namespace dielast::cases

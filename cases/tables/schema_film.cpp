@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/language/conditions.hpp"
+#include "cases/tables/parameter_keys.hpp"
+#include "materials/catalog.hpp"
+
+#include <fmt/format.h>
+
+namespace dielast::cases {
+namespace {
+
+constexpr double vacuum_permittivity = 8.8541878128e-12; // F/m, CODATA 2018
+
+constexpr double smallest_modulus = 1;            // Pa, far below any gel
+constexpr double smallest_relaxation_time = 1e-9; // s: the branch's strain would be round-off
+
+std::optional<Conflict> law_conflict(const materials::ElasticLaw& law) {
+  if (const auto* ogden = std::get_if<materials::Ogden>(&law))
+    if (const auto problem = ogden->problem()) return Conflict{"exponents", *problem};
+  const double modulus = materials::initial_shear_modulus(law);
+  if (modulus >= smallest_modulus) return std::nullopt;
+  return Conflict{"law", fmt::format("its shear modulus at small strain is {:.6g} Pa, allowed at least {} Pa",
+                                     modulus, smallest_modulus)};
+}
+
+/// [[film.material.branch]]
+Section branch_section() {
+  using materials::Branch;
+  Section section = list_section(
+      "branch", "a Maxwell branch beside the equilibrium law: a spring in series with a dashpot", {});
+  section.access = {[](void* parent, const std::string&) -> void* {
+                      return &static_cast<Film*>(parent)->material.branches.emplace_back();
+                    },
+                    [](const void* parent) {
+                      std::vector<Access::Entry> entries;
+                      for (const Branch& branch : static_cast<const Film*>(parent)->material.branches)
+                        entries.push_back({"", &branch});
+                      return entries;
+                    },
+                    [](void* parent) { static_cast<Film*>(parent)->material.branches.clear(); }};
+  section.selector = "law";
+  section.acts = when::branches_flow();
+  add_law_keys<Branch>(
+      section.keys, [](auto& branch) -> auto& { return branch.law; }, "law of the spring");
+  const Binding relaxation_time{[](void* object, const Value& value) {
+                                  auto& branch = *static_cast<Branch*>(object);
+                                  branch.viscosity =
+                                      value.at(0).number * materials::initial_shear_modulus(branch.law);
+                                },
+                                [](const void*) { return std::optional<Value>(); }};
+  const Binding directions{[](void* object, const Value& value) {
+                             auto& flows = static_cast<Branch*>(object)->directions;
+                             flows = {};
+                             for (const Scalar& axis : value)
+                               flows.at(static_cast<std::size_t>(axis.number)) = true;
+                           },
+                           [](const void* object) -> std::optional<Value> {
+                             Value value;
+                             const auto& flows = static_cast<const Branch*>(object)->directions;
+                             for (std::size_t i = 0; i < flows.size(); ++i)
+                               if (flows[i]) value.push_back({static_cast<double>(i), ""});
+                             return value;
+                           }};
+  section.keys.push_back(measure("relaxation_time", "s", relaxation_time,
+                                 "viscosity over the spring's shear modulus at small strain")
+                             .at_least(smallest_relaxation_time));
+  section.keys.push_back(measure("viscosity", "Pa s", to(&Branch::viscosity), "viscosity eta of the dashpot")
+                             .above(0)
+                             .replacing("relaxation_time"));
+  section.keys.push_back(
+      word("dashpot",
+           {{"log", "resists the rate of the logarithmic viscous strain (Reese & Govindjee 1998)"},
+            {"nominal", "resists the rate of the viscous stretches along x and y"}},
+           to(&Branch::dashpot), "what the dashpot resists")
+          .otherwise("log"));
+  section.keys.push_back(
+      word("directions", {{"x", "along x"}, {"y", "along y"}}, directions,
+           "directions in which a nominal dashpot flows; along the other the spring is free of "
+           "stress at stretch 1")
+          .values(1, 2)
+          .otherwise("[\"x\", \"y\"]"));
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& branch = *static_cast<const Branch*>(object);
+    if (branch.dashpot == materials::Dashpot::log && !(branch.directions[0] && branch.directions[1]))
+      return Conflict{"directions", "only for dashpot = \"nominal\"; a log dashpot flows in all directions"};
+    if (auto wrong = law_conflict(branch.law)) return wrong;
+    const double time = branch.viscosity / materials::initial_shear_modulus(branch.law);
+    if (time >= smallest_relaxation_time * (1 - 1e-12)) return std::nullopt;
+    return Conflict{"viscosity", fmt::format("the relaxation time is {:.6g} s, allowed at least {} s", time,
+                                             smallest_relaxation_time)};
+  };
+  return section;
+}
+
+Section material_section() {
+  Section section;
+  section.name = "material";
+  section.meaning =
+      "a named material (material = \"...\"), or a table; with `name`, what the table leaves out is "
+      "that of the named material";
+  section.presence = Section::Presence::required;
+  section.access = same_object();
+  section.selector = "law";
+  section.names = [] {
+    std::vector<std::string> names;
+    for (const auto& film : materials::named_films()) names.emplace_back(film.name);
+    return names;
+  };
+  section.start = [](void* object, const std::string& name) {
+    for (const auto& named : materials::named_films())
+      if (named.name == name) {
+        static_cast<Film*>(object)->material = named.material;
+        return true;
+      }
+    return false;
+  };
+  section.keys.push_back(
+      text("name", to(&Film::material_name), "a named material to start from, or a label").optional());
+  add_law_keys<Film>(
+      section.keys, [](auto& film) -> auto& { return film.material.law; },
+      "equilibrium law (energy per undeformed volume)");
+  add_parameter_keys<Film, materials::Dielectric>(section.keys,
+                                                  [](auto& film) { return &film.material.dielectric; });
+  for (Key& key : section.keys)
+    if (key.name == "electrostriction" || key.name.starts_with("breakdown")) key.acts = when::electrodes();
+  const Binding relative{[](void* object, const Value& value) {
+                           static_cast<Film*>(object)->material.dielectric.permittivity =
+                               value.at(0).number * vacuum_permittivity;
+                         },
+                         [](const void*) { return std::optional<Value>(); }};
+  section.keys.push_back(number("relative_permittivity", relative, "permittivity over that of vacuum")
+                             .at_least(1)
+                             .at_most(1e5)
+                             .replacing("permittivity"));
+  section.keys.push_back(measure("density", "kg/m^3",
+                                 to_part<Film>([](auto& film) -> auto& { return film.material.density; }),
+                                 "mass per volume")
+                             .at_least(0)
+                             .otherwise("960 kg/m^3")
+                             .only_with(when::masses_matter()));
+  section.sections.push_back(branch_section());
+  section.check = [](const void* object) {
+    return law_conflict(static_cast<const Film*>(object)->material.law);
+  };
+  return section;
+}
+
+/// I1 of a branch's spring in the relaxed film: what does not flow stays stretched.
+double relaxed_invariant(const materials::Branch& branch, const std::array<double, 2>& stretch) {
+  if (branch.directions[0] && branch.directions[1]) return 3;
+  const double held = stretch[branch.directions[0] ? 1 : 0];
+  return held * held + 2 / held; // the other stretches take the smallest energy
+}
+
+/// The prestretched film must be within the limits of its laws.
+std::optional<Conflict> prestretch_conflict(const void* object) {
+  const auto& film = *static_cast<const Film*>(object);
+  const double x = film.prestretch[0], y = film.prestretch[1];
+  const double c = film.material.dielectric.electrostriction;
+  if (const double share = 1 + c * (x + y - 2); !(share > 0))
+    return Conflict{"prestretch",
+                    fmt::format("with electrostriction = {:.6g} the permittivity is not positive: "
+                                "1 + c (l1 + l2 - 2) = {:.4g}",
+                                c, share)};
+  const auto beyond = [](const std::string& whose, const materials::ElasticLaw& law,
+                         double invariant) -> std::optional<Conflict> {
+    if (materials::admits(law, invariant)) return std::nullopt;
+    const auto name = std::visit([](const auto& one) { return one.name; }, law);
+    return Conflict{"prestretch",
+                    fmt::format("stretch limit below the prestretch: {} law \"{}\" does not reach "
+                                "I1 - 3 = {:.4g}",
+                                whose, name, invariant - 3)};
+  };
+  if (const auto found = beyond("the", film.material.law, x * x + y * y + 1 / (x * x * y * y))) return found;
+  for (std::size_t b = 0; b < film.material.branches.size(); ++b) {
+    const materials::Branch& branch = film.material.branches[b];
+    if (const auto found =
+            beyond(fmt::format("branch {}'s", b + 1), branch.law, relaxed_invariant(branch, film.prestretch)))
+      return found;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Section film_section() {
+  Section section;
+  section.name = "film";
+  section.meaning = "the dielectric film";
+  section.presence = Section::Presence::required;
+  section.access = member(&Case::film);
+  section.keys = {
+      measure("thickness", "m", to(&Film::thickness), "thickness of the unstretched film")
+          .above(0)
+          .at_most(0.1),
+      number("prestretch", to(&Film::prestretch),
+             "stretch along x and y before anything else, or one for both")
+          .values(2, 2)
+          .or_one_for_all()
+          .above(0)
+          .at_most(100)
+          .otherwise("1"),
+      word("wrinkling",
+           {{"compression", "it carries the compression"},
+            {"tension field", "it wrinkles and carries tension only"}},
+           to(&Film::tension_field), "what the film does where it would be compressed")
+          .otherwise("compression"),
+  };
+  section.sections.push_back(material_section());
+  section.check = prestretch_conflict;
+  return section;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/fit_spec.hpp"
+#include "cases/language/schema.hpp"
+
+namespace dielast::cases {
+namespace {
+
+Section fit_section() {
+  Section section;
+  section.name = "fit";
+  section.meaning = "a fit of the film's material to measured tests, run by `dielast fit`";
+  section.presence = Section::Presence::separate;
+  section.access = same_object();
+  section.keys = {
+      text("parameters", to(&Fit::parameters),
+           "what the fit changes, such as \"shear_modulus\" of the law and \"branch[1].relaxation_time\"; "
+           "without it everything")
+          .values(1, 100)
+          .optional(),
+      number(
+          "range", to(&Fit::range),
+          "largest factor between start value and result; where a result lies at it, the tests do not tell")
+          .above(1)
+          .at_most(1e6)
+          .otherwise("1e4"),
+      integer("max_iterations", to(&Fit::max_iterations), "iterations before the fit gives up")
+          .at_least(1)
+          .at_most(10000)
+          .otherwise("200"),
+  };
+  return section;
+}
+
+Section test_section() {
+  Section section =
+      list_section("test", "a measured test of a fit: rows of a CSV file, nominal stress against stretch",
+                   each(&Fit::tests));
+  section.presence = Section::Presence::separate;
+  section.keys = {
+      text("file", to(&FitTest::file), "CSV file; its path starts at this file's folder"),
+      word("kind",
+           {{"uniaxial", "one axis is pulled, the others are free"},
+            {"pure shear", "one axis is pulled, the width is held"},
+            {"equal-biaxial", "two axes are pulled alike"}},
+           to(&FitTest::kind), "how the film is held"),
+      text("stretch", to(&FitTest::stretch_column), "column of the stretch; without it \"stretch\"")
+          .optional(),
+      text("stress", to(&FitTest::stress_column),
+           "column of the nominal stress, with the unit in its name as in \"P_kPa\"; without it the only one "
+           "that ends in a unit of stress")
+          .optional(),
+      text("time", to(&FitTest::time_column),
+           "column of the time since the film was undeformed; without it \"time_s\" where there is one")
+          .optional(),
+      measure("rate", "1/s", to(&FitTest::rate),
+              "stretch per time between all rows, up and down, of a file without time")
+          .above(0)
+          .optional(),
+      flag("equilibrium", to(&FitTest::equilibrium), "infinitely slow: the branches carry nothing")
+          .otherwise("false"),
+      flag("zero", to(&FitTest::zero),
+           "the first row is the origin: its stretch counts as 1 and its stress as 0")
+          .otherwise("false"),
+      word("use",
+           {{"fit", "the material is fitted to it"},
+            {"predict", "kept out of the fit; how well it is predicted is reported"}},
+           to(&FitTest::predict), "what it is for")
+          .otherwise("fit"),
+      number("weight", to(&FitTest::weight), "of its errors, which are relative to its largest stress")
+          .above(0)
+          .otherwise("1"),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& test = *static_cast<const FitTest*>(object);
+    if (test.rate && !test.time_column.empty()) return Conflict{"rate", "the column of the time says it"};
+    if (test.equilibrium && test.rate) return Conflict{"rate", "in equilibrium there is no rate"};
+    if (test.equilibrium && !test.time_column.empty())
+      return Conflict{"time", "in equilibrium there is no time"};
+    return std::nullopt;
+  };
+  return section;
+}
+
+} // namespace
+
+std::vector<Section> fit_sections() { return {fit_section(), test_section()}; }
+
+} // namespace dielast::cases

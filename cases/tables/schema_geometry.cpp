@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/language/conditions.hpp"
+#include "cases/tables/parameter_keys.hpp"
+#include "materials/catalog.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+template<class T>
+Access geometry_of_type() {
+  return {[](void* parent, const std::string&) -> void* {
+            return &static_cast<Case*>(parent)->geometry.emplace<T>();
+          },
+          [](const void* parent) {
+            const T* present = std::get_if<T>(&static_cast<const Case*>(parent)->geometry);
+            return present ? std::vector<Access::Entry>{{"", present}} : std::vector<Access::Entry>{};
+          }};
+}
+
+Section wall_material_section() {
+  Section section;
+  section.name = "wall_material";
+  section.meaning = "a named material (wall_material = \"...\"), or a table";
+  section.fallback = "TPU 78 MPa";
+  section.access = same_object();
+  section.names = [] {
+    std::vector<std::string> names;
+    for (const auto& solid : materials::named_solids()) names.emplace_back(solid.name);
+    return names;
+  };
+  section.start = [](void* object, const std::string& name) {
+    for (const auto& named : materials::named_solids())
+      if (named.name == name) {
+        static_cast<Honeycomb*>(object)->wall_material = named.solid;
+        return true;
+      }
+    return false;
+  };
+  section.keys.push_back(
+      text("name", to(&Honeycomb::wall_material_name), "a named material to start from, or a label")
+          .optional());
+  add_parameter_keys<Honeycomb, materials::ElasticSolid>(
+      section.keys, [](auto& honeycomb) { return &honeycomb.wall_material; });
+  return section;
+}
+
+/// Cells of neighbouring columns interlock.
+std::string interlocking(const Value& columns) {
+  for (std::size_t i = 1; i < columns.size(); ++i)
+    if (std::abs(columns[i].number - columns[i - 1].number) != 1)
+      return fmt::format(
+          "columns {} and {} have {} and {} cells, allowed numbers that differ by one, such as "
+          "[7, 6, 7, 6, 7]",
+          i, i + 1, columns[i - 1].number, columns[i].number);
+  return "";
+}
+
+Section honeycomb_section() {
+  constexpr double degree = std::numbers::pi / 180;
+  Section section;
+  section.name = "honeycomb";
+  section.meaning = "film with a printed lattice of hexagonal cells on both faces, cut free along its edge";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Honeycomb>();
+  section.keys = {
+      measure("angle", "rad", to(&Honeycomb::angle), "interior angle at the four equal vertices of a cell")
+          .at_least(60.01 * degree)
+          .at_most(179.99 * degree)
+          .because("cells close up at 60 deg and are flat at 180 deg"),
+      integer("columns", to(&Honeycomb::columns), "number of cells in each column, left to right")
+          .values(1, 100)
+          .at_least(1)
+          .at_most(200)
+          .otherwise("[7, 6, 7, 6, 7]")
+          .checked(interlocking),
+      measure("wall_length", "m", to(&Honeycomb::wall_length), "length of each of a cell's six walls")
+          .above(0)
+          .at_most(1),
+      measure("wall_width", "m", to(&Honeycomb::wall_width), "width of a wall in the film's plane")
+          .above(0)
+          .at_most(1),
+      measure("wall_height", "m", to(&Honeycomb::wall_height), "height of a wall normal to the film")
+          .above(0)
+          .at_most(1),
+  };
+  section.sections.push_back(wall_material_section());
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& honeycomb = *static_cast<const Honeycomb*>(object);
+    if (honeycomb.wall_width < honeycomb.wall_length) return std::nullopt;
+    return Conflict{"wall_width", "a wall is wider than it is long; wall_width must be below wall_length"};
+  };
+  return section;
+}
+
+Section disc_section() {
+  Section section;
+  section.name = "disc";
+  section.meaning = "round film clamped at its rim, with a round electrode in the middle";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Disc>();
+  section.keys = {
+      measure("radius", "m", to(&Disc::radius), "radius as clamped, after the prestretch")
+          .above(0)
+          .at_most(1),
+      measure("electrode_radius", "m", to(&Disc::electrode_radius), "radius of the electrode as clamped")
+          .above(0)
+          .at_most(1),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& disc = *static_cast<const Disc*>(object);
+    if (disc.electrode_radius < disc.radius) return std::nullopt;
+    return Conflict{"electrode_radius", "must be below the disc's radius"};
+  };
+  return section;
+}
+
+Section balloon_section() {
+  Section section;
+  section.name = "balloon";
+  section.meaning = "a sphere of film around a chamber";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Balloon>();
+  section.keys = {measure("radius", "m", to(&Balloon::radius), "radius as drawn, after the prestretch")
+                      .above(0)
+                      .at_most(1)};
+  return section;
+}
+
+Section annulus_section() {
+  Section section;
+  section.name = "annulus";
+  section.meaning = "ring of film clamped at both edges, or at the outer edge with a [plate] in its hole";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Annulus>();
+  section.keys = {
+      measure("inner_radius", "m", to(&Annulus::inner_radius),
+              "radius of the hole as clamped, after the prestretch")
+          .above(0)
+          .at_most(1),
+      measure("outer_radius", "m", to(&Annulus::outer_radius),
+              "outer radius as clamped, after the prestretch")
+          .above(0)
+          .at_most(1),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& annulus = *static_cast<const Annulus*>(object);
+    if (annulus.inner_radius < annulus.outer_radius) return std::nullopt;
+    return Conflict{"inner_radius", "must be below outer_radius"};
+  };
+  return section;
+}
+
+/// What contradicts a patch's mode or another of its keys.
+std::optional<Conflict> patch_conflict(const void* object) {
+  const auto& patch = *static_cast<const Patch*>(object);
+  const char* const y = patch.stretch_y ? "stretch_y" : "stress_y";
+  const bool y_is_given = patch.stretch_y || patch.stress_y;
+  if (patch.stretch_x && patch.stress_x)
+    return Conflict{"stress_x", "given twice: write either stretch_x or stress_x"};
+  if (patch.stretch_y && patch.stress_y)
+    return Conflict{"stress_y", "given twice: write either stretch_y or stress_y"};
+  if (y_is_given && patch.mode == PatchMode::pure_shear) return Conflict{y, "in pure shear y is held"};
+  if (y_is_given && patch.mode == PatchMode::equal_biaxial)
+    return Conflict{y, "in equal-biaxial tension y does as x does: write stretch_x or stress_x"};
+  if (patch.mode == PatchMode::equal_biaxial && patch.width != patch.length)
+    return Conflict{"width", "in equal-biaxial tension the patch is a square: leave width out"};
+  return std::nullopt;
+}
+
+Section patch_section() {
+  const auto stretch = [](std::string name, std::optional<Waveform> Patch::*part, std::string meaning) {
+    return wave(std::move(name), "1", to(part), std::move(meaning)).above(0).at_most(100).optional();
+  };
+  const auto stress = [](std::string name, std::optional<Waveform> Patch::*part, std::string meaning) {
+    return wave(std::move(name), "Pa", to(part), std::move(meaning)).optional();
+  };
+  Section section;
+  section.name = "patch";
+  section.meaning = "homogeneous block of film whose sides are pulled; a direction without stretch or stress "
+                    "is free of stress";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Patch>();
+  section.keys = {
+      measure("length", "m", to(&Patch::length), "length along x, before the prestretch")
+          .above(0)
+          .at_most(1)
+          .otherwise("10 mm"),
+      measure("width", "m", to(&Patch::width), "width along y, before the prestretch")
+          .above(0)
+          .at_most(1)
+          .otherwise_as("length"),
+      word("mode",
+           {{"biaxial", "x and y move independently"},
+            {"equal-biaxial", "x and y are stretched alike; of the stresses only the sum is given"},
+            {"pure-shear", "y is held at the prestretch"}},
+           to(&Patch::mode), "how the sides move")
+          .otherwise("biaxial"),
+      stretch("stretch_x", &Patch::stretch_x, "stretch along x of the unstretched film"),
+      stretch("stretch_y", &Patch::stretch_y, "stretch along y of the unstretched film"),
+      stress("stress_x", &Patch::stress_x, "nominal stress along x: force over undeformed section"),
+      stress("stress_y", &Patch::stress_y, "nominal stress along y: force over undeformed section"),
+  };
+  section.check = patch_conflict;
+  return section;
+}
+
+Binding mesh_file() {
+  return {[](void* object, const Value& value) {
+            static_cast<Case*>(object)->geometry = MeshFile{value.at(0).text};
+          },
+          [](const void* object) -> std::optional<Value> {
+            const auto* file = std::get_if<MeshFile>(&static_cast<const Case*>(object)->geometry);
+            return file ? value_of(file->path) : std::nullopt;
+          }};
+}
+
+template<class M>
+Binding mesh_option(M MeshOptions::*option) {
+  return to_part<Case>([option](auto& one) -> auto& { return one.mesh.*option; });
+}
+
+} // namespace
+
+std::vector<Section> geometry_sections() {
+  return {honeycomb_section(), disc_section(), annulus_section(), balloon_section(), patch_section()};
+}
+
+Section mesh_section() {
+  const auto points = [] {
+    return integer("quadrature", mesh_option(&MeshOptions::quadrature),
+                   "integration points of a 6-node triangle: 3 or 6")
+        .at_least(3)
+        .at_most(6)
+        .only_with(when::curved_triangles())
+        .checked([](const Value& value) {
+          const double count = value.at(0).number;
+          return count == 3 || count == 6 ? "" : fmt::format("found {}, allowed 3 or 6", count);
+        });
+  };
+  Section section;
+  section.name = "mesh";
+  section.meaning = "how fine the mesh is, or the user's own mesh";
+  section.access = same_object();
+  section.selector = "geometry";
+  section.keys = {
+      text("file", mesh_file(),
+           "the user's own gmsh mesh (MSH 4.1 or 2.2), beside the case file; physical names are places")
+          .only({"file"}),
+      measure(
+          "unit", "m", mesh_option(&MeshOptions::unit),
+          "what one unit of length of the file stands for; without it 1 m, and a warning says how large the "
+          "film is")
+          .above(0)
+          .optional()
+          .only({"file"}),
+      integer("refine", mesh_option(&MeshOptions::refine),
+              "how often each triangle of the file is split into four")
+          .at_least(0)
+          .at_most(6)
+          .otherwise("0")
+          .only({"file"}),
+      integer("order", mesh_option(&MeshOptions::order),
+              "1: 3-node triangles, 2-node beams and meridians; 2: 6-node and 3-node")
+          .at_least(1)
+          .at_most(2)
+          .otherwise("2")
+          .only({"honeycomb", "disc", "annulus", "balloon"}),
+      integer("wall_elements", mesh_option(&MeshOptions::wall_elements), "beams per wall")
+          .at_least(1)
+          .at_most(200)
+          .otherwise("8")
+          .only({"honeycomb"}),
+      number("grading", mesh_option(&MeshOptions::grading),
+             "largest film element over the wall's; 1 is uniform")
+          .at_least(1)
+          .at_most(100)
+          .otherwise("3")
+          .only({"honeycomb"}),
+      number("grading", mesh_option(&MeshOptions::grading),
+             "element at the outer edge over that at the inner edge; 1 is uniform")
+          .at_least(1)
+          .at_most(100)
+          .otherwise("4")
+          .only({"annulus"}),
+      integer("rings", mesh_option(&MeshOptions::rings),
+              "elements along the radius, of a balloon from pole to pole; without it 24, of a film of "
+              "revolution 64")
+          .at_least(2)
+          .at_most(2000)
+          .optional()
+          .only({"disc", "annulus", "balloon"}),
+      points().otherwise("3").only({"honeycomb", "annulus", "file"}),
+      points().otherwise("6").only({"disc", "balloon"}),
+  };
+  return section;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/quantities.hpp"
+#include "cases/language/conditions.hpp"
+#include "cases/tables/sweep_keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+Section quantity_section() {
+  Section section =
+      list_section("quantity", "a number of the state, in every row of history.csv and in summary.json",
+                   each(&Case::quantities));
+  section.selector = "kind";
+  std::vector<Choice> fields;
+  for (const post::Scalar& field : post::scalars())
+    fields.push_back({field.name, std::string(field.meaning)});
+  // in messages the scalars come before the components of tensors
+  std::stable_partition(fields.begin(), fields.end(),
+                        [](const Choice& field) { return field.word.find('.') == std::string::npos; });
+  const auto of = [](std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); };
+  section.keys = {
+      text("name", to(&Quantity::name), "its name in results").distinct(),
+      word(
+          "kind",
+          {{"distance", "between the centroids of two places (m)"},
+           {"elongation", "relative change of the distance between two places (-)"},
+           {"stretch", "distance between two places over that of the unstretched film (-)"},
+           {"size", "of the box around a place (m)"},
+           {"growth", "relative change of the size of a place (-)"},
+           {"displacement", "of the centroid of a place (m)"},
+           {"angle", "rotation of a body about an axis (rad)"},
+           {"radius", "mean distance of a place's nodes from their centroid (m)"},
+           {"force", "reaction at a support (N)"},
+           {"moment", "reaction about an axis where a body's rotation is fixed (N m)"},
+           {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
+           {"capacitance", "of an electrode (F)"},
+           {"charge", "of an electrode (C)"},
+           {"current", "that the source of an electrode's [circuit] gives (A)"},
+           {"pressure", "in the chamber (Pa)"},
+           {"volume", "of the chamber itself (m^3)"},
+           {"pumped volume", "that was pumped into the chamber, as it is without pressure (m^3)"},
+           {"stiffness", "force on a place per displacement along an axis, branches relaxed; none where the "
+                         "state is not at rest (N/m)"},
+           {"natural frequency", "of small vibrations about the state, branches relaxed; none where it is "
+                                 "not at rest (rad/s)"},
+           {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
+           {"energy", "part of the energy balance (J)"},
+           {"extreme", "smallest or largest value of a field"},
+           {"peak", "smallest or largest value of another quantity so far"}},
+          to(&Quantity::kind), "what is measured"),
+      text("between", to(&Quantity::between), "the two places")
+          .values(2, 2)
+          .only({"distance", "elongation", "stretch"})
+          .refers_to(Reference::place),
+      of("the place")
+          .only({"size", "growth", "displacement", "radius", "nominal stress", "stiffness", "radial stretch"})
+          .refers_to(Reference::place),
+      of("the place of a support, or a body that is fixed")
+          .only({"force"})
+          .refers_to(Reference::supported_place),
+      of("the body").only({"angle", "moment"}).refers_to(Reference::body),
+      of("the electrode").only({"capacitance", "charge", "current"}).refers_to(Reference::electrode),
+      word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
+      word("of",
+           {{"electrical_work", "done on the film's electrodes: sum of int Phi dQ"},
+            {"mechanical_work", "done by loads, moved supports and the pressure in a chamber; where several "
+                                "loads jump at once they do so along a straight line"},
+            {"stored", "elastic, branches, electric and kinetic together"},
+            {"elastic", "stored by the equilibrium law, walls and springs"},
+            {"branches", "stored by the springs of the branches"},
+            {"electric", "stored by the field"},
+            {"kinetic", "of everything that has a mass"},
+            {"dissipated", "turned into heat by dashpots, dampers and resistive electrodes"},
+            {"source_work", "given by the sources: electrical_work, resistance_heat and leak_heat"},
+            {"resistance_heat", "turned into heat by the resistances and limits of current of circuits"},
+            {"leak_heat", "turned into heat by the current that leaks through the film"},
+            {"released", "set free when the device is cut free or jumps to another state"},
+            {"wrinkle_regularisation", "part of `elastic` that only keeps wrinkled film from being singular"},
+            {"error",
+             "estimate of the error of works and heat; beyond 1 % of them the run ends with exit code 5"}},
+           to(&Quantity::of), "the part")
+          .only({"energy"}),
+      word("extreme", {{"minimum", "smallest value"}, {"maximum", "largest value"}}, to(&Quantity::extreme),
+           "which extreme")
+          .only({"extreme", "peak"}),
+      of("the quantity").only({"peak"}).refers_to(Reference::quantity),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along),
+           "component; without it the magnitude")
+          .optional()
+          .only_with(when::moves_along_it())
+          .only({"distance", "elongation", "size", "growth", "force"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}, {"gravity", "as it pulls"}}, to(&Quantity::along),
+           "component; without it the magnitude")
+          .optional()
+          .only_with(when::moves_along_it())
+          .only({"displacement"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "direction")
+          .only_with(when::moves_along_it())
+          .only({"stiffness"}),
+      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "the axis")
+          .only({"angle", "moment"}),
+      integer("mode", to(&Quantity::mode), "its number, from the lowest frequency")
+          .at_least(1)
+          .at_most(100)
+          .otherwise("1")
+          .only({"natural frequency"}),
+      word("along", {{"x", ""}, {"y", ""}}, to(&Quantity::along), "direction in the film's plane")
+          .only({"stretch", "nominal stress"}),
+      text("since", to(&Quantity::since), "step at whose end it is zero; without it the mesh as drawn")
+          .optional()
+          .only({"elongation", "growth", "displacement"})
+          .refers_to(Reference::step),
+      text("at", to(&Quantity::at), "step at whose end summary.json reads it; without it the last")
+          .optional()
+          .refers_to(Reference::step),
+  };
+  return section;
+}
+
+Section check_section() {
+  Section section = list_section("check", "an expected result; a run that misses it ends with exit code 5",
+                                 each(&Case::checks));
+  Binding tolerance = to(&Check::tolerance);
+  tolerance.set = [](void* object, const Value& value) {
+    Check& check = *static_cast<Check*>(object);
+    const Scalar& scalar = value.at(0);
+    check.tolerance = scalar.number * (scalar.text == "%" ? std::abs(check.value) : 1.0);
+  };
+  Key allowance =
+      text("tolerance", tolerance, "allowed difference: \"1 %\" of the value, or in the quantity's unit");
+  allowance.type = Type::tolerance;
+  allowance = std::move(allowance).above(0);
+  section.keys = {
+      text("quantity", to(&Check::quantity), "name of the quantity").refers_to(Reference::quantity),
+      measure("value", "", to(&Check::value), "expected value, in the quantity's unit"),
+      allowance,
+      text("source", to(&Check::source), "where the expected value comes from"),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const double allowed = static_cast<const Check*>(object)->tolerance;
+    if (!std::isfinite(allowed)) return Conflict{"tolerance", "is too large to store"};
+    if (allowed > 0) return std::nullopt;
+    return Conflict{"tolerance", "a part of zero is zero; give it in the quantity's unit"};
+  };
+  return section;
+}
+
+Section solver_section() {
+  Section section;
+  section.name = "solver";
+  section.meaning = "when an equilibrium counts as found";
+  section.access = member(&Case::solver);
+  section.keys = {
+      number("tolerance", to(&SolverOptions::tolerance), "out-of-balance force over the reaction scale")
+          .above(1e-16)
+          .at_most(1e-2)
+          .otherwise("1e-9"),
+      integer("max_iterations", to(&SolverOptions::max_iterations),
+              "Newton iterations before an increment is cut")
+          .at_least(1)
+          .at_most(1000)
+          .otherwise("25"),
+      number("smallest_increment", to(&SolverOptions::smallest_increment),
+             "part of a step below which it gives up")
+          .at_least(1e-12)
+          .at_most(1)
+          .otherwise("1e-3"),
+      number("time_tolerance", to(&SolverOptions::time_tolerance),
+             "relative error of dashpots, charges and motion that one time step may add; run.log and "
+             "summary.json tell the sum over the steps")
+          .at_least(1e-12)
+          .at_most(0.1)
+          .otherwise("1e-6")
+          .only_with(when::time_steps_matter()),
+  };
+  return section;
+}
+
+Section output_section() {
+  Section section;
+  section.name = "output";
+  section.meaning = "what a run computes and writes besides the table of quantities";
+  section.access = same_object();
+  section.keys = {
+      flag("error_estimate", to(&Case::error_estimate),
+           "solve again with other elements and time steps to estimate the error")
+          .otherwise("true"),
+      flag("fields", to(&Case::fields), "write the series of fields for ParaView").otherwise("true"),
+  };
+  return section;
+}
+
+Section linearise_section() {
+  Section compare = list_section("compare", "a transfer function to compare with", each(&Linearise::compare));
+  const auto powers = [](std::string name, std::vector<double> TransferFunction::*part, std::string meaning) {
+    return number(std::move(name), to(part), std::move(meaning)).values(1, 20);
+  };
+  compare.keys = {
+      text("name", to(&TransferFunction::name), "its name in the report"),
+      powers("numerator", &TransferFunction::numerator,
+             "coefficients of s, the highest power first; V give the output in its unit"),
+      powers("denominator", &TransferFunction::denominator, "likewise"),
+  };
+  Section section;
+  section.name = "linearise";
+  section.meaning = "the linear model that `dielast linearise` makes about the state at the end of the steps";
+  section.access = member(&Case::linearise);
+  section.keys = {
+      integer("order", to(&Linearise::order), "number of its states").at_least(1).at_most(100).otherwise("3"),
+      text("output", to(&Linearise::output),
+           "quantity of kind \"displacement\"; without it the first that has a direction")
+          .optional()
+          .refers_to(Reference::quantity),
+      text("driven", to(&Linearise::driven), driven_meaning)
+          .values(1, 1000)
+          .optional()
+          .refers_to(Reference::electrode),
+  };
+  for (Key& key :
+       sweep_keys(&Linearise::sweep, " at which it is compared with the full response", "0.01 Hz", "50 Hz"))
+    section.keys.push_back(std::move(key));
+  section.sections = {compare};
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    return sweep_conflict(static_cast<const Linearise*>(object)->sweep);
+  };
+  return section;
+}
+
+Section study_section() {
+  Section vary;
+  vary.name = "vary";
+  vary.meaning =
+      "keys to vary, as \"section.key\" = [values] or { from, to, step }; the study is their full grid";
+  vary.presence = Section::Presence::separate;
+  Section plot = list_section("plot", "a plot in the study's report", each(&Study::plots));
+  plot.keys = {
+      text("x", to(&StudyPlot::x), "a varied key, or a quantity"),
+      text("y", to(&StudyPlot::y), "quantities").values(1, 20),
+      text("group", to(&StudyPlot::group), "a varied key: one curve for each of its values").optional(),
+  };
+  Section target = list_section(
+      "target", "asks at which value of the one varied key a quantity has this value: found by further runs",
+      each(&Study::targets));
+  Binding tolerance = to(&StudyTarget::tolerance);
+  tolerance.set = [](void* object, const Value& value) {
+    StudyTarget& asked = *static_cast<StudyTarget*>(object);
+    const Scalar& scalar = value.at(0);
+    asked.tolerance = scalar.number * (scalar.text == "%" ? std::abs(asked.value) : 1.0);
+  };
+  Key allowance =
+      text("tolerance", tolerance,
+           "difference at which it counts as found: \"0.1 %\" of the value, or in the quantity's "
+           "unit; without it 0.01 % of the value, or of its change between two points of the study");
+  allowance.type = Type::tolerance;
+  target.keys = {
+      text("quantity", to(&StudyTarget::quantity), "name of the quantity"),
+      measure("value", "", to(&StudyTarget::value), "value that it is to have, in the quantity's unit"),
+      std::move(allowance).above(0).optional(),
+  };
+  Section section;
+  section.name = "study";
+  section.meaning = "a sweep over keys of the case, run by `dielast study`";
+  section.presence = Section::Presence::separate;
+  section.access = same_object();
+  section.keys = {
+      text("collect", to(&Study::collect), "quantities in study.csv; without it all")
+          .optional()
+          .values(1, 1000),
+  };
+  section.sections = {vary, plot, target};
+  return section;
+}
+
+} // namespace
+
+std::vector<Section> result_sections() {
+  return {quantity_section(), check_section(),     solver_section(),
+          output_section(),   linearise_section(), study_section()};
+}
+
+} // namespace dielast::cases

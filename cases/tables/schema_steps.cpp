@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/language/conditions.hpp"
+#include "cases/tables/sweep_keys.hpp"
+
+namespace dielast::cases {
+namespace {
+
+const std::vector<std::string> ramps{"release", "voltage", "charge",   "force",
+                                     "move",    "weight",  "pressure", "inflate"};
+const std::vector<std::string> timed{"transient", "hold"};
+const std::vector<std::string> moving{"release", "voltage",  "charge",  "force",     "move",
+                                      "weight",  "pressure", "inflate", "transient", "hold"};
+
+std::optional<Conflict> conflict(const void* object) {
+  const auto& step = *static_cast<const Step*>(object);
+  if (step.kind == StepKind::harmonic)
+    if (auto wrong = sweep_conflict(step.sweep)) return wrong;
+  if (step.record && !step.duration) return Conflict{"record", "only for a step with a duration"};
+  if (step.record && *step.record > *step.duration) return Conflict{"record", "is longer than the step"};
+  if (step.duration && step.on_instability == OnInstability::follow)
+    return Conflict{
+        "on_instability",
+        "time does not go back: a path is followed by steps without a duration; use \"jump\" or \"stop\""};
+  return std::nullopt;
+}
+
+} // namespace
+
+Section step_section() {
+  const auto increments = [](std::string count, std::string meaning) {
+    return integer("increments", to(&Step::increments), std::move(meaning))
+        .at_least(1)
+        .at_most(100000)
+        .otherwise(std::move(count));
+  };
+  const auto duration = [](std::string meaning) {
+    return measure("duration", "s", to(&Step::duration), std::move(meaning)).above(0);
+  };
+  Binding response = to(&Step::response);
+  response.get = [](const void* object) -> std::optional<Value> {
+    const auto& step = *static_cast<const Step*>(object);
+    return step.duration ? std::nullopt : value_of(step.response); // with a duration there is none
+  };
+  const std::string equal = "number of equal increments to start with";
+
+  Section section = list_section("step", "what happens, in this order", each(&Case::steps));
+  section.selector = "kind";
+  section.keys = {
+      word("kind",
+           {{"release", "the prestretched film is cut free and finds its equilibrium"},
+            {"voltage", "ramps every drive to its voltage"},
+            {"charge", "ramps every drive to its charge: the electrodes are isolated"},
+            {"force", "ramps every load to its force"},
+            {"move", "ramps every moved support to its displacement"},
+            {"weight", "lets gravity act"},
+            {"pressure", "ramps the chamber to its pressure"},
+            {"inflate", "pumps the chamber to its volume"},
+            {"transient", "time passes: drives, loads and supports follow their waves"},
+            {"hold", "time passes: drives, loads and supports stay as they are"},
+            {"modes", "small free vibrations about the state, branches relaxed"},
+            {"harmonic", "response to a small sine of the source, frequency by frequency, branches relaxed"}},
+           to(&Step::kind), "what happens in this step"),
+      text("name", to(&Step::name), "its name in results").otherwise_as("kind").distinct(),
+      measure("to", "V", to(&Step::to), "voltage that it ramps to, instead of that of [drive]")
+          .optional()
+          .only_with(when::electrodes())
+          .only({"voltage"}),
+      measure("to", "C", to(&Step::to), "charge that it ramps to, instead of that of [drive]")
+          .optional()
+          .only_with(when::electrodes())
+          .only({"charge"}),
+      measure("to", "Pa", to(&Step::to), "pressure that it ramps to, instead of that of [chamber]")
+          .optional()
+          .only({"pressure"}),
+      measure("to", "m^3", to(&Step::to), "volume that it pumps to, instead of that of [chamber]")
+          .at_least(0)
+          .optional()
+          .only({"inflate"}),
+      text("electrode", to(&Step::electrode), "the only one that it is about; without it all")
+          .optional()
+          .refers_to(Reference::electrode)
+          .only({"voltage", "charge"}),
+      increments("1", equal).only({"release"}),
+      increments("10", equal).only({"voltage", "charge", "force", "move", "pressure", "inflate"}),
+      increments("5", equal).only({"weight"}),
+      increments("100", "the longest time step is the duration over this").only({"transient"}),
+      increments("20", "the longest time step is the duration over this").only({"hold"}),
+      duration("time that it takes; without it no time passes").optional().only(ramps),
+      duration("time that it takes").only(timed),
+      word("response",
+           {{"relaxed", "the branches have all the time they need"},
+            {"instantaneous", "the branches have no time to flow"}},
+           response, "what the branches of the film do in a ramp without a duration")
+          .otherwise("relaxed")
+          .only_with(when::branches())
+          .replacing("duration")
+          .only(ramps),
+      measure("record", "s", to(&Step::record),
+              "time between rows of the history; without it one for each increment")
+          .above(0)
+          .optional()
+          .only(moving),
+      word("control",
+           {{"voltage", "the electrodes stay connected to their sources"},
+            {"charge", "the electrodes are isolated, or follow their charges; a source that is connected "
+                       "again takes up at the voltage that it needs to keep the electrode's"}},
+           to(&Step::control), "what the electrodes keep")
+          .otherwise("voltage")
+          .only_with(when::electrodes())
+          .only({"force", "move", "weight", "pressure", "inflate", "transient", "hold", "modes"}),
+      integer("count", to(&Step::count), "number of modes")
+          .at_least(1)
+          .at_most(200)
+          .otherwise("6")
+          .only({"modes"}),
+      text("response_of", to(&Step::response_of),
+           "quantity of kind \"displacement\"; without it the first that has a direction")
+          .optional()
+          .refers_to(Reference::quantity)
+          .only({"harmonic"}),
+      text("driven", to(&Step::driven), driven_meaning)
+          .values(1, 1000)
+          .optional()
+          .refers_to(Reference::electrode)
+          .only({"harmonic"}),
+      flag("inertia", to(&Step::inertia),
+           "what has a mass resists acceleration; with [plate] or [[point_mass]] the default is true")
+          .otherwise("false")
+          .only_with(when::has_mass())
+          .only(timed),
+      word("on_instability",
+           {{"stop", "the step ends at a limit point"},
+            {"follow", "along the unstable path, by arclength"},
+            {"jump", "to the next stable state, by damped motion"}},
+           to(&Step::on_instability), "what happens where the equilibrium ends or loses its stability")
+          .otherwise("stop")
+          .only(moving),
+      word("on_bifurcation",
+           {{"follow", "along the path it is on"}, {"switch", "onto the branch that is stable"}},
+           to(&Step::on_bifurcation), "what happens where another path branches off")
+          .otherwise("follow")
+          .only_with(when::without_duration())
+          .only(moving),
+  };
+  for (Key& key : sweep_keys(&Step::sweep, "", "0.1 Hz", "100 Hz"))
+    section.keys.push_back(std::move(key).only({"harmonic"}));
+  section.check = conflict;
+  return section;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/tables/templates.hpp"
+
+#include <array>
+
+namespace dielast::cases {
+namespace {
+
+constexpr std::string_view honeycomb_quantities = R"(
+[[quantity]]
+name = "eps_x"
+kind = "elongation"
+between = ["left_apex", "right_apex"]
+along = "x"
+since = "release"
+[[quantity]]
+name = "eps_y"
+kind = "elongation"
+between = ["corner_bottom", "corner_top"]
+along = "y"
+since = "release"
+[[quantity]]
+name = "released_length_x"
+kind = "distance"
+between = ["left_apex", "right_apex"]
+along = "x"
+at = "release"
+[[quantity]]
+name = "released_length_y"
+kind = "distance"
+between = ["corner_bottom", "corner_top"]
+along = "y"
+at = "release"
+)";
+
+constexpr std::string_view disc_quantities = R"(
+[[quantity]]
+name = "electrode_radius"
+kind = "radius"
+of = "electrode_edge"
+)";
+
+constexpr std::string_view diaphragm_quantities = R"(
+[[quantity]]
+name = "drop"
+kind = "displacement"
+of = "inner"
+along = "gravity"
+[[quantity]]
+name = "stroke"
+kind = "displacement"
+of = "inner"
+along = "gravity"
+since = "weight"
+[[quantity]]
+name = "stiffness"
+kind = "stiffness"
+of = "inner"
+along = "z"
+[[quantity]]
+name = "natural_frequency"
+kind = "natural frequency"
+[[quantity]]
+name = "stretch_inner"
+kind = "radial stretch"
+of = "inner"
+[[quantity]]
+name = "stretch_outer"
+kind = "radial stretch"
+of = "outer"
+)";
+
+constexpr std::string_view patch_quantities = R"(
+[[quantity]]
+name = "stretch_x"
+kind = "stretch"
+between = ["left", "right"]
+along = "x"
+[[quantity]]
+name = "stretch_y"
+kind = "stretch"
+between = ["bottom", "top"]
+along = "y"
+[[quantity]]
+name = "stress_x"
+kind = "nominal stress"
+of = "film"
+along = "x"
+[[quantity]]
+name = "stress_y"
+kind = "nominal stress"
+of = "film"
+along = "y"
+[[quantity]]
+name = "thickness_stretch"
+kind = "extreme"
+of = "principal_stretches.lambda3"
+extreme = "maximum"
+)";
+
+constexpr std::string_view honeycomb_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+step = [{ kind = "release" }, { kind = "voltage" }]
+)";
+
+constexpr std::string_view disc_defaults = R"(
+electrode = [{ name = "film", place = "electrode" }]
+support = [{ place = "rim", fix = ["x", "y", "z"] }]
+step = [{ kind = "voltage" }]
+)";
+
+constexpr std::string_view annulus_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+support = [{ place = "inner", fix = ["x", "y", "z"] }, { place = "outer", fix = ["x", "y", "z"] }]
+step = [{ kind = "voltage" }]
+)";
+
+constexpr std::string_view diaphragm_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+support = [{ place = "outer", fix = ["x", "y", "z"] }]
+step = [{ kind = "weight" }, { kind = "voltage" }]
+)";
+
+constexpr std::string_view balloon_defaults = R"(
+support = [{ place = "equator", fix = ["z"] }]
+step = [{ kind = "inflate" }]
+)";
+
+constexpr std::string_view patch_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+)"; // and patch_steps()
+
+constexpr std::string_view file_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+step = [{ kind = "voltage" }]
+)";
+
+} // namespace
+
+std::span<const Template> templates() {
+  static const std::array table{
+      Template{"honeycomb",
+               "unidirectional actuator: a film with a printed honeycomb, cut free",
+               {{"film", "the film"},
+                {"walls", "all walls"},
+                {"cell[i,j]", "the film in cell j of column i, from 0"},
+                {"left_apex", "leftmost vertex at mid height"},
+                {"right_apex", "rightmost vertex at mid height"},
+                {"corner_top_wall", "top wall of the first column's top cell"},
+                {"corner_bottom_wall", "bottom wall of the first column's bottom cell"},
+                {"corner_top", "the node in the middle of corner_top_wall, or the two nearest to it"},
+                {"corner_bottom", "the node in the middle of corner_bottom_wall, or the two nearest to it"},
+                {"top_wall", "top wall of the middle column"},
+                {"bottom_wall", "bottom wall of the middle column"},
+                {"top", "the node in the middle of top_wall, or the two nearest to it"},
+                {"bottom", "the node in the middle of bottom_wall, or the two nearest to it"},
+                {"centre", "the node nearest to the middle"}},
+               honeycomb_defaults,
+               honeycomb_quantities},
+      Template{"disc",
+               "a film clamped at its rim, with a round electrode in the middle",
+               {{"film", "the film"},
+                {"electrode", "the film under the electrode"},
+                {"electrode_edge", "the electrode's edge"},
+                {"rim", "the clamped edge"},
+                {"centre", "the node in the middle"}},
+               disc_defaults,
+               disc_quantities},
+      Template{"annulus",
+               "a diaphragm: a ring of film that carries a plate in its hole",
+               {{"film", "the film"}, {"inner", "the plate's edge"}, {"outer", "the clamped edge"}},
+               diaphragm_defaults,
+               diaphragm_quantities,
+               "plate"},
+      Template{"annulus",
+               "a ring of film clamped at both edges",
+               {{"film", "the film"}, {"inner", "the inner edge"}, {"outer", "the outer edge"}},
+               annulus_defaults,
+               ""},
+      Template{"balloon",
+               "a sphere of film around a chamber",
+               {{"film", "the film"},
+                {"equator", "the widest circle, held along z"},
+                {"south", "the lower pole"},
+                {"north", "the upper pole"}},
+               balloon_defaults,
+               ""},
+      Template{
+          "patch",
+          "one homogeneous block of film under stretches, nominal stresses, voltage or charge: a material "
+          "test; without [[step]] it takes one for each that is given, or one of kind \"transient\" for "
+          "waves",
+          {{"film", "the film"},
+           {"left", "the side x = 0, held along x"},
+           {"right", "the side that moves along x"},
+           {"bottom", "the side y = 0, held along y"},
+           {"top", "the side that moves along y"},
+           {"centre", "the middle"}},
+          patch_defaults,
+          patch_quantities},
+      Template{"file", "your own gmsh mesh: [mesh] file = \"...\"", {}, file_defaults, ""},
+  };
+  return table;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/text/tree.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dielast::cases {
+
+/// A named place of a template's mesh.
+struct PlaceName {
+  std::string_view name;
+  std::string_view meaning;
+};
+
+/// What a geometry brings besides its mesh, said in the language of the case files.
+struct Template {
+  std::string_view name; ///< of its section; "file" for a user's own mesh
+  std::string_view meaning;
+  std::vector<PlaceName> places;
+  std::string_view defaults;   ///< TOML: electrodes, supports, steps of a case that has none
+  std::string_view quantities; ///< TOML: standard quantities; steps are named by
+                               ///< their kind: the first of it is meant
+  std::string_view with{};     ///< another section that makes it this device; empty: none
+};
+
+std::span<const Template> templates();
+
+/// The template that the case asks for; null when there is none. With several, the first of the file.
+const Template* template_of(const Node& tree);
+
+/// Every geometry of the tree: [honeycomb], ..., or the key mesh.file.
+std::vector<const Node*> geometries_of(const Node& tree);
+
+/// Adds the template's electrodes, supports and steps where the case has none.
+void add_defaults(Node& tree, const Template& device);
+
+/// Puts the standard quantities in front of the user's; returns how many. Quantities of the release step are
+/// left out of a case without one, and elongations start at the mesh as drawn there.
+int add_standard_quantities(Node& tree, const Template& device);
+
+} // namespace dielast::cases

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/text/diagnostics.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dielast::cases {
+
+/// Columns of numbers from a CSV file: cells separated by commas, one line of names, lines that begin with #
+/// are comments. The unit of a column is the end of its name: time_s, voltage_kV.
+struct CsvTable {
+  std::string file; ///< as messages name it
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns; ///< one for each name, as written
+  std::vector<int> lines;                   ///< of the file, one for each row
+  int header_line = 0;
+
+  int rows() const { return static_cast<int>(lines.size()); }
+  /// Number of the column; -1 when there is none of that name.
+  int find(std::string_view name) const;
+};
+
+/// Everything that is wrong with the file is added to `wrong`, with line and column: text or nothing in a
+/// cell, a row with more or fewer cells than names, fewer than `least_rows` rows; a thousand errors end it.
+/// Throws FileError when the file cannot be read.
+CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong);
+
+/// What the numbers of the column are multiplied by to be SI: its name ends in a unit of the dimension of
+/// `si_unit`. Nothing where the name has no such unit; 1 for a pure number.
+std::optional<double> factor_to_si(const CsvTable& table, int column, std::string_view si_unit);
+
+/// The column in SI: its name ends in a unit of the dimension of `si_unit`, or its numbers are SI already.
+std::vector<double> si_column(const CsvTable& table, int column, std::string_view si_unit);
+
+/// Says where a column does not grow from row to row.
+void require_growing(const CsvTable& table, int column, std::vector<Diagnostic>& wrong);
+
+} // namespace dielast::cases

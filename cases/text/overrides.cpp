@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/text/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace dielast::cases {
+namespace {
+
+/// One part of a path: a name, or a number in brackets.
+struct Part {
+  std::string name;
+  std::size_t number = 0; ///< from 1; 0: by name
+};
+
+[[noreturn]] void fail(const Source& source, std::string_view key, std::string message) {
+  throw CaseError({{source, std::string(key), std::move(message)}});
+}
+
+std::vector<Part> parts_of(std::string_view key, const Source& source) {
+  std::vector<Part> parts;
+  std::size_t i = 0;
+  const auto until = [&](std::string_view stops) {
+    const std::size_t begin = i;
+    i = std::min(key.find_first_of(stops, i), key.size());
+    return key.substr(begin, i - begin);
+  };
+  while (i < key.size()) {
+    if (key[i] == '.') {
+      ++i;
+    } else if (key[i] == '"') {
+      ++i;
+      parts.push_back({std::string(until("\""))});
+      ++i;
+    } else if (key[i] == '[') {
+      ++i;
+      const std::string_view digits = until("]");
+      std::size_t number = 0;
+      std::from_chars(digits.data(), digits.data() + digits.size(), number);
+      if (number == 0 || i++ == key.size())
+        fail(source, key, "in brackets stands the number of an item, from 1");
+      parts.push_back({"", number});
+    } else {
+      parts.push_back({std::string(until(".[\""))});
+    }
+  }
+  constexpr std::size_t most_parts = 20; // what goes down into the tables recurses
+  if (parts.size() > most_parts) fail(source, "", fmt::format("a key has more than {} parts", most_parts));
+  if (parts.empty()) fail(source, key, "write --set key=value, such as --set drive.voltage=\"5 kV\"");
+  return parts;
+}
+
+/// The name by which an item of a list goes.
+std::string item_name(const Node& item) {
+  for (const char* key : {"name", "kind", "quantity", "place"})
+    if (const Node* node = item.find(key); node && node->is(Node::Kind::text)) return node->text;
+  return "";
+}
+
+Node& list_item(Node& list, const Part& part, std::string_view key, const Source& source) {
+  if (part.number > 0 && part.number <= list.items.size()) return list.items[part.number - 1];
+  std::vector<std::string> names;
+  for (Node& item : list.items) {
+    const std::string name = item_name(item);
+    if (part.number == 0 && name == part.name) return item;
+    if (!name.empty()) names.push_back(name);
+  }
+  if (part.number > 0)
+    fail(source, key, fmt::format("there is no item {}, only {}", part.number, list.items.size()));
+  if (names.empty())
+    fail(source, key, fmt::format("there is no \"{}\" in a list of plain values", part.name));
+  fail(source, key,
+       fmt::format("there is no \"{}\", allowed {}{}", part.name, listed(names),
+                   did_you_mean(part.name, names)));
+}
+
+/// The node of the part; made when it does not exist.
+Node& descend(Node& node, const Part& part, std::string_view key, const Source& source) {
+  if (node.is(Node::Kind::list)) return list_item(node, part, key, source);
+  if (node.is(Node::Kind::text)) { // a named thing becomes a table that starts from it
+    Node table;
+    table.source = node.source;
+    table.key_source = node.key_source;
+    table.add("name", node);
+    node = std::move(table);
+  }
+  if (!node.is(Node::Kind::table) || part.number > 0) fail(source, key, "there is no such key");
+  if (Node* entry = node.find(part.name)) return *entry;
+  Node made;
+  made.source = made.key_source = source;
+  return node.add(part.name, std::move(made));
+}
+
+void remove(Node& tree, const std::vector<Part>& parts, std::string_view key, const Source& source) {
+  Node* table = &tree;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+    if (table)
+      table = table->is(Node::Kind::list) ? &list_item(*table, parts[i], key, source)
+                                          : table->find(parts[i].name);
+  if (table && table->is(Node::Kind::list)) {
+    const Node& item = list_item(*table, parts.back(), key, source);
+    table->items.erase(table->items.begin() + (&item - table->items.data()));
+    return;
+  }
+  const std::string& name = parts.back().name;
+  if (!table || !table->find(name)) fail(source, key, "there is no such key to remove");
+  table->remove(name);
+}
+
+} // namespace
+
+void apply_override(Node& tree, std::string_view key, std::string_view value, const Source& source) {
+  const std::vector<Part> parts = parts_of(key, source);
+  if (value.find_first_not_of(' ') == std::string_view::npos) return remove(tree, parts, key, source);
+  Node* node = &tree;
+  for (const Part& part : parts) node = &descend(*node, part, key, source);
+  *node = parse_value(value, source);
+}
+
+void apply_override(Node& tree, std::string_view assignment) {
+  const Source source{fmt::format("--set {}", assignment)};
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos) fail(source, "", "no \"=\"; write --set key=value");
+  std::string_view key = assignment.substr(0, equals);
+  while (key.ends_with(' ')) key.remove_suffix(1);
+  apply_override(tree, key, assignment.substr(equals + 1), source);
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/text/tree.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace dielast::cases {
+
+/// Applies one `--set key=value` to the tree. The key is a path: "honeycomb.angle", "step.voltage.increments"
+/// (an item by its name, kind, quantity or place) or "step[2].increments" (by its number, from 1); parts with
+/// a dot are quoted. The value is TOML where it parses, a text otherwise: `film.prestretch=[3, 3]`,
+/// `drive.voltage=7.5 kV`. Nothing
+/// behind the "=" removes the key, or the item. The new nodes' source is `source`. Throws CaseError.
+void apply_override(Node& tree, std::string_view key, std::string_view value, const Source& source);
+
+/// Splits "key=value" and applies it; its source is "--set key=value".
+void apply_override(Node& tree, std::string_view assignment);
+
+} // namespace dielast::cases

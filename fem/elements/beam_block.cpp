@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/elements/beam_block.hpp"
+
+#include "fem/elements/beam_kinematics.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace dielast::fem {
+
+namespace {
+
+Eigen::Vector4d coefficients(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+/// Derivative of q -> exp(spin) q in the spin, at spin = 0; the second derivative is -q/4 times the unit
+/// matrix.
+Eigen::Matrix<double, 4, 3> spin_gradient(const Eigen::Vector4d& q) {
+  Eigen::Matrix<double, 4, 3> g;
+  g << -q[1], -q[2], -q[3], //
+      q[0], q[3], -q[2],    //
+      -q[3], q[0], q[1],    //
+      q[2], -q[1], q[0];
+  return 0.5 * g;
+}
+
+template<int Nodes>
+struct LinePoint {
+  std::array<double, Nodes> value, slope; // slope: d/dxi, xi in -1..1
+  double weight;
+};
+
+template<int Nodes>
+LinePoint<Nodes> line_point(double xi, double weight) {
+  if constexpr (Nodes == 2)
+    return {{(1 - xi) / 2, (1 + xi) / 2}, {-0.5, 0.5}, weight};
+  else
+    return {{xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi}, {xi - 0.5, xi + 0.5, -2 * xi}, weight};
+}
+
+template<int Nodes>
+std::array<LinePoint<Nodes>, Nodes - 1> line_rule() {
+  if constexpr (Nodes == 2)
+    return {line_point<2>(0, 2)};
+  else
+    return {line_point<3>(-1 / std::sqrt(3.0), 1), line_point<3>(1 / std::sqrt(3.0), 1)};
+}
+
+/// Tangent of the drawn centreline at node a (not normalised).
+template<int Nodes>
+Eigen::Vector3d nodal_tangent(const std::array<Eigen::Vector3d, Nodes>& X, int a) {
+  if constexpr (Nodes == 2) {
+    return X[1] - X[0];
+  } else {
+    const double xi = a == 0 ? -1 : a == 1 ? 1 : 0;
+    return (xi - 0.5) * X[0] + (xi + 0.5) * X[1] - 2 * xi * X[2];
+  }
+}
+
+template<int Nodes>
+class BeamBlock final : public ElementBlock {
+ public:
+  BeamBlock(const meshing::Mesh& mesh, const meshing::CellBlock& lines, const materials::BeamSection& section,
+            const Eigen::Vector3d& normal);
+
+  int element_count() const override { return static_cast<int>(elements_.size()); }
+  int dofs_per_element() const override { return dofs; }
+  void claim_dofs(DofMap& dofs, Dimension dimension) const override;
+  void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
+  void sample(const State& state, Samples& samples) const override;
+  void add_mass(int element, std::span<double> packed) const override;
+
+ private:
+  static constexpr int dofs = 6 * Nodes;
+  static constexpr int points = Nodes - 1;
+  using Vector6 = Eigen::Vector<double, 6>;
+
+  struct Point {
+    std::array<double, Nodes> value, slope; // of the shape functions, d/ds
+    double length;                          // ds that the point stands for
+    Vector6 rest;                           // strain measures as drawn
+  };
+  struct Element {
+    std::array<int, Nodes> node;
+    std::array<Eigen::Vector3d, Nodes> X;        // as drawn
+    std::array<Eigen::Quaterniond, Nodes> triad; // the section's axes as drawn
+    std::array<Point, points> point;
+  };
+  /// Positions and quaternions of an element's nodes.
+  struct Nodal {
+    std::array<Eigen::Vector3d, Nodes> x;
+    std::array<Eigen::Vector4d, Nodes> q;
+  };
+
+  static Nodal nodal(const Element& element, const State& state);
+  static BeamKinematics kinematics(const Point& point, const Nodal& nodal);
+  void accumulate_tangent(const Point& point, const BeamKinematics& kinematics, const Vector6& stress,
+                          const Nodal& nodal, Eigen::Matrix<double, dofs, dofs>& tangent) const;
+
+  std::vector<Element> elements_;
+  materials::BeamSection section_;
+  Vector6 stiffness_;
+};
+
+template<int Nodes>
+BeamBlock<Nodes>::BeamBlock(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
+                            const materials::BeamSection& section, const Eigen::Vector3d& normal)
+    : section_(section) {
+  stiffness_ << section.EA, section.GA2, section.GA3, section.GJ, section.EI2, section.EI3;
+  const auto rule = line_rule<Nodes>();
+  elements_.resize(static_cast<std::size_t>(lines.size()));
+  for (int e = 0; e < lines.size(); ++e) {
+    Element& element = elements_[static_cast<std::size_t>(e)];
+    Nodal drawn;
+    for (int a = 0; a < Nodes; ++a) {
+      element.node[a] = lines.cell(e)[static_cast<std::size_t>(a)];
+      element.X[a] = drawn.x[a] = mesh.nodes[static_cast<std::size_t>(element.node[a])];
+    }
+    for (int a = 0; a < Nodes; ++a) {
+      const Eigen::Vector3d tangent = nodal_tangent<Nodes>(element.X, a).normalized();
+      const Eigen::Vector3d second = normal.cross(tangent);
+      if (!(tangent.norm() > 0.5) || second.norm() < 1e-6 * normal.norm())
+        throw std::invalid_argument("line " + std::to_string(e) +
+                                    " has no length or runs along the section's normal");
+      Eigen::Matrix3d axes;
+      axes.col(0) = tangent;
+      axes.col(1) = second.normalized();
+      axes.col(2) = axes.col(0).cross(axes.col(1));
+      element.triad[a] = Eigen::Quaterniond(axes);
+      if (element.triad[a].dot(element.triad[0]) < 0) element.triad[a].coeffs() *= -1;
+      drawn.q[a] = coefficients(element.triad[a]);
+    }
+    for (int p = 0; p < points; ++p) {
+      const auto& at = rule[static_cast<std::size_t>(p)];
+      Eigen::Vector3d dx = Eigen::Vector3d::Zero();
+      for (int a = 0; a < Nodes; ++a) dx += at.slope[a] * element.X[a];
+      Point& point = element.point[p];
+      point.value = at.value;
+      for (int a = 0; a < Nodes; ++a) point.slope[a] = at.slope[a] / dx.norm();
+      point.length = at.weight * dx.norm();
+      point.rest = kinematics(point, drawn).strain();
+    }
+  }
+}
+
+template<int Nodes>
+void BeamBlock<Nodes>::claim_dofs(DofMap& dof_map, Dimension dimension) const {
+  for (const Element& element : elements_)
+    for (const int n : element.node)
+      for (int c = 0; c < DofMap::components; ++c)
+        if (moves(dimension, c)) dof_map.add(n, c);
+}
+
+template<int Nodes>
+void BeamBlock<Nodes>::element_equations(int element, const DofMap& dof_map, std::span<int> equations) const {
+  for (int a = 0; a < Nodes; ++a)
+    for (int c = 0; c < 6; ++c)
+      equations[static_cast<std::size_t>(6 * a + c)] =
+          dof_map.equation(elements_[static_cast<std::size_t>(element)].node[a], c);
+}
+
+template<int Nodes>
+void BeamBlock<Nodes>::add_mass(int element, std::span<double> packed) const {
+  const auto& X = elements_[static_cast<std::size_t>(element)].X;
+  const double outer = std::sqrt(0.6); // Gauss, three points
+  for (const auto& [xi, weight] : {std::pair{-outer, 5.0 / 9}, {0.0, 8.0 / 9}, {outer, 5.0 / 9}}) {
+    const LinePoint<Nodes> at = line_point<Nodes>(xi, weight);
+    Eigen::Vector3d dx = Eigen::Vector3d::Zero();
+    for (int a = 0; a < Nodes; ++a) dx += at.slope[a] * X[a];
+    const double mass = section_.line_density * weight * dx.norm();
+    for (int a = 0; a < Nodes; ++a)
+      for (int b = 0; b <= a; ++b)
+        for (int c = 0; c < 3; ++c) {
+          const int row = 6 * a + c, column = 6 * b + c;
+          packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] += mass * at.value[a] * at.value[b];
+        }
+  }
+}
+
+template<int Nodes>
+typename BeamBlock<Nodes>::Nodal BeamBlock<Nodes>::nodal(const Element& element, const State& state) {
+  Nodal n;
+  for (int a = 0; a < Nodes; ++a) {
+    const auto node = static_cast<std::size_t>(element.node[a]);
+    n.x[a] = element.X[a] + state.displacement[node];
+    n.q[a] = coefficients(state.rotation[node] * element.triad[a]);
+  }
+  return n;
+}
+
+template<int Nodes>
+BeamKinematics BeamBlock<Nodes>::kinematics(const Point& point, const Nodal& nodal) {
+  BeamKinematics::Vector11 y = BeamKinematics::Vector11::Zero();
+  for (int a = 0; a < Nodes; ++a) {
+    y.segment<3>(BeamKinematics::slope) += point.slope[a] * nodal.x[a];
+    y.segment<4>(BeamKinematics::quaternion) += point.value[a] * nodal.q[a];
+    y.segment<4>(BeamKinematics::quaternion_slope) += point.slope[a] * nodal.q[a];
+  }
+  return BeamKinematics(y);
+}
+
+/// Chain rule y -> (x_a, q_a) -> (x_a, spin_a); the curvature of the rotation group adds -(g_a.q_a)/4 per
+/// node, where g_a is the gradient in q_a.
+template<int Nodes>
+void BeamBlock<Nodes>::accumulate_tangent(const Point& point, const BeamKinematics& kinematics,
+                                          const Vector6& stress, const Nodal& nodal,
+                                          Eigen::Matrix<double, dofs, dofs>& tangent) const {
+  const Eigen::Matrix<double, 6, 11> gradient = kinematics.gradient();
+  const BeamKinematics::Matrix11 H =
+      point.length * (gradient.transpose() * stiffness_.asDiagonal() * gradient + kinematics.hessian(stress));
+  const BeamKinematics::Vector11 g = point.length * (gradient.transpose() * stress);
+  std::array<Eigen::Matrix<double, 11, 6>, Nodes> J; // dy / d(x_a, spin_a)
+  for (int a = 0; a < Nodes; ++a) {
+    const Eigen::Matrix<double, 4, 3> G = spin_gradient(nodal.q[a]);
+    J[a].setZero();
+    J[a].template block<3, 3>(BeamKinematics::slope, 0).diagonal().setConstant(point.slope[a]);
+    J[a].template block<4, 3>(BeamKinematics::quaternion, 3) = point.value[a] * G;
+    J[a].template block<4, 3>(BeamKinematics::quaternion_slope, 3) = point.slope[a] * G;
+  }
+  for (int a = 0; a < Nodes; ++a) {
+    const Eigen::Matrix<double, 6, 11> JtH = J[a].transpose().lazyProduct(H); // too small for blocking
+    for (int b = 0; b <= a; ++b) tangent.template block<6, 6>(6 * a, 6 * b) += JtH.lazyProduct(J[b]);
+    const double curvature = -0.25 * (point.value[a] * g.segment<4>(BeamKinematics::quaternion) +
+                                      point.slope[a] * g.segment<4>(BeamKinematics::quaternion_slope))
+                                         .dot(nodal.q[a]);
+    tangent.template block<3, 3>(6 * a + 3, 6 * a + 3).diagonal().array() += curvature;
+  }
+}
+
+template<int Nodes>
+Evaluation BeamBlock<Nodes>::evaluate(const State& state, int first, int last, const Scatter& scatter) const {
+  Evaluation result;
+  for (int e = first; e < last; ++e) {
+    const Element& element = elements_[static_cast<std::size_t>(e)];
+    const Nodal n = nodal(element, state);
+    Eigen::Vector<double, dofs> residual = Eigen::Vector<double, dofs>::Zero();
+    Eigen::Matrix<double, dofs, dofs> tangent;
+    if (scatter.tangent) tangent.setZero();
+    for (const Point& point : element.point) {
+      const BeamKinematics k = kinematics(point, n);
+      if (!(k.N > 0.1)) { // quaternions more than 140 degrees apart, nodes 280: no interpolation
+        result.feasible = false;
+        continue;
+      }
+      const Vector6 strain = k.strain() - point.rest;
+      const Vector6 stress = stiffness_.cwiseProduct(strain);
+      result.energy += 0.5 * point.length * stress.dot(strain);
+      if (scatter.residual) {
+        const BeamKinematics::Vector11 g = point.length * (k.gradient().transpose() * stress);
+        for (int a = 0; a < Nodes; ++a) {
+          residual.template segment<3>(6 * a) += point.slope[a] * g.template head<3>();
+          residual.template segment<3>(6 * a + 3) +=
+              spin_gradient(n.q[a]).transpose() *
+              (point.value[a] * g.template segment<4>(BeamKinematics::quaternion) +
+               point.slope[a] * g.template segment<4>(BeamKinematics::quaternion_slope));
+        }
+      }
+      if (scatter.tangent) accumulate_tangent(point, k, stress, n, tangent);
+    }
+    if (scatter.residual) scatter.add_residual(e, {residual.data(), dofs});
+    if (scatter.tangent) {
+      std::array<double, dofs*(dofs + 1) / 2> packed;
+      for (int i = 0; i < dofs; ++i)
+        for (int j = 0; j <= i; ++j) packed[static_cast<std::size_t>(i * (i + 1) / 2 + j)] = tangent(i, j);
+      scatter.add_tangent(e, packed);
+    }
+  }
+  return result;
+}
+
+template<int Nodes>
+void BeamBlock<Nodes>::sample(const State& state, Samples& samples) const {
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Nodal n = nodal(elements_[e], state);
+    for (const Point& point : elements_[e].point) {
+      const Vector6 strain = kinematics(point, n).strain() - point.rest;
+      const Vector6 stress = stiffness_.cwiseProduct(strain);
+      BeamSample s;
+      s.cell = static_cast<int>(e);
+      s.length = point.length;
+      s.force = stress.head<3>();
+      s.moment = stress.tail<3>();
+      s.strain = strain.head<3>();
+      s.curvature = strain.tail<3>();
+      s.fibre_strain = std::abs(s.strain[0]) + std::abs(s.curvature[2]) * section_.half_width +
+                       std::abs(s.curvature[1]) * section_.half_height;
+      s.yield_strain = section_.yield_strain;
+      samples.walls.push_back(s);
+    }
+  }
+}
+
+} // namespace
+
+std::unique_ptr<ElementBlock> make_beam_block(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
+                                              const materials::BeamSection& section,
+                                              const Eigen::Vector3d& normal) {
+  if (lines.type == meshing::CellType::line3)
+    return std::make_unique<BeamBlock<3>>(mesh, lines, section, normal);
+  return std::make_unique<BeamBlock<2>>(mesh, lines, section, normal);
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/model/element_block.hpp"
+#include "materials/beam_section.hpp"
+#include "meshing/mesh.hpp"
+
+#include <memory>
+
+namespace dielast::fem {
+
+/// Builds the geometrically exact (Simo-Reissner) beams of a block of 2- or 3-node lines.
+///
+/// Energy: 1/2 int (Gamma.C_N Gamma + K.C_M K) ds with the material strains Gamma = R^T x' - (R^T x')_0 and
+/// K = axial(R^T R') - (.)_0 (Simo 1985; Simo & Vu-Quoc 1986). The rotation field interpolates the nodes'
+/// unit quaternions and normalises, R(s) = R(q/|q|) with q = sum_a N_a q_a (Romero 2004, Comput. Mech. 34,
+/// sec. 4.2), so that Gamma and K are rational in the nodal quaternions: objective, path-independent, without
+/// singularity below half a turn within one element, and with short exact derivatives. One (2 nodes) or two
+/// (3 nodes) Gauss points: no shear or membrane locking. `section` has its axis 1 along the line and its axis
+/// 3 along `normal`, which must not be parallel to any line. Nodes are shared with other blocks: that is the
+/// tie to the film. As drawn, the beams are free of stress. Their mass is that of the centreline
+/// (consistent): slender walls' sections have next to no rotary inertia. Throws std::invalid_argument for a
+/// line of zero length or parallel to `normal`.
+std::unique_ptr<ElementBlock> make_beam_block(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
+                                              const materials::BeamSection& section,
+                                              const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ());
+
+} // namespace dielast::fem

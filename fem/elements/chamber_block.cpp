@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/elements/chamber_block.hpp"
+
+#include "fem/films/meridian.hpp"
+#include "fem/films/triangle.hpp"
+
+#include <numbers>
+
+namespace dielast::fem {
+
+namespace {
+
+/// A volume as a function of an element's unknowns.
+template<int Size>
+struct Volume {
+  double value = 0;
+  Eigen::Vector<double, Size> gradient = Eigen::Vector<double, Size>::Zero();
+  Eigen::Matrix<double, Size, Size> hessian = Eigen::Matrix<double, Size, Size>::Zero();
+};
+
+template<int Nodes>
+struct UnderTriangle {
+  static constexpr int nodes = Nodes, dim = 3;
+  static constexpr std::array<int, 3> components{0, 1, 2};
+
+  static Volume<3 * Nodes> of(const Eigen::Matrix<double, 3, Nodes>& x) {
+    Volume<3 * Nodes> V;
+    for (const TrianglePoint& at : triangle_rule(Nodes == 6 ? 6 : 1)) {
+      const Eigen::Matrix<double, Nodes, 1> N = shape_values<Nodes>(at.xi, at.eta);
+      const Eigen::Matrix<double, Nodes, 2> dN = shape_gradients<Nodes>(at.xi, at.eta);
+      const Eigen::Matrix<double, 3, 2> t = x * dN;
+      const double z = x.row(2).dot(N), area = t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0), w = at.weight;
+      V.value += w * z * area;
+      const Eigen::Matrix<double, Nodes, 1> area_x = dN.col(0) * t(1, 1) - dN.col(1) * t(1, 0);
+      const Eigen::Matrix<double, Nodes, 1> area_y = dN.col(1) * t(0, 0) - dN.col(0) * t(0, 1);
+      for (int a = 0; a < Nodes; ++a) {
+        V.gradient[3 * a] += w * z * area_x[a];
+        V.gradient[3 * a + 1] += w * z * area_y[a];
+        V.gradient[3 * a + 2] += w * N[a] * area;
+        for (int b = 0; b < Nodes; ++b) {
+          const double xy = w * z * (dN(a, 0) * dN(b, 1) - dN(a, 1) * dN(b, 0));
+          V.hessian(3 * a, 3 * b + 1) += xy;
+          V.hessian(3 * b + 1, 3 * a) += xy;
+          V.hessian(3 * a + 2, 3 * b) += w * N[a] * area_x[b];
+          V.hessian(3 * b, 3 * a + 2) += w * N[a] * area_x[b];
+          V.hessian(3 * a + 2, 3 * b + 1) += w * N[a] * area_y[b];
+          V.hessian(3 * b + 1, 3 * a + 2) += w * N[a] * area_y[b];
+        }
+      }
+    }
+    return V;
+  }
+};
+
+template<int Nodes>
+struct UnderMeridian {
+  static constexpr int nodes = Nodes, dim = 2;
+  static constexpr std::array<int, 2> components{0, 2};
+
+  static Volume<2 * Nodes> of(const Eigen::Matrix<double, 2, Nodes>& x) {
+    Volume<2 * Nodes> V;
+    for (const MeridianPoint& at : meridian_rule(3)) {
+      const Eigen::Matrix<double, Nodes, 1> N = meridian_shape<Nodes>(at.xi),
+                                            dN = meridian_slope<Nodes>(at.xi);
+      const double r = x.row(0).dot(N), dr = x.row(0).dot(dN), z = x.row(1).dot(N);
+      const double w = -2 * std::numbers::pi * at.weight;
+      V.value += w * r * z * dr;
+      for (int a = 0; a < Nodes; ++a) {
+        V.gradient[2 * a] += w * z * (N[a] * dr + r * dN[a]);
+        V.gradient[2 * a + 1] += w * r * dr * N[a];
+        for (int b = 0; b < Nodes; ++b) {
+          V.hessian(2 * a, 2 * b) += w * z * (N[a] * dN[b] + dN[a] * N[b]);
+          const double zr = w * N[a] * (N[b] * dr + r * dN[b]);
+          V.hessian(2 * a + 1, 2 * b) += zr;
+          V.hessian(2 * b, 2 * a + 1) += zr;
+        }
+      }
+    }
+    return V;
+  }
+};
+
+template<class Under>
+class PressureBlock final : public ElementBlock {
+ public:
+  PressureBlock(const meshing::Mesh& mesh, const meshing::CellBlock& film, std::size_t port)
+      : port_(port), nodes_(film.nodes), reference_(mesh.nodes) {}
+
+  int element_count() const override { return static_cast<int>(nodes_.size()) / Nodes; }
+  int dofs_per_element() const override { return size; }
+  void claim_dofs(DofMap& dofs, Dimension /*the film's*/) const override {
+    for (const int node : nodes_)
+      for (const int c : Under::components) dofs.add(node, c);
+  }
+  void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
+      equations[i] = dofs.equation(node(element, static_cast<int>(i) / Dim), Under::components[i % Dim]);
+  }
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override {
+    Evaluation result;
+    const double p = state.voltage[port_];
+    for (int e = first; e < last; ++e) {
+      const Volume<size> V = volume(state, e);
+      result.energy -= p * V.value;
+      if (scatter.residual) {
+        const Eigen::Vector<double, size> force = -p * V.gradient;
+        scatter.add_residual(e, std::span(force.data(), size));
+      }
+      if (!scatter.tangent) continue;
+      std::array<double, size*(size + 1) / 2> packed;
+      std::size_t at = 0;
+      for (int i = 0; i < size; ++i)
+        for (int j = 0; j <= i; ++j) packed[at++] = -p * V.hessian(i, j);
+      scatter.add_tangent(e, packed);
+    }
+    return result;
+  }
+  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
+  void add_charges(const State& state, const DofMap* dofs, Charges& charges) const override {
+    std::array<int, size> equations;
+    for (int e = 0; e < element_count(); ++e) {
+      const Volume<size> V = volume(state, e);
+      charges.charge[port_] += V.value;
+      if (!dofs) continue;
+      element_equations(e, *dofs, equations);
+      for (std::size_t i = 0; i < equations.size(); ++i)
+        if (equations[i] >= 0) charges.coupling[port_][equations[i]] += V.gradient[static_cast<int>(i)];
+    }
+  }
+  void add_energies(const State& /*state*/, EnergyParts& /*the load stores none*/) const override {}
+
+ private:
+  static constexpr int Nodes = Under::nodes, Dim = Under::dim, size = Nodes * Dim;
+
+  int node(int element, int a) const { return nodes_[static_cast<std::size_t>(element * Nodes + a)]; }
+  Volume<size> volume(const State& state, int element) const {
+    Eigen::Matrix<double, Dim, Nodes> x;
+    for (int a = 0; a < Nodes; ++a) {
+      const auto n = static_cast<std::size_t>(node(element, a));
+      for (int d = 0; d < Dim; ++d) {
+        const int c = Under::components[static_cast<std::size_t>(d)];
+        x(d, a) = reference_[n][c] + state.displacement[n][c];
+      }
+    }
+    return Under::of(x);
+  }
+
+  std::size_t port_;
+  std::vector<int> nodes_;
+  std::vector<Eigen::Vector3d> reference_;
+};
+
+class LidBlock final : public ElementBlock {
+ public:
+  LidBlock(const meshing::Mesh& mesh, const Lid& lid, std::size_t port)
+      : lid_(lid), drawn_(mesh.nodes[static_cast<std::size_t>(lid.node)].z()), port_(port) {}
+
+  int element_count() const override { return 1; }
+  int dofs_per_element() const override { return 1; }
+  void claim_dofs(DofMap& /*those of the film*/, Dimension /*dimension*/) const override {}
+  void element_equations(int /*element*/, const DofMap& dofs, std::span<int> equations) const override {
+    equations[0] = dofs.equation(lid_.node, 2);
+  }
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override {
+    if (first >= last) return {};
+    const double p = state.voltage[port_];
+    if (scatter.residual) scatter.add_residual(0, std::array{-p * lid_.area});
+    return {-p * lid_.area * height(state), true};
+  }
+  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
+  void add_charges(const State& state, const DofMap* dofs, Charges& charges) const override {
+    charges.charge[port_] += lid_.area * height(state);
+    if (!dofs) return;
+    if (const int e = dofs->equation(lid_.node, 2); e >= 0) charges.coupling[port_][e] += lid_.area;
+  }
+  void add_energies(const State& /*state*/, EnergyParts& /*the load stores none*/) const override {}
+
+ private:
+  double height(const State& state) const {
+    return drawn_ + state.displacement[static_cast<std::size_t>(lid_.node)].z();
+  }
+
+  Lid lid_;
+  double drawn_;
+  std::size_t port_;
+};
+
+} // namespace
+
+std::unique_ptr<ElementBlock> make_pressure_block(const meshing::Mesh& mesh, const meshing::CellBlock& film,
+                                                  std::size_t port) {
+  switch (film.type) {
+  case meshing::CellType::triangle6:
+    return std::make_unique<PressureBlock<UnderTriangle<6>>>(mesh, film, port);
+  case meshing::CellType::triangle3:
+    return std::make_unique<PressureBlock<UnderTriangle<3>>>(mesh, film, port);
+  case meshing::CellType::meridian3:
+    return std::make_unique<PressureBlock<UnderMeridian<3>>>(mesh, film, port);
+  default:
+    return std::make_unique<PressureBlock<UnderMeridian<2>>>(mesh, film, port);
+  }
+}
+
+std::unique_ptr<ElementBlock> make_lid_block(const meshing::Mesh& mesh, const Lid& lid, std::size_t port) {
+  return std::make_unique<LidBlock>(mesh, lid, port);
+}
+
+} // namespace dielast::fem

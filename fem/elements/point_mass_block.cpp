@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/elements/point_mass_block.hpp"
+
+namespace dielast::fem {
+
+namespace {
+
+class PointMassBlock final : public ElementBlock {
+ public:
+  explicit PointMassBlock(const PointMass& point) : point_(point) {}
+
+  int element_count() const override { return 1; }
+  int dofs_per_element() const override { return 1; }
+  void claim_dofs(DofMap& dofs, Dimension dimension) const override {
+    if (moves(dimension, point_.axis)) dofs.add(point_.node, point_.axis);
+  }
+  void element_equations(int /*element*/, const DofMap& dofs, std::span<int> equations) const override {
+    equations[0] = dofs.equation(point_.node, point_.axis);
+  }
+  Evaluation evaluate(const State& /*state*/, int /*first*/, int /*last*/,
+                      const Scatter& /*scatter*/) const override {
+    return {};
+  }
+  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
+  void add_mass(int /*element*/, std::span<double> packed) const override { packed[0] += point_.mass; }
+  void add_damping(int /*element*/, std::span<double> packed) const override { packed[0] += point_.damping; }
+
+ private:
+  PointMass point_;
+};
+
+} // namespace
+
+std::unique_ptr<ElementBlock> make_point_mass_block(const PointMass& point) {
+  return std::make_unique<PointMassBlock>(point);
+}
+
+} // namespace dielast::fem

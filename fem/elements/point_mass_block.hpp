@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/model/element_block.hpp"
+
+#include <memory>
+
+namespace dielast::fem {
+
+/// A mass at a node and a linear damper between it and the ground, felt along one axis: forces m a and c v.
+struct PointMass {
+  int node = 0;
+  int axis = 2;       ///< 0, 1, 2 = x, y, z
+  double mass = 0;    ///< m, kg
+  double damping = 0; ///< c, N s/m
+};
+
+std::unique_ptr<ElementBlock> make_point_mass_block(const PointMass& point);
+
+} // namespace dielast::fem

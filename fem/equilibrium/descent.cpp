@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/equilibrium/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr double first_damping = 1e-4; ///< over the stiffness as drawn
+constexpr double least_damping = 1e-12, most_damping = 1e8;
+constexpr double less = 1.0 / 5, more = 6;  ///< factors of the damping
+constexpr double well = 0.75, badly = 0.25; ///< decrease of the energy over the one that was foretold
+constexpr double rounded = 1e-12;           ///< of the energy: smaller changes are not told
+constexpr int most_steps = 400;
+
+constexpr double next_to_nothing = 1e-9; ///< of the film's stiffness: tension that is none
+
+} // namespace
+
+bool Equilibrium::is_slack(const State& state) const {
+  const double stiffness = stiffness_.size() > 0 ? stiffness_.maxCoeff() : 0; // N/m
+  const auto film = model_.sample(state).film;
+  return !film.empty() && std::ranges::all_of(film, [stiffness](const MembraneSample& sample) {
+    return sample.S.norm() * sample.thickness <= next_to_nothing * stiffness;
+  });
+}
+
+/// Levenberg-Marquardt: (K + c D) du = -R, D = stiffness(), with as much c as it takes for the energy to fall
+/// as it was foretold. Where wrinkles come and go the energy is smooth by parts only, and in slack film it
+/// has hardly any stiffness: Newton's steps are much too long there.
+NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
+                                  const std::function<void(const Iteration&)>& log) {
+  const Eigen::Index free = model_.dofs.free_count();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  NewtonResult result{.outcome = Outcome::not_converged};
+  double damping = first_damping, previous_norm = infinity, length = 0;
+  Balance current, there;
+  Eigen::VectorXd step;
+  balance(state, current, Pressure::is_unknown);
+  const auto chamber = model_.closed_chamber(state);
+  for (; result.iterations < most_steps && damping < most_damping; ++result.iterations) {
+    if (!current.feasible) return result;
+    result.residual = current.scale > 0 ? current.norm / current.scale : 0;
+    if (log) log({result.iterations, result.residual, length, result.negative_pivots});
+    // How far a damped step goes tells nothing of how near the equilibrium is.
+    if (balanced(current, options.tolerance, previous_norm, infinity)) {
+      if (!factor(state)) return result;
+      result.negative_pivots = tangent_.negative_pivots();
+      result.unstable_modes = tangent_.unstable_modes();
+      result.outcome = Outcome::converged;
+      return result;
+    }
+    const Eigen::VectorXd added = damping * stiffness_;
+    if (!factor(state, nullptr, &added) || tangent_.unstable_modes() > 0) {
+      damping *= more;
+      continue;
+    }
+    tangent_.solve(-current.force.head(free), step);
+    const double foretold = current.force.head(free).dot(step) / 2; // without damping it would be this
+    State trial = state;
+    model_.dofs.advance(trial, step, 1);
+    const double dead_work =
+        state.dead_force.head(free).dot(step) + model_.dofs.work_on_tied(state.dead_force, state, trial);
+    bool feasible = true;
+    if (chamber) {
+      trial.voltage[*chamber] += tangent_.voltage_step(*chamber);
+      feasible = model_.fill(trial, tangent_.response(*chamber));
+    }
+    if (feasible) balance(trial, there, Pressure::is_unknown);
+    const double change = there.energy - current.energy - dead_work;
+    const double noise = rounded * (std::abs(there.energy) + std::abs(current.energy) + std::abs(dead_work));
+    const bool tells = -foretold > noise;
+    const bool falls = tells ? change < 0 : there.norm < current.norm;
+    if (!feasible || !there.feasible || !falls) {
+      damping *= more;
+      length = 0;
+      continue;
+    }
+    const double share = tells ? change / foretold : 1;
+    if (share > well) damping = std::max(least_damping, damping * less);
+    if (share < badly) damping *= more;
+    previous_norm = current.norm;
+    length = 1;
+    state = std::move(trial);
+    std::swap(current, there);
+  }
+  return result;
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/equilibrium/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+namespace dielast::fem {
+
+namespace {
+
+/// Below this many unknowns reading the clock takes longer than the work.
+constexpr int worth_timing = 200;
+
+/// Adds the CPU time of its own life to a counter, in models that are large enough.
+class Stopwatch {
+ public:
+  Stopwatch(double& total, const Model& model)
+      : total_(model.dofs.count() < worth_timing ? nullptr : &total), start_(total_ ? std::clock() : 0) {}
+  ~Stopwatch() {
+    if (total_) *total_ += static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double* total_;
+  std::clock_t start_;
+};
+
+constexpr double sufficient_decrease = 1e-4;
+constexpr int most_halvings = 12;
+/// Relative residual below which one more step leaves the tangent's inertia as it is.
+constexpr double near = 1e-3;
+/// Weights of unknowns that have no stiffness as drawn (a slack film's, across it), over the stiffest's.
+constexpr double least_stiffness = 1e-6;
+constexpr double negligible = 1e-3;    ///< strain to which the tolerance of steps refers
+constexpr double rounded_step = 1e-10; ///< over the extent; smaller ones may know no descent
+constexpr double farthest_step = 1e4;  ///< over the extent; no part of a farther one leads anywhere
+constexpr double first_widening = 0.02, most_widening = 0.5; ///< strains that give a film tension
+constexpr int most_voltage_corrections = 30;
+constexpr double charge_tolerance = 1e-13; ///< of the voltage
+/// Of the charge: a hardly compressible filling turns it into much more of the pressure than
+/// charge_tolerance.
+constexpr double charge_rounding = 1e-15;
+constexpr int most_turns = 40; ///< between forces and sheets
+constexpr int patience = 10;   ///< iterations after which the residual must be smaller than at the start
+constexpr int most_indefinite =
+    6; ///< tangents in a row: by then the iteration wanders between unstable states
+
+} // namespace
+
+Equilibrium::Equilibrium(const Model& model, int threads)
+    : model_(model), assembler_(model, threads), tangent_(model, assembler_, stiffness_) {
+  weight_ = Eigen::VectorXd::Ones(model.dofs.count());
+  for (int n = 0; n < model.dofs.node_count(); ++n)
+    for (int c = 3; c < DofMap::components; ++c)
+      if (const int e = model.dofs.equation(n, c); e != DofMap::absent) weight_[e] = 1 / model.length_scale;
+  assembler_.tangent(model.initial_state());
+  const SparseSymmetric& K = assembler_.matrix();
+  const auto squared = weight_.head(K.size).array().square();
+  stiffness_.resize(K.size);
+  for (int c = 0; c < K.size; ++c) {
+    const auto diagonal = static_cast<std::size_t>(K.column_start[static_cast<std::size_t>(c)]);
+    stiffness_[c] = std::abs(K.values[diagonal]);
+  }
+  const double stiffest = K.size > 0 ? (stiffness_.array() * squared).maxCoeff() : 0.0;
+  // Positions are known to a rounding of the extent; the stiffest unknowns turn it into force.
+  round_off_ = std::numeric_limits<double>::epsilon() * stiffest * model.extent *
+               std::sqrt(static_cast<double>(K.size));
+  stiffness_ = stiffness_.array().max(least_stiffness * stiffest / squared);
+  energy_scale_ = (squared == 1).select(stiffness_.array(), 0).sum() * model.extent * model.extent;
+  if (!model.sheets.empty()) conduction_.emplace(model);
+}
+
+double Equilibrium::weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const {
+  return force.head(count).cwiseProduct(weight_.head(count)).norm();
+}
+
+/// Phi at which no electrode has a surplus of charge. One correction is enough where charges are proportional
+/// to voltages; the natural width of wrinkled film and sources at their limit take a little more.
+bool Equilibrium::follow_charges(State& state, Pressure pressure) const {
+  const auto follows = [&](std::size_t port) {
+    return state.supply[port] != Supply::voltage &&
+           !(pressure == Pressure::is_unknown && model_.chamber_of(port));
+  };
+  bool any = false;
+  for (std::size_t e = 0; e < state.supply.size(); ++e) any = any || follows(e);
+  if (!any) return true;
+  for (int correction = 0; correction <= most_voltage_corrections; ++correction) {
+    const Charges surplus = model_.surplus(state, false);
+    bool balanced = true;
+    for (std::size_t e = 0; e < state.supply.size(); ++e) {
+      if (!follows(e)) continue;
+      const double change = -surplus.charge[e] / surplus.capacitance[e];
+      state.voltage[e] += change;
+      if (!std::isfinite(state.voltage[e])) return false;
+      balanced = balanced && (std::abs(change) <= charge_tolerance * std::abs(state.voltage[e]) ||
+                              std::abs(surplus.charge[e]) <= charge_rounding * std::abs(state.charge[e]));
+    }
+    if (balanced) return true;
+  }
+  return false;
+}
+
+void Equilibrium::balance(State& state, Balance& balance) {
+  this->balance(state, balance, Pressure::follows);
+}
+
+void Equilibrium::balance(State& state, Balance& balance, Pressure pressure) {
+  const Stopwatch watch(timings_.residual, model_);
+  const bool follows = any_follows(state);
+  if (follows && !follow_charges(state, pressure)) {
+    balance = {
+        .energy = NAN, .feasible = false, .force = Eigen::VectorXd::Constant(model_.dofs.count(), NAN)};
+    return;
+  }
+  const Evaluation evaluation = assembler_.residual(state, balance.force);
+  balance.energy = evaluation.energy;
+  if (follows) balance.energy += model_.supply_energy(state);
+  balance.force -= state.dead_force;
+  if (!state.motion_scheme.is_static()) {
+    const InertialForce inertial(model_.inertia, model_.dofs, state);
+    balance.force += inertial.force();
+    balance.energy += inertial.energy();
+  }
+  model_.dofs.gather(state, balance.force);
+  balance.norm = weighted_norm(balance.force, model_.dofs.free_count());
+  balance.scale = weighted_norm(state.dead_force, state.dead_force.size());
+  for (const auto& block : assembler_.block_residuals())
+    balance.scale = std::max(balance.scale, weighted_norm(block, block.size()));
+  balance.feasible = evaluation.feasible && std::isfinite(balance.norm) && std::isfinite(balance.energy);
+}
+
+/// A film whose field carries its stress has no nodal forces to compare the residual with: there, what the
+/// next step would change must be negligible, as told by the last one and the residual's decrease.
+bool Equilibrium::balanced(const Balance& balance, double tolerance, double previous_norm,
+                           double step) const {
+  const bool stagnates = balance.norm <= round_off_ && balance.norm > 0.3 * previous_norm;
+  return balance.norm <= tolerance * balance.scale || stagnates ||
+         (std::isfinite(step) && step * balance.norm <= negligible * tolerance * previous_norm);
+}
+
+double Equilibrium::step_size(const Eigen::VectorXd& step) const {
+  return step.cwiseQuotient(weight_.head(step.size())).lpNorm<Eigen::Infinity>() / model_.extent;
+}
+
+bool Equilibrium::factor(const State& state, const PathBorder* path, const Eigen::VectorXd* added) {
+  {
+    const Stopwatch watch(timings_.tangent, model_);
+    assembler_.tangent(state);
+  }
+  const Stopwatch watch(timings_.factor, model_);
+  return tangent_.factor(state, path, added);
+}
+
+/// Goes along the Newton step, shorter while that leads nowhere; returns the fraction taken, 0 if none will
+/// do.
+double Equilibrium::backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings) {
+  const Eigen::Index free = model_.dofs.free_count();
+  const bool definite = tangent_.unstable_modes() == 0;
+  const double slope = current.force.head(free).dot(step);
+  const double dead_work = state.dead_force.head(free).dot(step);
+  const auto chamber = model_.closed_chamber(state);
+  Eigen::VectorXd response;
+  if (chamber) response = tangent_.response(*chamber);
+  Balance there;
+  double length = 1;
+  for (int halving = 0; halving <= halvings; ++halving, length *= 0.5) {
+    State trial = state;
+    model_.dofs.advance(trial, step, length);
+    if (chamber) {
+      trial.voltage[*chamber] += length * tangent_.voltage_step(*chamber);
+      if (!model_.fill(trial, response)) continue;
+    }
+    balance(trial, there, Pressure::is_unknown);
+    if (!there.feasible) continue;
+    const double energy_change = there.energy - current.energy - length * dead_work -
+                                 model_.dofs.work_on_tied(state.dead_force, state, trial);
+    const bool descends = definite && energy_change <= sufficient_decrease * length * slope;
+    if (!descends && !(there.norm < current.norm)) continue;
+    state = std::move(trial);
+    std::swap(current, there);
+    return length;
+  }
+  return 0;
+}
+
+/// All of it a little larger.
+State Equilibrium::widened(State state, double strain) const {
+  for (std::size_t n = 0; n < model_.drawn.size(); ++n)
+    state.displacement[n] += strain * (model_.drawn[n] + state.displacement[n]);
+  return state;
+}
+
+/// Gives a closed chamber its volume; false where it cannot have it.
+bool Equilibrium::fill(State& state) {
+  const auto chamber = model_.closed_chamber(state);
+  if (!chamber || model_.fill(state, Eigen::VectorXd::Zero(model_.dofs.free_count()))) return true;
+  if (!factor(state) && !factor(widened(state, first_widening))) return false;
+  return model_.fill(state, tangent_.response(*chamber));
+}
+
+NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
+                                const std::function<void(const Iteration&)>& log) {
+  if (!conduction_) return balance_forces(state, options, log);
+  conduction_->solve(state);
+  int iterations = 0;
+  double part = 1; // of the change of drops that is taken
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(state.sheet_drop.size());
+  for (int turn = 0;; ++turn) {
+    NewtonResult result = balance_forces(state, options, log);
+    result.iterations = iterations += result.iterations;
+    if (result.outcome != Outcome::converged) return result;
+    const Eigen::VectorXd drop = state.sheet_drop;
+    if (conduction_->solve(state) <= options.tolerance) return result;
+    if (turn == most_turns) {
+      result.outcome = Outcome::not_converged;
+      return result;
+    }
+    const Eigen::VectorXd next = state.sheet_drop - drop;
+    if (const double bend = (next - change).squaredNorm(); turn > 0 && bend > 0)
+      part *= -change.dot(next - change) / bend;
+    change = next;
+    state.sheet_drop = drop + part * change;
+  }
+}
+
+NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& options,
+                                         const std::function<void(const Iteration&)>& log) {
+  NewtonResult result = newton(state, options, log);
+  if (result.outcome == Outcome::converged || !options.wrinkles) return result;
+  const int iterations = result.iterations;
+  result = descend(state, options, log);
+  result.iterations += iterations;
+  return result;
+}
+
+NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
+                                 const std::function<void(const Iteration&)>& log) {
+  NewtonResult result;
+  const auto end = [&result](Outcome outcome) {
+    result.outcome = outcome;
+    return result;
+  };
+  const auto factor_and_count = [&](const State& at) {
+    const bool regular = factor(at);
+    if (regular) {
+      result.negative_pivots = tangent_.negative_pivots();
+      result.unstable_modes = tangent_.unstable_modes();
+    }
+    return regular;
+  };
+  Balance current;
+  Eigen::VectorXd step;
+  if (!fill(state)) return end(Outcome::infeasible);
+  balance(state, current, Pressure::is_unknown);
+  const double first_norm = current.norm;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double previous_norm = infinity;
+  double stale_tangent = infinity; // residual at which the last tangent was taken
+  double step_length = 0;
+  int indefinite = 0;
+  for (result.iterations = 0;; ++result.iterations) {
+    if (!current.feasible) return end(Outcome::infeasible);
+    result.residual = current.scale > 0 ? current.norm / current.scale : 0;
+    if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
+    if (balanced(current, options.tolerance, previous_norm, step_length == 1 ? step_size(step) : infinity)) {
+      // An unstable mode of a state close by is not one of this state; a pump's filling makes close far.
+      const bool tells = stale_tangent <= near && result.unstable_modes == 0 && !model_.closed_chamber(state);
+      const bool known = tells || factor_and_count(state);
+      return end(known ? Outcome::converged : Outcome::singular);
+    }
+    if (result.iterations >= options.max_iterations ||
+        (result.iterations >= patience && current.norm > first_norm) || indefinite >= most_indefinite)
+      return end(Outcome::not_converged);
+    previous_norm = current.norm;
+    stale_tangent = result.residual;
+    ++timings_.iterations;
+    const auto find_step = [&](const State& at) {
+      if (!factor_and_count(at)) return false;
+      const Stopwatch watch(timings_.solve, model_);
+      tangent_.solve(-current.force.head(model_.dofs.free_count()), step);
+      return true;
+    };
+    // A flat film without tension has no stiffness across itself until it is loaded, or that of a rounding:
+    // that of the film a little wider, in tension, leads on. The step goes with 1/widening, its strain with
+    // the square of that: the two are to be alike.
+    const auto find_widened_step = [&] {
+      if (!find_step(widened(state, first_widening))) return false;
+      const double alike = std::cbrt(std::pow(step_size(step) * first_widening, 2));
+      return find_step(widened(state, std::min(alike, most_widening)));
+    };
+    const bool stiffened = !find_step(state) || step_size(step) > farthest_step;
+    if (stiffened && !find_widened_step()) return end(Outcome::singular);
+    if (stiffened) stale_tangent = infinity;
+    indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
+    step_length =
+        backtrack(state, current, step, stiffened || options.wrinkles ? 2 * most_halvings : most_halvings);
+    if (step_length == 0) {
+      const bool rounded = current.norm <= round_off_ || step_size(step) <= rounded_step;
+      return end(rounded ? Outcome::converged : Outcome::not_converged);
+    }
+  }
+}
+
+} // namespace dielast::fem

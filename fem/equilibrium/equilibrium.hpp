@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/equilibrium/bordered_tangent.hpp"
+#include "fem/equilibrium/sheet_conduction.hpp"
+#include "fem/model/assembler.hpp"
+
+#include <functional>
+
+namespace dielast::fem {
+
+/// One line of the iteration log.
+struct Iteration {
+  int number = 0;
+  double residual = 0;     ///< relative
+  double step_length = 0;  ///< fraction of the Newton step taken to get here
+  int negative_pivots = 0; ///< of the tangent at fixed voltages whose step led here
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-9; ///< on |R_free| over the largest norm of a block's nodal forces (of the reactions,
+                           ///< where one block is held)
+  int max_iterations = 25;
+  bool wrinkles = false; ///< film carries no compression: where Newton's method fails damped steps go on
+};
+
+enum class Outcome {
+  converged,
+  infeasible,
+  not_converged,
+  singular,
+  off_path, ///< converged to a state that the path of the states before does not lead to
+  refused,  ///< converged to a state that RampObserver::admits does not accept
+};
+
+struct NewtonResult {
+  Outcome outcome{};
+  int iterations = 0;
+  double residual = 0;     ///< relative norm at the end
+  int negative_pivots = 0; ///< unstable directions at fixed voltages, of the tangent at the end, or at most
+                           ///< one small step before it
+  int unstable_modes = 0;  ///< the same under the actual control: charges are kept where they are given
+};
+
+/// How well the forces of a state balance.
+struct Balance {
+  double energy = 0; ///< J, under the control: with Model::supply_energy
+  bool feasible = false;
+  Eigen::VectorXd force; ///< internal minus dead ones, per equation
+  double norm = 0;       ///< of the free ones, moments over the model's length scale, N
+  double scale = 0;      ///< largest norm of a block's forces, N
+};
+
+/// CPU seconds of this process, by task; not read in models of a few unknowns.
+struct Timings {
+  double residual = 0, tangent = 0, factor = 0, solve = 0;
+  int iterations = 0;
+};
+
+/// Finds states in which the internal forces balance the dead ones: Newton's method with backtracking on the
+/// potential energy where the tangent is positive definite under the control, on the residual where it is
+/// not.
+///
+/// Electrodes whose charge is given: E(u, Phi) + sum Q Phi is stationary in Phi where the film holds the
+/// charges Q; this is solved for Phi at every u, so that Newton's method sees the energy at fixed charges, a
+/// function of u with the tangent K + B C^-1 B^T (see BorderedTangent). Over a time step a circuit is the
+/// same with more capacitance (see Circuit), and inertia one more quadratic energy (see InertialForce).
+///
+/// A closed chamber's pressure would follow a hardly compressible filling by orders of magnitude: there the
+/// pressure is an unknown beside u, and every trial state is moved along the response to the pressure until
+/// it has the volume that the filling takes (Model::fill).
+///
+/// Sheets: forces are balanced at fixed drops of voltage, then the drops follow the film (SheetConduction),
+/// in turns, until the latter change no voltage by more than the tolerance; relaxed as in Aitken's method. So
+/// stability is that at fixed drops.
+class Equilibrium {
+ public:
+  /// `threads`: 0 uses every core. The model must outlive this.
+  Equilibrium(const Model& model, int threads);
+
+  /// Improves `state` until it converges; its voltages under sheets are found anew. On any other outcome
+  /// `state` is where the iteration stopped.
+  NewtonResult solve(State& state, const NewtonOptions& options,
+                     const std::function<void(const Iteration&)>& log = {});
+
+  /// Whether the film carries no tension: the tangent tells of rounding there, and no path leads on.
+  bool is_slack(const State& state) const;
+
+  /// Lets the voltages of sheets follow, at fixed displacements.
+  void conduct(State& state) {
+    if (conduction_) conduction_->solve(state);
+  }
+
+  /// Internal forces, those on tied nodes moved to their masters (count() entries; reactions at the held
+  /// equations, from free_count() on).
+  Evaluation internal_force(const State& state, Eigen::VectorXd& force) {
+    const Evaluation evaluation = assembler_.residual(state, force);
+    model_.dofs.gather(state, force);
+    return evaluation;
+  }
+
+  /// Sets the voltages that are not given to what their charges need and evaluates the forces.
+  void balance(State& state, Balance& balance);
+  /// Whether a balance is an equilibrium. `previous_norm` is that of the iteration before, from which a full
+  /// Newton step of size `step` (see step_size()) led here; infinity at the start.
+  bool balanced(const Balance& balance, double tolerance, double previous_norm, double step) const;
+  /// Largest displacement in a step, rotations times the model's length scale, over its extent.
+  double step_size(const Eigen::VectorXd& step) const;
+  /// Tangent at `state`, factored; see BorderedTangent::factor.
+  [[nodiscard]] bool factor(const State& state, const PathBorder* path = nullptr,
+                            const Eigen::VectorXd* added = nullptr);
+  BorderedTangent& tangent() { return tangent_; }
+  /// A positive weight per free equation that makes displacements comparable: the diagonal of the tangent as
+  /// drawn (N/m, N m for rotations), not less than a small part of the largest.
+  const Eigen::VectorXd& stiffness() const { return stiffness_; }
+  /// What makes moments comparable with forces: 1 for forces, 1/(model's length scale) for moments, per
+  /// equation.
+  const Eigen::VectorXd& weight() const { return weight_; }
+  /// Energy that goes with displacements as large as the model in the norm of stiffness(), J.
+  double energy_scale() const { return energy_scale_; }
+
+  /// Norm of residuals that are only rounding of the positions, N.
+  double round_off() const { return round_off_; }
+  const Model& model() const { return model_; }
+  Assembler& assembler() { return assembler_; }
+  const Timings& timings() const { return timings_; }
+
+ private:
+  NewtonResult balance_forces(State& state, const NewtonOptions& options,
+                              const std::function<void(const Iteration&)>& log);
+  NewtonResult newton(State& state, const NewtonOptions& options,
+                      const std::function<void(const Iteration&)>& log);
+  NewtonResult descend(State& state, const NewtonOptions& options,
+                       const std::function<void(const Iteration&)>& log);
+  double weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const;
+  /// How the pressure of a closed chamber is found.
+  enum class Pressure { follows, is_unknown };
+  void balance(State& state, Balance& balance, Pressure pressure);
+  bool follow_charges(State& state, Pressure pressure) const;
+  bool fill(State& state);
+  State widened(State state, double strain) const;
+  double backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings);
+
+  const Model& model_;
+  Assembler assembler_;
+  Eigen::VectorXd weight_;
+  Eigen::VectorXd stiffness_;
+  BorderedTangent tangent_;
+  std::optional<SheetConduction> conduction_; ///< where there are sheets
+  double energy_scale_ = 0;
+  double round_off_ = 0;
+  Timings timings_;
+};
+
+} // namespace dielast::fem

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/films/film_kinematics.hpp"
+#include "fem/films/film_response.hpp"
+#include "fem/films/film_sheets.hpp"
+#include "fem/model/element_block.hpp"
+#include "meshing/mesh.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace dielast::fem {
+
+/// Membrane elements of one kinematics and one law, `lanes` at a time.
+///
+/// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see
+/// materials/laws/plane_stress.hpp and FilmResponse), where that is a sheet by the voltages of its corners: k =
+/// eps sum_a N_a (V_a/H)^2 with N_a linear (see SheetPoint). A point's volume is that of the film, of a full
+/// turn where it is a film of revolution.
+template<class Kinematics, class Law>
+class MembraneBlock final : public ElementBlock {
+ public:
+  MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells, const MembraneSection& section,
+                Law law, std::vector<int> electrodes, int integration_points);
+
+  int element_count() const override { return count_; }
+  int dofs_per_element() const override { return dofs; }
+  int granularity() const override { return lanes; }
+  void claim_dofs(DofMap& dof_map, Dimension dimension) const override;
+  void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
+  void sample(const State& state, Samples& samples) const override;
+  void add_mass(int element, std::span<double> packed) const override;
+  void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
+  void place_sheets(SheetMap& sheets) override {
+    sheets_.claim(sheets, electrodes_, [this](int element, int a) { return node(element, a); });
+  }
+  void add_sheets(const State& state, SheetMatrices& matrices) const override;
+  void add_energies(const State& state, EnergyParts& parts) const override;
+  void add_relaxation(const State& state, const RateWeight& weight, const Scatter& scatter) const override;
+  int history_size() const override { return film_.history_size(count_ * points_); }
+  void place_history(int first) override { film_.place_history(first); }
+  void start_history(std::vector<double>& all) const override { film_.start_history(count_ * points_, all); }
+  void advance_history(const State& state, std::vector<double>& all) const override;
+
+ private:
+  static constexpr int Nodes = Kinematics::nodes, Dim = Kinematics::dim, Corners = Kinematics::corners;
+  static constexpr int dofs = Nodes * Dim, packed_size = dofs * (dofs + 1) / 2;
+  using Point = typename Kinematics::Point;
+  using Deformation = typename Kinematics::Deformation;
+  using Potential = materials::MembranePotential<Lanes>;
+
+  static constexpr int component(int d) { return Kinematics::components[static_cast<std::size_t>(d)]; }
+  int node(int element, int a) const { return nodes_[static_cast<std::size_t>(element * Nodes + a)]; }
+  Eigen::Matrix<double, 3, Nodes> drawn(int element) const {
+    Eigen::Matrix<double, 3, Nodes> X;
+    for (int a = 0; a < Nodes; ++a) X.col(a) = reference_[static_cast<std::size_t>(node(element, a))];
+    return X;
+  }
+  void gather(const State& state, int pack, Lanes (&x)[Nodes][Dim]) const;
+  Lanes electric_modulus(const State& state, int pack) const;
+  /// The same at a point where some of the elements lie under sheets; `k` holds for the others.
+  Lanes under_sheets(const State& state, int pack, int point, Lanes k) const;
+  double voltage(const State& state, int element, int point) const;
+  /// Psi over the elements of a pack; `lost`: a wrinkled film that the field pulls wider without limit.
+  Potential potential(const State& state, int pack, int point, const materials::InPlaneC<Lanes>& C,
+                      const Lanes& k, bool& lost) const;
+  /// One integration point of one element, as everything but the assembly sees it.
+  struct Visit {
+    int element;
+    int place; ///< number in the element
+    int point; ///< number in the film, see FilmResponse
+    const Point& geometry;
+    const Deformation& deformation;
+    int lane;
+    materials::InPlaneC<double> C;
+    double k;
+  };
+  template<class Visitor>
+  void for_each_point(const State& state, const Visitor& visit) const;
+  template<bool with_tangent>
+  Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const;
+
+  FilmResponse<Law> film_;
+  double thickness_; ///< undeformed, m
+  double density_;   ///< kg/m^3
+  Eigen::Vector2d prestretch_;
+  int count_ = 0;
+  int points_ = 0;
+  std::vector<int> nodes_;      ///< padded to whole packs by repeating the last element
+  std::vector<int> electrodes_; ///< likewise
+  FilmSheets<Corners> sheets_;
+  std::vector<Eigen::Vector3d> reference_;
+  std::vector<Point> geometry_; ///< points_ per pack
+};
+
+template<class Kinematics, class Law>
+MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
+                                              const MembraneSection& section, Law law,
+                                              std::vector<int> electrodes, int integration_points)
+    : film_(std::move(law), section), thickness_(section.thickness), density_(section.material.density),
+      prestretch_(section.prestretch[0], section.prestretch[1]), count_(cells.size()),
+      points_(integration_points), nodes_(cells.nodes), electrodes_(std::move(electrodes)),
+      reference_(mesh.nodes) {
+  const int packs = (count_ + lanes - 1) / lanes;
+  for (int e = count_; e < packs * lanes; ++e) {
+    for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
+    electrodes_.push_back(electrodes_.back());
+  }
+  geometry_.assign(static_cast<std::size_t>(packs * points_), Point{});
+  for (int e = 0; e < packs * lanes; ++e) {
+    const auto places = Kinematics::places(drawn(e), prestretch_, points_);
+    for (int p = 0; p < points_; ++p) {
+      const auto& place = places[static_cast<std::size_t>(p)];
+      if (e == 0) sheets_.add_place(place.corner_shape);
+      if (!(place.area > 0))
+        throw std::invalid_argument(Kinematics::element + (" " + std::to_string(e)) +
+                                    " is inverted or degenerate as drawn");
+      Point& point = geometry_[static_cast<std::size_t>(e / lanes * points_ + p)];
+      for (int a = 0; a < Nodes; ++a)
+        for (int i = 0; i < 2; ++i) point.gradient[a][i][e % lanes] = place.gradient(a, i);
+      point.volume[e % lanes] = e < count_ ? place.area * thickness_ : 0.0;
+    }
+  }
+}
+
+/// Consistent: rho H int N_a N_b dA.
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::add_mass(int element, std::span<double> packed) const {
+  for (const auto& place : Kinematics::places(drawn(element), prestretch_, Kinematics::mass_points))
+    for (int a = 0; a < Nodes; ++a)
+      for (int b = 0; b <= a; ++b) {
+        const double mass = density_ * thickness_ * place.area * place.shape[a] * place.shape[b];
+        for (int c = 0; c < Dim; ++c) {
+          const int i = a * Dim + c;
+          packed[static_cast<std::size_t>(i * (i + 1) / 2 + b * Dim + c)] += mass;
+        }
+      }
+}
+
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::claim_dofs(DofMap& dof_map, Dimension /*the kinematics say it*/) const {
+  for (const int n : nodes_)
+    for (int d = 0; d < Dim; ++d) dof_map.add(n, component(d));
+}
+
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::element_equations(int element, const DofMap& dof_map,
+                                                       std::span<int> equations) const {
+  for (int a = 0; a < Nodes; ++a)
+    for (int d = 0; d < Dim; ++d)
+      equations[static_cast<std::size_t>(a * Dim + d)] = dof_map.equation(node(element, a), component(d));
+}
+
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::gather(const State& state, int pack, Lanes (&x)[Nodes][Dim]) const {
+  for (int a = 0; a < Nodes; ++a)
+    for (int l = 0; l < lanes; ++l) {
+      const auto n = static_cast<std::size_t>(node(pack * lanes + l, a));
+      for (int d = 0; d < Dim; ++d) {
+        const int c = component(d);
+        x[a][d][l] = reference_[n][c] + state.displacement[n][c];
+      }
+    }
+}
+
+template<class Kinematics, class Law>
+Lanes MembraneBlock<Kinematics, Law>::electric_modulus(const State& state, int pack) const {
+  Lanes k{};
+  for (int l = 0; l < lanes; ++l) {
+    const int electrode = electrodes_[static_cast<std::size_t>(pack * lanes + l)];
+    if (electrode == passive) continue;
+    const double nominal_field = state.voltage[static_cast<std::size_t>(electrode)] / thickness_;
+    k[l] = film_.dielectric().permittivity * nominal_field * nominal_field;
+  }
+  return k;
+}
+
+template<class Kinematics, class Law>
+Lanes MembraneBlock<Kinematics, Law>::under_sheets(const State& state, int pack, int point, Lanes k) const {
+  for (int l = 0; l < lanes; ++l) {
+    const int element = pack * lanes + l;
+    if (!sheets_.points(element)) continue;
+    const auto electrode = static_cast<std::size_t>(electrodes_[static_cast<std::size_t>(element)]);
+    k[l] = film_.dielectric().permittivity / (thickness_ * thickness_) *
+           sheets_.mean_square(state, element, point, state.voltage[electrode]);
+  }
+  return k;
+}
+
+/// Phi at a point of an element, 0 under no electrode, V.
+template<class Kinematics, class Law>
+double MembraneBlock<Kinematics, Law>::voltage(const State& state, int element, int point) const {
+  const int electrode = electrodes_[static_cast<std::size_t>(element)];
+  if (electrode == passive) return 0;
+  return sheets_.voltage(state, element, point, state.voltage[static_cast<std::size_t>(electrode)]);
+}
+
+template<class Kinematics, class Law>
+typename MembraneBlock<Kinematics, Law>::Potential
+MembraneBlock<Kinematics, Law>::potential(const State& state, int pack, int point,
+                                          const materials::InPlaneC<Lanes>& C, const Lanes& k,
+                                          bool& lost) const {
+  Potential psi = film_.simple(C, k);
+  if (film_.is_simple()) return psi;
+  for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
+    const materials::TensionField field =
+        film_.resolve(state, (pack * lanes + l) * points_ + point, lane_of(C, l), k[l], lane_of(psi, l));
+    lost |= field.tension == materials::Tension::lost;
+    set_lane(psi, l, field.potential);
+  }
+  return psi;
+}
+
+template<class Kinematics, class Law>
+template<class Visitor>
+void MembraneBlock<Kinematics, Law>::for_each_point(const State& state, const Visitor& visit) const {
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    Lanes x[Nodes][Dim];
+    gather(state, pack, x);
+    const Lanes k = electric_modulus(state, pack);
+    for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
+      for (int p = 0; p < points_; ++p) {
+        const Point& geometry = geometry_[static_cast<std::size_t>(pack * points_ + p)];
+        const Deformation d = Kinematics::deformation(x, geometry);
+        const int element = pack * lanes + l, point = element * points_ + p;
+        const Lanes here = sheets_.vary(state) ? under_sheets(state, pack, p, k) : k;
+        visit(Visit{element, p, point, geometry, d, l, lane_of(d.C, l), here[l]});
+      }
+  }
+}
+
+template<class Kinematics, class Law>
+template<bool with_tangent>
+Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, int first, int last,
+                                                          const Scatter& scatter) const {
+  Evaluation result;
+  Lanes energy{};
+  const bool varies = sheets_.vary(state);
+  for (int pack = first / lanes; pack * lanes < last; ++pack) {
+    Lanes x[Nodes][Dim];
+    gather(state, pack, x);
+    const Lanes k = electric_modulus(state, pack);
+    Lanes residual[dofs] = {};
+    Lanes tangent[with_tangent ? packed_size : 1] = {};
+    for (int p = 0; p < points_; ++p) {
+      const Point& point = geometry_[static_cast<std::size_t>(pack * points_ + p)];
+      const Deformation d = Kinematics::deformation(x, point);
+      const Lanes orientation = Kinematics::orientation(d);
+      for (int l = 0; l < lanes; ++l)
+        if (!(orientation[l] > 0)) result.feasible = false;
+      bool lost = false;
+      const Potential stored =
+          potential(state, pack, p, d.C, varies ? under_sheets(state, pack, p, k) : k, lost);
+      if (lost) result.feasible = false;
+      energy += point.volume * stored.value;
+      Kinematics::template accumulate<with_tangent>(point, d, WeightedStress(point.volume, stored), residual,
+                                                    tangent);
+    }
+    for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
+      const int element = pack * lanes + l;
+      if (scatter.residual) {
+        double values[dofs];
+        for (int i = 0; i < dofs; ++i) values[i] = residual[i][l];
+        scatter.add_residual(element, values);
+      }
+      if constexpr (with_tangent) {
+        double values[packed_size];
+        for (int i = 0; i < packed_size; ++i) values[i] = tangent[i][l];
+        scatter.add_tangent(element, values);
+      }
+    }
+  }
+  for (int l = 0; l < lanes; ++l) result.energy += energy[l];
+  if (!std::isfinite(result.energy)) result.feasible = false; // beyond a stretch limit
+  return result;
+}
+
+template<class Kinematics, class Law>
+Evaluation MembraneBlock<Kinematics, Law>::evaluate(const State& state, int first, int last,
+                                                    const Scatter& scatter) const {
+  return scatter.tangent ? evaluate_packs<true>(state, first, last, scatter)
+                         : evaluate_packs<false>(state, first, last, scatter);
+}
+
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::add_relaxation(const State& state, const RateWeight& weight,
+                                                    const Scatter& scatter) const {
+  if (history_size() == 0) return;
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    Lanes x[Nodes][Dim];
+    gather(state, pack, x);
+    const Lanes k = electric_modulus(state, pack);
+    Lanes unused[dofs] = {}, tangent[packed_size] = {};
+    for (int p = 0; p < points_; ++p) {
+      const Point& point = geometry_[static_cast<std::size_t>(pack * points_ + p)];
+      const Deformation d = Kinematics::deformation(x, point);
+      const Lanes here = sheets_.vary(state) ? under_sheets(state, pack, p, k) : k;
+      Potential psi{};
+      for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
+        set_lane(psi, l,
+                 film_.relaxation(state, (pack * lanes + l) * points_ + p, lane_of(d.C, l), here[l], weight));
+      Kinematics::template accumulate<true>(point, d, WeightedStress(point.volume, psi), unused, tangent);
+    }
+    for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
+      double values[packed_size];
+      for (int i = 0; i < packed_size; ++i) values[i] = tangent[i][l];
+      scatter.add_tangent(pack * lanes + l, values);
+    }
+  }
+}
+
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::sample(const State& state, Samples& samples) const {
+  samples.film.reserve(samples.film.size() + static_cast<std::size_t>(count_ * points_));
+  for_each_point(state, [&](const Visit& at) {
+    const materials::TensionField field = film_.resolve(state, at.point, at.C, at.k);
+    const materials::InPlaneC<double>& natural = field.natural;
+    MembraneSample s;
+    s.cell = at.element;
+    s.volume = at.geometry.volume[at.lane];
+    s.F = Kinematics::gradient_of(at.deformation, at.lane);
+    s.S = materials::tension_field::stress(field.potential);
+    s.widening = std::sqrt(natural.det() / at.C.det());
+    s.tension = field.tension;
+    s.thickness = thickness_;
+    s.voltage = voltage(state, at.element, at.place);
+    s.electrode = electrodes_[static_cast<std::size_t>(at.element)];
+    s.breakdown_field = film_.dielectric().breakdown_field_at(natural.det());
+    samples.film.push_back(s);
+  });
+}
+
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::add_charges(const State& state, const DofMap* dof_map,
+                                                 Charges& charges) const {
+  for_each_point(state, [&](const Visit& at) {
+    const int electrode = electrodes_[static_cast<std::size_t>(at.element)];
+    if (electrode == passive) return;
+    const auto e = static_cast<std::size_t>(electrode);
+    const auto density = film_.charge_density(film_.shape(state, at.point, at.C, at.k), at.C);
+    const double phi = voltage(state, at.element, at.place);
+    const double per_volt =
+        film_.dielectric().permittivity * at.geometry.volume[at.lane] / (thickness_ * thickness_);
+    charges.capacitance[e] += per_volt * density.value;
+    charges.charge[e] += per_volt * phi * density.value;
+    if (!dof_map) return;
+    const auto& q = density.slope;
+    for (int a = 0; a < Nodes; ++a)
+      for (int c = 0; c < Dim; ++c) {
+        const int equation = dof_map->equation(node(at.element, a), component(c));
+        if (equation < 0) continue;
+        Lanes slope[3];
+        Kinematics::slope(at.geometry, at.deformation, a, c, slope);
+        charges.coupling[e][equation] +=
+            per_volt * phi * (q[0] * slope[0][at.lane] + q[1] * slope[1][at.lane] + q[2] * slope[2][at.lane]);
+      }
+  });
+}
+
+/// The current flows along the film itself, wrinkles included.
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::add_sheets(const State& state, SheetMatrices& matrices) const {
+  if (sheets_.empty()) return;
+  std::vector<FilmPlace<Nodes, Corners>> places;
+  for_each_point(state, [&](const Visit& at) {
+    if (!sheets_.points(at.element)) return;
+    if (at.place == 0) places = Kinematics::places(drawn(at.element), prestretch_, points_);
+    const auto& place = places[static_cast<std::size_t>(at.place)];
+    const materials::TensionField field = film_.shape(state, at.point, at.C, at.k);
+    const double per_volt =
+        film_.dielectric().permittivity * place.area / thickness_ * film_.charge_density(field, at.C).value;
+    sheets_.add(matrices, at.element, place.corner_shape * per_volt,
+                std::sqrt(place.area) * place.corner_gradient, field.natural);
+  });
+}
+
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::add_energies(const State& state, EnergyParts& parts) const {
+  for_each_point(state, [&](const Visit& at) {
+    const EnergyParts density =
+        film_.energies(state, at.point, film_.shape(state, at.point, at.C, at.k), at.C);
+    const double volume = at.geometry.volume[at.lane];
+    parts.elastic += volume * density.elastic;
+    parts.branches += volume * density.branches;
+    parts.regularised += volume * density.regularised;
+    parts.dissipation += volume * density.dissipation;
+  });
+}
+
+template<class Kinematics, class Law>
+void MembraneBlock<Kinematics, Law>::advance_history(const State& state, std::vector<double>& all) const {
+  if (film_.history_size(1) == 0) return;
+  for_each_point(state, [&](const Visit& at) {
+    film_.advance_history(state, at.point, film_.shape(state, at.point, at.C, at.k), all);
+  });
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/films/membrane_section.hpp"
+#include "fem/model/element_block.hpp"
+#include "fem/model/relaxation.hpp"
+#include "materials/branches/branch.hpp"
+#include "materials/laws/plane_stress.hpp"
+#include "materials/tension_field.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+namespace dielast::fem {
+
+/// What a film stores and does at its integration points: the material's law, its branches with their
+/// internal variables, the field, and wrinkling, composed into one potential
+///   Psi(C) = W(C) + sum_b Psi_b(C; history) - (k/2) e(C) det C,
+/// relaxed where wrinkles carry no compression. Per undeformed volume, at one point numbered `point`.
+template<class Law>
+class FilmResponse {
+ public:
+  using C = materials::InPlaneC<double>;
+  using Potential = materials::MembranePotential<double>;
+
+  FilmResponse(Law law, const MembraneSection& section)
+      : law_(std::move(law)), material_(section.material), tension_field_(section.tension_field) {}
+
+  /// True when Psi depends on C and k alone, through the law and the field: several points may then be
+  /// computed at once by simple().
+  bool is_simple() const { return material_.branches.empty() && !tension_field_; }
+  template<class T>
+  materials::MembranePotential<T> simple(const materials::InPlaneC<T>& at, const T& k) const {
+    return materials::membrane_potential(law_, material_.dielectric, at, k);
+  }
+
+  /// The potential with its state of tension; `simple`: simple(at, k), known already.
+  materials::TensionField resolve(const State& state, int point, const C& at, double k,
+                                  const Potential& simple) const {
+    const Potential taut = with_branches(state, point, at, simple);
+    if (!tension_field_) return {tension_of(taut), taut, at};
+    materials::TensionField field = materials::relax(
+        [&](const C& wider) { return with_branches(state, point, wider, this->simple(wider, k)); }, at, taut);
+    if (wrinkles(field))
+      field.potential = sum(scaled(field.potential, 1 - regularisation), scaled(taut, regularisation));
+    return field;
+  }
+  materials::TensionField resolve(const State& state, int point, const C& at, double k) const {
+    return resolve(state, point, at, k, simple(at, k));
+  }
+
+  /// The same without the potential, where only the film's own deformation is asked for.
+  materials::TensionField shape(const State& state, int point, const C& at, double k) const {
+    if (tension_field_) return resolve(state, point, at, k);
+    return {materials::Tension::taut, {}, at};
+  }
+
+  /// e det C of the film itself, its derivatives in the given (C11, C22, C12): the charge on an electrode is
+  /// the integral of eps Phi/H^2 times it.
+  struct ChargeDensity {
+    double value;
+    Eigen::Vector3d slope;
+  };
+  ChargeDensity charge_density(const materials::TensionField& field, const C& at) const {
+    const auto of = [&](const C& film) {
+      const Potential q = materials::in_components<false>(
+          materials::capacitance_ratio(material_.dielectric, film.trace(), film.det()), film, C{1, 1, 0},
+          1.0);
+      return ChargeDensity{q.value, materials::tension_field::first(q)};
+    };
+    const ChargeDensity natural = of(field.natural);
+    if (!wrinkles(field)) return natural;
+    const ChargeDensity taut = of(at);
+    return {(1 - regularisation) * natural.value + regularisation * taut.value,
+            (1 - regularisation) * (field.carry * natural.slope) + regularisation * taut.slope};
+  }
+
+  /// Densities, per undeformed volume; `electric` stays 0: it follows from the charges.
+  EnergyParts energies(const State& state, int point, const materials::TensionField& field,
+                       const C& at) const {
+    EnergyParts parts;
+    const double share = wrinkles(field) ? regularisation : 0;
+    if (share > 0) parts.regularised = share * simple(at, 0.0).value;
+    parts.elastic = (1 - share) * simple(field.natural, 0.0).value + parts.regularised;
+    for (int b = 0; b < branches(); ++b) {
+      const auto& branch = material_.branches[static_cast<std::size_t>(b)];
+      const materials::BranchPower power =
+          materials::branch_power(branch, field.natural, read(state.history->now, place(point, b)));
+      parts.branches += power.stored;
+      parts.dissipation += power.dissipation;
+    }
+    return parts;
+  }
+
+  /// Second derivatives sum_j weight(rate_j) w_j w_j^T over the branches, see relaxation_spectrum().
+  Potential relaxation(const State& state, int point, const C& at, double k, const RateWeight& weight) const {
+    if (wrinkles(shape(state, point, at, k)))
+      throw std::domain_error("wrinkled film with branches cannot be linearised");
+    Potential psi{};
+    for (int b = 0; b < branches(); ++b) {
+      const auto& branch = material_.branches[static_cast<std::size_t>(b)];
+      const materials::Internal now = read(state.history->now, place(point, b));
+      if (!is_relaxed(branch, at, now))
+        throw std::domain_error("branches cannot be linearised while their dashpots flow");
+      const RelaxationSpectrum spectrum = relaxation_spectrum(branch, at, now);
+      for (int j = 0; j < spectrum.count; ++j) {
+        const auto& [w, rate] = spectrum.element[static_cast<std::size_t>(j)];
+        const double factor = weight(rate);
+        for (std::size_t p = 0; p < psi.second.size(); ++p)
+          psi.second[p] += factor * w[materials::component_pairs[p][0]] * w[materials::component_pairs[p][1]];
+      }
+    }
+    return psi;
+  }
+
+  const materials::Dielectric& dielectric() const { return material_.dielectric; }
+
+  // --- internal variables: branch by branch, point by point
+  int history_size(int points) const { return points * branches() * per_branch; }
+  void place_history(int first) { first_ = first; }
+  void start_history(int points, std::vector<double>& all) const {
+    for (int p = 0; p < points; ++p)
+      for (int b = 0; b < branches(); ++b) write(all, place(p, b), materials::undeformed());
+  }
+  void advance_history(const State& state, int point, const materials::TensionField& field,
+                       std::vector<double>& all) const {
+    for (int b = 0; b < branches(); ++b) {
+      const std::size_t i = place(point, b);
+      write(all, i,
+            materials::advance(material_.branches[static_cast<std::size_t>(b)], field.natural, state.scheme,
+                               read(state.history->now, i), read(state.history->before, i)));
+    }
+  }
+
+ private:
+  /// What is left of the taut film's potential where it wrinkles, to keep the tangent regular.
+  static constexpr double regularisation = 1e-5;
+  static constexpr int per_branch = static_cast<int>(std::tuple_size_v<materials::Internal>);
+
+  int branches() const { return static_cast<int>(material_.branches.size()); }
+  std::size_t place(int point, int branch) const {
+    return static_cast<std::size_t>(first_ + (point * branches() + branch) * per_branch);
+  }
+  static materials::Internal read(const std::vector<double>& all, std::size_t place) {
+    if (all.empty()) return {}; // no such past: its weight is 0
+    return {all[place], all[place + 1], all[place + 2]};
+  }
+  Potential with_branches(const State& state, int point, const C& at, Potential psi) const {
+    for (int b = 0; b < branches(); ++b) {
+      const std::size_t i = place(point, b);
+      psi = sum(psi,
+                materials::branch_potential(material_.branches[static_cast<std::size_t>(b)], at, state.scheme,
+                                            read(state.history->now, i), read(state.history->before, i)));
+    }
+    return psi;
+  }
+  static Potential scaled(Potential p, double factor) {
+    p.value *= factor;
+    for (double& x : p.first) x *= factor;
+    for (double& x : p.second) x *= factor;
+    return p;
+  }
+  static Potential sum(Potential p, const Potential& q) {
+    p.value += q.value;
+    for (std::size_t i = 0; i < p.first.size(); ++i) p.first[i] += q.first[i];
+    for (std::size_t i = 0; i < p.second.size(); ++i) p.second[i] += q.second[i];
+    return p;
+  }
+  static void write(std::vector<double>& all, std::size_t place, const materials::Internal& values) {
+    std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(place));
+  }
+  bool wrinkles(const materials::TensionField& field) const {
+    return tension_field_ && field.tension != materials::Tension::taut;
+  }
+  /// By the signs of the principal stresses.
+  static materials::Tension tension_of(const Potential& p) {
+    const Eigen::Matrix2d S = materials::tension_field::stress(p);
+    if (S.determinant() < 0) return materials::Tension::wrinkled;
+    return S.trace() < 0 ? materials::Tension::slack : materials::Tension::taut;
+  }
+
+  Law law_;
+  materials::Material material_;
+  bool tension_field_;
+  int first_ = 0;
+};
+
+} // namespace dielast::fem

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "materials/laws/pack.hpp"
+#include "materials/laws/plane_stress.hpp"
+
+namespace dielast::fem {
+
+/// Film elements are computed `lanes` at a time, one per lane of a vector register.
+using Lanes = materials::Pack;
+constexpr int lanes = static_cast<int>(sizeof(Lanes) / sizeof(double));
+
+inline materials::InPlaneC<double> lane_of(const materials::InPlaneC<Lanes>& C, int l) {
+  return {C.C11[l], C.C22[l], C.C12[l]};
+}
+
+inline materials::MembranePotential<double> lane_of(const materials::MembranePotential<Lanes>& p, int l) {
+  materials::MembranePotential<double> q{p.value[l], {}, {}};
+  for (std::size_t i = 0; i < q.first.size(); ++i) q.first[i] = p.first[i][l];
+  for (std::size_t i = 0; i < q.second.size(); ++i) q.second[i] = p.second[i][l];
+  return q;
+}
+
+inline void set_lane(materials::MembranePotential<Lanes>& p, int l,
+                     const materials::MembranePotential<double>& q) {
+  p.value[l] = q.value;
+  for (std::size_t i = 0; i < q.first.size(); ++i) p.first[i][l] = q.first[i];
+  for (std::size_t i = 0; i < q.second.size(); ++i) p.second[i][l] = q.second[i];
+}
+
+} // namespace dielast::fem

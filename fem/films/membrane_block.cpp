@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/films/membrane_block.hpp"
+
+#include "fem/films/film_block.hpp"
+
+namespace dielast::fem {
+
+namespace {
+
+template<class Kinematics>
+std::unique_ptr<ElementBlock> make_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
+                                         const MembraneSection& section, std::vector<int> electrodes,
+                                         int integration_points) {
+  return std::visit(
+      [&](const auto& law) -> std::unique_ptr<ElementBlock> {
+        using Block = MembraneBlock<Kinematics, std::decay_t<decltype(law)>>;
+        return std::make_unique<Block>(mesh, cells, section, law, std::move(electrodes), integration_points);
+      },
+      section.material.law);
+}
+
+} // namespace
+
+std::unique_ptr<ElementBlock> make_membrane_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
+                                                  const MembraneSection& section, std::vector<int> electrodes,
+                                                  Dimension dimension, int integration_points) {
+  if (cells.size() == 0 || static_cast<int>(electrodes.size()) != cells.size())
+    throw std::invalid_argument("a membrane needs elements, and one electrode number for each");
+  if ((dimension == Dimension::axisymmetric) != meshing::is_meridian(cells.type))
+    throw std::invalid_argument("a film of revolution is made of meridians, any other of triangles");
+  const auto make = [&]<class Kinematics>() {
+    return make_block<Kinematics>(mesh, cells, section, std::move(electrodes), integration_points);
+  };
+  const bool planar = dimension == Dimension::planar;
+  switch (cells.type) {
+  case meshing::CellType::triangle6:
+    return planar ? make.template operator()<TriangleKinematics<6, 2>>()
+                  : make.template operator()<TriangleKinematics<6, 3>>();
+  case meshing::CellType::triangle3:
+    return planar ? make.template operator()<TriangleKinematics<3, 2>>()
+                  : make.template operator()<TriangleKinematics<3, 3>>();
+  case meshing::CellType::meridian3:
+    return make.template operator()<MeridianKinematics<3>>();
+  case meshing::CellType::meridian2:
+    return make.template operator()<MeridianKinematics<2>>();
+  default:
+    throw std::invalid_argument("a membrane is not made of lines");
+  }
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/linear/modal.hpp"
+
+#include "fem/algebra/dense_algebra.hpp"
+#include "fem/algebra/orientation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr int spare_vectors = 6, powers = 4, most_sweeps = 100;
+constexpr double tolerance = 1e-6;      ///< of modes; that of omega^2 is its square
+constexpr double spanned = 1e-10;       ///< part of a vector that is round-off
+constexpr double round_off = 1e-13;     ///< of omega^2, over that of the stiffest unknowns
+constexpr double singular_shift = 1e-9; ///< likewise
+
+/// As the state is, but for what moves with a vibration.
+State vibrating(const State& state, bool instantaneous) {
+  State at = state;
+  at.scheme = instantaneous ? materials::TimeScheme::frozen() : materials::TimeScheme::relaxed();
+  at.motion_scheme = {};
+  std::ranges::replace(at.supply, Supply::circuit, Supply::voltage);
+  return at;
+}
+
+/// A scheme that adds shift M to the tangent, and nothing of the dampers.
+GeneralisedAlpha mass_times(double shift) { return {.dt = 1 / std::sqrt(shift), .beta = 1}; }
+
+void append(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
+  matrix.conservativeResize(Eigen::NoChange, matrix.cols() + columns.cols());
+  matrix.rightCols(columns.cols()) = columns;
+}
+
+/// Orthonormal in M, to V too; columns that V spans already are left out.
+Eigen::MatrixXd orthonormal_to(const Eigen::MatrixXd& V, const Eigen::SparseMatrix<double>& M,
+                               Eigen::MatrixXd X) {
+  const auto norm = [&](Eigen::Index i) { return std::sqrt(X.col(i).dot(M * X.col(i))); };
+  Eigen::Index kept = 0;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) {
+    const double whole = norm(i);
+    for (int twice = 0; twice < 2; ++twice) { // once loses digits
+      const Eigen::VectorXd momentum = M * X.col(i);
+      X.col(i) -= V * (V.transpose() * momentum);
+      X.col(i) -= X.leftCols(kept) * (X.leftCols(kept).transpose() * momentum);
+    }
+    const double left = norm(i);
+    if (!(left > spanned * whole)) continue;
+    X.col(kept) = X.col(i) / left;
+    ++kept;
+  }
+  return X.leftCols(kept);
+}
+
+} // namespace
+
+double VibrationMode::frequency() const { return std::sqrt(std::max(stiffness, 0.0)); }
+
+std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibrium, const State& state,
+                                                          const ModalOptions& options) {
+  const Inertia& inertia = equilibrium.model().inertia;
+  if (inertia.empty()) return std::vector<VibrationMode>{};
+  const Eigen::Index free = equilibrium.model().dofs.free_count();
+  const Eigen::SparseMatrix<double> all = equilibrium.model().dofs.jacobian(state);
+  const Eigen::SparseMatrix<double> M = all.transpose() * inertia.mass * all;
+  const Eigen::VectorXd diagonal = M.diagonal();
+  const Eigen::Index massive = (diagonal.array() > 0).count();
+  const Eigen::Index wanted = std::min<Eigen::Index>(options.count, massive);
+  if (wanted <= 0) return std::vector<VibrationMode>{};
+  const Eigen::Index width = std::min(massive, wanted + spare_vectors);
+
+  const double fastest = equilibrium.stiffness().sum() / diagonal.sum(); // omega^2 of single unknowns
+  State at = vibrating(state, options.instantaneous);
+  double shift = 0;
+  if (!equilibrium.factor(at)) {
+    shift = singular_shift * fastest;
+    at.motion_scheme = mass_times(shift);
+    if (!equilibrium.factor(at)) return std::nullopt;
+  }
+  const auto respond = [&](const Eigen::MatrixXd& X) { // K^-1 M X
+    Eigen::MatrixXd Y = M * X;
+    Eigen::VectorXd y;
+    for (Eigen::Index i = 0; i < Y.cols(); ++i) {
+      equilibrium.tangent().solve(Y.col(i), y);
+      Y.col(i) = y;
+    }
+    return Y;
+  };
+  std::mt19937 random(1);
+  Eigen::MatrixXd X(free, width);
+  for (Eigen::Index i = 0; i < X.size(); ++i)
+    X.data()[i] = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    Eigen::MatrixXd V(free, 0), W(free, 0); // W = K^-1 M V
+    for (int power = 0; power < powers; ++power) {
+      X = orthonormal_to(V, M, std::move(X));
+      if (X.cols() == 0) break;
+      append(V, X);
+      X = respond(X);
+      append(W, X);
+    }
+    if (V.cols() == 0) return std::nullopt; // the tangent's numbers are beyond double precision
+    const Eigen::MatrixXd inverse = V.transpose() * (M * W);
+    if (!inverse.allFinite()) return std::nullopt;
+    const SymmetricEigen ritz = symmetric_eigen((inverse + inverse.transpose()) / 2);
+    const Eigen::VectorXd& theta = ritz.values; // 1/(omega^2 + shift)
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(theta.size()));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::ranges::sort(order, std::greater{}, [&](Eigen::Index i) { return std::abs(theta[i]); });
+    order.resize(std::min(order.size(), static_cast<std::size_t>(width)));
+
+    X = W * ritz.vectors(Eigen::all, order); // massless unknowns have followed
+    const Eigen::MatrixXd before = V * ritz.vectors(Eigen::all, order);
+    Eigen::VectorXd stiffness = theta(order).cwiseInverse().array() - shift;
+    // Those wanted and what shares the last one's frequency: only all of them together can be oriented.
+    const Eigen::Index last = std::min(wanted, X.cols()) - 1;
+    Eigen::Index found = 0;
+    bool converged = true;
+    for (; found < X.cols() && converged; ++found) {
+      const double inverse_square = theta[order[static_cast<std::size_t>(found)]];
+      const Eigen::VectorXd residual = X.col(found) - inverse_square * before.col(found);
+      const double error = std::sqrt(std::abs(residual.dot(M * residual)));
+      converged = error <= tolerance * std::abs(inverse_square);
+      if (found <= last) continue;
+      const double distance = std::abs(inverse_square - theta[order[static_cast<std::size_t>(last)]]);
+      const bool another =
+          converged ? !coincide(stiffness[found], stiffness[last], round_off * fastest) : distance > error;
+      if (!another) continue;
+      converged = true;
+      break;
+    }
+    if (!converged) continue;
+    Eigen::MatrixXd shapes = X.leftCols(found);
+    for (auto shape : shapes.colwise()) shape /= std::sqrt(shape.dot(M * shape));
+    stiffness.conservativeResize(found);
+    orient(shapes, stiffness, round_off * fastest, equilibrium.weight().head(free).cwiseInverse());
+    std::vector<VibrationMode> modes;
+    for (Eigen::Index i = 0; i <= last; ++i) modes.push_back({stiffness[i], shapes.col(i)});
+    std::ranges::stable_sort(modes, {}, &VibrationMode::stiffness);
+    return modes;
+  }
+  return std::nullopt;
+}
+
+} // namespace dielast::fem

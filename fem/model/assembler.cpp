@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/model/assembler.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <tbb/parallel_for.h>
+#include <thread>
+#include <vector>
+
+namespace dielast::fem {
+
+namespace {
+
+/// Large enough to hide the call, small enough to balance two threads on a thousand elements.
+constexpr int chunk_size = 64;
+
+/// Below this many elements waking and waiting for threads costs more than they save.
+constexpr int worth_threads = 16000;
+
+/// f(0) ... f(count - 1), in any order.
+template<class Function>
+void in_parallel(tbb::task_arena& arena, std::size_t count, const Function& f) {
+#ifdef DIELAST_PLAIN_THREADS // the thread sanitizer does not see how TBB, which is not compiled with it,
+                             // orders tasks
+  const auto of_thread = [&](std::size_t first, std::size_t step) {
+    for (std::size_t i = first; i < count; i += step) f(i);
+  };
+  const auto threads = static_cast<std::size_t>(arena.max_concurrency());
+  std::vector<std::thread> others;
+  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(of_thread, t, threads);
+  of_thread(0, threads);
+  for (std::thread& other : others) other.join();
+#else
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, f); });
+#endif
+}
+
+} // namespace
+
+Assembler::Assembler(const Model& model, int threads)
+    : model_(model), threads_(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency())) {
+  for (const auto& block : model_.blocks) {
+    const int dofs = block->dofs_per_element();
+    auto& equations = equations_.emplace_back(static_cast<std::size_t>(block->element_count() * dofs));
+    for (int e = 0; e < block->element_count(); ++e)
+      block->element_equations(
+          e, model_.dofs,
+          std::span(equations).subspan(static_cast<std::size_t>(e * dofs), static_cast<std::size_t>(dofs)));
+  }
+  int elements = 0;
+  for (const auto& block : model_.blocks) elements += block->element_count();
+  if (elements < worth_threads) threads_ = 1;
+  arena_.initialize(threads_);
+  build_pattern();
+  colour_chunks();
+  mass_ = on_pattern(model_.inertia.mass);
+  damping_ = on_pattern(model_.inertia.damping);
+  block_residual_.assign(model_.blocks.size(), Eigen::VectorXd::Zero(model_.dofs.count()));
+  if (!model_.dofs.ties().empty()) {
+    reduction_.emplace(model_.dofs, matrix_);
+    reduced_ = reduction_->pattern();
+  }
+}
+
+void Assembler::build_pattern() {
+  // Unknowns of the elements: the free ones, then those of tied nodes.
+  const DofMap& map = model_.dofs;
+  const int n = map.count() - map.held_count();
+  const auto unknown = [&map](int equation) {
+    return map.is_free(equation)   ? equation
+           : map.is_tied(equation) ? equation - map.held_count()
+                                   : DofMap::absent;
+  };
+  matrix_.size = n;
+
+  // Elements at each equation.
+  struct ElementRef {
+    int block, element;
+  };
+  std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
+  for (const auto& equations : equations_)
+    for (const int equation : equations)
+      if (const int u = unknown(equation); u >= 0) ++start[static_cast<std::size_t>(u) + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  std::vector<ElementRef> elements(static_cast<std::size_t>(start.back()));
+  std::vector<int> fill(start.begin(), start.end() - 1);
+  for (std::size_t b = 0; b < equations_.size(); ++b) {
+    const int dofs = model_.blocks[b]->dofs_per_element();
+    for (std::size_t i = 0; i < equations_[b].size(); ++i)
+      if (const int u = unknown(equations_[b][i]); u >= 0)
+        elements[static_cast<std::size_t>(fill[static_cast<std::size_t>(u)]++)] = {
+            static_cast<int>(b), static_cast<int>(i) / dofs};
+  }
+
+  // Rows of each column; an unknown without elements keeps its diagonal so that the factorisation reports it.
+  matrix_.column_start.assign(1, 0);
+  std::vector<int> seen(static_cast<std::size_t>(n), -1);
+  for (int column = 0; column < n; ++column) {
+    const std::size_t first = matrix_.rows.size();
+    matrix_.rows.push_back(column);
+    seen[static_cast<std::size_t>(column)] = column;
+    for (int k = start[static_cast<std::size_t>(column)]; k < start[static_cast<std::size_t>(column) + 1];
+         ++k) {
+      const auto [block, element] = elements[static_cast<std::size_t>(k)];
+      const int dofs = model_.blocks[static_cast<std::size_t>(block)]->dofs_per_element();
+      const int* equation = equations_[static_cast<std::size_t>(block)].data() + element * dofs;
+      for (int i = 0; i < dofs; ++i)
+        if (const int u = unknown(equation[i]); u > column && seen[static_cast<std::size_t>(u)] != column) {
+          seen[static_cast<std::size_t>(u)] = column;
+          matrix_.rows.push_back(u);
+        }
+    }
+    std::sort(matrix_.rows.begin() + static_cast<std::ptrdiff_t>(first), matrix_.rows.end());
+    if (matrix_.rows.size() > INT32_MAX) throw std::length_error("the tangent has more than 2^31 entries");
+    matrix_.column_start.push_back(static_cast<int>(matrix_.rows.size()));
+  }
+  matrix_.values.assign(matrix_.rows.size(), 0.0);
+
+  for (std::size_t b = 0; b < equations_.size(); ++b) {
+    const int dofs = model_.blocks[b]->dofs_per_element();
+    auto& slots = slots_.emplace_back();
+    slots.reserve(equations_[b].size() * static_cast<std::size_t>(dofs + 1) / 2);
+    for (std::size_t at = 0; at < equations_[b].size(); at += static_cast<std::size_t>(dofs))
+      for (int i = 0; i < dofs; ++i)
+        for (int j = 0; j <= i; ++j) {
+          const int p = unknown(equations_[b][at + static_cast<std::size_t>(i)]);
+          const int q = unknown(equations_[b][at + static_cast<std::size_t>(j)]);
+          if (p < 0 || q < 0) {
+            slots.push_back(Scatter::none);
+            continue;
+          }
+          const int place = matrix_.place(std::min(p, q), std::max(p, q));
+          slots.push_back(p == q && i != j ? Scatter::twice(place) : place);
+        }
+  }
+}
+
+/// The lower triangle of its part of the elements' unknowns.
+std::vector<double> Assembler::on_pattern(const Eigen::SparseMatrix<double>& constant) const {
+  if (constant.nonZeros() == 0) return {};
+  const auto equation = [this](int unknown) {
+    return model_.dofs.is_free(unknown) ? unknown : unknown + model_.dofs.held_count();
+  };
+  std::vector<double> values(matrix_.values.size(), 0.0);
+  for (int column = 0; column < matrix_.size; ++column)
+    for (int at = matrix_.column_start[static_cast<std::size_t>(column)];
+         at < matrix_.column_start[static_cast<std::size_t>(column) + 1]; ++at)
+      values[static_cast<std::size_t>(at)] =
+          constant.coeff(equation(matrix_.rows[static_cast<std::size_t>(at)]), equation(column));
+  return values;
+}
+
+void Assembler::colour_chunks() {
+  constexpr int most_colours = 64;
+  std::vector<Chunk> alone;
+  std::vector<std::uint64_t> taken(static_cast<std::size_t>(model_.dofs.count()), 0);
+  for (std::size_t b = 0; b < equations_.size(); ++b) {
+    const ElementBlock& block = *model_.blocks[b];
+    const int step = (chunk_size + block.granularity() - 1) / block.granularity() * block.granularity();
+    for (int first = 0; first < block.element_count(); first += step) {
+      const Chunk chunk{static_cast<int>(b), first, std::min(first + step, block.element_count())};
+      const auto begin =
+          equations_[b].begin() + static_cast<std::ptrdiff_t>(chunk.first) * block.dofs_per_element();
+      const auto end =
+          equations_[b].begin() + static_cast<std::ptrdiff_t>(chunk.last) * block.dofs_per_element();
+      std::uint64_t used = 0;
+      for (auto e = begin; e != end; ++e)
+        if (*e != DofMap::absent) used |= taken[static_cast<std::size_t>(*e)];
+      int colour = 0;
+      while (colour < most_colours && (used >> colour & 1)) ++colour;
+      if (colour == most_colours) { // too many neighbours: a colour of its own
+        alone.push_back(chunk);
+        continue;
+      }
+      for (auto e = begin; e != end; ++e)
+        if (*e != DofMap::absent) taken[static_cast<std::size_t>(*e)] |= std::uint64_t{1} << colour;
+      if (colours_.size() <= static_cast<std::size_t>(colour))
+        colours_.resize(static_cast<std::size_t>(colour) + 1);
+      colours_[static_cast<std::size_t>(colour)].push_back(chunk);
+    }
+  }
+  for (const Chunk& chunk : alone) colours_.push_back({chunk});
+}
+
+Evaluation Assembler::run(const State& state, bool want_residual, bool want_tangent) {
+  Evaluation total;
+  std::vector<Evaluation> parts;
+  for (const auto& colour : colours_) {
+    parts.assign(colour.size(), {});
+    const auto evaluate = [&](std::size_t c) {
+      const auto [block, first, last] = colour[c];
+      const auto b = static_cast<std::size_t>(block);
+      const Scatter scatter{equations_[b].data(), slots_[b].data(),
+                            want_residual ? block_residual_[b].data() : nullptr,
+                            want_tangent ? matrix_.values.data() : nullptr};
+      parts[c] = model_.blocks[b]->evaluate(state, first, last, scatter);
+    };
+    if (threads_ > 1)
+      in_parallel(arena_, colour.size(), evaluate);
+    else
+      for (std::size_t c = 0; c < colour.size(); ++c) evaluate(c);
+    for (const Evaluation& part : parts) {
+      total.energy += part.energy;
+      total.feasible = total.feasible && part.feasible;
+    }
+  }
+  return total;
+}
+
+Evaluation Assembler::residual(const State& state, Eigen::VectorXd& residual) {
+  for (auto& block : block_residual_) block.setZero();
+  const Evaluation evaluation = run(state, true, false);
+  residual = block_residual_.front();
+  for (std::size_t b = 1; b < block_residual_.size(); ++b) residual += block_residual_[b];
+  return evaluation;
+}
+
+std::vector<double> Assembler::relaxation(const State& state, const RateWeight& weight) const {
+  std::vector<double> values(matrix_.values.size(), 0.0);
+  for (std::size_t b = 0; b < equations_.size(); ++b)
+    model_.blocks[b]->add_relaxation(state, weight,
+                                     {equations_[b].data(), slots_[b].data(), nullptr, values.data()});
+  return without_ties(state, std::move(values));
+}
+
+void Assembler::tangent(const State& state) {
+  std::fill(matrix_.values.begin(), matrix_.values.end(), 0.0);
+  if (!reduction_) {
+    run(state, false, true);
+    add_inertia(state);
+    return;
+  }
+  for (auto& block : block_residual_) block.setZero();
+  run(state, true, true);
+  add_inertia(state);
+  reduced_.values = reduction_->reduce(state, matrix_.values);
+  Eigen::VectorXd force = -state.dead_force;
+  for (const auto& block : block_residual_) force += block;
+  if (!state.motion_scheme.is_static() && state.motion)
+    force += InertialForce(model_.inertia, model_.dofs, state).force();
+  reduction_->add_geometric(state, force, reduced_.values);
+}
+
+void Assembler::add_inertia(const State& state) {
+  if (state.motion_scheme.is_static()) return;
+  const auto add = [this](double factor, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) matrix_.values[i] += factor * values[i];
+  };
+  add(state.motion_scheme.mass_factor(), mass_);
+  add(state.motion_scheme.damping_factor(), damping_);
+}
+
+std::vector<double> Assembler::without_ties(const State& state, std::vector<double> values) const {
+  return reduction_ && !values.empty() ? reduction_->reduce(state, values) : std::move(values);
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/model/model.hpp"
+#include "fem/model/tie_reduction.hpp"
+
+#include <optional>
+#include <tbb/task_arena.h>
+#include <vector>
+
+namespace dielast::fem {
+
+/// Assembles the energy, residual and tangent of a model. The sparsity pattern, the place of every element
+/// entry in it and a colouring of element chunks are found once. Chunks of one colour share no unknown, so
+/// that they are computed by any number of threads without locks and every sum is formed in the same order:
+/// results are identical bit for bit.
+class Assembler {
+ public:
+  /// `threads`: 0 uses every core.
+  Assembler(const Model& model, int threads);
+
+  /// Energy and residual of the internal forces (count() entries: free equations, reactions at held ones, and
+  /// what acts on tied nodes, see DofMap::gather).
+  Evaluation residual(const State& state, Eigen::VectorXd& residual);
+  /// What each block contributed to the last residual: film and walls may balance, these show how large they
+  /// are.
+  const std::vector<Eigen::VectorXd>& block_residuals() const { return block_residual_; }
+  /// Computes the tangent of the free equations, that of inertia included, read through matrix().
+  void tangent(const State& state);
+
+  /// What relaxed branches resist besides that, in the pattern of matrix(): see ElementBlock::add_relaxation.
+  std::vector<double> relaxation(const State& state, const RateWeight& weight) const;
+
+  /// Mass and damping in that pattern; empty where there is none.
+  std::vector<double> mass(const State& state) const { return without_ties(state, mass_); }
+  std::vector<double> damping(const State& state) const { return without_ties(state, damping_); }
+  const SparseSymmetric& matrix() const { return reduction_ ? reduced_ : matrix_; }
+
+ private:
+  struct Chunk {
+    int block, first, last;
+  };
+
+  void build_pattern();
+  void colour_chunks();
+  std::vector<double> on_pattern(const Eigen::SparseMatrix<double>& constant) const;
+  Evaluation run(const State& state, bool want_residual, bool want_tangent);
+  void add_inertia(const State& state);
+  std::vector<double> without_ties(const State& state, std::vector<double> values) const;
+
+  const Model& model_;
+  int threads_ = 1;
+  tbb::task_arena arena_;
+  SparseSymmetric matrix_; ///< over the free unknowns, then those of tied nodes
+  std::optional<TieReduction> reduction_;
+  SparseSymmetric reduced_;                 ///< over the free unknowns, where there are ties
+  std::vector<std::vector<int>> equations_; ///< per block, see Scatter
+  std::vector<std::vector<int>> slots_;
+  std::vector<std::vector<Chunk>> colours_;
+  std::vector<Eigen::VectorXd> block_residual_;
+  std::vector<double> mass_, damping_; ///< values in the pattern of matrix_; empty without
+};
+
+} // namespace dielast::fem

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "materials/branches/time_scheme.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace dielast::fem {
+
+/// A source behind a resistance drives one electrode; charge leaks through the film:
+///   dQ/dt = i - G Phi,  i = (U - Phi)/R, at most the source's limit either way.
+/// Over a time step (see TimeScheme) this is Q(u, Phi) + drawn(Phi) = (h1 Q_n + h2 Q_{n-1}) / a0 with
+/// drawn = (dt/a0) (G Phi - i(Phi)), which grows with Phi: an electrode of given charge whose capacitance is
+/// larger. Q_n is an internal variable of the model.
+struct Circuit {
+  int electrode = 0;
+  double resistance = 0;                                          ///< R > 0, Ohm
+  double leakage = 0;                                             ///< G, S, of the whole electrode
+  double current_limit = std::numeric_limits<double>::infinity(); ///< A
+  double charge_scale = 1; ///< C: internal variables are charges over this, to be of order one
+
+  /// i, A, from the source's voltage U and the electrode's Phi (V).
+  double current(double source, double voltage) const {
+    return std::clamp((source - voltage) / resistance, -current_limit, current_limit);
+  }
+  /// Part of U that reaches the electrode once nothing changes any more.
+  double steady_share() const { return 1 / (1 + resistance * leakage); }
+
+  struct Drawn {
+    double charge = 0;      ///< C
+    double capacitance = 0; ///< its slope, F
+    double energy = 0;      ///< its integral over Phi, J
+  };
+  Drawn drawn(double source, double voltage, const materials::TimeScheme& scheme) const {
+    const double step = scheme.dt / scheme.a0, drop = source - voltage;
+    const double limit = current_limit * resistance;
+    const bool limited = drop > limit || drop < -limit;
+    const double fed = limited ? current_limit * (std::max(drop, -drop) - limit / 2)
+                               : drop * drop / (2 * resistance); // integral of -i over Phi
+    return {step * (leakage * voltage - current(source, voltage)),
+            step * (leakage + (limited ? 0 : 1 / resistance)),
+            step * (leakage * voltage * voltage / 2 + fed)};
+  }
+};
+
+} // namespace dielast::fem

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/model/dofs.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace dielast::fem {
+
+void DofMap::add(int node, int component) {
+  int& mark = equation_[static_cast<std::size_t>(node)][static_cast<std::size_t>(component)];
+  if (mark == absent) mark = free_mark;
+}
+
+void DofMap::hold(int node, int component) {
+  int& mark = equation_[static_cast<std::size_t>(node)][static_cast<std::size_t>(component)];
+  if (mark != absent) mark = held_mark;
+}
+
+void DofMap::share(int node, int component, int other, int other_component) {
+  shared_.push_back({node, component, other, other_component});
+}
+
+void DofMap::tie(const Tie& tie) {
+  const auto of = [this](int node) { return std::ranges::find(ties_, node, &Tie::node); };
+  Tie root = tie;
+  if (const auto further = of(tie.master); further != ties_.end()) {
+    root.master = further->master;
+    root.arm += further->arm;
+  }
+  if (root.node == root.master || of(tie.node) != ties_.end())
+    throw std::invalid_argument("a node is tied twice");
+  for (Tie& other : ties_)
+    if (other.master == root.node) {
+      other.master = root.master;
+      other.arm += root.arm;
+    }
+  ties_.push_back(root);
+}
+
+void DofMap::number() {
+  for (const Tie& tie : ties_)
+    for (int c = 0; c < components; ++c) {
+      int& mark = equation_[static_cast<std::size_t>(tie.node)][static_cast<std::size_t>(c)];
+      if (mark == held_mark) throw std::invalid_argument("an unknown of a tied node is held");
+      if (mark == absent) continue;
+      add(tie.master, c);
+      if (c < 3)
+        mark = tied_mark;
+      else
+        share(tie.master, tie.node, c);
+    }
+  // Union-find over (node, component): the smallest index of a group stands for it.
+  const auto index = [](int node, int component) {
+    return static_cast<std::size_t>(node * components + component);
+  };
+  std::vector<std::size_t> leader(equation_.size() * components);
+  std::iota(leader.begin(), leader.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (leader[i] != i) i = leader[i] = leader[leader[i]];
+    return i;
+  };
+  const auto mark = [&](std::size_t i) -> int& { return equation_[i / components][i % components]; };
+  for (const auto& [node, component, other, other_component] : shared_) {
+    const std::size_t a = find(index(node, component)), b = find(index(other, other_component));
+    if (mark(a) == tied_mark || mark(b) == tied_mark)
+      throw std::invalid_argument("a displacement of a tied node is shared");
+    const std::size_t low = std::min(a, b), high = std::max(a, b);
+    leader[high] = low;
+    if (mark(high) == held_mark) mark(low) = held_mark;
+  }
+  free_count_ = held_count_ = count_ = 0;
+  for (std::size_t i = 0; i < leader.size(); ++i)
+    if (find(i) == i && mark(i) != absent) {
+      free_count_ += mark(i) == free_mark;
+      held_count_ += mark(i) == held_mark;
+      ++count_;
+    }
+  int free = 0, held = free_count_, tied = free_count_ + held_count_;
+  for (std::size_t i = 0; i < leader.size(); ++i) {
+    if (mark(i) == absent) continue;
+    const std::size_t first = find(i); // numbered before i
+    mark(i) = first != i             ? mark(first)
+              : mark(i) == free_mark ? free++
+              : mark(i) == held_mark ? held++
+                                     : tied++;
+  }
+}
+
+void DofMap::advance(State& state, const Eigen::VectorXd& increment, double scale) const {
+  for (std::size_t n = 0; n < equation_.size(); ++n) {
+    const auto& equation = equation_[n];
+    Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+    bool turns = false;
+    for (int c = 0; c < components; ++c) {
+      const int e = equation[static_cast<std::size_t>(c)];
+      if (!is_free(e)) continue;
+      if (c < 3) {
+        state.displacement[n][c] += scale * increment[e];
+      } else {
+        spin[c - 3] = scale * increment[e];
+        turns = true;
+      }
+    }
+    if (turns) state.rotation[n] = rotation_of(spin) * state.rotation[n];
+  }
+  carry(state);
+}
+
+void DofMap::carry(State& state) const {
+  for (const auto& [node, master, arm] : ties_) {
+    const auto m = static_cast<std::size_t>(master), n = static_cast<std::size_t>(node);
+    state.displacement[n] = state.displacement[m] + (state.rotation[m] * arm - arm);
+    state.rotation[n] = state.rotation[m];
+  }
+}
+
+void DofMap::gather(const State& state, Eigen::VectorXd& force) const {
+  for (const auto& [node, master, arm] : ties_) {
+    Eigen::Vector3d on_node = Eigen::Vector3d::Zero();
+    for (int c = 0; c < 3; ++c)
+      if (const int e = equation(node, c); e != absent) on_node[c] = std::exchange(force[e], 0.0);
+    const Eigen::Vector3d moment = (state.rotation[static_cast<std::size_t>(master)] * arm).cross(on_node);
+    for (int c = 0; c < components; ++c)
+      if (const int e = equation(master, c); e != absent) force[e] += c < 3 ? on_node[c] : moment[c - 3];
+  }
+}
+
+Eigen::Vector3d DofMap::lever(const Tie& tie, const State& state, int component) {
+  const Eigen::Vector3d arm = state.rotation[static_cast<std::size_t>(tie.master)] * tie.arm;
+  return arm.cross(Eigen::Vector3d::Unit(component));
+}
+
+Eigen::SparseMatrix<double> DofMap::jacobian(const State& state) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int e = 0; e < free_count_; ++e) entries.emplace_back(e, e, 1.0);
+  for (const Tie& tie : ties_)
+    for (int c = 0; c < 3; ++c) {
+      const int e = equation(tie.node, c);
+      if (e == absent) continue;
+      if (const int m = equation(tie.master, c); is_free(m)) entries.emplace_back(e, m, 1.0);
+      const Eigen::Vector3d lever = this->lever(tie, state, c);
+      for (int k = 0; k < 3; ++k)
+        if (const int m = equation(tie.master, 3 + k); is_free(m)) entries.emplace_back(e, m, lever[k]);
+    }
+  Eigen::SparseMatrix<double> all(count_, free_count_);
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
+double DofMap::work_on_tied(const Eigen::VectorXd& force, const State& from, const State& to) const {
+  double work = 0;
+  for (const Tie& tie : ties_)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = equation(tie.node, c); e != absent)
+        work += force[e] * (to.displacement[static_cast<std::size_t>(tie.node)][c] -
+                            from.displacement[static_cast<std::size_t>(tie.node)][c]);
+  return work;
+}
+
+Eigen::VectorXd DofMap::increment(const State& from, const State& to) const {
+  Eigen::VectorXd increment = Eigen::VectorXd::Zero(free_count_);
+  for (std::size_t n = 0; n < equation_.size(); ++n) {
+    const auto& equation = equation_[n];
+    for (int c = 0; c < 3; ++c)
+      if (const int e = equation[static_cast<std::size_t>(c)]; is_free(e))
+        increment[e] = to.displacement[n][c] - from.displacement[n][c];
+    if (std::none_of(equation.begin() + 3, equation.end(), [this](int e) { return is_free(e); })) continue;
+    const Eigen::Vector3d spin = spin_of(to.rotation[n] * from.rotation[n].conjugate());
+    for (int c = 3; c < components; ++c)
+      if (const int e = equation[static_cast<std::size_t>(c)]; is_free(e)) increment[e] = spin[c - 3];
+  }
+  return increment;
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/model/state.hpp"
+
+#include <Eigen/SparseCore>
+
+#include <array>
+#include <vector>
+
+namespace dielast::fem {
+
+/// How a model can move.
+enum class Dimension {
+  planar,       ///< x and y, spin about z
+  spatial,      ///< everything
+  axisymmetric, ///< x, the radius, and z, of every half plane through the z axis alike
+};
+
+/// Whether a model moves along x, y, z (0..2) or spins about them (3..5).
+constexpr bool moves(Dimension dimension, int component) {
+  switch (dimension) {
+  case Dimension::planar:
+    return component == 0 || component == 1 || component == 5;
+  case Dimension::spatial:
+    return true;
+  case Dimension::axisymmetric:
+    return component == 0 || component == 2;
+  }
+  return false;
+}
+
+/// Node of a rigid body: x_node = x_master + R_master arm, R_node = R_master.
+struct Tie {
+  int node = 0, master = 0;
+  Eigen::Vector3d arm; ///< m, from the master as drawn
+};
+
+/// Numbers the unknowns of a model. Each node may have six: displacement x, y, z (0..2) and spin about x, y,
+/// z (3..5), the spatial rotation increment. Free unknowns get equations 0..free_count()-1, held ones follow,
+/// then the displacements of tied nodes, which are functions of their masters' unknowns: a residual of
+/// count() entries carries the reactions behind the free equations, and what acts on tied nodes until
+/// gather() moves it.
+class DofMap {
+ public:
+  static constexpr int components = 6;
+  static constexpr int absent = -1;
+
+  explicit DofMap(int node_count) : equation_(static_cast<std::size_t>(node_count), unset()) {}
+
+  /// Gives the node this unknown.
+  void add(int node, int component);
+  /// Holds the unknown at its value; ignored where the node does not have it.
+  void hold(int node, int component);
+  /// Gives two nodes one common unknown, as for a rigid body that only translates; held if either is held.
+  void share(int node, int other, int component) { share(node, component, other, component); }
+  /// Gives two displacements one common unknown, as for a square that stays a square.
+  void share(int node, int component, int other, int other_component);
+  /// Makes the node a part of the rigid body of `master`, which may itself be tied. Throws
+  /// std::invalid_argument for a node that is tied already, to itself, or to one of its own.
+  void tie(const Tie& tie);
+  /// Numbers everything; to be called once, after the last of the calls above. Throws std::invalid_argument
+  /// where a displacement of a tied node is held or shared.
+  void number();
+
+  int equation(int node, int component) const { return equation_[static_cast<std::size_t>(node)][component]; }
+  int node_count() const { return static_cast<int>(equation_.size()); }
+  int free_count() const { return free_count_; }
+  int held_count() const { return held_count_; }
+  int count() const { return count_; }
+  bool is_free(int equation) const { return equation != absent && equation < free_count_; }
+  bool is_held(int equation) const { return equation >= free_count_ && equation < free_count_ + held_count_; }
+  bool is_tied(int equation) const { return equation >= free_count_ + held_count_; }
+  const std::vector<Tie>& ties() const { return ties_; }
+
+  /// state := state + scale * increment, rotations as exp(spin) R; increment has free_count() entries. Tied
+  /// nodes are carried.
+  void advance(State& state, const Eigen::VectorXd& increment, double scale) const;
+  /// Puts tied nodes to where their masters are.
+  void carry(State& state) const;
+  /// Moves the forces on tied nodes (count() entries in all) to their masters: their sum and its moment.
+  void gather(const State& state, Eigen::VectorXd& force) const;
+  /// How all displacements and spins go with the free ones: count() x free_count().
+  Eigen::SparseMatrix<double> jacobian(const State& state) const;
+  /// How displacement `component` (0..2) of a tied node goes with its master's spins; with the master's
+  /// displacement it goes as one.
+  static Eigen::Vector3d lever(const Tie& tie, const State& state, int component);
+  /// What forces that stay as they are (count() entries) do on the way of the tied nodes from one state to
+  /// another, J.
+  double work_on_tied(const Eigen::VectorXd& force, const State& from, const State& to) const;
+  /// The increment by which advance() leads from one state to the other's free displacements and rotations.
+  Eigen::VectorXd increment(const State& from, const State& to) const;
+
+ private:
+  static constexpr int free_mark = 0, held_mark = 1, tied_mark = 2; // before number()
+  static constexpr std::array<int, components> unset() {
+    return {absent, absent, absent, absent, absent, absent};
+  }
+
+  std::vector<std::array<int, components>> equation_;
+  std::vector<std::array<int, 4>> shared_; ///< node, component, other node, its component
+  std::vector<Tie> ties_;
+  int free_count_ = 0, held_count_ = 0, count_ = 0;
+};
+
+} // namespace dielast::fem

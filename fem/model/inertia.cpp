@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/model/inertia.hpp"
+
+#include "fem/model/element_block.hpp"
+
+namespace dielast::fem {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+void scatter(const std::vector<double>& packed, const std::vector<int>& equations, Triplets& triplets) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < equations.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j, ++at) {
+      const int p = equations[i], q = equations[j];
+      if (packed[at] == 0 || p == DofMap::absent || q == DofMap::absent) continue;
+      triplets.emplace_back(p, q, packed[at]);
+      if (i != j) triplets.emplace_back(q, p, packed[at]);
+    }
+}
+
+} // namespace
+
+Inertia Inertia::of(const std::vector<std::unique_ptr<ElementBlock>>& blocks, const DofMap& dofs) {
+  Triplets mass, damping;
+  for (const auto& block : blocks) {
+    const auto size = static_cast<std::size_t>(block->dofs_per_element());
+    std::vector<int> equations(size);
+    std::vector<double> packed(size * (size + 1) / 2);
+    for (int e = 0; e < block->element_count(); ++e) {
+      block->element_equations(e, dofs, equations);
+      std::ranges::fill(packed, 0.0);
+      block->add_mass(e, packed);
+      scatter(packed, equations, mass);
+      std::ranges::fill(packed, 0.0);
+      block->add_damping(e, packed);
+      scatter(packed, equations, damping);
+    }
+  }
+  Inertia inertia{Eigen::SparseMatrix<double>(dofs.count(), dofs.count()),
+                  Eigen::SparseMatrix<double>(dofs.count(), dofs.count())};
+  inertia.mass.setFromTriplets(mass.begin(), mass.end());
+  inertia.damping.setFromTriplets(damping.begin(), damping.end());
+  return inertia;
+}
+
+Eigen::VectorXd position(const State& state, const DofMap& dofs) {
+  Eigen::VectorXd position = Eigen::VectorXd::Zero(dofs.count());
+  for (int n = 0; n < dofs.node_count(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(n, c); e != DofMap::absent)
+        position[e] = state.displacement[static_cast<std::size_t>(n)][c];
+  return position;
+}
+
+InertialForce::InertialForce(const Inertia& inertia, const DofMap& dofs, const State& state)
+    : start_(*state.motion), scheme_(state.motion_scheme), step_(position(state, dofs) - start_.position) {
+  const auto& s = scheme_;
+  const auto force = [&](const Eigen::VectorXd& step) {
+    acceleration_ = (step - s.dt * start_.velocity) / (s.beta * s.dt * s.dt) - s.start * start_.acceleration;
+    velocity_ = start_.velocity + s.dt * ((1 - s.gamma) * start_.acceleration + s.gamma * acceleration_);
+    return Eigen::VectorXd(
+        (inertia.mass * ((1 - s.alpha_m) * acceleration_ + s.alpha_m * start_.acceleration) +
+         inertia.damping * ((1 - s.alpha_f) * velocity_ + s.alpha_f * start_.velocity) +
+         s.alpha_f * start_.unbalanced) /
+        (1 - s.alpha_f));
+  };
+  const Eigen::VectorXd at_start = force(Eigen::VectorXd::Zero(step_.size()));
+  force_ = force(step_);
+  energy_ = (at_start + force_).dot(step_) / 2;
+}
+
+Motion InertialForce::arrived() const {
+  return {start_.position + step_, velocity_, acceleration_, -force_, scheme_.dt};
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/model/state.hpp"
+
+namespace dielast::fem {
+
+Eigen::Quaterniond rotation_of(const Eigen::Vector3d& spin) {
+  const double angle = spin.norm();
+  // sin(a/2)/a by its series where the division would lose digits
+  const double factor = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
+  Eigen::Quaterniond q(std::cos(angle / 2), factor * spin.x(), factor * spin.y(), factor * spin.z());
+  q.normalize();
+  return q;
+}
+
+Eigen::Vector3d spin_of(const Eigen::Quaterniond& rotation) {
+  const double sine = rotation.vec().norm();
+  const double factor = sine < 1e-8 ? 2 / rotation.w() : 2 * std::atan2(sine, rotation.w()) / sine;
+  return factor * rotation.vec();
+}
+
+State extrapolate(std::span<const PathPoint> points, double parameter) {
+  std::vector<double> weight(points.size(), 1.0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < points.size(); ++j)
+      if (j != i)
+        weight[i] *= (parameter - points[j].parameter) / (points[i].parameter - points[j].parameter);
+  const State& last = points.back().state;
+  State result = last;
+  for (std::size_t n = 0; n < last.displacement.size(); ++n) {
+    Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      displacement += weight[i] * points[i].state.displacement[n];
+    result.displacement[n] = displacement;
+    Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      spin += weight[i] * spin_of(points[i].state.rotation[n] * last.rotation[n].conjugate());
+    result.rotation[n] = rotation_of(spin) * last.rotation[n];
+  }
+  return result;
+}
+
+} // namespace dielast::fem

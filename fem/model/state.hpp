@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/model/generalised_alpha.hpp"
+#include "materials/branches/time_scheme.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace dielast::fem {
+
+/// What the material remembers: the internal variables of all blocks (see ElementBlock::history_size), then
+/// of the circuits (see Circuit) and the sheets (see SheetPoint), at the last accepted times, newest first.
+/// Never changed once made, so that states share it.
+struct History {
+  std::vector<double> now, before, older;
+  double step = 0, step_before = 0; ///< s, between now and before, before and older; 0: there is no such past
+};
+
+/// What inertia remembers: how the model moved at the last accepted time. Per equation (see DofMap).
+struct Motion {
+  Eigen::VectorXd position, velocity, acceleration; ///< m, m/s, m/s^2
+  Eigen::VectorXd unbalanced;                       ///< internal minus external forces, N
+  double step = 0;                                  ///< s, that led here; 0 at rest and after a break
+};
+
+/// What is given at an electrode or a chamber.
+enum class Supply : std::uint8_t {
+  voltage, ///< its voltage (pressure)
+  charge,  ///< its charge (volume): the voltage follows
+  circuit, ///< the voltage of the source of its circuit: voltage and charge follow
+};
+
+/// All that changes while a model is loaded. A value: a copy is a cutback, a serialised one is a restart.
+struct State {
+  std::vector<Eigen::Vector3d> displacement; ///< per node, m, from the mesh as drawn
+  std::vector<Eigen::Quaterniond> rotation; ///< per node, from the mesh as drawn; the sign is kept continuous
+  std::vector<double> voltage;              ///< per electrode, V; then per chamber, its pressure, Pa
+  Eigen::VectorXd dead_force;               ///< per equation (see DofMap): N, or N m for rotations
+  std::vector<Supply> supply;               ///< likewise: what is given
+  std::vector<double> charge;               ///< likewise: the given charge, C, or pumped volume, m^3
+  std::vector<double> source;               ///< likewise: voltage of the circuit's source, V
+  Eigen::VectorXd sheet_drop; ///< per Model::sheet_points, the electrode's voltage less the sheet's there, V;
+                              ///< empty: none
+  double time = 0;            ///< s
+  materials::TimeScheme scheme; ///< how the branches get here from `history`; frozen in accepted states
+  std::shared_ptr<const History> history; ///< null: nothing has internal variables
+  GeneralisedAlpha motion_scheme;         ///< how inertia gets here from `motion`; static in accepted states
+  std::shared_ptr<const Motion> motion;   ///< null: without inertia
+};
+
+/// Rotation by the vector `spin` (rad).
+Eigen::Quaterniond rotation_of(const Eigen::Vector3d& spin);
+
+/// Rotation vector (rad) of a unit quaternion near the identity's side (scalar part > 0).
+Eigen::Vector3d spin_of(const Eigen::Quaterniond& rotation);
+
+/// A state that an extrapolation passes through, and its place on the load path.
+struct PathPoint {
+  double parameter = 0;
+  State state;
+};
+
+/// Polynomial through all `points` (1 to 4, distinct parameters), taken at `parameter`: displacements
+/// directly, rotations through their vectors relative to the last point. Voltages and forces are those of the
+/// last point.
+State extrapolate(std::span<const PathPoint> points, double parameter);
+
+} // namespace dielast::fem

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/paths/continuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr double difference = 1e-4;  ///< of load factors; central differences are exact for quadratic loads
+constexpr double least_cosine = 0.7; ///< between the tangents at both ends of a step
+
+/// D du / E: the row that makes . du an inner product.
+Eigen::VectorXd dual(const Equilibrium& equilibrium, const Eigen::VectorXd& du) {
+  return equilibrium.stiffness().cwiseProduct(du) / equilibrium.energy_scale();
+}
+
+/// Sets direction and inertia at a converged point; false at a singular one. The new direction makes an acute
+/// angle with that of `before`, whose cosine is returned.
+std::optional<double> turn(Equilibrium& equilibrium, const LoadPath& path, ContinuationProgress& at,
+                           const Eigen::VectorXd& direction, double load_direction) {
+  const PathBorder border{load_derivative(equilibrium, path, at.state, at.load_factor),
+                          dual(equilibrium, direction), load_direction};
+  if (!equilibrium.factor(at.state, &border)) return std::nullopt;
+  at.newton.negative_pivots = equilibrium.tangent().negative_pivots();
+  at.newton.unstable_modes = equilibrium.tangent().unstable_modes();
+  at.load_direction =
+      equilibrium.tangent().solve(Eigen::VectorXd::Zero(border.column.size()), at.direction, 1);
+  const double length =
+      std::hypot(std::sqrt(dual(equilibrium, at.direction).dot(at.direction)), at.load_direction);
+  if (!std::isfinite(length)) return std::nullopt;
+  at.direction /= length;
+  at.load_direction /= length;
+  return 1 / length; // their product is 1 before this one is normalised
+}
+
+/// The point where the path crosses the load factor s between `progress` and a point close by.
+std::optional<ContinuationProgress> land(Equilibrium& equilibrium, const LoadPath& path,
+                                         const NewtonOptions& options, ContinuationProgress beyond,
+                                         double s) {
+  const Eigen::VectorXd direction = beyond.direction;
+  const double load_direction = beyond.load_direction;
+  if (load_direction == 0) return std::nullopt;
+  const double arc = (s - beyond.load_factor) / load_direction;
+  equilibrium.model().dofs.advance(beyond.state, direction, arc);
+  beyond.load_factor = s;
+  beyond.last_arc += arc;
+  path.apply(beyond.state, s);
+  beyond.newton = equilibrium.solve(beyond.state, options);
+  if (beyond.newton.outcome != Outcome::converged ||
+      !turn(equilibrium, path, beyond, direction, load_direction))
+    return std::nullopt;
+  return beyond;
+}
+
+} // namespace
+
+Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, const State& state,
+                                double s) {
+  Balance more, less;
+  State at = state;
+  path.apply(at, s + difference);
+  equilibrium.balance(at, more);
+  path.apply(at, s - difference);
+  equilibrium.balance(at, less);
+  return (more.force - less.force).head(equilibrium.model().dofs.free_count()) / (2 * difference);
+}
+
+std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium, const LoadPath& path,
+                                                       const State& state, double s, double heading,
+                                                       const ContinuationOptions& options) {
+  ContinuationProgress progress{.state = state, .load_factor = s, .arc = options.first_arc};
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(equilibrium.model().dofs.free_count());
+  if (!turn(equilibrium, path, progress, still, heading)) return std::nullopt;
+  return progress;
+}
+
+std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const LoadPath& path,
+                                             const ContinuationProgress& from, double arc,
+                                             const NewtonOptions& options) {
+  const DofMap& dofs = equilibrium.model().dofs;
+  ContinuationProgress to = from;
+  to.load_factor += arc * from.load_direction;
+  dofs.advance(to.state, from.direction, arc);
+  to.last_arc = arc;
+  ++to.steps;
+  const Eigen::VectorXd row = dual(equilibrium, from.direction);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double previous_norm = infinity, step = infinity;
+  Balance current;
+  Eigen::VectorXd du;
+  for (to.newton = {};; ++to.newton.iterations) {
+    path.apply(to.state, to.load_factor);
+    equilibrium.balance(to.state, current);
+    if (!current.feasible) return std::nullopt;
+    to.newton.residual = current.scale > 0 ? current.norm / current.scale : 0;
+    if (equilibrium.balanced(current, options.tolerance, previous_norm, step)) break;
+    if (to.newton.iterations >= options.max_iterations || current.norm > 1e3 * previous_norm)
+      return std::nullopt;
+    previous_norm = current.norm;
+    const PathBorder border{load_derivative(equilibrium, path, to.state, to.load_factor), row,
+                            from.load_direction};
+    if (!equilibrium.factor(to.state, &border)) return std::nullopt;
+    to.load_factor += equilibrium.tangent().solve(-current.force.head(row.size()), du);
+    dofs.advance(to.state, du, 1);
+    step = equilibrium.step_size(du);
+  }
+  to.newton.outcome = Outcome::converged;
+  const auto cosine = turn(equilibrium, path, to, from.direction, from.load_direction);
+  if (!cosine || *cosine < least_cosine) return std::nullopt;
+  to.state.history = equilibrium.model().advanced_history(to.state);
+  return to;
+}
+
+ContinuationEnd continuation(Equilibrium& equilibrium, const LoadPath& path,
+                             const ContinuationOptions& options, ContinuationProgress& progress,
+                             const ContinuationObserver& observer) {
+  while (progress.steps < options.most_steps) {
+    const double arc = progress.arc;
+    auto next = arc_step(equilibrium, path, progress, arc, options.newton);
+    const bool above = next && next->load_factor >= options.highest;
+    const bool ends = above || (next && next->load_factor < options.lowest);
+    if (ends) next = land(equilibrium, path, options.newton, *next, above ? options.highest : options.lowest);
+    if (!next) {
+      if (observer.on_cutback) observer.on_cutback(arc);
+      progress.arc = arc / 2;
+      if (progress.arc < options.smallest_arc) return ContinuationEnd::gave_up;
+      continue;
+    }
+    const double growth =
+        std::sqrt(static_cast<double>(options.wanted_iterations) / std::max(1, next->newton.iterations));
+    next->arc = std::min(options.largest_arc, arc * std::clamp(growth, 0.5, 2.0));
+    progress = std::move(*next);
+    if (observer.on_accept && !observer.on_accept(progress)) return ContinuationEnd::stopped;
+    if (ends) return ContinuationEnd::reached_load;
+  }
+  return ContinuationEnd::took_all_steps;
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/paths/energy_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::fem {
+
+namespace {
+
+/// Changes below this part of a value are its rounding.
+constexpr double rounding = 1e-12;
+/// Part by which two rules for the heat of dashpots may differ for the one of higher order to be better, and
+/// how much better it then is.
+constexpr double agreement = 0.1, one_order = 1.0 / 3;
+/// Of stored energies, relative, as many increments add it up.
+constexpr double round_off = 1e-9;
+/// Increments that are longer than this many times the one before know no curvature.
+constexpr double most_growth = 2.5;
+
+double total(const EnergyParts& parts) {
+  return parts.elastic + parts.branches + parts.electric + parts.kinetic;
+}
+
+/// The integral of a force over an increment.
+struct Integral {
+  double value = 0;
+  double curvature = 0; ///< part of it that the trapezoidal rule does not see
+  double range =
+      0; ///< sum of |change of force| |change of coordinate|: 0 where the trapezoidal rule is exact
+};
+
+/// From one accepted state to the next.
+class Interval {
+ public:
+  Interval(const std::vector<EnergyPoint>& points, const EnergyPoint& end)
+      : before_(points.size() > 1 && end.length > 0 && end.length <= most_growth * points.back().length
+                    ? &points.front()
+                    : nullptr),
+        begin_(points.back()), end_(end) {
+    const double h = end.length, h1 = begin_.length;
+    if (before_) weight_ = h * h / (6 * h1 * (h1 + h));
+  }
+
+  double duration() const { return end_.time - begin_.time; }
+  Integral over(Conjugates EnergyPoint::*pair) const {
+    return over([pair](const EnergyPoint& point) -> const Conjugates& { return point.*pair; });
+  }
+  Integral over(EnergyPoint::Power power) const {
+    return over([power](const EnergyPoint& point) {
+      return Conjugates{Eigen::VectorXd::Constant(1, point.power[power]),
+                        Eigen::VectorXd::Constant(1, point.time)};
+    });
+  }
+
+ private:
+  static double changed(double from, double to) {
+    const double change = std::abs(to - from);
+    return change > rounding * std::max(std::abs(from), std::abs(to)) ? change : 0;
+  }
+  template<class Pair>
+  Integral over(const Pair& pair) const {
+    const Conjugates &a = pair(begin_), &b = pair(end_);
+    const Eigen::VectorXd force = b.force - a.force, way = b.coordinate - a.coordinate;
+    Integral result{(a.force + b.force).dot(way) / 2};
+    for (Eigen::Index i = 0; i < way.size(); ++i)
+      result.range += changed(a.force[i], b.force[i]) * changed(a.coordinate[i], b.coordinate[i]);
+    if (before_) { // parabolas through three states
+      const Conjugates& p = pair(*before_);
+      result.curvature = weight_ * ((a.force - p.force).dot(way) - force.dot(a.coordinate - p.coordinate));
+      result.value += result.curvature;
+    }
+    return result;
+  }
+
+  const EnergyPoint* before_;
+  const EnergyPoint& begin_;
+  const EnergyPoint& end_;
+  double weight_ = 0;
+};
+
+/// At the points of the sheets in an accepted state, C.
+Eigen::VectorXd sheet_charges(const Model& model, const State& state) {
+  const std::size_t first = model.circuit_history + model.circuits.size();
+  Eigen::VectorXd charges(static_cast<Eigen::Index>(model.sheet_points.size()));
+  for (std::size_t a = 0; a < model.sheet_points.size(); ++a)
+    charges[static_cast<Eigen::Index>(a)] =
+        model.sheet_points[a].charge_scale * state.history->now[first + a];
+  return charges;
+}
+
+} // namespace
+
+void EnergyBalance::account(const EnergyPoint& point) {
+  const Interval interval(record_.points, point);
+  const Integral electrical = interval.over(&EnergyPoint::electrical);
+  const Integral mechanical = interval.over(&EnergyPoint::mechanical);
+  const double change = total(point.energy) - stored();
+  double heat = 0, leak_through_sheet = 0, doubt = 0;
+  const bool flows = point.flow != 0 || point.sheet.coordinate != record_.points.back().sheet.coordinate;
+  if (interval.duration() > 0) {
+    const Integral flow = interval.over(EnergyPoint::dashpots);
+    const bool fine = std::abs(flow.value - point.flow) <= agreement * point.flow;
+    const Integral damped = interval.over(EnergyPoint::dampers);
+    const Integral conducted = interval.over(&EnergyPoint::sheet);
+    const Integral resisted = interval.over(&EnergyPoint::resistance);
+    const Integral leaked = interval.over(EnergyPoint::leak);
+    leak_through_sheet = interval.over(EnergyPoint::leak_through_sheet).value;
+    heat = (fine ? flow.value : std::max(0.0, point.flow)) + std::max(0.0, damped.value) +
+           std::max(0.0, conducted.value + leak_through_sheet);
+    record_.work.resistance +=
+        std::max(0.0, resisted.value + interval.over(EnergyPoint::leak_through_resistance).value);
+    record_.work.leak += std::max(0.0, leaked.value);
+    doubt = std::abs(flow.value - point.flow) * (fine ? one_order : 1) + std::abs(damped.curvature) +
+            std::abs(conducted.curvature) + std::abs(resisted.curvature) + std::abs(leaked.curvature);
+  }
+  Work& work = record_.work;
+  const double rest = change + heat - electrical.value - leak_through_sheet - mechanical.value;
+  const double range = electrical.range + mechanical.range;
+  double electrical_share = 0, mechanical_share = 0;
+  if (point.moves) {
+    record_.rest += rest;
+  } else if (range > 0) {
+    electrical_share = rest * electrical.range / range;
+    mechanical_share = rest * mechanical.range / range;
+    if (electrical.range > 0 && mechanical.range > 0) doubt += std::abs(rest);
+  } else if (!flows) {
+    record_.rest += rest;
+  } else {
+    const double taken = std::max(-heat, -rest);
+    heat += taken;
+    record_.rest += rest + taken;
+  }
+  work.electrical += electrical.value + leak_through_sheet + electrical_share;
+  work.mechanical += mechanical.value + mechanical_share;
+  work.dissipated += heat;
+  record_.doubt += doubt;
+}
+
+/// Keeps the point, and what it says of the energies so far.
+void EnergyBalance::arrive(EnergyPoint point) {
+  auto& points = record_.points;
+  if (points.empty()) record_.stored_at_start = total(point.energy);
+  if (points.size() == 2) points.erase(points.begin());
+  points.push_back(std::move(point));
+  const Work& work = record_.work;
+  for (const double energy :
+       {work.electrical, work.mechanical, work.dissipated, work.released, stored() - record_.stored_at_start})
+    record_.exchanged = std::max(record_.exchanged, std::abs(energy));
+}
+
+void EnergyBalance::add(EnergyPoint point) {
+  if (!empty()) account(point);
+  arrive(std::move(point));
+}
+
+void EnergyBalance::corner() {
+  auto& points = record_.points;
+  if (points.size() == 2) points.erase(points.begin());
+}
+
+void EnergyBalance::add_after_jump(EnergyPoint point) {
+  const EnergyPoint& before = record_.points.back();
+  // at the loads before it
+  const auto done = [&](Conjugates EnergyPoint::*pair) {
+    return (before.*pair).force.dot((point.*pair).coordinate - (before.*pair).coordinate);
+  };
+  const double electrical = done(&EnergyPoint::electrical), mechanical = done(&EnergyPoint::mechanical);
+  record_.work.electrical += electrical;
+  record_.work.mechanical += mechanical;
+  record_.work.released += electrical + mechanical - (total(point.energy) - stored());
+  record_.points.clear();
+  arrive(std::move(point));
+}
+
+void EnergyBalance::add_cut_free(EnergyPoint point) {
+  record_.work.released -= total(point.energy) - stored();
+  record_.points.clear();
+  arrive(std::move(point));
+}
+
+double EnergyBalance::stored() const { return empty() ? 0 : total(parts()); }
+
+double EnergyBalance::error() const { return record_.doubt + std::abs(record_.rest); }
+
+bool EnergyBalance::turns_poor() {
+  const EnergyParts& parts = this->parts();
+  // Differences of stored energies are no better known than these.
+  const double known = round_off * (std::abs(parts.elastic) + std::abs(parts.branches) +
+                                    std::abs(parts.electric) + std::abs(record_.stored_at_start));
+  const Resolution now{std::max(0.0, error() - known), record_.exchanged};
+  const bool was_poor = record_.worst.is_poor();
+  if (now.error * record_.worst.exchanged > record_.worst.error * now.exchanged ||
+      record_.worst.exchanged == 0)
+    record_.worst = now;
+  return !was_poor && record_.worst.is_poor();
+}
+
+EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length) {
+  const Model& model = equilibrium.model();
+  const DofMap& dofs = model.dofs;
+  const auto electrodes = static_cast<Eigen::Index>(model.electrodes.size());
+  const auto chambers = static_cast<Eigen::Index>(model.chambers.size());
+  EnergyPoint point{.length = length, .time = state.time, .moves = state.motion != nullptr};
+  Eigen::VectorXd& force = point.mechanical.force;
+  equilibrium.internal_force(state, force); // the reactions are external, too
+  if (state.motion) {
+    const Motion& motion = *state.motion;
+    Eigen::VectorXd inertial =
+        model.inertia.mass * motion.acceleration + model.inertia.damping * motion.velocity;
+    dofs.gather(state, inertial);
+    force += inertial;
+    point.power[EnergyPoint::dampers] = motion.velocity.dot(model.inertia.damping * motion.velocity);
+  }
+  // Supports carry the forces on tied nodes, which do work of their own.
+  Eigen::VectorXd carried = state.dead_force;
+  dofs.gather(state, carried);
+  const auto supported = Eigen::seqN(dofs.free_count(), dofs.held_count());
+  const Eigen::VectorXd reactions = force(supported) - carried(supported) + state.dead_force(supported);
+  force = state.dead_force;
+  force(supported) = reactions;
+  point.mechanical.coordinate = position(state, dofs);
+  // What is given is known to the last digit; the rest follows.
+  Charges held = model.charges(state, false);
+  for (std::size_t e = 0; e < model.port_count(); ++e)
+    if (state.supply[e] == Supply::charge) held.charge[e] = state.charge[e];
+  const Eigen::Map<const Eigen::VectorXd> voltage(state.voltage.data(), electrodes + chambers);
+  const Eigen::Map<const Eigen::VectorXd> charge(held.charge.data(), electrodes + chambers);
+  // What pumps do is mechanical work.
+  for (auto [part, port] :
+       {std::pair{&point.mechanical.force, &voltage}, {&point.mechanical.coordinate, &charge}}) {
+    part->conservativeResize(dofs.count() + chambers);
+    part->tail(chambers) = port->tail(chambers);
+  }
+  point.electrical = {voltage.head(electrodes), charge.head(electrodes)};
+  point.resistance = {Eigen::VectorXd::Zero(electrodes), point.electrical.coordinate};
+  for (const Circuit& circuit : model.circuits)
+    if (const auto e = static_cast<std::size_t>(circuit.electrode); state.supply[e] == Supply::circuit) {
+      const double drop = state.source[e] - state.voltage[e];
+      point.resistance.force[circuit.electrode] = drop;
+      if (std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode)) continue;
+      point.power[EnergyPoint::leak] += circuit.leakage * state.voltage[e] * state.voltage[e];
+      point.power[EnergyPoint::leak_through_resistance] += circuit.leakage * state.voltage[e] * drop;
+    }
+  if (!model.sheets.empty()) {
+    point.sheet = {state.sheet_drop, sheet_charges(model, state)};
+    if (state.sheet_drop.size() == 0) point.sheet.force.setZero(point.sheet.coordinate.size());
+    for (std::size_t a = 0; a < model.sheet_points.size(); ++a) {
+      const SheetPoint& at = model.sheet_points[a];
+      const double drop = point.sheet.force[static_cast<Eigen::Index>(a)];
+      const double there = state.voltage[static_cast<std::size_t>(at.electrode)] - drop;
+      const double current = at.leakage * there;
+      point.power[EnergyPoint::leak] += current * there;
+      point.power[EnergyPoint::leak_through_sheet] += current * drop;
+      point.power[EnergyPoint::leak_through_resistance] +=
+          current * point.resistance.force[static_cast<Eigen::Index>(at.electrode)];
+    }
+  }
+  point.energy = model.energies(state);
+  point.power[EnergyPoint::dashpots] = point.energy.dissipation;
+  return point;
+}
+
+double flow_heat(Equilibrium& equilibrium, const State& from, const State& to) {
+  if (!from.history || !to.history || from.history->now == to.history->now) return 0;
+  Eigen::VectorXd unused;
+  const auto energy = [&](State shape, const State& dashpots) {
+    shape.history = dashpots.history;
+    shape.scheme = materials::TimeScheme::frozen();
+    return equilibrium.internal_force(shape, unused).energy;
+  };
+  return (energy(from, from) - energy(from, to) + energy(to, from) - energy(to, to)) / 2;
+}
+
+} // namespace dielast::fem

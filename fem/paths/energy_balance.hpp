@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/equilibrium/equilibrium.hpp"
+
+#include <array>
+#include <vector>
+
+namespace dielast::fem {
+
+/// Generalised forces and the coordinates that they do work on: int force . d(coordinate), J.
+struct Conjugates {
+  Eigen::VectorXd force, coordinate;
+};
+
+/// What a state contributes to the energy balance.
+struct EnergyPoint {
+  double length = 0;     ///< of the path since the point before, in a parameter in which the path is smooth
+  double time = 0;       ///< s
+  bool moves = false;    ///< with inertia: external forces balance internal ones over the time steps only
+  Conjugates mechanical; ///< per equation dead forces (reactions at held ones) and displacements; then per
+                         ///< chamber pressure and volume
+  Conjugates electrical; ///< per electrode voltage and charge
+  Conjugates resistance; ///< per electrode drop of voltage from its source and charge
+  Conjugates sheet;      ///< per Model::sheet_points drop of voltage from the terminal and charge
+  /// Powers, W: of dashpots by their flow rules; of dampers; of leaking current in the film, in sheets on its
+  /// way there, and in the resistance behind its source.
+  enum Power { dashpots, dampers, leak, leak_through_sheet, leak_through_resistance, power_count };
+  std::array<double, power_count> power{};
+  double flow = 0; ///< heat of the dashpots since the point before, see flow_heat(), J
+  EnergyParts energy;
+};
+
+/// Work done since the beginning, J.
+struct Work {
+  double electrical = 0; ///< on electrodes and film: sum of int Phi dQ, and what leaks takes out of sheets
+  double mechanical = 0; ///< by loads and moved supports: int f . du
+  double dissipated = 0; ///< in dashpots, dampers and sheets; never falls
+  double released = 0;   ///< when the device is cut free or jumps: what neither source nor load accounts for
+  double resistance = 0; ///< heat in the resistances (and limits of current) of circuits
+  double leak = 0;       ///< heat in leaking films
+
+  /// What the sources of circuits gave: int U i dt.
+  double source() const { return electrical + resistance + leak; }
+};
+
+/// The energy balance of a run, increment by increment: electrical + mechanical work = change of stored
+/// energy + dissipated + released.
+///
+/// A work is the integral of a force along an increment: the trapezoidal rule, corrected by the curvature of
+/// the path through the increment before (order 4). It is exact for forces or coordinates that stay. What the
+/// balance then leaves belongs to the works whose forces and coordinates both change, in proportion to the
+/// products of these changes; so that works of quasi-static increments in which one load changes are changes
+/// of a potential, whatever the size of the increment. Where no such work is done the rest is heat. With
+/// inertia the rest stays: it is the error of the time scheme.
+///
+/// Dashpots turn into heat the power of their flow rules, a sum of squares. Where its integral is not close
+/// to what the energy loses at fixed shape, between the dashpots' states at both ends of an increment, the
+/// increment is too long for it, and the latter is the heat: robust, but of lower order.
+class EnergyBalance {
+ public:
+  /// The next accepted state on a smooth path.
+  void add(EnergyPoint point);
+  /// The path has a corner at the last state: no curvature is taken across it.
+  void corner();
+  /// The next state was reached by a jump at fixed loads.
+  void add_after_jump(EnergyPoint point);
+  /// The next state was reached by taking away a frame that did no work.
+  void add_cut_free(EnergyPoint point);
+
+  const Work& work() const { return record_.work; }
+  double stored() const;
+  const EnergyParts& parts() const { return record_.points.back().energy; }
+  /// Estimate of the error of works and heat, J, not negative: sums of what rules of different order differ
+  /// by, and what the balance leaves where nothing can take it.
+  double error() const;
+  /// An error beside the energies that it is compared with, J.
+  struct Resolution {
+    double error = 0;
+    double exchanged = 0; ///< largest energy so far that went in or out, was stored or turned into heat
+    /// Beyond 1 % of what was exchanged.
+    bool is_poor() const { return error > 0.01 * exchanged; }
+  };
+  /// Takes notice of the last state as a result. Whether it is the first that is poorly resolved.
+  bool turns_poor();
+  /// Of the worst result so far.
+  const Resolution& worst() const { return record_.worst; }
+
+  bool empty() const { return record_.points.empty(); }
+
+  /// All there is, for a checkpoint.
+  struct Record {
+    Work work;
+    double stored_at_start = 0, exchanged = 0;
+    double doubt = 0; ///< sum of differences of rules, J
+    double rest = 0;  ///< left by the balance where nothing can take it, J
+    Resolution worst;
+    std::vector<EnergyPoint> points; ///< the last one, and the one before where no corner is between
+  };
+  const Record& record() const { return record_; }
+  explicit EnergyBalance(Record record) : record_(std::move(record)) {}
+  EnergyBalance() = default;
+
+ private:
+  void account(const EnergyPoint& point);
+  void arrive(EnergyPoint point);
+
+  Record record_;
+};
+
+/// Collects an energy point at an equilibrium.
+EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length);
+
+/// Heat of the dashpots between two accepted states, J, from the states alone: the energy that is lost as the
+/// internal variables change at fixed shape and voltages, mean of both shapes.
+double flow_heat(Equilibrium& equilibrium, const State& from, const State& to);
+
+} // namespace dielast::fem

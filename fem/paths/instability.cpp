@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/paths/instability.hpp"
+
+#include "fem/algebra/dense_algebra.hpp"
+#include "fem/algebra/orientation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr int subspace = 4, most_iterations = 200;
+constexpr double eigen_tolerance = 1e-6;  ///< of the mode; that of the eigenvalue is its square
+constexpr double round_off = 1e-13;       ///< of the eigenvalue
+constexpr double singular_shift = 1e-9;   ///< of the stiffness as drawn, where the tangent cannot be factored
+constexpr double critical = 1e-7;         ///< eigenvalue, over the largest seen on the way
+constexpr double zero = 1e-3;             ///< likewise, of a bracket that has closed
+constexpr double smallest_bracket = 1e-9; ///< over the first
+constexpr double least_reach = 1e-3;      ///< part of the way to a trial
+constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcation
+constexpr int most_trials = 80;
+/// Part of the way to the extrapolated critical load that the next trial goes.
+constexpr double approach = 0.9;
+
+/// Scales a direction so that the largest displacement of a node is 1 m.
+void normalise(const DofMap& dofs, const State& state, Eigen::VectorXd& direction) {
+  double largest = 0;
+  for (const Eigen::Vector3d& u : displacements(dofs, state, direction))
+    largest = std::max(largest, u.norm());
+  if (largest > 0) direction /= largest;
+}
+
+/// A converged state under load control and what it says about the way to go.
+struct LoadPoint {
+  double s = 0;
+  State state;
+  Mode mode;
+  PathSlope slope; ///< per load factor
+};
+
+} // namespace
+
+std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
+                                           const Eigen::VectorXd& direction) {
+  const Eigen::VectorXd all = dofs.jacobian(state) * direction;
+  std::vector<Eigen::Vector3d> result(static_cast<std::size_t>(dofs.node_count()), Eigen::Vector3d::Zero());
+  for (int n = 0; n < dofs.node_count(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(n, c); e != DofMap::absent)
+        result[static_cast<std::size_t>(n)][c] = all[e];
+  return result;
+}
+
+std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {
+  if (equilibrium.model().dofs.free_count() == 0) return std::nullopt;
+  const Eigen::VectorXd& D = equilibrium.stiffness();
+  double shift = 0;
+  if (!equilibrium.factor(state)) {
+    shift = singular_shift;
+    const Eigen::VectorXd added = shift * D;
+    if (!equilibrium.factor(state, nullptr, &added)) return std::nullopt;
+  }
+  // Subspace iteration with the inverse: a few vectors, so that close modes do not slow it down.
+  const Eigen::Index width = std::min<Eigen::Index>(subspace, D.size());
+  std::mt19937 random(1);
+  Eigen::MatrixXd X(D.size(), width), Y(D.size(), width);
+  for (Eigen::Index i = 0; i < X.size(); ++i)
+    X.data()[i] = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  X = D.cwiseSqrt().cwiseInverse().asDiagonal() * X;
+  Eigen::VectorXd y;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Eigen::MatrixXd gram = X.transpose() * D.asDiagonal() * X;
+    cholesky_factor(gram).triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(
+        X); // orthonormal in D
+    for (Eigen::Index i = 0; i < width; ++i) {
+      equilibrium.tangent().solve(D.cwiseProduct(X.col(i)), y);
+      Y.col(i) = y;
+    }
+    const Eigen::MatrixXd inverse = X.transpose() * D.asDiagonal() * Y;
+    if (!inverse.allFinite()) return std::nullopt;
+    const auto [theta, ritz] = symmetric_eigen(inverse); // theta: inverse eigenvalues
+    Eigen::Index lowest = 0;
+    const double tolerance = eigen_tolerance * theta.cwiseAbs().maxCoeff(&lowest);
+    const Eigen::MatrixXd images = Y * ritz;
+    const Eigen::MatrixXd residuals = images - X * ritz * theta.asDiagonal();
+    const Eigen::VectorXd error = (residuals.transpose() * D.asDiagonal() * residuals).diagonal().cwiseSqrt();
+    // All that share the lowest eigenvalue are needed to orient one. Whether another vector does, its error
+    // must tell.
+    std::vector<Eigen::Index> twins;
+    bool told = error[lowest] <= tolerance;
+    for (Eigen::Index i = 0; i < width; ++i) {
+      if (error[i] > tolerance)
+        told = told && std::abs(theta[i] - theta[lowest]) > error[i];
+      else if (coincide(1 / theta[i], 1 / theta[lowest], round_off))
+        twins.push_back(i);
+    }
+    if (told) {
+      Eigen::MatrixXd oriented = images(Eigen::all, twins) * theta(twins).cwiseInverse().asDiagonal();
+      orient_twins(oriented, equilibrium.weight().head(D.size()).cwiseInverse());
+      Mode mode{1 / theta[lowest] - shift, oriented.col(0)};
+      normalise(equilibrium.model().dofs, state, mode.direction);
+      return mode;
+    }
+    X = images;
+    X.colwise().normalize();
+  }
+  return std::nullopt;
+}
+
+Instability classify(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
+                     const Mode& mode) {
+  const Eigen::VectorXd& D = equilibrium.stiffness();
+  const Eigen::VectorXd load = load_derivative(equilibrium, path, state, s);
+  const double sizes =
+      std::sqrt(mode.direction.dot(D.cwiseProduct(mode.direction)) * load.dot(load.cwiseQuotient(D)));
+  return std::abs(mode.direction.dot(load)) > no_work * sizes ? Instability::limit_point
+                                                              : Instability::bifurcation;
+}
+
+std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& path,
+                                    const ContinuationProgress& before, const ContinuationProgress& after,
+                                    const NewtonOptions& options) {
+  struct End {
+    double arc;
+    std::optional<double> eigenvalue; ///< unknown at first: it may belong to another mode
+  };
+  const int modes = before.newton.unstable_modes;
+  if (after.newton.unstable_modes == modes) return std::nullopt;
+  End low{0, {}}, high{after.last_arc, {}};
+  ContinuationProgress base = before; // arcs count from here
+  std::optional<ContinuationProgress> nearer;
+  std::optional<CriticalPoint> best;
+  double largest = 0, reach = 1;
+  bool closed = false;
+  for (int trial = 0; trial < most_trials && reach > least_reach && !closed; ++trial) {
+    const double width = high.arc - low.arc;
+    double part = 0.5;
+    if (low.eigenvalue && high.eigenvalue && *low.eigenvalue * *high.eigenvalue < 0 && trial % 4 != 3)
+      part = std::clamp(*low.eigenvalue / (*low.eigenvalue - *high.eigenvalue), 1e-4, 1 - 1e-4);
+    const double arc = low.arc + reach * part * width;
+    auto at = arc_step(equilibrium, path, base, arc, options);
+    const auto mode = at ? lowest_mode(equilibrium, at->state) : std::nullopt;
+    if (!mode) { // too far: in shorter steps, from nearer by
+      reach /= 2;
+      if (nearer) base = *std::exchange(nearer, std::nullopt);
+      high.arc -= std::exchange(low.arc, 0);
+      continue;
+    }
+    reach = 1;
+    if (!best || std::abs(mode->eigenvalue) < std::abs(best->mode.eigenvalue))
+      best = CriticalPoint{{}, at->load_factor, at->state, *mode};
+    largest = std::max(largest, std::abs(mode->eigenvalue));
+    closed = std::abs(mode->eigenvalue) <= critical * largest || width <= smallest_bracket * after.last_arc;
+    if (at->newton.unstable_modes == modes) {
+      low = {arc, mode->eigenvalue};
+      nearer = std::move(at);
+    } else {
+      high = {arc, mode->eigenvalue};
+    }
+  }
+  // A bracket that closes on no zero holds points of two paths.
+  if (!closed || std::abs(best->mode.eigenvalue) > zero * largest) return std::nullopt;
+  best->kind = classify(equilibrium, path, best->state, best->load_factor, best->mode);
+  return best;
+}
+
+std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
+                                                    const State& state, double s_before, double s_beyond,
+                                                    const NewtonOptions& options, double tolerance) {
+  std::vector<LoadPoint> points;
+  int modes = -1;
+  const auto attempt = [&](State trial, double s) {
+    path.apply(trial, s);
+    if (equilibrium.solve(trial, options).outcome != Outcome::converged) return false;
+    auto mode = lowest_mode(equilibrium, trial);
+    if (!mode) return false;
+    // of the tangent in the state itself, where Newton's method may know that of a step before
+    const int unstable = equilibrium.tangent().unstable_modes();
+    if (modes >= 0 && unstable > modes) return false;
+    const double length = points.empty() ? s - s_beyond : s - points.back().s;
+    PathSlope slope = slope_at(equilibrium, path, trial, s, -length);
+    if (!points.empty()) {
+      const LoadPoint& last = points.back();
+      const Model& model = equilibrium.model();
+      if (is_turned_over(model.corners, model.drawn, last.state, trial) ||
+          !is_joined(equilibrium, last.state, last.slope.per(1 / length), trial, slope.per(1 / length),
+                     Steadiness::kinked()))
+        return false;
+    }
+    modes = unstable;
+    points.push_back({s, std::move(trial), std::move(*mode), std::move(slope)});
+    return true;
+  };
+  if (!attempt(state, s_before)) return std::nullopt;
+  Instability kind{};
+  double critical_load = s_beyond;
+  for (int trial = 0; trial < most_trials && std::abs(s_beyond - points.back().s) > tolerance; ++trial) {
+    const LoadPoint& last = points.back();
+    double s = (last.s + s_beyond) / 2;
+    State start = last.state;
+    if (points.size() > 1) {
+      const LoadPoint& former = points[points.size() - 2];
+      kind = classify(equilibrium, path, last.state, last.s, last.mode);
+      const double exponent = kind == Instability::limit_point ? 2 : 1;
+      const auto remains = [&](const LoadPoint& p) {
+        return std::pow(std::abs(p.mode.eigenvalue), exponent);
+      };
+      const double estimate =
+          last.s + remains(last) * (last.s - former.s) / (remains(former) - remains(last));
+      const bool inside = (estimate - last.s) * (s_beyond - estimate) > 0;
+      if (inside) {
+        critical_load = estimate;
+        if (std::abs(critical_load - last.s) < tolerance) break;
+        s = last.s + approach * (critical_load - last.s);
+        const auto place = [&](double at) { return -std::pow(std::abs(critical_load - at), 1 / exponent); };
+        const PathPoint past[] = {{place(former.s), former.state}, {place(last.s), last.state}};
+        start = extrapolate(past, place(s));
+        equilibrium.model().dofs.carry(start);
+      }
+    }
+    if (!attempt(std::move(start), s) && !attempt(points.back().state, s)) s_beyond = critical_load = s;
+  }
+  const LoadPoint& last = points.back();
+  if (std::min(std::abs(s_beyond - last.s), std::abs(critical_load - last.s)) > tolerance)
+    return std::nullopt;
+  kind = classify(equilibrium, path, last.state, last.s, last.mode);
+  return CriticalPoint{kind, critical_load, last.state, last.mode};
+}
+
+std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, const LoadPath& path,
+                                                  const CriticalPoint& critical, double amplitude,
+                                                  const ContinuationOptions& options) {
+  const Eigen::VectorXd& mode = critical.mode.direction;
+  const double length =
+      std::sqrt(mode.dot(equilibrium.stiffness().cwiseProduct(mode)) / equilibrium.energy_scale());
+  ContinuationProgress across{.state = critical.state,
+                              .load_factor = critical.load_factor,
+                              .direction = std::copysign(1 / length, amplitude) * mode,
+                              .arc = options.first_arc};
+  auto branch = arc_step(equilibrium, path, across, std::abs(amplitude) * length, options.newton);
+  if (branch) branch->steps = 0;
+  return branch;
+}
+
+} // namespace dielast::fem

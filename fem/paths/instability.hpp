@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/paths/continuation.hpp"
+#include "fem/paths/path_slope.hpp"
+
+namespace dielast::fem {
+
+/// Eigenvector of the tangent under the control of the state, K x = eigenvalue D x with D =
+/// Equilibrium::stiffness().
+struct Mode {
+  double eigenvalue = 0;     ///< -: 1 is as stiff as drawn
+  Eigen::VectorXd direction; ///< per free equation; the largest displacement of a node is 1 m
+};
+
+/// The mode whose eigenvalue is nearest to zero, by inverse iteration, the first of them where several share
+/// it; oriented (see orient_twins(); rotations count times the model's length scale). Nothing where it does
+/// not converge.
+std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state);
+
+/// Displacements of the nodes along a direction in the free equations, at a state.
+std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
+                                           const Eigen::VectorXd& direction);
+
+/// At a limit point the load has an extremum along the path; at a bifurcation paths cross.
+enum class Instability { limit_point, bifurcation };
+
+/// A state in which the tangent is singular.
+struct CriticalPoint {
+  Instability kind{};
+  double load_factor = 0;
+  State state; ///< converged, at or just before the critical load
+  Mode mode;   ///< there
+};
+
+/// Limit point or bifurcation: whether the load works on the mode, |x . dR/ds| over |x| |dR/ds|, norms with D
+/// and its inverse.
+Instability classify(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
+                     const Mode& mode);
+
+/// Locates the critical point between two points of a continuation, `after` one step from `before`, whose
+/// numbers of unstable modes differ: secant steps on the eigenvalue as a function of the arc length, inside
+/// a bracket. Nothing where the path cannot be followed to it.
+std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& path,
+                                    const ContinuationProgress& before, const ContinuationProgress& after,
+                                    const NewtonOptions& options);
+
+/// The same by load control alone: `state` is converged at load factor s_before; at s_beyond Newton's method
+/// fails, or ends in a less stable state or in one that is not joined with those before (see is_joined()).
+/// Near a limit point the eigenvalue goes with the square root of the distance in s, near a bifurcation with
+/// the distance: extrapolated, that says where to go next. Ends when the critical load factor is known to
+/// `tolerance`.
+std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
+                                                    const State& state, double s_before, double s_beyond,
+                                                    const NewtonOptions& options, double tolerance = 1e-7);
+
+/// First point on the path that branches off: displaced from the critical state by `amplitude` (m, its sign
+/// chooses the side) along the mode, where the load factor follows. Heads away from the bifurcation.
+std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, const LoadPath& path,
+                                                  const CriticalPoint& critical, double amplitude,
+                                                  const ContinuationOptions& options);
+
+} // namespace dielast::fem

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/equilibrium/equilibrium.hpp"
+#include "fem/paths/load_path.hpp"
+
+#include <limits>
+#include <span>
+
+namespace dielast::fem {
+
+/// How an equilibrium path u(s) goes on from a converged state, to first order.
+struct PathSlope {
+  Eigen::VectorXd displacement; ///< du/ds per free equation; empty where the tangent is singular
+  double potential = 0;         ///< P(u, s): the energy under the control less the work of dead forces, J
+  double power = 0;             ///< dP/ds at fixed free displacements, which is that along the path, J
+
+  /// With respect to the parameter length * s.
+  PathSlope per(double length) const { return {displacement / length, potential, power / length}; }
+};
+
+/// Slope at `state`, converged at s. The equilibrium's tangent must be factored there, or one small step
+/// before; `factored` is false where it is singular. The loads are varied from s towards s + `reach`, no
+/// farther: beyond, the path may have a break.
+PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s, double reach,
+                   bool factored = true);
+
+/// Whether a predictor through the `points` of a path has led to `trial`, at `parameter`, closely, in the
+/// norm of Equilibrium::stiffness(). As a predictor that runs away may meet another branch, the path must not
+/// have become several times faster either since the increment before.
+bool is_foreseen(const Equilibrium& equilibrium, std::span<const PathPoint> points, double parameter,
+                 const State& predicted, const State& trial);
+
+/// How far an increment may be from what the slopes at its ends tell of it; see is_joined().
+struct Steadiness {
+  double chord, energy, energy_of_faster;
+  double steady = 0; ///< where the chord is as near as this to both slopes it tells all
+  static constexpr Steadiness resolved() { return {0.1, 0.1, 0.25}; }
+  /// For increments so short that they may hold a kink of the path, where wrinkles begin, but no other
+  /// branch.
+  static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5, 0.01}; }
+  /// For film that wrinkles: across them it may be anywhere, so that only the energy tells.
+  static constexpr Steadiness wrinkled() { return {std::numeric_limits<double>::infinity(), 0.5, 0.5}; }
+};
+
+/// Whether the state `to` lies on the path that goes through `from`, where s is 1 less: Newton's method may
+/// have found a state of another branch beyond a limit point. In the norm of Equilibrium::stiffness(), the
+/// chord c = u1 - u0 is compared with the mean v of the slopes v0, v1 at both ends, and the change of the
+/// potential P with its power p = dP/ds at fixed u:
+///   |c - v| <= chord max(|v0|, |v1|)  and  |P1 - P0 - (p0 + p1)/2| <= energy |p1 - p0|.
+/// Where the path gets faster, |v1| > |v0|, it may do so up to the square root at a limit point: c may be
+/// near any point between v0 and v, and the energy may miss `energy_of_faster`. Where |c - v0| <= steady |v0|
+/// and |c - v1| <= steady |v1| the energy is not asked: while nothing but dashpots move, its powers at both
+/// ends differ by the time schemes of their increments, and by nothing else. What a film has set free
+/// on its way to another branch is missing from the energy; on another branch it is mostly slower. An
+/// increment that fails may just be too long. `slope_to` must not be that of a singular tangent.
+bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,
+               const State& to, const PathSlope& slope_to, const Steadiness& steadiness);
+
+} // namespace dielast::fem

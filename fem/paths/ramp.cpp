@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/paths/ramp.hpp"
+
+#include "fem/paths/time_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr std::size_t most_points = 4; ///< of the predictor
+constexpr double round_off = 1e-9;     ///< in load factors
+constexpr double most_growth = 2;      ///< of a time step: BDF2 is stable below 2.41
+constexpr double safety = 0.9;
+constexpr int back_parts = 8;              ///< of loads that are taken back
+constexpr int jump_parts = 8;              ///< of loads that jump
+constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
+constexpr double smallest_on_path = 1e-9;  ///< of the load factor, where other branches are found
+constexpr double longest_kinked = 1e-4;    ///< increment, see Steadiness
+constexpr double first_moment = 1e-3;      ///< of an increment in time: its start, with dashpots that flow
+constexpr double tiny = 1e-300;
+
+/// One step under load control.
+class Ramp {
+ public:
+  Ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options, RampProgress& progress,
+       const RampObserver& observer)
+      : equilibrium_(equilibrium), path_(path), options_(options), progress_(progress), observer_(observer),
+        largest_(1.0 / options.increments), landing_(options.landing > 0 ? options.landing : largest_),
+        smallest_(options.duration > 0 ? smallest_in_time : options.smallest_increment) {}
+
+  RampResult run();
+
+ private:
+  bool timed() const { return options_.duration > 0; }
+  const State& last() const { return progress_.points.back().state; }
+  double parameter(double s) const { return timed() ? s : path_.parameter(s); }
+  double next_break() const;
+  double next_load_factor() const;
+  materials::TimeScheme scheme(double dt) const;
+  State solve(State state, double s);
+  bool less_stable() const;
+  LoadPath within(double s) const;
+  PathSlope slope_of_start(const LoadPath& increment, double length);
+  bool leads_back(const State& trial, double s);
+  bool goes_on(const State& predicted, const State& trial, double s);
+  bool detour(const LoadPath& path, State start, const RampOptions& options, bool tells);
+  bool pass_break();
+  bool flow();
+  bool accept(State state, double s);
+  bool notify(bool lands, double length, bool jumped = false);
+
+  Equilibrium& equilibrium_;
+  const LoadPath& path_;
+  const RampOptions& options_;
+  RampProgress& progress_;
+  const RampObserver& observer_;
+  double largest_, landing_, smallest_;
+  NewtonResult newton_;
+  std::optional<PathSlope> slope_; ///< at the trial state
+  int unstable_before_ = -1;       ///< unstable modes before the increment that is being accepted
+  bool jumped_ = false;            ///< at the last break
+  double last_part_ = 0;           ///< of that jump
+  double time_error_ = 0;          ///< of the last time step
+};
+
+double Ramp::next_break() const {
+  const auto next = std::ranges::upper_bound(path_.breaks, progress_.load_factor + round_off);
+  return next == path_.breaks.end() ? 1.0 : std::min(*next, 1.0);
+}
+
+/// Steps end where results are wanted and at breaks; equal parts lead there, so that no sliver is left.
+double Ramp::next_load_factor() const {
+  const double s = progress_.load_factor;
+  const double landing = (std::floor((s + round_off) / landing_) + 1) * landing_;
+  const double stop = next_break();
+  const double goal = landing > stop - round_off ? stop : landing;
+  const double parts = std::ceil((goal - s) / progress_.increment - round_off);
+  return parts <= 1 ? goal : s + (goal - s) / parts;
+}
+
+materials::TimeScheme Ramp::scheme(double dt) const {
+  if (!timed())
+    return options_.instantaneous ? materials::TimeScheme::frozen() : materials::TimeScheme::relaxed();
+  const double before = last().history ? last().history->step : 0;
+  return before > 0 ? materials::TimeScheme::bdf2(dt, before) : materials::TimeScheme::backward_euler(dt);
+}
+
+State Ramp::solve(State state, double s) {
+  const bool ends_at_break = std::abs(s - next_break()) < round_off && s < 1;
+  if (ends_at_break || (timed() && s >= 1))
+    path_.before(state, s);
+  else
+    path_.apply(state, s);
+  const double dt = (s - progress_.load_factor) * options_.duration;
+  state.history = last().history;
+  state.time = last().time + dt;
+  state.scheme = scheme(dt);
+  if (options_.inertia) {
+    state.motion = last().motion;
+    state.motion_scheme = state.motion->step > 0 ? GeneralisedAlpha::of(dt, options_.high_frequencies)
+                                                 : GeneralisedAlpha::backward_euler(dt);
+  }
+  newton_ = equilibrium_.solve(state, options_.newton, observer_.on_iteration);
+  return state;
+}
+
+bool Ramp::less_stable() const {
+  return newton_.outcome == Outcome::converged && progress_.unstable_modes >= 0 &&
+         newton_.unstable_modes > progress_.unstable_modes;
+}
+
+/// The loads and the time scheme of the increment to s as functions of the part of it, 0..1.
+LoadPath Ramp::within(double s) const {
+  LoadPath path;
+  path.apply = [this, s](State& state, double part) {
+    const double s0 = progress_.load_factor;
+    if (timed() && part >= 1)
+      path_.before(state, s);
+    else
+      path_.apply(state, s0 + part * (s - s0));
+    state.scheme = scheme(part * (s - s0) * options_.duration);
+  };
+  return path;
+}
+
+/// Of the increment's path at the last accepted state, as the increment sets out from it.
+PathSlope Ramp::slope_of_start(const LoadPath& increment, double length) {
+  const double at = timed() ? first_moment : 0;
+  const auto& known = progress_.slope;
+  if (known && !timed()) return known->per(1 / length);
+  State start = last();
+  increment.apply(start, at);
+  if (known) {
+    PathSlope slope = slope_at(equilibrium_, increment, start, at, 1, false);
+    slope.displacement = length * known->displacement;
+    return slope;
+  }
+  const bool regular = equilibrium_.factor(start);
+  if (regular && progress_.unstable_modes < 0)
+    progress_.unstable_modes = equilibrium_.tangent().unstable_modes();
+  return slope_at(equilibrium_, increment, start, at, 1, regular);
+}
+
+/// Whether a converged trial lies on the path through the last accepted states.
+bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
+  slope_.reset();
+  const Model& model = equilibrium_.model();
+  if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
+  if (options_.inertia) return true; // motion has no other branch
+  if (options_.newton.wrinkles && equilibrium_.is_slack(last()))
+    return equilibrium_.is_slack(trial) || leads_back(trial, s);
+  if (is_foreseen(equilibrium_, progress_.points, parameter(s), predicted, trial)) return true;
+  const double length = s - progress_.load_factor;
+  const LoadPath increment = within(s);
+  const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
+  const PathSlope start = slope_of_start(increment, length);
+  progress_.slope = start.per(length);
+  const auto wrinkles = [&model](const State& state) {
+    return std::ranges::any_of(model.sample(state).film,
+                               [](auto& sample) { return sample.tension != materials::Tension::taut; });
+  };
+  const bool wrinkled = options_.newton.wrinkles && (wrinkles(last()) || wrinkles(trial));
+  const Steadiness steadiness = wrinkled                  ? Steadiness::wrinkled()
+                                : length > longest_kinked ? Steadiness::resolved()
+                                                          : Steadiness::kinked();
+  if (!is_joined(equilibrium_, last(), start, trial, end, steadiness)) return false;
+  slope_ = end.per(length);
+  return true;
+}
+
+/// Whether a state that was found from slack film, from which no path leads, is on one that leads back to
+/// slack film, or to almost none of the increment's loads.
+bool Ramp::leads_back(const State& trial, double s) {
+  constexpr double almost_none = 0.02;
+  const LoadPath increment = within(s);
+  LoadPath back;
+  back.apply = [&](State& state, double part) { increment.apply(state, 1 - part * (1 - almost_none)); };
+  const RampOptions options{.newton = options_.newton,
+                            .increments = back_parts,
+                            .smallest_increment = options_.smallest_increment,
+                            .instantaneous = timed() || options_.instantaneous};
+  RampProgress progress = RampProgress::begin(timed() ? equilibrium_.model().settled(trial) : trial,
+                                              equilibrium_.model().dofs, options);
+  const RampObserver watcher{.on_accept = [&](const RampProgress& now, const Increment&) {
+    return !equilibrium_.is_slack(now.points.back().state);
+  }};
+  return Ramp(equilibrium_, back, options, progress, watcher).run().end != RampEnd::gave_up;
+}
+
+/// Takes the last state along a path of its own, on which no time passes; the observer hears of all of its
+/// states but the last.
+bool Ramp::detour(const LoadPath& path, State start, const RampOptions& options, bool tells) {
+  const double at = parameter(progress_.load_factor);
+  RampProgress progress = RampProgress::begin(start, equilibrium_.model().dofs, options);
+  progress.unstable_modes = progress_.unstable_modes;
+  RampObserver watcher;
+  watcher.on_iteration = observer_.on_iteration;
+  watcher.on_accept = [&](const RampProgress& now, const Increment& increment) {
+    progress_.points = {{at, now.points.back().state}};
+    progress_.unstable_modes = increment.newton.unstable_modes;
+    newton_ = increment.newton;
+    last_part_ = increment.length;
+    if (tells && now.load_factor < 1) notify(false, last_part_);
+    return true;
+  };
+  const RampResult result = Ramp(equilibrium_, path, options, progress, watcher).run();
+  if (result.end == RampEnd::complete) return true;
+  newton_ = result.failure;
+  return false;
+}
+
+/// Forgets the past, in which the loads went elsewhere, and lets loads that jump here act at once, in parts.
+/// False where even the smallest part does not converge.
+bool Ramp::pass_break() {
+  progress_.at_break = false;
+  progress_.turns = true;
+  progress_.slope.reset();
+  State state = last();
+  if (state.history && state.history->step > 0)
+    state.history = std::make_shared<const History>(History{state.history->now, {}, {}});
+  const DofMap& dofs = equilibrium_.model().dofs;
+  if (options_.inertia) {
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs.count());
+    Motion motion = state.motion ? *state.motion : Motion{position(state, dofs), rest, rest, rest};
+    motion.acceleration = motion.unbalanced = rest;
+    motion.step = 0;
+    state.motion = std::make_shared<const Motion>(std::move(motion));
+  }
+  if (options_.first_time_step > 0)
+    progress_.increment =
+        std::clamp(options_.first_time_step / options_.duration, std::min(smallest_, largest_), largest_);
+  const Loads before = Loads::of(state, dofs);
+  State goal = state;
+  path_.apply(goal, progress_.load_factor);
+  const Loads after = Loads::of(goal, dofs);
+  state.scheme = materials::TimeScheme::frozen();
+  const double at = parameter(progress_.load_factor);
+  std::vector<Loads> recent;
+  for (const PathPoint& point : progress_.points) recent.push_back(Loads::of(point.state, dofs));
+  jumped_ = differ(before, after, recent) &&
+            (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
+  progress_.points = {{at, state}};
+  if (!jumped_) return true;
+  const LoadPath jump = linear_path(dofs, before, after, equilibrium_.model().electrodes.size());
+  if (!options_.inertia)
+    return detour(jump, std::move(state),
+                  {.newton = options_.newton,
+                   .increments = jump_parts,
+                   .smallest_increment = options_.smallest_increment,
+                   .instantaneous = true},
+                  true);
+  newton_ = {}; // nothing moves
+  last_part_ = 1.0 / jump_parts;
+  for (int part = 1; part <= jump_parts; ++part) {
+    jump.apply(state, part * last_part_);
+    equilibrium_.conduct(state);
+    progress_.points = {{at, state}};
+    if (part < jump_parts) notify(false, last_part_);
+  }
+  return true;
+}
+
+/// Lets dashpots that have been frozen flow, with the loads as they are: what they lose of the forces is
+/// taken away in parts. False where that leads to no equilibrium.
+bool Ramp::flow() {
+  State state = last();
+  if (timed() || options_.instantaneous || !state.history || state.scheme.is_relaxed()) return true;
+  state.scheme = scheme(0);
+  Balance relaxed;
+  equilibrium_.balance(state, relaxed);
+  const Eigen::Index free = equilibrium_.model().dofs.free_count();
+  if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
+    equilibrium_.conduct(state);
+    State flown = equilibrium_.model().settled(std::move(state));
+    const auto alike = [](double a, double b) {
+      return std::abs(a - b) <= round_off * std::max(1.0, std::abs(b));
+    };
+    if (std::ranges::equal(flown.history->now, last().history->now, alike)) return true;
+    progress_.points = {{parameter(progress_.load_factor), std::move(flown)}}; // the shape is held
+    newton_ = {};
+    newton_.unstable_modes = std::max(0, progress_.unstable_modes);
+    notify(false, 1);
+    progress_.turns = true;
+    return true;
+  }
+  Eigen::VectorXd lost = Eigen::VectorXd::Zero(relaxed.force.size());
+  lost.head(free) = relaxed.force.head(free);
+  LoadPath path;
+  path.apply = [&, loads = state.dead_force](State& at, double part) {
+    at.dead_force = loads + (1 - part) * lost;
+  };
+  path.apply(state, 0);
+  const bool flows =
+      detour(path, std::move(state),
+             {.newton = options_.newton, .smallest_increment = options_.smallest_increment}, false);
+  if (flows) notify(false, 1);
+  progress_.turns = true;
+  return flows;
+}
+
+bool Ramp::accept(State state, double s) {
+  progress_.at_break = timed() && s < 1 && std::abs(s - next_break()) < round_off;
+  const bool lands = !timed() || std::abs(s - std::round(s / landing_) * landing_) < round_off || s >= 1;
+  const double length = s - progress_.load_factor;
+  progress_.load_factor = s;
+  unstable_before_ = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
+  progress_.slope = std::exchange(slope_, std::nullopt);
+  progress_.points.push_back({parameter(s), std::move(state)});
+  if (progress_.points.size() > most_points) progress_.points.erase(progress_.points.begin());
+  return notify(lands, length);
+}
+
+/// Tells the observer; false when it wants to stop.
+bool Ramp::notify(bool lands, double length, bool jumped) {
+  const Increment increment{progress_.load_factor,
+                            newton_,
+                            lands,
+                            length,
+                            progress_.turns,
+                            jumped,
+                            std::exchange(unstable_before_, -1),
+                            std::exchange(time_error_, 0.0)};
+  progress_.turns = false;
+  return !observer_.on_accept || observer_.on_accept(progress_, increment);
+}
+
+RampResult Ramp::run() {
+  progress_.points.back().parameter = parameter(progress_.load_factor);
+  if (progress_.load_factor == 0 && !flow()) return {RampEnd::gave_up, 0, newton_};
+  for (int tries = 0; progress_.load_factor < 1; ++tries) {
+    if (tries == options_.most_tries) return {RampEnd::endless, progress_.load_factor, newton_};
+    if (timed() && progress_.at_break) {
+      if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
+      if (jumped_) {
+        const bool goes_on = notify(true, last_part_, true);
+        progress_.turns = true;
+        if (!goes_on) return {RampEnd::stopped};
+      }
+    }
+    const double s = next_load_factor();
+    const double tried = s - progress_.load_factor;
+    if (observer_.on_try) observer_.on_try(s);
+    State predicted = extrapolate(progress_.points, parameter(s));
+    equilibrium_.model().dofs.carry(predicted);
+    State trial = solve(predicted, s);
+    if ((newton_.outcome != Outcome::converged || less_stable()) && progress_.points.size() > 1)
+      trial = solve(last(), s); // the predictor may have led astray
+    if (newton_.outcome == Outcome::converged && !goes_on(predicted, trial, s))
+      newton_.outcome = Outcome::off_path;
+    if (newton_.outcome == Outcome::converged && observer_.admits && !observer_.admits(s, trial))
+      newton_.outcome = Outcome::refused;
+    if (newton_.outcome != Outcome::converged || (less_stable() && tried >= 2 * smallest_)) {
+      if (observer_.on_cutback) observer_.on_cutback(s, newton_);
+      progress_.increment = tried / 2;
+      const double smallest =
+          newton_.outcome == Outcome::off_path ? std::min(smallest_, smallest_on_path) : smallest_;
+      if (progress_.increment < smallest) return {RampEnd::gave_up, s, newton_};
+      continue;
+    }
+    State arrived = equilibrium_.model().settled(trial);
+    if (!timed()) {
+      progress_.increment = std::min(largest_, 2 * std::max(progress_.increment, tried));
+    } else {
+      double error = trial.history ? history_error(*trial.history, *arrived.history) : 0;
+      if (options_.inertia)
+        error = std::max(
+            error, motion_error(equilibrium_.model(), trial.motion_scheme, *trial.motion, *arrived.motion));
+      const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, tiny));
+      progress_.increment = std::min(largest_, tried * std::clamp(growth, 0.2, most_growth));
+      if (error > options_.time_tolerance && tried > smallest_) continue;
+      const bool flows = trial.history && trial.history->now != arrived.history->now;
+      time_error_ = error == 0 && flows ? options_.time_tolerance : error;
+    }
+    if (!accept(std::move(arrived), s)) return {RampEnd::stopped};
+  }
+  return {RampEnd::complete};
+}
+
+} // namespace
+
+RampProgress RampProgress::begin(const State& state, const DofMap& dofs, const RampOptions& options) {
+  const double largest = 1.0 / options.increments;
+  return {.start = Loads::of(state, dofs), .increment = largest, .points = {{0, state}}};
+}
+
+RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,
+                RampProgress& progress, const RampObserver& observer) {
+  return Ramp(equilibrium, path, options, progress, observer).run();
+}
+
+} // namespace dielast::fem

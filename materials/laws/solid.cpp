@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "materials/laws/solid.hpp"
+
+#include "materials/laws/dual.hpp"
+#include "materials/laws/power_sum.hpp"
+
+#include <Eigen/Dense>
+
+#include <array>
+#include <cmath>
+
+namespace dielast::materials {
+
+namespace {
+
+using Gradient = Eigen::Vector<double, 6>;
+using Hessian = Eigen::Matrix<double, 6, 6>;
+
+/// A scalar function of C.
+struct Scalar {
+  double value;
+  Gradient first;
+  Hessian second;
+};
+
+Scalar first_invariant(const Eigen::Matrix3d& C) {
+  return {C.trace(), Gradient{1, 1, 1, 0, 0, 0}, Hessian::Zero()};
+}
+
+Scalar second_invariant(const Eigen::Matrix3d& C) {
+  Scalar I2{
+      (C.trace() * C.trace() - C.squaredNorm()) / 2,
+      {C(1, 1) + C(2, 2), C(0, 0) + C(2, 2), C(0, 0) + C(1, 1), -2 * C(0, 1), -2 * C(1, 2), -2 * C(0, 2)},
+      Hessian::Zero()};
+  I2.second.topLeftCorner<3, 3>() = Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity();
+  I2.second.diagonal().tail<3>().setConstant(-2);
+  return I2;
+}
+
+Scalar third_invariant(const Eigen::Matrix3d& C) {
+  const double C11 = C(0, 0), C22 = C(1, 1), C33 = C(2, 2), C12 = C(0, 1), C23 = C(1, 2), C13 = C(0, 2);
+  Scalar I3{C.determinant(),
+            {C22 * C33 - C23 * C23, C11 * C33 - C13 * C13, C11 * C22 - C12 * C12, 2 * (C13 * C23 - C12 * C33),
+             2 * (C12 * C13 - C11 * C23), 2 * (C12 * C23 - C22 * C13)},
+            Hessian{{0, C33, C22, 0, -2 * C23, 0},
+                    {C33, 0, C11, 0, 0, -2 * C13},
+                    {C22, C11, 0, -2 * C12, 0, 0},
+                    {0, 0, -2 * C12, -2 * C33, 2 * C13, 2 * C23},
+                    {-2 * C23, 0, 0, 2 * C13, -2 * C11, 2 * C12},
+                    {0, -2 * C13, 0, 2 * C23, 2 * C12, -2 * C22}}};
+  return I3;
+}
+
+/// tr C^p: its derivatives are p C^(p-1) and the divided differences of p x^(p-1) in the principal axes.
+Scalar power_trace(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& principal, double p) {
+  const Eigen::Vector3d& c = principal.eigenvalues();
+  const Eigen::Matrix3d& Q = principal.eigenvectors();
+  Eigen::Matrix3d differences;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const double m = (c[i] + c[j]) / 2, s = (c[i] - c[j]) / (2 * m);
+      differences(i, j) = std::pow(m, p - 2) * power_sum(p, s * s, c[i] * c[j] / (m * m)).first;
+    }
+  const Eigen::Vector3d slope = p * c.array().pow(p - 1);
+  std::array<Eigen::Matrix3d, 6> turned; // unit changes of C in the principal axes
+  Scalar S{c.array().pow(p).sum(), Gradient::Zero(), Hessian::Zero()};
+  for (std::size_t a = 0; a < 6; ++a) {
+    const auto [i, j] = solid_components[a];
+    turned[a] = Q.row(i).transpose() * Q.row(j);
+    if (i != j) turned[a] += Eigen::Matrix3d(turned[a].transpose());
+    S.first[static_cast<int>(a)] = slope.dot(turned[a].diagonal());
+    for (std::size_t b = 0; b <= a; ++b) {
+      const double second = (differences.array() * turned[a].array() * turned[b].array()).sum();
+      S.second(static_cast<int>(a), static_cast<int>(b)) = second;
+      S.second(static_cast<int>(b), static_cast<int>(a)) = second;
+    }
+  }
+  return S;
+}
+
+/// W(scalars) by the chain rule.
+template<int N>
+SolidPotential compose(const Dual<N>& W, const std::array<Scalar, N>& scalars) {
+  Eigen::Matrix<double, 6, N> slopes;
+  SolidPotential potential{W.value, Gradient::Zero(), Hessian::Zero()};
+  for (int i = 0; i < N; ++i) {
+    const Scalar& scalar = scalars[static_cast<std::size_t>(i)];
+    slopes.col(i) = scalar.first;
+    potential.second += W.gradient[i] * scalar.second;
+  }
+  potential.first = slopes * W.gradient;
+  potential.second += slopes * W.hessian * slopes.transpose();
+  return potential;
+}
+
+template<int N>
+Dual<N> volumetric(double bulk_modulus, const Dual<N>& I3) {
+  const Dual<N> swelling = sqrt(I3) - 1.0;
+  return 0.5 * bulk_modulus * swelling * swelling;
+}
+
+template<class Law>
+SolidPotential potential_of(const Law& law, const Eigen::Matrix3d& C, double bulk_modulus) {
+  using Dual3 = Dual<3>;
+  const std::array<Scalar, 3> I{first_invariant(C), second_invariant(C), third_invariant(C)};
+  const Dual3 I1 = Dual3::variable(I[0].value, 0), I2 = Dual3::variable(I[1].value, 1),
+              I3 = Dual3::variable(I[2].value, 2);
+  if constexpr (std::same_as<Law, StVenantKirchhoff>) {
+    const Dual3 strain = 0.5 * (I1 - 3.0); // tr E
+    return compose<3>(0.5 * law.first_lame() * strain * strain +
+                          0.25 * law.initial_shear_modulus() * (I1 * I1 - 2.0 * I2 - 2.0 * I1 + 3.0),
+                      I);
+  } else {
+    const Dual3 shrink = pow(I3, -1.0 / 3), I1_bar = I1 * shrink;
+    if constexpr (FirstInvariantLaw<Law>)
+      return compose<3>(law.energy(I1_bar) + volumetric(bulk_modulus, I3), I);
+    else
+      return compose<3>(law.energy(I1_bar, Dual3(I2 * shrink * shrink)) + volumetric(bulk_modulus, I3), I);
+  }
+}
+
+SolidPotential potential_of(const Ogden& law, const Eigen::Matrix3d& C, double bulk_modulus) {
+  using Dual2 = Dual<2>;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(C);
+  const Scalar I3 = third_invariant(C);
+  const Dual2 det = Dual2::variable(I3.value, 1);
+  SolidPotential sum =
+      compose<2>(volumetric(bulk_modulus, det), {Scalar{0, Gradient::Zero(), Hessian::Zero()}, I3});
+  for (std::size_t i = 0; i < law.moduli.size(); ++i) {
+    const double p = law.exponents[i] / 2;
+    const Scalar S = power_trace(principal, p);
+    const Dual2 W = law.moduli[i] / law.exponents[i] * (Dual2::variable(S.value, 0) * pow(det, -p / 3) - 3.0);
+    const SolidPotential term = compose<2>(W, {S, I3});
+    sum.value += term.value;
+    sum.first += term.first;
+    sum.second += term.second;
+  }
+  return sum;
+}
+
+} // namespace
+
+SolidPotential solid_potential(const ElasticLaw& law, const Eigen::Matrix3d& C, double bulk_modulus) {
+  return std::visit([&](const auto& one) { return potential_of(one, C, bulk_modulus); }, law);
+}
+
+} // namespace dielast::materials

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/gmsh/gmsh_reader.hpp"
+
+#include "meshing/gmsh/gmsh_contents.hpp"
+#include "meshing/mesh_error.hpp"
+#include "meshing/middle_nodes.hpp"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <span>
+#include <unordered_map>
+
+namespace dielast::meshing {
+
+namespace {
+
+constexpr std::array dimension_names{"point", "line", "surface", "volume"};
+
+GmshContents contents_of(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) throw MeshError("there is no such mesh file");
+  if (!std::filesystem::is_regular_file(path)) throw MeshError("this is not a file");
+  if (path.extension() == ".geo")
+    throw MeshError(
+        fmt::format("this is a geometry script; mesh it first, with: gmsh -2 {}", path.filename().string()));
+  GmshContents contents = read_gmsh_contents(path);
+  if (!contents.error.empty()) throw MeshError(contents.error);
+  return contents;
+}
+
+std::optional<CellType> cell_type(const GmshContents::Elements& elements) {
+  if (elements.dimension == 1 && elements.nodes_each == 2) return CellType::line2;
+  if (elements.dimension == 1 && elements.nodes_each == 3) return CellType::line3;
+  if (elements.dimension == 2 && elements.type == "Triangle 3") return CellType::triangle3;
+  if (elements.dimension == 2 && elements.type == "Triangle 6") return CellType::triangle6;
+  return std::nullopt;
+}
+
+bool is_triangle(const CellBlock& block) { return !is_line(block.type); }
+
+void require(bool holds) {
+  if (!holds) throw MeshError("what gmsh finds in it does not fit together; it is damaged, write it again");
+}
+
+void check(const GmshContents& contents) {
+  std::set<std::size_t> tags;
+  for (const std::size_t tag : contents.node_tags) {
+    if (tag > std::numeric_limits<int>::max())
+      throw MeshError(fmt::format("node {} has too large a number; let gmsh renumber the mesh", tag));
+    if (!tags.insert(tag).second) throw MeshError(fmt::format("two nodes have the number {}", tag));
+  }
+  for (const GmshContents::Elements& elements : contents.elements) {
+    require(elements.dimension >= 0 && elements.dimension <= 3 && elements.nodes_each > 0 &&
+            elements.nodes.size() % static_cast<std::size_t>(elements.nodes_each) == 0);
+    for (const std::size_t tag : elements.nodes)
+      if (elements.dimension > 0 && !tags.contains(tag))
+        throw MeshError(fmt::format("an element names node {}, which the file does not have", tag));
+  }
+  for (const GmshContents::PhysicalGroup& group : contents.groups)
+    require(group.dimension >= 0 && group.dimension <= 3);
+}
+
+class Converter {
+ public:
+  explicit Converter(GmshContents contents) : contents_(std::move(contents)) {
+    if (contents_.coordinates.size() != 3 * contents_.node_tags.size())
+      throw MeshError("its nodes do not have three coordinates each");
+    check(contents_);
+    add_cells();
+    number_nodes();
+    for (CellBlock& block : mesh_.blocks) turn_counter_clockwise(block);
+    for (const GmshContents::PhysicalGroup& group : contents_.groups) add_place(group);
+    add_node_sets(mesh_);
+    if (!mesh_.node_sets.contains("film")) add_film();
+  }
+
+  Mesh take() { return std::move(mesh_); }
+
+ private:
+  void add_cells() {
+    std::set<int> orders;
+    for (const GmshContents::Elements& elements : contents_.elements) {
+      if (elements.dimension == 0) continue;
+      const auto type = cell_type(elements);
+      if (!type)
+        throw MeshError(fmt::format(
+            "it has elements of the type \"{}\", but only triangles (3 or 6 nodes) and lines (2 or 3 "
+            "nodes) are known; mesh surfaces only, without recombination, of order 1 or 2",
+            elements.type));
+      require(elements.nodes_each == nodes_per_cell(*type));
+      orders.insert(*type == CellType::line2 || *type == CellType::triangle3 ? 1 : 2);
+      auto block = std::ranges::find(mesh_.blocks, *type, &CellBlock::type);
+      if (block == mesh_.blocks.end()) block = mesh_.blocks.insert(block, {*type, {}});
+      // Tags for now; number_nodes() replaces them.
+      std::vector<int>& cells = entity_cells_[{elements.dimension, elements.entity}];
+      const auto each = static_cast<std::size_t>(elements.nodes_each);
+      for (std::size_t first = 0; first + each <= elements.nodes.size(); first += each)
+        cells.push_back(add_cell(*block, std::span(elements.nodes).subspan(first, each)));
+    }
+    if (std::ranges::none_of(mesh_.blocks, is_triangle))
+      throw MeshError(
+          "it has no triangles; mesh the surfaces, and put them into a physical group or save all elements");
+    if (orders.size() > 1)
+      throw MeshError("it mixes elements of order 1 and 2; save the whole mesh with one order (gmsh -order 1 "
+                      "or -order 2)");
+  }
+
+  /// Number of the cell in its block. Files of version 2.2 repeat a cell for each of its physical groups: it
+  /// is one cell of several places.
+  int add_cell(CellBlock& block, std::span<const std::size_t> tags) {
+    std::vector<std::size_t> key(tags.begin(), tags.end());
+    std::ranges::sort(key);
+    const auto [known, fresh] = cell_of_tags_.try_emplace(std::move(key), block.size());
+    if (fresh) block.nodes.insert(block.nodes.end(), tags.begin(), tags.end());
+    return known->second;
+  }
+
+  void number_nodes() {
+    std::unordered_map<std::size_t, std::size_t> position;
+    for (std::size_t i = 0; i < contents_.node_tags.size(); ++i) position[contents_.node_tags[i]] = i;
+    std::set<std::size_t> used; // ascending positions: the file's order is kept
+    for (const CellBlock& block : mesh_.blocks)
+      for (const int tag : block.nodes) used.insert(position.at(static_cast<std::size_t>(tag)));
+    for (const std::size_t i : used) {
+      node_number_[contents_.node_tags[i]] = mesh_.node_count();
+      mesh_.nodes.emplace_back(contents_.coordinates[3 * i], contents_.coordinates[3 * i + 1],
+                               contents_.coordinates[3 * i + 2]);
+      if (!mesh_.nodes.back().allFinite())
+        throw MeshError(fmt::format("node {} has a coordinate that is not a number", contents_.node_tags[i]));
+    }
+    for (CellBlock& block : mesh_.blocks)
+      for (int& node : block.nodes) node = node_number_.at(static_cast<std::size_t>(node));
+  }
+
+  void turn_counter_clockwise(CellBlock& block) const {
+    if (!is_triangle(block)) return;
+    const int n = nodes_per_cell(block.type);
+    for (int c = 0; c < block.size(); ++c) {
+      int* const cell = block.nodes.data() + c * n;
+      const Eigen::Vector3d &p = mesh_.nodes[cell[0]], &q = mesh_.nodes[cell[1]], &r = mesh_.nodes[cell[2]];
+      if ((q - p).cross(r - p).z() >= 0) continue;
+      std::swap(cell[1], cell[2]);
+      if (n == 6) std::swap(cell[3], cell[5]);
+    }
+  }
+
+  void add_place(const GmshContents::PhysicalGroup& group) {
+    const std::string name =
+        group.name.empty() ? fmt::format("{} {}", dimension_names[group.dimension], group.tag) : group.name;
+    if (mesh_.node_sets.contains(name) || mesh_.cell_sets.contains(name))
+      throw MeshError(
+          fmt::format("two physical groups have the name \"{}\"; every place needs its own name", name));
+    if (group.dimension == 0) {
+      add_points(name, group);
+      return;
+    }
+    CellSet set;
+    for (const int entity : group.entities)
+      if (const auto cells = entity_cells_.find({group.dimension, entity}); cells != entity_cells_.end())
+        set.cells.insert(set.cells.end(), cells->second.begin(), cells->second.end());
+    if (set.cells.empty())
+      throw MeshError(fmt::format("the {} \"{}\" has no elements; remove the physical group or mesh it",
+                                  dimension_names[group.dimension], name));
+    std::ranges::sort(set.cells);
+    set.cells.erase(std::unique(set.cells.begin(), set.cells.end()), set.cells.end());
+    const auto block = std::ranges::find_if(
+        mesh_.blocks, [&](const CellBlock& b) { return is_triangle(b) == (group.dimension == 2); });
+    set.block = static_cast<int>(block - mesh_.blocks.begin());
+    mesh_.cell_sets[name] = std::move(set);
+  }
+
+  void add_points(const std::string& name, const GmshContents::PhysicalGroup& group) {
+    std::set<int> nodes;
+    for (const GmshContents::Elements& elements : contents_.elements)
+      if (elements.dimension == 0 &&
+          std::ranges::find(group.entities, elements.entity) != group.entities.end())
+        for (const std::size_t tag : elements.nodes)
+          if (const auto node = node_number_.find(tag); node != node_number_.end())
+            nodes.insert(node->second);
+    if (nodes.empty())
+      throw MeshError(fmt::format(
+          "the point \"{}\" is not a node of any triangle or line; embed it in the surface", name));
+    mesh_.node_sets[name].assign(nodes.begin(), nodes.end());
+  }
+
+  void add_film() {
+    const auto block = std::ranges::find_if(mesh_.blocks, is_triangle);
+    CellSet film{static_cast<int>(block - mesh_.blocks.begin()),
+                 std::vector<int>(static_cast<std::size_t>(block->size()))};
+    std::iota(film.cells.begin(), film.cells.end(), 0);
+    mesh_.node_sets["film"] = nodes_of(mesh_, film);
+    mesh_.cell_sets["film"] = std::move(film);
+  }
+
+  GmshContents contents_;
+  Mesh mesh_;
+  std::map<std::vector<std::size_t>, int> cell_of_tags_;         ///< by a cell's node tags, ascending
+  std::map<std::pair<int, int>, std::vector<int>> entity_cells_; ///< by (dimension, entity)
+  std::unordered_map<std::size_t, int> node_number_;             ///< by tag
+};
+
+} // namespace
+
+Mesh mesh_of(GmshContents contents) { return Converter(std::move(contents)).take(); }
+
+Mesh read_gmsh(const std::filesystem::path& path) {
+  try {
+    return mesh_of(contents_of(path));
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+} // namespace dielast::meshing

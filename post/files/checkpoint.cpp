@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/files/checkpoint.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace dielast::post {
+
+using nlohmann::json;
+
+namespace {
+
+[[noreturn]] void mismatch() { throw CheckpointError("of another case or version"); }
+
+json pack(const Eigen::VectorXd& values) {
+  return post::pack({values.data(), static_cast<std::size_t>(values.size())});
+}
+
+Eigen::VectorXd vector(const json& packed, std::size_t size) {
+  const std::vector<double> values = unpack(packed, size);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(size));
+}
+
+/// Doubles that may be left out altogether.
+std::vector<double> unpack_optional(const json& packed, std::size_t size) {
+  std::vector<double> values = unpack(packed);
+  if (!values.empty() && values.size() != size) mismatch();
+  return values;
+}
+
+Eigen::VectorXd optional_vector(const json& packed, std::size_t size) {
+  return vector(packed, unpack_optional(packed, size).size());
+}
+
+json archive(const fem::History& history) {
+  return {{"now", post::pack(history.now)},
+          {"before", post::pack(history.before)},
+          {"older", post::pack(history.older)},
+          {"steps", {history.step, history.step_before}}};
+}
+
+json archive(const fem::Motion& motion) {
+  return {{"position", pack(motion.position)},
+          {"velocity", pack(motion.velocity)},
+          {"acceleration", pack(motion.acceleration)},
+          {"unbalanced", pack(motion.unbalanced)},
+          {"step", motion.step}};
+}
+
+json archive(const fem::State& state) {
+  std::vector<double> rotations;
+  rotations.reserve(4 * state.rotation.size());
+  for (const auto& q : state.rotation)
+    rotations.insert(rotations.end(), q.coeffs().begin(), q.coeffs().end());
+  const auto& scheme = state.scheme;
+  return {{"displacement", post::pack({state.displacement.front().data(), 3 * state.displacement.size()})},
+          {"rotation", post::pack(rotations)},
+          {"voltage", post::pack(state.voltage)},
+          {"supply", state.supply},
+          {"charge", post::pack(state.charge)},
+          {"source", post::pack(state.source)},
+          {"sheet_drop", pack(state.sheet_drop)},
+          {"dead_force", pack(state.dead_force)},
+          {"time", state.time},
+          {"scheme", post::pack(std::array{scheme.dt, scheme.a0, scheme.h1, scheme.h2})},
+          {"history", state.history ? archive(*state.history) : json(nullptr)},
+          {"motion", state.motion ? archive(*state.motion) : json(nullptr)}};
+}
+
+std::shared_ptr<const fem::History> restore_history(const json& archived, std::size_t size) {
+  if (archived.is_null() != (size == 0)) mismatch();
+  if (archived.is_null()) return nullptr;
+  fem::History history{unpack(archived.at("now"), size), unpack_optional(archived.at("before"), size),
+                       unpack_optional(archived.at("older"), size), archived.at("steps").at(0),
+                       archived.at("steps").at(1)};
+  if ((history.step > 0 && history.before.empty()) || (history.step_before > 0 && history.older.empty()))
+    mismatch();
+  return std::make_shared<const fem::History>(std::move(history));
+}
+
+std::shared_ptr<const fem::Motion> restore_motion(const json& archived, std::size_t equations) {
+  if (archived.is_null()) return nullptr;
+  const auto part = [&](const char* name) { return vector(archived.at(name), equations); };
+  return std::make_shared<const fem::Motion>(fem::Motion{
+      part("position"), part("velocity"), part("acceleration"), part("unbalanced"), archived.at("step")});
+}
+
+fem::State restore_state(const json& archived, const StateSizes& sizes) {
+  fem::State state;
+  const std::size_t ports = sizes.electrodes + sizes.chambers;
+  const std::vector<double> displacement = unpack(archived.at("displacement"), 3 * sizes.nodes);
+  const std::vector<double> rotation = unpack(archived.at("rotation"), 4 * sizes.nodes);
+  for (std::size_t n = 0; n < sizes.nodes; ++n) {
+    state.displacement.emplace_back(&displacement[3 * n]);
+    state.rotation.emplace_back(&rotation[4 * n]);
+  }
+  state.voltage = unpack(archived.at("voltage"), ports);
+  for (const json& supply : archived.at("supply"))
+    if (const int number = supply; number < 0 || number > static_cast<int>(fem::Supply::circuit)) mismatch();
+  state.supply = archived.at("supply").get<std::vector<fem::Supply>>();
+  if (state.supply.size() != ports) mismatch();
+  state.charge = unpack(archived.at("charge"), ports);
+  state.source = unpack(archived.at("source"), ports);
+  state.sheet_drop = optional_vector(archived.at("sheet_drop"), sizes.sheet_points);
+  state.dead_force = vector(archived.at("dead_force"), sizes.equations);
+  state.time = archived.at("time");
+  const std::vector<double> scheme = unpack(archived.at("scheme"), 4);
+  state.scheme = {scheme[0], scheme[1], scheme[2], scheme[3]};
+  state.history = restore_history(archived.at("history"), sizes.internal_variables);
+  state.motion = restore_motion(archived.at("motion"), sizes.equations);
+  return state;
+}
+
+json archive(const fem::PathSlope& slope) {
+  return {{"displacement", pack(slope.displacement)}, {"potential", slope.potential}, {"power", slope.power}};
+}
+
+fem::PathSlope restore_slope(const json& archived, std::size_t free) {
+  return {optional_vector(archived.at("displacement"), free), archived.at("potential"), archived.at("power")};
+}
+
+json archive(const fem::Conjugates& pair) { return {pack(pair.force), pack(pair.coordinate)}; }
+
+fem::Conjugates restore_conjugates(const json& archived, std::size_t size) {
+  return {vector(archived.at(0), size), vector(archived.at(1), size)};
+}
+
+json archive(const fem::EnergyPoint& point) {
+  const fem::EnergyParts& e = point.energy;
+  return {{"place", post::pack(std::array{point.length, point.time})},
+          {"moves", point.moves},
+          {"mechanical", archive(point.mechanical)},
+          {"electrical", archive(point.electrical)},
+          {"resistance", archive(point.resistance)},
+          {"sheet", archive(point.sheet)},
+          {"power", post::pack(point.power)},
+          {"energy", post::pack(std::array{e.elastic, e.branches, e.electric, e.kinetic, e.regularised,
+                                           e.dissipation})}};
+}
+
+fem::EnergyPoint restore_point(const json& archived, const StateSizes& sizes) {
+  fem::EnergyPoint point;
+  const std::vector<double> place = unpack(archived.at("place"), 2),
+                            power = unpack(archived.at("power"), point.power.size()),
+                            energy = unpack(archived.at("energy"), 6);
+  point.length = place[0];
+  point.time = place[1];
+  point.moves = archived.at("moves");
+  point.mechanical = restore_conjugates(archived.at("mechanical"), sizes.equations + sizes.chambers);
+  point.electrical = restore_conjugates(archived.at("electrical"), sizes.electrodes);
+  point.resistance = restore_conjugates(archived.at("resistance"), sizes.electrodes);
+  point.sheet = restore_conjugates(archived.at("sheet"), sizes.sheet_points);
+  std::ranges::copy(power, point.power.begin());
+  point.energy = {energy[0], energy[1], energy[2], energy[3], energy[4], energy[5]};
+  return point;
+}
+
+} // namespace
+
+json pack(std::span<const double> values) {
+  std::vector<std::uint8_t> bytes(values.size_bytes());
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return json::binary(std::move(bytes));
+}
+
+std::vector<double> unpack(const json& packed) {
+  if (!packed.is_binary() || packed.get_binary().size() % sizeof(double) != 0) mismatch();
+  std::vector<double> values(packed.get_binary().size() / sizeof(double));
+  if (!values.empty()) std::memcpy(values.data(), packed.get_binary().data(), packed.get_binary().size());
+  return values;
+}
+
+std::vector<double> unpack(const json& packed, std::size_t size) {
+  std::vector<double> values = unpack(packed);
+  if (values.size() != size) mismatch();
+  return values;
+}
+
+StateSizes StateSizes::of(const fem::Model& model) {
+  const fem::State drawn = model.initial_state();
+  return {drawn.displacement.size(),
+          static_cast<std::size_t>(model.dofs.count()),
+          static_cast<std::size_t>(model.dofs.free_count()),
+          static_cast<std::size_t>(model.dofs.held_count()),
+          model.electrodes.size(),
+          model.chambers.size(),
+          drawn.history ? drawn.history->now.size() : 0,
+          model.sheet_points.size()};
+}
+
+json archive(const fem::RampProgress& progress) {
+  json points = json::array();
+  for (const auto& point : progress.points)
+    points.push_back({{"parameter", point.parameter}, {"state", archive(point.state)}});
+  return {{"start",
+           {post::pack(progress.start.voltage), post::pack(progress.start.charge),
+            post::pack(progress.start.source), pack(progress.start.dead_force), pack(progress.start.held)}},
+          {"load_factor", progress.load_factor},
+          {"increment", progress.increment},
+          {"at_break", progress.at_break},
+          {"turns", progress.turns},
+          {"unstable_modes", progress.unstable_modes},
+          {"slope", progress.slope ? archive(*progress.slope) : json(nullptr)},
+          {"points", std::move(points)}};
+}
+
+fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
+  try {
+    fem::RampProgress progress;
+    progress.load_factor = archived.at("load_factor");
+    progress.increment = archived.at("increment");
+    const json& start = archived.at("start");
+    if (progress.increment != 0) { // otherwise no ramp has begun
+      const std::size_t ports = sizes.electrodes + sizes.chambers;
+      progress.start = {unpack(start.at(0), ports), unpack(start.at(1), ports), unpack(start.at(2), ports),
+                        vector(start.at(3), sizes.equations), vector(start.at(4), sizes.held)};
+    }
+    progress.at_break = archived.at("at_break");
+    progress.turns = archived.at("turns");
+    progress.unstable_modes = archived.at("unstable_modes");
+    if (const json& slope = archived.at("slope"); !slope.is_null())
+      progress.slope = restore_slope(slope, sizes.free);
+    for (const json& point : archived.at("points"))
+      progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), sizes)});
+    if (progress.points.empty()) mismatch();
+    return progress;
+  } catch (const json::exception&) {
+    mismatch();
+  }
+}
+
+json archive(const fem::ContinuationProgress& progress) {
+  return {{"state", archive(progress.state)},
+          {"direction", pack(progress.direction)},
+          {"numbers", post::pack(std::array{progress.load_factor, progress.load_direction, progress.arc,
+                                            progress.last_arc, progress.newton.residual})},
+          {"counts",
+           {progress.steps, progress.newton.iterations, progress.newton.negative_pivots,
+            progress.newton.unstable_modes}}};
+}
+
+fem::ContinuationProgress restore_continuation(const json& archived, const StateSizes& sizes) {
+  try {
+    const std::vector<double> numbers = unpack(archived.at("numbers"), 5);
+    const json& counts = archived.at("counts");
+    fem::ContinuationProgress progress{restore_state(archived.at("state"), sizes),
+                                       numbers[0],
+                                       vector(archived.at("direction"), sizes.free),
+                                       numbers[1],
+                                       numbers[2],
+                                       numbers[3],
+                                       counts.at(0),
+                                       {}};
+    progress.newton.residual = numbers[4];
+    progress.newton.iterations = counts.at(1);
+    progress.newton.negative_pivots = counts.at(2);
+    progress.newton.unstable_modes = counts.at(3);
+    return progress;
+  } catch (const json::exception&) {
+    mismatch();
+  }
+}
+
+json archive(const fem::EnergyBalance::Record& record) {
+  const fem::Work& w = record.work;
+  json points = json::array();
+  for (const fem::EnergyPoint& point : record.points) points.push_back(archive(point));
+  return {{"work", post::pack(std::array{w.electrical, w.mechanical, w.dissipated, w.released, w.resistance,
+                                         w.leak})},
+          {"account", post::pack(std::array{record.stored_at_start, record.exchanged, record.doubt,
+                                            record.rest, record.worst.error, record.worst.exchanged})},
+          {"points", std::move(points)}};
+}
+
+fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes& sizes) {
+  try {
+    const std::vector<double> w = unpack(archived.at("work"), 6), account = unpack(archived.at("account"), 6);
+    fem::EnergyBalance::Record record{{w[0], w[1], w[2], w[3], w[4], w[5]},
+                                      account[0],
+                                      account[1],
+                                      account[2],
+                                      account[3],
+                                      {account[4], account[5]},
+                                      {}};
+    for (const json& point : archived.at("points")) record.points.push_back(restore_point(point, sizes));
+    if (record.points.empty() || record.points.size() > 2) mismatch();
+    return record;
+  } catch (const json::exception&) {
+    mismatch();
+  }
+}
+
+} // namespace dielast::post

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meshing/mesh.hpp"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace dielast::post {
+
+/// One state of the actuator, seen along z.
+struct Panel {
+  std::string title{};
+  std::vector<Eigen::Vector3d> positions; ///< of every mesh node in this state, m
+  std::vector<double> values;             ///< one per triangle, blocks one after another; empty: a plain film
+};
+
+/// Panels side by side, with one scale of length and one of colour, so that they can be compared.
+struct Picture {
+  std::string title{};
+  std::string quantity{}; ///< what the colours mean, e.g. "True electric field"
+  std::string unit{};     ///< of `values`, SI; "1" when it has none
+  double wall_width = 0;  ///< drawn true to scale, m
+  std::vector<Panel> panels{};
+  int width = 1600; ///< px; the height follows from the shapes
+};
+
+/// The picture as the bytes of a PNG file. Needs no display. Throws std::invalid_argument when a panel does
+/// not fit the mesh and for a mesh of meridians (post/pictures/profile.hpp draws those), std::runtime_error when it
+/// cannot be drawn.
+std::string render_png(const meshing::Mesh& mesh, const Picture& picture);
+
+} // namespace dielast::post

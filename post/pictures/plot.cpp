@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/pictures/plot.hpp"
+
+#include "post/file_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fcntl.h>
+#include <set>
+#include <spawn.h>
+#include <string_view>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace dielast::post {
+
+namespace {
+
+constexpr std::string_view style = R"(
+set encoding utf8
+set terminal svg size 640,420 noenhanced rounded linewidth 1.4 font 'Helvetica,Arial,DejaVu Sans,sans-serif,14' background '#ffffff'
+set border 3 linecolor '#8a94a0'
+set tics nomirror out scale 0.6 textcolor '#3a434d'
+set grid linecolor '#e4e8ec' linetype 1 linewidth 0.7
+set key outside right top vertical Left reverse textcolor '#3a434d' samplen 2
+set autoscale fix
+set offsets graph 0.02, graph 0.02, graph 0.05, graph 0.05
+)";
+constexpr std::array colours{"#2563a8", "#d9622b", "#2e8b57", "#8e4aa8",
+                             "#c2283d", "#4a5560", "#b8860b", "#0f8f9c"};
+
+/// Within single quotes gnuplot interprets nothing but the quote itself.
+std::string gnuplot_string(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') result += '\'';
+    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return result + "'";
+}
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "NaN"; }
+
+bool has_points(const Series& series) {
+  for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i)
+    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i])) return true;
+  return false;
+}
+
+/// Of long series every bunch of neighbours is drawn by its first point and its extremes in x and y: no more
+/// can be seen.
+std::vector<std::size_t> drawn_points(const Series& series) {
+  constexpr std::size_t bunches = 250;
+  const std::size_t count = std::min(series.x.size(), series.y.size());
+  const std::size_t bunch = std::max<std::size_t>(1, count / bunches);
+  std::vector<std::size_t> drawn;
+  for (std::size_t first = 0; first < count; first += bunch) {
+    const std::size_t end = std::min(first + bunch, count);
+    std::set<std::size_t> shown{first, end - 1};
+    for (const auto* values : {&series.x, &series.y}) {
+      const auto at = [values](std::size_t k) { return values->begin() + static_cast<std::ptrdiff_t>(k); };
+      const auto [low, high] = std::minmax_element(at(first), at(end));
+      shown.insert({static_cast<std::size_t>(low - values->begin()),
+                    static_cast<std::size_t>(high - values->begin())});
+    }
+    drawn.insert(drawn.end(), shown.begin(), shown.end());
+  }
+  return drawn;
+}
+
+/// NaN for what a logarithmic axis cannot show.
+std::vector<double> shown(std::vector<double> values, bool logarithmic) {
+  if (logarithmic)
+    std::ranges::replace_if(
+        values, [](double value) { return !(value > 0); }, NAN);
+  return values;
+}
+
+std::string script(const Plot& plot) {
+  std::string data, curves;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    Series series = plot.series[i];
+    series.x = shown(std::move(series.x), plot.log_x);
+    series.y = shown(std::move(series.y), plot.log_y);
+    if (!has_points(series)) continue;
+    data += fmt::format("$series{} << END\n", i);
+    for (const std::size_t k : drawn_points(series))
+      data += number(series.x[k]) + " " + number(series.y[k]) + "\n";
+    data += "END\n";
+    const char* with = series.style == Series::Style::line     ? "lines"
+                       : series.style == Series::Style::points ? "points"
+                                                               : "linespoints";
+    curves += fmt::format("{}$series{} using 1:2 with {} linecolor '{}' linewidth 1.4 {} {}",
+                          curves.empty() ? "" : ", ", i, with, colours[i % colours.size()],
+                          series.style == Series::Style::line ? "" : "pointtype 7 pointsize 0.55",
+                          series.label.empty() ? "notitle" : "title " + gnuplot_string(series.label));
+  }
+  // With nothing to draw gnuplot would stop: show the empty axes.
+  if (curves.empty()) curves = "[1:2] [1:2] NaN notitle";
+  return fmt::format("{}set title {} font ',16' textcolor '#1d242c'\nset xlabel {} textcolor '#3a434d'\nset "
+                     "ylabel {} textcolor "
+                     "'#3a434d'\nunset logscale\n{}{}set size {}\nplot {}\nunset output\n",
+                     data, gnuplot_string(plot.title), gnuplot_string(plot.x_label),
+                     gnuplot_string(plot.y_label), plot.log_x ? "set logscale x\n" : "",
+                     plot.log_y ? "set logscale y\n" : "", plot.equal_axes ? "ratio -1" : "noratio", curves);
+}
+
+/// What gnuplot prints for a script; empty when it cannot be run.
+std::string run_gnuplot(std::string_view commands) {
+  // The script is a file in memory, so that both ends of a pipe can never wait for each other.
+  const int input = ::memfd_create("plot", MFD_CLOEXEC);
+  std::array<int, 2> output{};
+  if (input < 0 || ::pipe2(output.data(), O_CLOEXEC) != 0) return {};
+  write_all(input, commands, "plot script");
+  ::lseek(input, 0, SEEK_SET);
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  std::array<char*, 3> arguments{const_cast<char*>("gnuplot"), const_cast<char*>("--default-settings"),
+                                 nullptr};
+  pid_t child = 0;
+  const bool started = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ) == 0;
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(input);
+  ::close(output[1]);
+
+  std::string result;
+  std::array<char, 65536> buffer;
+  for (ssize_t n = 0; started && (n = ::read(output[0], buffer.data(), buffer.size())) > 0;)
+    result.append(buffer.data(), static_cast<std::size_t>(n));
+  ::close(output[0]);
+  if (started) ::waitpid(child, nullptr, 0);
+  return result;
+}
+
+} // namespace
+
+std::vector<std::string> render_svg(const std::vector<Plot>& plots) {
+  std::string commands(style);
+  for (const Plot& plot : plots) commands += script(plot);
+  const std::string output = plots.empty() ? std::string() : run_gnuplot(commands);
+
+  constexpr std::string_view opening = "<?xml";
+  std::vector<std::string> documents;
+  for (std::size_t begin = output.find(opening); begin != std::string::npos;) {
+    const std::size_t end = output.find(opening, begin + opening.size());
+    documents.push_back(output.substr(begin, end - begin));
+    begin = end;
+  }
+  // A missing one cannot be told from its neighbours, so none is safe to show.
+  if (documents.size() != plots.size()) documents.assign(plots.size(), {});
+  return documents;
+}
+
+} // namespace dielast::post

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/pictures/report.hpp"
+
+#include "post/markup.hpp"
+
+#include <fmt/format.h>
+#include <vtksys/Base64.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace dielast::post {
+
+namespace {
+
+// Free of < and &, so that the page is well-formed XML too.
+constexpr std::string_view css = R"(
+:root { --ink: #1d242c; --soft: #5b6672; --line: #e2e7ec; --panel: #f6f8fa; --accent: #2563a8;
+        --good: #1a7f4b; --warning: #a86200; --bad: #c2283d; }
+* { box-sizing: border-box; }
+body { margin: 0; color: var(--ink); background: #fff; font: 15px/1.55 system-ui, "Segoe UI", Roboto, Helvetica, Arial, "DejaVu Sans", sans-serif; }
+main { max-width: 1120px; margin: 0 auto; padding: 40px 28px 56px; }
+header { border-bottom: 1px solid var(--line); padding-bottom: 18px; }
+h1 { font-size: 28px; line-height: 1.25; margin: 0 0 4px; letter-spacing: -0.01em; }
+h2 { font-size: 19px; margin: 40px 0 12px; }
+.subtitle { color: var(--soft); margin: 0; }
+.status { display: inline-block; margin-top: 12px; padding: 3px 12px; border-radius: 14px; font-weight: 600; font-size: 13.5px; background: var(--panel); border: 1px solid currentColor; }
+.good { color: var(--good); } .warning { color: var(--warning); } .bad { color: var(--bad); }
+td.good, td.warning, td.bad { font-weight: 600; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 12px; margin: 24px 0 0; }
+.card { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; }
+.card .label { color: var(--soft); font-size: 13px; }
+.card .value { font-size: 21px; font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
+.card .note { color: var(--soft); font-size: 12.5px; }
+.scroll { overflow-x: auto; margin: 0 0 14px; }
+table { border-collapse: collapse; min-width: 55%; font-size: 14px; font-variant-numeric: tabular-nums; }
+td:first-child { white-space: nowrap; }
+th { text-align: left; color: var(--soft); font-weight: 600; font-size: 13px; border-bottom: 2px solid var(--line); }
+th, td { padding: 6px 24px 6px 0; vertical-align: top; }
+td { border-bottom: 1px solid var(--line); }
+.number { text-align: right; white-space: nowrap; }
+pre { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; overflow-x: auto; font: 12.5px/1.5 ui-monospace, "SF Mono", Consolas, "DejaVu Sans Mono", monospace; }
+.images { display: grid; grid-template-columns: repeat(auto-fit, minmax(440px, 1fr)); gap: 20px; }
+figure { margin: 0 0 12px; break-inside: avoid; }
+figure img { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 8px; }
+figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
+footer { margin-top: 44px; padding-top: 14px; border-top: 1px solid var(--line); color: var(--soft); font-size: 13px; }
+@media print { main { max-width: none; padding: 0; } h2 { break-after: avoid; } tr { break-inside: avoid; }
+  pre { white-space: pre-wrap; } .card, pre, .status { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
+@media (max-width: 560px) { .images { grid-template-columns: 1fr; } }
+)";
+
+std::string_view css_class(Tone tone) {
+  switch (tone) {
+  case Tone::good:
+    return "good";
+  case Tone::warning:
+    return "warning";
+  case Tone::bad:
+    return "bad";
+  case Tone::plain:
+    break;
+  }
+  return "";
+}
+
+bool starts_with_number(std::string_view text) {
+  if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) != 0;
+}
+
+/// A column is one of numbers when all its filled cells are; "-" stands for a missing one.
+std::vector<bool> number_columns(const Table& table) {
+  std::vector<bool> numeric(table.header.size());
+  for (std::size_t column = 0; column < numeric.size(); ++column) {
+    bool any = false, all = true;
+    for (const auto& row : table.rows) {
+      if (column >= row.size() || row[column].text.empty() || row[column].text == "-") continue;
+      (starts_with_number(row[column].text) ? any : all) = starts_with_number(row[column].text);
+    }
+    numeric[column] = any && all;
+  }
+  return numeric;
+}
+
+std::string html_of(const Paragraph& paragraph) { return "<p>" + escape_markup(paragraph.text) + "</p>\n"; }
+
+std::string html_of(const Listing& listing) { return "<pre>" + escape_markup(listing.text) + "</pre>\n"; }
+
+std::string html_of(const Table& table) {
+  const std::vector<bool> numeric = number_columns(table);
+  const auto is_number = [&](std::size_t column) { return column < numeric.size() && numeric[column]; };
+  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
+  for (std::size_t c = 0; c < table.header.size(); ++c)
+    html +=
+        fmt::format("<th{}>{}</th>", is_number(c) ? " class=\"number\"" : "", escape_markup(table.header[c]));
+  html += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    html += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c)
+      html += fmt::format("<td class=\"{} {}\">{}</td>", is_number(c) ? "number" : "text",
+                          css_class(row[c].tone), escape_markup(row[c].text));
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+/// As a data URI also for SVG: inline, the identifiers of several drawings would clash.
+std::string html_of(const Image& image) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(image.data.data());
+  std::string base64((image.data.size() + 2) / 3 * 4, '\0');
+  base64.resize(
+      vtksysBase64_Encode(bytes, image.data.size(), reinterpret_cast<unsigned char*>(base64.data()), 0));
+  const bool png = image.data.starts_with("\x89PNG");
+  return fmt::format(
+      "<figure><img alt=\"{}\" src=\"data:image/{};base64,{}\"/><figcaption>{}</figcaption></figure>\n",
+      escape_markup(image.caption), png ? "png" : "svg+xml", base64, escape_markup(image.caption));
+}
+
+std::string html_of(const Section& section) {
+  std::string html = "<section><h2>" + escape_markup(section.title) + "</h2>\n";
+  bool in_images = false;
+  for (const Block& block : section.blocks) {
+    const auto* image = std::get_if<Image>(&block);
+    if (image != nullptr && image->data.empty()) continue; // could not be drawn
+    if ((image != nullptr) != in_images) html += in_images ? "</div>\n" : "<div class=\"images\">\n";
+    in_images = image != nullptr;
+    html += std::visit([](const auto& content) { return html_of(content); }, block);
+  }
+  return html + (in_images ? "</div>\n" : "") + "</section>\n";
+}
+
+} // namespace
+
+std::string Report::html() const {
+  std::string page =
+      fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+                  "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+                  "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>"
+                  "<p class=\"subtitle\">{2}</p>",
+                  escape_markup(title), css, escape_markup(subtitle));
+  if (!status.text.empty())
+    page += fmt::format("<span class=\"status {}\">{}</span>", css_class(status.tone),
+                        escape_markup(status.text));
+  page += "</header>\n";
+  if (!highlights.empty()) page += "<div class=\"cards\">\n";
+  for (const Highlight& highlight : highlights)
+    page += fmt::format("<div class=\"card\"><div class=\"label\">{}</div><div class=\"value\">{}</div>"
+                        "<div class=\"note\">{}</div></div>\n",
+                        escape_markup(highlight.label), escape_markup(highlight.value),
+                        escape_markup(highlight.note));
+  if (!highlights.empty()) page += "</div>\n";
+  for (const Section& section : sections) page += html_of(section);
+  return page + "<footer>" + escape_markup(footer) + "</footer>\n</main>\n</body>\n</html>\n";
+}
+
+} // namespace dielast::post
