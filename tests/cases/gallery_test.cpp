@@ -1,34 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/readers/study_reader.hpp"
 #include "tests/cases/command.hpp"
-
-#include <algorithm>
+#include "tests/cases/gallery_files.hpp"
 
 namespace dielast::test {
 namespace {
 
-const std::filesystem::path gallery = source_folder / "cases/gallery";
-
-/// Case files of the gallery, or its studies: paths within it. Fits have a test of their own.
-std::vector<std::string> gallery_files(bool studies) {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(gallery))
-    if (entry.path().extension() == ".toml") {
-      const std::string text = text_of(entry.path());
-      const bool fits = text.find("\n[fit]") != std::string::npos;
-      if (!fits && (text.find("\n[study]") != std::string::npos) == studies)
-        files.push_back(std::filesystem::relative(entry.path(), gallery));
-    }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& file) {
-  std::string name = file.param.substr(0, file.param.rfind('.'));
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
-  return name;
-}
+std::string test_name(const testing::TestParamInfo<std::string>& file) { return word_of(file.param); }
 
 class GalleryCase : public CommandTest, public testing::WithParamInterface<std::string> {};
 
