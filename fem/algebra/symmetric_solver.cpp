@@ -3,13 +3,16 @@
 
 #include <cholmod.h>
 #include <dmumps_c.h>
-#include <omp.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <new>
 #include <stdexcept>
 
+// Of the OpenMP runtime of GCC, which CHOLMOD was compiled for; the one of another compiler would be a second
+// in the process.
+extern "C" int omp_get_max_active_levels();
+extern "C" void omp_set_max_active_levels(int);
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 extern "C" void dpotrf_(const char* uplo, const int* n, double* A, const int* stride, int* info);
 

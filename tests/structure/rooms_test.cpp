@@ -24,7 +24,7 @@ const std::map<std::string, std::vector<std::string>> libraries{
     {"CHOLMOD", {"cholmod.h", "${CHOLMOD_LIBRARY}"}},
     {"MUMPS", {"dmumps_c.h", "zmumps_c.h", "${MUMPS_LIBRARY}", "${MUMPS_COMPLEX_LIBRARY}"}},
     {"TBB", {"tbb/", "TBB::"}},
-    {"OpenMP", {"omp.h", "OpenMP::"}},
+    {"OpenMP", {"omp.h", "gomp"}},
     {"LAPACK", {"LAPACK::"}},
     {"VTK", {"vtk", "VTK::"}},
     {"Cairo", {"cairo", "PkgConfig::cairo"}},
@@ -184,7 +184,9 @@ TEST(Folders, UseThoseThatStandBeforeThemInTheTable) {
   const auto table = table_of_folders();
   ASSERT_EQ(table.size(), rooms.size());
   const std::regex include(R"re(#include "(([a-z]+)/([^"]*/)?)[^"/]+")re");
-  for (const auto& [room, folders] : table) {
+  for (const auto& row : table) {
+    const std::string& room = row.first; // Clang 14 captures no structured binding
+    const std::vector<std::string>& folders = row.second;
     const auto place = [&](const std::filesystem::path& folder) {
       const std::string below = folder.lexically_relative(room).generic_string();
       return std::ranges::find(folders, below == "." ? "" : below) - folders.begin();
