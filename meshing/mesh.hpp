@@ -51,6 +51,14 @@ struct CellBlock {
   }
 };
 
+/// Cells of a block as a block of their own, in the order of `cells`.
+inline CellBlock subset(const CellBlock& block, std::span<const int> cells) {
+  CellBlock part{block.type, {}};
+  for (const int cell : cells)
+    part.nodes.insert(part.nodes.end(), block.cell(cell).begin(), block.cell(cell).end());
+  return part;
+}
+
 /// A named part of one block.
 struct CellSet {
   int block = 0;          ///< index into Mesh::blocks

@@ -9,6 +9,6 @@ namespace dielast::meshing {
 ///
 /// Places: triangles `film`; nodes `left`, `right`, `bottom`, `top` (sides), `centre` (its centroid is the
 /// rectangle's). Throws std::invalid_argument when a size is not positive.
-Mesh patch_mesh(double length, double width);
+Mesh patch_mesh(double length, double width, int order = 1);
 
 } // namespace dielast::meshing

@@ -197,7 +197,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   case QuantityKind::stretch: {
     const double drawn = length(quantity, device_.model.initial_state());
     return length(quantity, state) / drawn *
-           case_.film.prestretch.at(static_cast<std::size_t>(*quantity.along));
+           *prestretch_between(case_, device_, quantity.between, *quantity.along);
   }
   case QuantityKind::nominal_stress: {
     const std::vector<char>& near = film_at(quantity.of);

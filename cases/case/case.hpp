@@ -1,89 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cases/case/part.hpp"
 #include "cases/text/diagnostics.hpp"
 #include "cases/text/waveform.hpp"
 #include "fem/model/dofs.hpp"
-#include "materials/beam_section.hpp"
-#include "materials/material.hpp"
 #include "post/reductions.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace dielast::cases {
 
-/// [film]
-struct Film {
-  std::string material_name;
-  materials::Material material;
-  double thickness = 0;               ///< undeformed H, m
-  std::array<double, 2> prestretch{}; ///< lambda_p along x and y
-  bool tension_field = false;         ///< it wrinkles where it would be compressed, and carries tension only
-};
-
-/// [honeycomb]: the geometry template of the unidirectional actuator
-struct Honeycomb {
-  double angle = 0;         ///< interior angle at a cell's four equal vertices, rad
-  std::vector<int> columns; ///< cells in each column, left to right
-  double wall_length = 0, wall_width = 0, wall_height = 0; ///< m
-  std::string wall_material_name;
-  materials::ElasticSolid wall_material;
-};
-
-/// [disc]: clamped at its rim; dimensions as clamped, after the prestretch
-struct Disc {
-  double radius = 0;           ///< m
-  double electrode_radius = 0; ///< m
-};
-
-/// [annulus]: dimensions as clamped, after the prestretch
-struct Annulus {
-  double inner_radius = 0, outer_radius = 0; ///< m
-};
-
-enum class PatchMode {
-  biaxial,       ///< x and y move independently
-  equal_biaxial, ///< both stretches are one
-  pure_shear,    ///< y is held
-};
-
-/// [patch]: a homogeneous block of film. Stretches are with respect to the unstretched film, stresses nominal
-/// (force over undeformed section); a direction with neither is free of stress.
-struct Patch {
-  double length = 0, width = 0; ///< along x and y, before the prestretch, m
-  PatchMode mode{};
-  std::optional<Waveform> stretch_x, stretch_y;
-  std::optional<Waveform> stress_x, stress_y; ///< Pa
-};
-
-/// [mesh] file = "...": the user's own mesh, drawn after the prestretch, physical names as places
-struct MeshFile {
-  std::filesystem::path path;
-};
-
-/// [balloon]: a sphere of film, as drawn
-struct Balloon {
-  double radius = 0; ///< m
-};
-
-using Geometry = std::variant<Honeycomb, Disc, Annulus, Balloon, Patch, MeshFile>;
-
-/// [mesh]
-struct MeshOptions {
-  std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
-  int refine = 0;               ///< how often each triangle of a user's own mesh is split into four
-  int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
-  int wall_elements = 8; ///< beams per wall (honeycomb)
-  double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
-  int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
-  int quadrature = 0;    ///< integration points of a 6-node triangle: 3 or 6
+/// [[tie]]: the nodes that two places have at the same points become one
+struct TiedPlaces {
+  std::array<std::string, 2> between;
 };
 
 /// [[electrode]]
@@ -349,9 +286,8 @@ struct Case {
   std::string title;
   std::filesystem::path source; ///< the case file
   fem::Dimension dimension{};
-  Film film;
-  Geometry geometry;
-  MeshOptions mesh;
+  std::vector<Part> parts; ///< the unnamed one first, if there is one
+  std::vector<TiedPlaces> ties;
   std::vector<Electrode> electrodes;
   std::vector<Support> supports;
   std::vector<Load> loads;
@@ -374,6 +310,27 @@ struct Case {
   bool fields = true;          ///< [output] fields: write the VTK series
   std::vector<Mention> places; ///< every place that the case names, for check_places
   std::vector<Diagnostic> warnings{};
+
+  /// What stands at the top of the file; null: everything is in named parts.
+  const Part* unnamed() const {
+    return parts.empty() || !parts.front().name.empty() ? nullptr : &parts.front();
+  }
+  /// The only geometry of that kind, of the unnamed part; null: it has another, or there is none.
+  template<class T>
+  const T* geometry() const {
+    return unnamed() ? std::get_if<T>(&unnamed()->geometry) : nullptr;
+  }
+  /// Whether a film of the case is such.
+  template<class Rule>
+  bool any_film(const Rule& rule) const {
+    return std::ranges::any_of(parts, [&](const Part& part) { return part.film && rule(*part.film); });
+  }
+  /// Whether a part's geometry is of that kind.
+  template<class T>
+  bool any_geometry() const {
+    return std::ranges::any_of(parts,
+                               [](const Part& part) { return std::holds_alternative<T>(part.geometry); });
+  }
 };
 
 } // namespace dielast::cases

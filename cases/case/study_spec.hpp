@@ -24,7 +24,7 @@ struct StudyPlot {
 /// [[study.target]]: asks at which value of the one varied key a quantity has a value
 struct StudyTarget {
   std::string quantity;
-  double value = 0; ///< SI
+  double value = 0;                  ///< SI
   std::optional<double> tolerance{}; ///< SI; absent: see solve_targets
 };
 

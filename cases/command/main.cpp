@@ -11,6 +11,7 @@
 #include "cases/runs/run.hpp"
 #include "cases/studies/study.hpp"
 #include "fem/equilibrium/tangent_check.hpp"
+#include "meshing/gmsh/gmsh_text.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/quality.hpp"
 #include "post/files/vtk_series.hpp"
@@ -77,6 +78,9 @@ ExitCode mesh(const Arguments& arguments) {
   const fem::State drawn = device.model.initial_state();
   post::VtkSeries(folder, one.source.stem().string() + "-mesh", device.mesh)
       .write({0, "drawn"}, drawn.displacement, device.model.sample(drawn));
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  const std::string gmsh_name = one.source.stem().string() + ".msh";
+  if (!of_revolution) folder.write(gmsh_name, meshing::gmsh_text(device.mesh));
   folder.set_complete(static_cast<int>(ExitCode::ok));
   cases::say("{}places:\n", meshing::format(meshing::quality(device.mesh)));
   for (const auto& [name, nodes] : device.mesh.node_sets) {
@@ -86,6 +90,7 @@ ExitCode mesh(const Arguments& arguments) {
         cells == device.mesh.cell_sets.end() ? "" : fmt::format(" {:>6} cells", cells->second.cells.size()));
   }
   cases::say("written to {}\n", (folder / (one.source.stem().string() + "-mesh.pvd")).string());
+  if (!of_revolution) cases::say("and, for gmsh and [mesh] file, to {}\n", (folder / gmsh_name).string());
   return ExitCode::ok;
 }
 

@@ -2,12 +2,11 @@
 #include "cases/devices/device.hpp"
 
 #include "cases/devices/bodies.hpp"
+#include "cases/devices/sections.hpp"
 #include "cases/readers/reader.hpp"
-#include "fem/elements/beam_block.hpp"
 #include "fem/elements/chamber_block.hpp"
 #include "fem/elements/distance_block.hpp"
 #include "fem/elements/point_mass_block.hpp"
-#include "fem/films/membrane_block.hpp"
 #include "meshing/mesh_error.hpp"
 #include "post/engineering.hpp"
 
@@ -15,39 +14,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 namespace dielast::cases {
 
 namespace {
 
-/// Electrode over each triangle.
-std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {
-  std::vector<int> map(static_cast<std::size_t>(film.size()), fem::passive);
-  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
-    const auto place = mesh.cell_sets.find(one.electrodes[e].place);
-    if (place == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(place->second.block)] != &film)
-      throw meshing::MeshError("electrode \"" + one.electrodes[e].name + "\": the place \"" +
-                               one.electrodes[e].place + "\" is not a part of the film");
-    for (const int cell : place->second.cells) {
-      int& electrode = map[static_cast<std::size_t>(cell)];
-      if (electrode != fem::passive)
-        throw meshing::MeshError("electrodes \"" + one.electrodes[static_cast<std::size_t>(electrode)].name +
-                                 "\" and \"" + one.electrodes[e].name + "\" overlap");
-      electrode = static_cast<int>(e);
-    }
-  }
-  return map;
+/// A stretch is measured against the prestretch of the film between its places, which must have one.
+void require_one_prestretch(const Case& one, const Device& device) {
+  for (const Quantity& quantity : one.quantities)
+    if (quantity.kind == QuantityKind::stretch &&
+        !prestretch_between(one, device, quantity.between, *quantity.along))
+      throw CaseError(
+          {{{one.source.string()},
+            "quantity.between",
+            fmt::format("quantity \"{}\": \"{}\" and \"{}\" have no film of one prestretch in common",
+                        quantity.name, quantity.between[0], quantity.between[1])}});
 }
 
 /// A user's own mesh has no unit in its file: what is taken for a metre may have been a millimetre.
 std::vector<std::string> size_warnings(const Case& one, const Eigen::Vector3d& size) {
   constexpr double largest = 1; // m, of the templates' dimensions
-  if (!std::holds_alternative<MeshFile>(one.geometry)) return {};
+  if (!one.geometry<MeshFile>()) return {};
   const std::string found =
       fmt::format("the film is {} x {}", post::engineering(size.x(), "m"), post::engineering(size.y(), "m"));
-  if (!one.mesh.unit) return {"mesh.unit is missing, one unit of the mesh file is taken for 1 m: " + found};
+  if (!one.unnamed()->mesh.unit)
+    return {"mesh.unit is missing, one unit of the mesh file is taken for 1 m: " + found};
   if (size.maxCoeff() > largest) return {"mesh.unit: " + found};
   return {};
 }
@@ -98,9 +93,9 @@ void require_loads_that_act(const Case& one, const Device& device) {
 }
 
 /// The sides of a patch stay straight and parallel; in equal-biaxial tension both move alike.
-void keep_homogeneous(const Patch& patch, const meshing::Mesh& mesh, fem::DofMap& dofs) {
-  const auto& right = mesh.node_sets.at("right");
-  const auto& top = mesh.node_sets.at("top");
+void keep_homogeneous(const Part& part, const Patch& patch, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  const auto& right = mesh.node_sets.at(part.called("right"));
+  const auto& top = mesh.node_sets.at(part.called("top"));
   for (const int node : right) dofs.share(right.front(), node, 0);
   for (const int node : top) dofs.share(top.front(), node, 1);
   if (patch.mode == PatchMode::equal_biaxial) dofs.share(right.front(), 0, top.front(), 1);
@@ -195,7 +190,7 @@ void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
   const std::size_t port = model.electrodes.size();
   model.chambers = {{"chamber", one.chamber->bulk_modulus}};
   model.blocks.push_back(fem::make_pressure_block(mesh, *mesh.film(), port));
-  if (const auto* annulus = std::get_if<Annulus>(&one.geometry); annulus && one.plate)
+  if (const auto* annulus = one.geometry<Annulus>(); annulus && one.plate)
     model.blocks.push_back(
         fem::make_lid_block(mesh,
                             {mesh.node_sets.at(one.plate->place).front(),
@@ -275,6 +270,25 @@ std::vector<std::string> places_of(const meshing::Mesh& mesh) {
   return places;
 }
 
+std::optional<double> prestretch_between(const Case& one, const Device& device,
+                                         const std::array<std::string, 2>& places, int along) {
+  const meshing::CellBlock& film = *device.mesh.film();
+  const auto prestretches_at = [&](const std::string& place) {
+    std::set<double> found;
+    const auto& nodes = device.mesh.node_sets.at(place);
+    for (int cell = 0; cell < film.size(); ++cell)
+      if (std::ranges::any_of(film.cell(cell),
+                              [&](int node) { return std::ranges::binary_search(nodes, node); }))
+        found.insert(one.parts[static_cast<std::size_t>(device.film_parts[static_cast<std::size_t>(cell)])]
+                         .film->prestretch[static_cast<std::size_t>(along)]);
+    return found;
+  };
+  std::vector<double> common;
+  std::ranges::set_intersection(prestretches_at(places[0]), prestretches_at(places[1]),
+                                std::back_inserter(common));
+  return common.size() == 1 ? std::optional(common.front()) : std::nullopt;
+}
+
 Device build_device(const Case& one) {
   meshing::Mesh mesh = build_mesh(one);
   std::vector<std::string> places = places_of(mesh);
@@ -297,31 +311,21 @@ Device build_device(const Case& one) {
 
   std::vector<std::string> warnings = size_warnings(one, high - low);
   const bool of_revolution = dimension == fem::Dimension::axisymmetric;
-  if (!of_revolution && high.z() - low.z() > 1e-9 * model.extent)
-    throw meshing::MeshError("the film must lie in a plane of constant z");
-
   const meshing::CellBlock* film = mesh.film();
   if (!film) throw meshing::MeshError("the mesh has no triangles: there is no film");
   if (of_revolution && !meshing::is_meridian(film->type))
     throw meshing::MeshError("model = \"axisymmetric\" is for discs, annuli and balloons");
+  std::vector<int> parts = film_parts(one, mesh);
+  if (!of_revolution) require_flat_films(mesh, parts, model.extent);
   const auto elements = static_cast<double>(film->size());
   model.length_scale = model.extent / (of_revolution ? elements : std::sqrt(elements));
-  // Two points of a 3-node meridian: there stretches are one order better than elsewhere.
-  const int points = film->type == meshing::CellType::triangle6   ? one.mesh.quadrature
-                     : film->type == meshing::CellType::meridian3 ? 2
-                                                                  : 1;
   try {
-    model.blocks.push_back(fem::make_membrane_block(
-        mesh, *film, {one.film.material, one.film.thickness, one.film.prestretch, one.film.tension_field},
-        electrode_map(one, mesh, *film), dimension, points));
+    add_films(one, mesh, parts, model);
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
-  const auto* lattice = std::get_if<Honeycomb>(&one.geometry);
-  if (const meshing::CellBlock* walls = mesh.walls(); walls && lattice)
-    model.blocks.push_back(fem::make_beam_block(
-        mesh, *walls,
-        materials::rectangular_section(lattice->wall_material, lattice->wall_width, lattice->wall_height)));
+  const auto films = static_cast<int>(model.blocks.size());
+  add_bars(one, mesh, model);
 
   add_springs(one, mesh, model);
   add_masses(one, mesh, model);
@@ -336,7 +340,9 @@ Device build_device(const Case& one) {
     for (int n = 0; n < mesh.node_count(); ++n)
       if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);
   if (one.plate) carry_plate(*one.plate, mesh, model.dofs);
-  if (const auto* patch = std::get_if<Patch>(&one.geometry)) keep_homogeneous(*patch, mesh, model.dofs);
+  for (const Part& part : one.parts)
+    if (const auto* patch = std::get_if<Patch>(&part.geometry))
+      keep_homogeneous(part, *patch, mesh, model.dofs);
   try {
     model.dofs.number();
   } catch (const std::invalid_argument& error) {
@@ -359,8 +365,11 @@ Device build_device(const Case& one) {
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = free_body};
   device.weight = weight_of(one, bodies, device.mesh, device.model);
   require_loads_that_act(one, device);
-  device.tension_field = one.film.tension_field;
-  if (lattice) device.wall_width = lattice->wall_width;
+  device.film_parts = std::move(parts);
+  device.films = films;
+  device.tension_field = one.any_film([](const Film& f) { return f.tension_field; });
+  if (const auto* lattice = one.geometry<Honeycomb>()) device.wall_width = lattice->wall.width;
+  require_one_prestretch(one, device);
   device.warnings = std::move(warnings);
   return device;
 }

@@ -13,10 +13,12 @@ namespace dielast::cases {
 struct Device {
   meshing::Mesh mesh;
   fem::Model model;
-  std::optional<double> wall_width; ///< m, of a lattice
-  bool tension_field = false;       ///< the film wrinkles where it would be compressed
-  bool free_body = false;           ///< no support: pinned against rigid motion only, without reactions
-  Eigen::VectorXd weight;           ///< dead forces of gravity, per equation, N
+  std::vector<int> film_parts;       ///< for each cell of the film, its part: a number in Case::parts
+  int films = 0;                     ///< blocks of film; they stand in front of the model's others
+  std::optional<double> wall_width;  ///< m, of a lattice
+  bool tension_field = false;        ///< a film wrinkles where it would be compressed
+  bool free_body = false;            ///< no support: pinned against rigid motion only, without reactions
+  Eigen::VectorXd weight;            ///< dead forces of gravity, per equation, N
   std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each
 };
 
@@ -25,6 +27,10 @@ meshing::Mesh build_mesh(const Case& one);
 
 /// Names of all places of a mesh, sorted.
 std::vector<std::string> places_of(const meshing::Mesh& mesh);
+
+/// The prestretch along an axis of the films that meet both places; nothing: they differ, or there are none.
+std::optional<double> prestretch_between(const Case& one, const Device& device,
+                                         const std::array<std::string, 2>& places, int along);
 
 /// Mesh and model. Throws meshing::MeshError, and CaseError when the case names a place that the mesh lacks.
 Device build_device(const Case& one);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/device.hpp"
 
+#include "meshing/assembly.hpp"
 #include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/honeycomb_mesh.hpp"
 #include "meshing/meridian.hpp"
@@ -8,6 +9,12 @@
 #include "meshing/patch.hpp"
 #include "meshing/refine.hpp"
 #include "meshing/rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <stdexcept>
 
 namespace dielast::cases {
 
@@ -20,58 +27,121 @@ struct Overloaded : Functions... {
 template<class... Functions> // Clang 14 deduces none for aggregates
 Overloaded(Functions...)->Overloaded<Functions...>;
 
-/// A user's mesh in m, without the lines that only name places.
-meshing::Mesh film_of(meshing::Mesh mesh, double unit) {
+/// Cells of a block that belong to one of the places, ascending.
+std::vector<int> cells_in(const meshing::Mesh& mesh, int block, const std::vector<std::string>& places) {
+  std::set<int> cells;
+  for (const std::string& place : places)
+    if (const auto found = mesh.cell_sets.find(place);
+        found != mesh.cell_sets.end() && found->second.block == block)
+      cells.insert(found->second.cells.begin(), found->second.cells.end());
+  return {cells.begin(), cells.end()};
+}
+
+/// A user's mesh in m, of its lines only those along which there are bars: others only name places.
+meshing::Mesh film_and_bars(meshing::Mesh mesh, double unit, const std::vector<std::string>& bars) {
   for (auto& x : mesh.nodes) x *= unit;
   for (int b = static_cast<int>(mesh.blocks.size()) - 1; b >= 0; --b) {
-    if (!meshing::is_line(mesh.blocks[static_cast<std::size_t>(b)].type)) continue;
+    meshing::CellBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
+    if (!meshing::is_line(block.type)) continue;
+    const std::vector<int> kept = cells_in(mesh, b, bars);
+    std::vector<int> number(static_cast<std::size_t>(block.size()), -1);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      number[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
+    block = meshing::subset(block, kept);
+    for (auto place = mesh.cell_sets.begin(); place != mesh.cell_sets.end();) {
+      meshing::CellSet& set = place->second;
+      const bool lies_here = set.block == b;
+      if (lies_here)
+        for (int& cell : set.cells) cell = number[static_cast<std::size_t>(cell)];
+      const bool only_names = lies_here && (std::erase(set.cells, -1) > 0 || set.cells.empty());
+      place = only_names ? mesh.cell_sets.erase(place) : std::next(place);
+    }
+    if (!kept.empty()) continue;
     mesh.blocks.erase(mesh.blocks.begin() + b);
-    std::erase_if(mesh.cell_sets, [b](const auto& place) { return place.second.block == b; });
     for (auto& [name, set] : mesh.cell_sets) set.block -= set.block > b;
   }
   return mesh;
 }
 
+/// The mesh of a part, as it is drawn by itself.
+meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_order,
+                      const std::vector<std::string>& bars) {
+  const MeshOptions& options = part.mesh;
+  const bool of_revolution = dimension == fem::Dimension::axisymmetric;
+  return std::visit(
+      Overloaded{
+          [](std::monostate) { return meshing::Mesh{}; },
+          [&](const Honeycomb& h) {
+            return meshing::honeycomb_mesh({h.angle, h.columns, h.wall_length},
+                                           {options.order, options.wall_elements, options.grading});
+          },
+          [&](const Disc& d) {
+            if (of_revolution)
+              return meshing::disc_meridian(d.radius, d.electrode_radius, options.rings, options.order);
+            return meshing::disc_mesh(d.radius, d.electrode_radius, options.rings, options.order, true);
+          },
+          [&](const Annulus& a) {
+            if (of_revolution)
+              return meshing::annulus_meridian(a.inner_radius, a.outer_radius, options.rings, options.order,
+                                               options.grading);
+            return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order, true,
+                                         options.grading);
+          },
+          [&](const Balloon& b) { return meshing::balloon_meridian(b.radius, options.rings, options.order); },
+          [&](const Patch& p) {
+            return meshing::patch_mesh(p.length * part.film->prestretch[0],
+                                       p.width * part.film->prestretch[1], patch_order);
+          },
+          [&](const MeshFile& file) {
+            meshing::Mesh mesh = meshing::read_gmsh(file.path);
+            for (int i = 0; i < options.refine; ++i) mesh = meshing::refined(std::move(mesh));
+            return film_and_bars(std::move(mesh), options.unit.value_or(1), bars);
+          },
+      },
+      part.geometry);
+}
+
+/// Turns a mesh about z and moves its origin to where the part is.
+void place(meshing::Mesh& mesh, const Part& part) {
+  const Eigen::Vector3d origin(part.at.data());
+  const double half_turns = std::round(part.turned / std::numbers::pi); // without round-off where it is one
+  const double sine =
+      std::abs(part.turned - half_turns * std::numbers::pi) < 1e-12 ? 0 : std::sin(part.turned);
+  const double cosine = std::cos(part.turned);
+  for (auto& x : mesh.nodes)
+    x = origin + Eigen::Vector3d(cosine * x.x() - sine * x.y(), sine * x.x() + cosine * x.y(), x.z());
+}
+
 } // namespace
 
 meshing::Mesh build_mesh(const Case& one) {
-  const MeshOptions& options = one.mesh;
-  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  std::vector<std::string> bars;
+  for (const Part& part : one.parts)
+    if (part.beam) bars.push_back(part.place);
+  // Two triangles of any order are exact for a patch; one mesh has triangles of one order.
+  const bool curved = std::ranges::any_of(one.parts, [](const Part& part) {
+    return part.has_mesh() && !std::holds_alternative<Patch>(part.geometry) && part.mesh.order == 2;
+  });
+  meshing::Mesh whole;
   try {
-    return std::visit(
-        Overloaded{
-            [&](const Honeycomb& h) {
-              return meshing::honeycomb_mesh({h.angle, h.columns, h.wall_length},
-                                             {options.order, options.wall_elements, options.grading});
-            },
-            [&](const Disc& d) {
-              if (of_revolution)
-                return meshing::disc_meridian(d.radius, d.electrode_radius, options.rings, options.order);
-              return meshing::disc_mesh(d.radius, d.electrode_radius, options.rings, options.order, true);
-            },
-            [&](const Annulus& a) {
-              if (of_revolution)
-                return meshing::annulus_meridian(a.inner_radius, a.outer_radius, options.rings, options.order,
-                                                 options.grading);
-              return meshing::annulus_mesh(a.inner_radius, a.outer_radius, options.rings, options.order, true,
-                                           options.grading);
-            },
-            [&](const Balloon& b) {
-              return meshing::balloon_meridian(b.radius, options.rings, options.order);
-            },
-            [&](const Patch& p) {
-              return meshing::patch_mesh(p.length * one.film.prestretch[0], p.width * one.film.prestretch[1]);
-            },
-            [&](const MeshFile& file) {
-              meshing::Mesh mesh = meshing::read_gmsh(file.path);
-              for (int i = 0; i < options.refine; ++i) mesh = meshing::refined(std::move(mesh));
-              return film_of(std::move(mesh), options.unit.value_or(1));
-            },
-        },
-        one.geometry);
+    for (const Part& part : one.parts) {
+      if (!part.has_mesh()) continue;
+      meshing::Mesh mesh = mesh_of(part, one.dimension, curved ? 2 : 1, bars);
+      if (part.name.empty()) {
+        whole = std::move(mesh);
+        continue;
+      }
+      place(mesh, part);
+      meshing::append(whole, mesh, part.name);
+    }
+    for (const TiedPlaces& tie : one.ties)
+      if (std::ranges::all_of(tie.between,
+                              [&](const auto& place) { return whole.node_sets.contains(place); }))
+        meshing::join(whole, tie.between[0], tie.between[1]);
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
+  return whole;
 }
 
 } // namespace dielast::cases

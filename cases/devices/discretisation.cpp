@@ -24,22 +24,43 @@ std::optional<Density> density_of(const Geometry& geometry) {
   return std::nullopt;
 }
 
-/// Elements larger by a factor; returns by how much they are, 1 where that cannot be.
-double coarsen_mesh(Case& one, int factor) {
-  MeshOptions& mesh = one.mesh;
-  if (std::holds_alternative<MeshFile>(one.geometry)) {
+/// Elements of a part larger by a factor; returns by how much they are, 1 where that cannot be.
+double coarsen_mesh(Part& part, int factor) {
+  MeshOptions& mesh = part.mesh;
+  if (std::holds_alternative<MeshFile>(part.geometry)) {
     const int times = factor == 2 ? 1 : 2;
     if (mesh.refine < times) return 1;
     mesh.refine -= times;
     return factor;
   }
-  const auto density = density_of(one.geometry);
+  const auto density = density_of(part.geometry);
   if (!density) return 1;
   int& elements = mesh.*density->elements;
   const int fine = elements;
   if (fine / factor < density->fewest) return 1;
   elements = fine / factor;
   return static_cast<double>(fine) / elements;
+}
+
+/// Elements of all parts larger by a factor; returns by how much they are, 1 where they cannot all be.
+/// Patches are exact.
+double coarsen_meshes(Case& one, int factor) {
+  double coarser = 1;
+  for (Part& part : one.parts) {
+    if (!part.has_mesh() || std::holds_alternative<Patch>(part.geometry)) continue;
+    const double by = coarsen_mesh(part, factor);
+    if (by == 1 || (coarser > 1 && by != coarser)) return 1;
+    coarser = by;
+  }
+  return coarser;
+}
+
+/// Whether all meshes are such; and there is one.
+template<class T>
+bool all_are(const Case& one) {
+  return one.any_geometry<T>() && std::ranges::all_of(one.parts, [](const Part& part) {
+           return !part.has_mesh() || std::holds_alternative<T>(part.geometry);
+         });
 }
 
 /// Time steps longer by a factor, in which a scheme of second order has a local error larger by its cube. The
@@ -61,14 +82,16 @@ bool takes_time(const Case& one) {
 
 std::vector<Discretisation> other_discretisations(const Case& one) {
   std::vector<Discretisation> others;
-  if (std::holds_alternative<MeshFile>(one.geometry) && one.mesh.refine == 0) {
+  const bool own_meshes = all_are<MeshFile>(one);
+  if (own_meshes &&
+      std::ranges::any_of(one.parts, [](const Part& p) { return p.has_mesh() && p.mesh.refine == 0; })) {
     Discretisation& finer = others.emplace_back(Discretisation{one, 0.5});
-    ++finer.one.mesh.refine;
+    for (Part& part : finer.one.parts) ++part.mesh.refine;
     coarsen_steps(finer.one, 2);
     return others;
   }
   const bool timed = takes_time(one);
-  if (std::holds_alternative<Patch>(one.geometry) && !timed) {
+  if (all_are<Patch>(one) && !timed) {
     Discretisation& fewer = others.emplace_back(Discretisation{one, fewer_increments});
     coarsen_steps(fewer.one, 1);
     return others;
@@ -76,7 +99,7 @@ std::vector<Discretisation> other_discretisations(const Case& one) {
   double coarsest_mesh = 1;
   for (const int factor : {2, 4}) {
     Discretisation coarser{one};
-    const double elements = coarsen_mesh(coarser.one, factor);
+    const double elements = coarsen_meshes(coarser.one, factor);
     if (elements < coarsest_mesh || (elements == 1 && !timed)) break;
     coarsest_mesh = elements;
     coarsen_steps(coarser.one, factor);

@@ -12,13 +12,18 @@ bool has_step(const Case& one, std::initializer_list<StepKind> kinds) {
 
 bool has_mass(const Case& one) {
   const auto heavy = [](const auto& body) { return body.mass > 0; };
-  return one.film.material.density > 0 || (one.plate && heavy(*one.plate)) ||
-         std::ranges::any_of(one.point_masses, heavy) || std::ranges::any_of(one.bodies, heavy);
+  return one.any_film([](const Film& film) { return film.material.density > 0; }) ||
+         (one.plate && heavy(*one.plate)) || std::ranges::any_of(one.point_masses, heavy) ||
+         std::ranges::any_of(one.bodies, heavy);
 }
 
 bool is_linearised(const Case& one) { return one.linearise.written || has_step(one, {StepKind::harmonic}); }
 
 namespace {
+
+bool has_branches(const Case& one) {
+  return one.any_film([](const Film& film) { return !film.material.branches.empty(); });
+}
 
 bool is_timed(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });
@@ -68,8 +73,7 @@ Condition electrodes() {
 }
 
 Condition branches() {
-  return on_case("a [[film.material.branch]]",
-                 [](const Case& one) { return !one.film.material.branches.empty(); });
+  return on_case("a [[film.material.branch]]", [](const Case& one) { return has_branches(one); });
 }
 
 Condition time_passes() { return on_case("a step with a duration", is_timed); }
@@ -124,7 +128,7 @@ Condition time_steps_matter() {
                    const bool sheets = std::ranges::any_of(one.electrodes, [](const Electrode& electrode) {
                      return electrode.sheet_resistance.has_value();
                    });
-                   const bool flows = !one.film.material.branches.empty() || !one.circuits.empty() || sheets;
+                   const bool flows = has_branches(one) || !one.circuits.empty() || sheets;
                    return is_timed(one) && (flows || has_inertia(one));
                  });
 }
@@ -157,9 +161,10 @@ Condition volume_applies() {
 }
 
 Condition curved_triangles() {
-  return on_case("6-node triangles: mesh.order = 2 of a film that is not of revolution", [](const Case& one) {
-    return one.mesh.order == 2 && one.dimension != fem::Dimension::axisymmetric;
-  });
+  return on<Part>("6-node triangles: mesh.order = 2 of a film that is not of revolution",
+                  [](const Case& one, const Part& part) {
+                    return part.mesh.order == 2 && one.dimension != fem::Dimension::axisymmetric;
+                  });
 }
 
 Condition moves_along_it() {

@@ -142,10 +142,7 @@ Scalar convert_item(const Key& key, const Node& node, std::string_view unit, con
       if (key.choices[i].word == node.text) return {static_cast<double>(i), node.text};
     mismatch(node, "", allowed + (text ? did_you_mean(node.text, words_of(key)) : ""));
   case Type::name:
-    if (!text || node.text.empty() || node.text.size() > longest_name) mismatch(node, "", allowed);
-    for (const unsigned char letter : node.text)
-      if (letter > 127 || (!std::isalnum(letter) && letter != '_' && letter != '-'))
-        mismatch(node, "", allowed);
+    if (!text || !is_name(node.text)) mismatch(node, "", allowed);
     return {0, node.text};
   case Type::text:
     break;
@@ -214,6 +211,12 @@ std::string toml_text(const Key& key, const Value& value) {
   std::string items;
   for (const Scalar& scalar : value) items += (items.empty() ? "" : ", ") + item(scalar);
   return fmt::format("[{}]", items);
+}
+
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= longest_name && std::ranges::all_of(text, [](unsigned char letter) {
+    return letter <= 127 && (std::isalnum(letter) || letter == '_' || letter == '-');
+  });
 }
 
 std::string expectation(const Key& key, std::string_view unit) {

@@ -22,6 +22,9 @@ using WaveReader = std::function<Waveform(const Node& table)>;
 /// check. Throws Mismatch.
 Value convert(const Key& key, const Node& node, std::string_view unit, const WaveReader& read_wave = {});
 
+/// Whether a text is a name: at most longest_name letters, digits, _ and -.
+bool is_name(std::string_view text);
+
 /// The inverse: TOML text of a value, in SI units.
 std::string toml_text(const Key& key, const Value& value);
 

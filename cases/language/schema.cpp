@@ -121,6 +121,10 @@ const Key* Section::find_key(std::string_view wanted, const std::string& selecte
   return other;
 }
 
+bool Section::has_geometries() const {
+  return std::ranges::any_of(sections, [](const Section& s) { return s.presence == Presence::geometry; });
+}
+
 std::vector<std::string> Section::names_for(const std::string& selected) const {
   std::vector<std::string> known;
   for (const Key& candidate : keys)
@@ -198,9 +202,8 @@ const Section& case_schema() {
             .otherwise("planar"),
         text("case", {}, "of a study file: the case file that it varies").optional().only({"study"}),
     };
-    root.sections.push_back(film_section());
-    for (Section& section : geometry_sections()) root.sections.push_back(std::move(section));
-    root.sections.push_back(mesh_section());
+    for (Section& section : unnamed_part_sections()) root.sections.push_back(std::move(section));
+    for (Section& section : part_sections()) root.sections.push_back(std::move(section));
     for (Section& section : action_sections()) root.sections.push_back(std::move(section));
     root.sections.push_back(step_section());
     for (Section& section : result_sections()) root.sections.push_back(std::move(section));

@@ -3,6 +3,7 @@
 
 #include "cases/case/case.hpp"
 #include "cases/case/study_spec.hpp"
+#include "cases/text/tree.hpp"
 
 #include <functional>
 #include <limits>
@@ -129,7 +130,12 @@ struct Conflict {
 };
 
 struct Section {
-  enum class Shape { table, list, by_electrode };
+  enum class Shape {
+    table,
+    list,
+    by_electrode,
+    named, ///< [section.NAME], any names
+  };
   enum class Presence {
     required,
     defaulted, ///< read as an empty table when it is absent
@@ -154,6 +160,8 @@ struct Section {
   std::function<bool(void* object, const std::string& name)> start;
   std::function<std::optional<Conflict>(const void* object)> check;
   Condition acts{}; ///< of all its keys
+  /// When it may be left out although it is required or has defaults, by what stands around it.
+  std::function<bool(const Node& outer)> needless{};
 
   /// "[path]" or "[[path]]"
   std::string heading(const std::string& path) const;
@@ -162,6 +170,8 @@ struct Section {
   const Section* find_section(std::string_view wanted) const;
   /// The key of that name that exists for `selected`; otherwise any of that name; null when there is none.
   const Key* find_key(std::string_view wanted, const std::string& selected) const;
+  /// Whether a geometry is among its sections.
+  bool has_geometries() const;
   /// Names of the keys that exist for `selected`, and of the sections.
   std::vector<std::string> names_for(const std::string& selected) const;
 };
@@ -234,6 +244,17 @@ Access member(M T::*part) {
           }};
 }
 
+template<class T, class M>
+Access present(std::optional<M> T::*part) {
+  return {[part](void* parent, const std::string&) -> void* {
+            return &(static_cast<T*>(parent)->*part).emplace();
+          },
+          [part](const void* parent) {
+            const auto& one = static_cast<const T*>(parent)->*part;
+            return one ? std::vector<Access::Entry>{{"", &*one}} : std::vector<Access::Entry>{};
+          }};
+}
+
 /// The items of a list. Those that a template has brought come back with it: they are no entries.
 template<class T, class M>
 Access each(std::vector<M> T::*list) {
@@ -271,10 +292,13 @@ Key text(std::string name, Binding binding, std::string meaning);
 // --- the parts of the table, one file each
 // -------------------------------------------------------------------------
 
-Section film_section();
-std::vector<Section> geometry_sections();
-Section mesh_section();
-std::vector<Section> action_sections(); ///< electrode, support, load, spring, linkage, drive
+Section film_section();                       ///< of a Part
+std::vector<Section> geometry_sections();     ///< of a Part
+Section mesh_section();                       ///< of a Part
+Section beam_section();                       ///< of a Part
+std::vector<Section> unnamed_part_sections(); ///< film, the geometries, mesh
+std::vector<Section> part_sections();         ///< part, tie
+std::vector<Section> action_sections();       ///< electrode, support, load, spring, linkage, drive
 Section step_section();
 std::vector<Section> result_sections(); ///< quantity, check, solver, output, linearise, study
 std::vector<Section> fit_sections();    ///< fit, test

@@ -37,7 +37,7 @@ void add_homes(const std::string& key, const Section& section, const std::string
   for (const Section& inner : section.sections) {
     const std::string inner_path = joined(path, inner.name);
     if (inner.find_key(key, "") || inner.find_section(key)) homes.push_back(inner.heading(inner_path));
-    add_homes(key, inner, inner_path, homes);
+    if (inner.shape != Section::Shape::named) add_homes(key, inner, inner_path, homes); // they are at the top, too
   }
 }
 
@@ -58,12 +58,14 @@ std::string home_of(const std::string& key) {
 void SectionReader::read_table(const Section& section, const Node& node, void* object,
                                const std::string& path) {
   const std::size_t errors_before = diagnostics_.size() + unread_;
+  const std::string outer_geometry = geometry_;
+  if (section.has_geometries() && surroundings_.geometry_of) geometry_ = surroundings_.geometry_of(node);
   const Node* name = section.start ? node.find("name") : nullptr;
   const bool started = name && name->is(Node::Kind::text) && section.start(object, name->text);
   const std::string brought = started ? section.selected_in(object) : "";
   std::string selected;
   if (section.selector == "geometry")
-    selected = surroundings_.geometry.empty() ? undecided : surroundings_.geometry;
+    selected = geometry_.empty() ? undecided : geometry_;
   else if (!section.selector.empty())
     selected = selected_by(section, node, object, started);
 
@@ -74,6 +76,7 @@ void SectionReader::read_table(const Section& section, const Node& node, void* o
   for (const Section& inner : section.sections)
     if (inner.presence != Section::Presence::separate) read_section(inner, node, object, path);
   report_unknown(section, node, selected, path);
+  geometry_ = outer_geometry;
 
   if (section.check && diagnostics_.size() + unread_ == errors_before)
     if (const auto conflict = section.check(object)) {
@@ -155,6 +158,7 @@ void SectionReader::read_section(const Section& section, const Node& outer, void
   Node substitute;
   substitute.source = outer.source;
   if (!node) {
+    if (section.needless && section.needless(outer)) return;
     if (section.presence == Presence::geometry || section.presence == Presence::list ||
         section.presence == Presence::optional)
       return;
@@ -191,6 +195,8 @@ void SectionReader::read_section(const Section& section, const Node& outer, void
                    : fmt::format("found {}, allowed a section [{}]", text_of(*node), full));
   } else if (section.shape == Section::Shape::by_electrode) {
     read_by_electrode(section, *node, parent, full);
+  } else if (section.shape == Section::Shape::named) {
+    read_named(section, *node, parent, full);
   } else {
     read_table(section, *node, section.access.enter(parent, ""), full);
   }
@@ -224,6 +230,22 @@ void SectionReader::read_list(const Section& section, const Node& node, void* pa
              fmt::format("\"{}\" is taken; give each [[{}]] a {} of its own", value->at(0).text, path,
                          key.name));
     }
+  }
+}
+
+void SectionReader::read_named(const Section& section, const Node& node, void* parent,
+                               const std::string& path) {
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const std::string& name = node.keys[i];
+    const std::string full = joined(path, name);
+    if (!is_name(name))
+      report(node.items[i].key_source, full,
+             fmt::format("allowed a name of at most {} letters, digits, \"_\" and \"-\"", longest_name));
+    else if (!node.items[i].is(Node::Kind::table))
+      report(node.items[i].source, full,
+             fmt::format("found {}, allowed a section [{}.NAME]", text_of(node.items[i]), path));
+    else
+      read_table(section, node.items[i], section.access.enter(parent, name), full);
   }
 }
 

@@ -12,7 +12,8 @@ namespace dielast::cases {
 
 /// What a section needs to know of the rest of the case.
 struct Surroundings {
-  std::string geometry;         ///< name of the template, "file" for a user's mesh; empty: none or several
+  /// Name of the geometry that a table has, "file" for a user's mesh; empty: none or several.
+  std::function<std::string(const Node& table)> geometry_of;
   std::filesystem::path folder; ///< of the case file: relative names of files start there
   std::function<std::vector<std::string>()> electrodes; ///< names
   /// SI unit of a quantity; nothing when there is none of that name
@@ -53,6 +54,7 @@ class SectionReader {
   void read_section(const Section& section, const Node& outer, void* parent, const std::string& path);
   void read_list(const Section& section, const Node& node, void* parent, const std::string& path);
   void read_by_electrode(const Section& section, const Node& node, void* parent, const std::string& path);
+  void read_named(const Section& section, const Node& node, void* parent, const std::string& path);
   void report_unknown(const Section& section, const Node& table, const std::string& selected,
                       const std::string& path);
   void set(const Key& key, const Node& node, const Node& table, void* object, const std::string& path);
@@ -60,6 +62,7 @@ class SectionReader {
   std::optional<std::string> unit_of(const Key& key, const Node& table) const;
 
   Surroundings surroundings_;
+  std::string geometry_; ///< of the table with geometries that is being read
   std::vector<Diagnostic> diagnostics_, warnings_;
   std::size_t unread_ = 0; ///< keys that could not be understood because of an error elsewhere
   std::map<Reference, std::vector<Mention>> mentions_;

@@ -109,7 +109,7 @@ std::string materials_text() {
   text += "Wall materials (honeycomb.wall_material)\n";
   for (const auto& named : materials::named_solids()) {
     Honeycomb honeycomb;
-    honeycomb.wall_material = named.solid;
+    honeycomb.wall.material = named.solid;
     text += fmt::format("  \"{}\"\n    from: {}\n    for: {}\n{}", named.name, named.source, named.validity,
                         values_text(wall_keys, &honeycomb));
   }
@@ -146,10 +146,8 @@ std::string devices_text() {
     const Node defaults = parse_tree(device.defaults, "");
     for (std::size_t i = 0; i < defaults.items.size(); ++i)
       text += fmt::format("  {} = {}\n", defaults.keys[i], text_of(defaults.items[i]));
-    Node standard = defaults;
-    add_standard_quantities(standard, device);
     text += "\nstandard quantities\n";
-    for (const Node& quantity : standard.find("quantity")->items)
+    for (const Node& quantity : standard_quantities(defaults, &device))
       text += fmt::format("  {}\n", text_of(quantity));
     text += "\n";
   }

@@ -70,6 +70,8 @@ Json key_schema(const Key& key) {
 Json shaped_schema(const Section& section) {
   Json schema = section_schema(section);
   if (section.shape == Section::Shape::list) return {{"type", "array"}, {"minItems", 1}, {"items", schema}};
+  if (section.shape == Section::Shape::named)
+    return {{"type", "object"}, {"description", section.meaning}, {"additionalProperties", schema}};
   if (section.shape == Section::Shape::by_electrode) schema["additionalProperties"] = section_schema(section);
   if (section.names)
     return {{"anyOf", {{{"enum", section.names()}}, schema}}, {"description", section.meaning}};

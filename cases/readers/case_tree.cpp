@@ -34,14 +34,14 @@ void require_known(SectionReader& reader, Reference kind, const std::string& nou
                                 did_you_mean(mention.name, known)));
 }
 
-/// Exactly one geometry must be given.
+/// Exactly one geometry must be given at the top of the file, with parts at most one.
 void require_one_geometry(SectionReader& reader, const Node& tree) {
   std::vector<std::string> allowed;
   for (const Template& device : templates())
     if (device.with.empty())
       allowed.push_back(device.name == "file" ? "[mesh] file = \"...\"" : fmt::format("[{}]", device.name));
   const auto found = geometries_of(tree);
-  if (found.empty())
+  if (found.empty() && !tree.find("part"))
     reader.report(tree.source, "",
                   fmt::format("there is no geometry; add one of {}", fmt::join(allowed, ", ")));
   else if (found.size() > 1)
@@ -51,10 +51,11 @@ void require_one_geometry(SectionReader& reader, const Node& tree) {
           fmt::format("there are {} geometries; keep one of {}", found.size(), fmt::join(allowed, ", ")));
 }
 
-/// Makes the mesh file's path independent of the working directory.
-void locate_mesh(SectionReader& reader, const Node& tree, Case& one) {
-  auto* file = std::get_if<MeshFile>(&one.geometry);
-  const Node* mesh = tree.find("mesh");
+/// Makes the path of a part's mesh file independent of the working directory.
+void locate_mesh(SectionReader& reader, const Node& tree, const Case& one, Part& part) {
+  auto* file = std::get_if<MeshFile>(&part.geometry);
+  const Node* top = part.name.empty() ? &tree : tree.find("part")->find(part.name);
+  const Node* mesh = top->find("mesh");
   const Node* written = file && mesh ? mesh->find("file") : nullptr;
   if (!written) return;
   const std::string name = file->path.string();
@@ -62,7 +63,7 @@ void locate_mesh(SectionReader& reader, const Node& tree, Case& one) {
   std::error_code failure;
   if (!std::filesystem::is_regular_file(file->path, failure))
     reader.report(
-        written->source, "mesh.file",
+        written->source, part.name.empty() ? "mesh.file" : fmt::format("part.{}.mesh.file", part.name),
         fmt::format("found {}: no such file; the path starts at the case file's folder", toml_string(name)));
 }
 
@@ -76,19 +77,15 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   Case one;
   one.source = path;
   one.title = path.stem().string();
-  const Template* device = template_of(tree);
-  int standard = 0;
-  if (device) {
-    add_defaults(tree, *device);
-    standard = add_standard_quantities(tree, *device);
-  }
+  add_defaults(tree);
+  const int standard = add_standard_quantities(tree);
 
   if (const std::string name = path.stem().string(); name.size() > longest_name)
     throw CaseError(
         {{tree.source, "",
           fmt::format("the file's name is too long: results are called after it, allowed {} letters",
                       longest_name)}});
-  SectionReader reader({geometries_of(tree).size() == 1 ? std::string(device->name) : "", path.parent_path(),
+  SectionReader reader({geometry_of, path.parent_path(),
                         [&] { return names_of(one.electrodes, &Electrode::name); },
                         [&](const std::string& name) -> std::optional<std::string> {
                           for (const Quantity& quantity : one.quantities)
@@ -100,7 +97,8 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   for (int i = 0; i < std::min<int>(standard, static_cast<int>(one.quantities.size())); ++i)
     one.quantities[static_cast<std::size_t>(i)].standard = true;
   add_patch_sides(one);
-  if (one.mesh.rings == 0) one.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
+  for (Part& part : one.parts)
+    if (part.mesh.rings == 0) part.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
 
   require_known(reader, Reference::electrode, "electrode", names_of(one.electrodes, &Electrode::name));
   require_known(reader, Reference::step, "step", names_of(one.steps, &Step::name));
@@ -111,7 +109,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
     if (body.pivot || std::ranges::count(body.fixed, true) > 0) supported.push_back(body.name);
   require_known(reader, Reference::supported_place, "supported place", supported);
   check_rules(reader, tree, one);
-  locate_mesh(reader, tree, one);
+  for (Part& part : one.parts) locate_mesh(reader, tree, one, part);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   one.places = reader.mentions(Reference::place);
   one.linearise.written = tree.find("linearise");
@@ -122,7 +120,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
 
 Node read_case_file(const std::filesystem::path& path) {
   Node tree = read_tree(path);
-  if (const Template* device = template_of(tree)) add_defaults(tree, *device);
+  add_defaults(tree);
   return tree;
 }
 

@@ -19,8 +19,9 @@ class IdleKeys {
       warn(table.source, path, section.acts);
       return;
     }
-    const std::string selected =
-        section.selector == "geometry" ? geometry_name(case_) : section.selected_in(object);
+    const std::string selected = section.selector == "geometry"
+                                     ? geometry_name(*static_cast<const Part*>(object))
+                                     : section.selected_in(object);
     for (const Key& key : section.keys) {
       const Node* node = key.applies_to(selected) ? table.find(key.name) : nullptr;
       if (node && node->source.is_written() && is_idle(key.acts, object) && !is_default(key, object))
@@ -57,6 +58,10 @@ class IdleKeys {
       for (std::size_t i = 0; i < count; ++i)
         check(section, node.items[brought + i], entries[entries.size() - count + i].object,
               fmt::format("{}[{}]", path, i + 1));
+    } else if (section.shape == Section::Shape::named) {
+      for (const Access::Entry& entry : entries)
+        if (const Node* own = node.find(entry.name))
+          check(section, *own, entry.object, joined(path, entry.name));
     } else if (section.shape == Section::Shape::by_electrode) {
       for (const Access::Entry& entry : entries) {
         const Node* own = node.find(entry.name);

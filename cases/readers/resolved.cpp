@@ -17,18 +17,21 @@
 
 namespace dielast::cases {
 
-std::string geometry_name(const Case& one) {
-  for (const Section& section : case_schema().sections)
-    if (section.presence == Section::Presence::geometry && !section.access.entries(&one).empty())
+std::string geometry_name(const Part& part) {
+  if (!part.has_mesh()) return "";
+  for (const Section& section : case_schema().find_section("part")->sections)
+    if (section.presence == Section::Presence::geometry && !section.access.entries(&part).empty())
       return section.name;
   return "file";
 }
 
 namespace {
 
-void write_section(const Section& section, const void* object, const std::string& path,
-                   const std::string& geometry, std::ostream& out) {
-  const std::string selected = section.selector == "geometry" ? geometry : section.selected_in(object);
+void write_section(const Section& section, const void* object, const std::string& path, std::ostream& out) {
+  const std::string selected = section.selector == "geometry"
+                                   ? geometry_name(*static_cast<const Part*>(object))
+                                   : section.selected_in(object);
+  if (section.selector == "geometry" && selected.empty()) return; // a place has the mesh of another part
   for (const Key& key : section.keys)
     if (key.applies_to(selected) && key.binding.get)
       if (const auto value = key.binding.get(object))
@@ -39,7 +42,7 @@ void write_section(const Section& section, const void* object, const std::string
       const std::string inner_path =
           (path.empty() ? "" : path + ".") + inner.name + (entry.name.empty() ? "" : "." + entry.name);
       fmt::print(out, "\n{}\n", inner.heading(inner_path));
-      write_section(inner, entry.object, inner_path, geometry, out);
+      write_section(inner, entry.object, inner_path, out);
     }
   }
 }
@@ -98,7 +101,7 @@ std::map<std::string, std::string> settings_of(const std::string& resolved) {
 std::string resolved_text(const Case& one) {
   std::ostringstream out;
   write_head(out);
-  write_section(case_schema(), &one, "", geometry_name(one), out);
+  write_section(case_schema(), &one, "", out);
   fmt::print(out, "\n# standard quantities of this geometry:");
   for (const Quantity& quantity : one.quantities)
     if (quantity.standard) fmt::print(out, " {}", quantity.name);
@@ -112,7 +115,7 @@ std::string resolved_text(const Fit& fit) {
   write_head(out);
   Section schema = fit_schema();
   std::ranges::find(schema.sections, "film", &Section::name)->keys.clear(); // only its material is read
-  write_section(schema, &fit, "", "", out);
+  write_section(schema, &fit, "", out);
   fmt::print(out, "\n");
   for (std::size_t t = 0; t < fit.tests.size(); ++t)
     write_checksum(fmt::format("test[{}].file", t + 1), fit.source.parent_path() / fit.tests[t].file, out);

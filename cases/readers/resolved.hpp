@@ -24,7 +24,7 @@ std::string resolved_changes(const std::string& before, const std::string& now);
 /// `resolved`. They may be of nothing yet.
 void require_unchanged(const std::filesystem::path& folder, const std::string& resolved);
 
-/// Name of the geometry's section; "file" for a user's own mesh.
-std::string geometry_name(const Case& one);
+/// Name of the section of a part's geometry; "file" for a user's own mesh, empty for a place of another's.
+std::string geometry_name(const Part& part);
 
 } // namespace dielast::cases

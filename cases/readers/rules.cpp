@@ -310,15 +310,15 @@ void check_axes(SectionReader& reader, const Node& tree, const Case& one) {
 
 /// What moves out of its plane, or has none.
 void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
-  const bool annulus = std::holds_alternative<Annulus>(one.geometry);
-  const bool round = annulus || std::holds_alternative<Disc>(one.geometry);
-  const bool balloon = std::holds_alternative<Balloon>(one.geometry);
+  const bool annulus = one.geometry<Annulus>();
+  const bool round = annulus || one.geometry<Disc>();
+  const bool balloon = one.geometry<Balloon>();
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
   if (balloon && !of_revolution)
     report_at(reader, tree, "model", "a balloon is a film of revolution: model = \"axisymmetric\"");
   if (of_revolution && !round && !balloon)
     report_at(reader, tree, "model", "\"axisymmetric\" is for [disc], [annulus] and [balloon]");
-  if (of_revolution && one.film.prestretch[0] != one.film.prestretch[1])
+  if (of_revolution && one.any_film([](const Film& film) { return film.prestretch[0] != film.prestretch[1]; }))
     report_at(reader, tree, "film", "a film of revolution has one prestretch in all directions");
   if (one.dimension == fem::Dimension::planar)
     for (const char* section : {"plate", "chamber"})
@@ -326,16 +326,6 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
         report_at(reader, tree, section,
                   "a planar model does not move along z; use model = \"axisymmetric\" or \"3d\"");
   if (balloon && !one.chamber) report_at(reader, tree, "balloon", "a balloon needs a [chamber]");
-}
-
-void check_patch(SectionReader& reader, const Node& tree, const Case& one) {
-  const auto* patch = std::get_if<Patch>(&one.geometry);
-  if (!patch || patch->mode != PatchMode::equal_biaxial || one.film.prestretch[0] == one.film.prestretch[1])
-    return;
-  const Node* written = tree.find("film")->find("prestretch");
-  reader.report(
-      written->source, "film.prestretch",
-      fmt::format("found {}: in equal-biaxial tension x and y are stretched alike", text_of(*written)));
 }
 
 } // namespace
@@ -355,7 +345,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_names(reader, tree, one);
   check_axes(reader, tree, one);
   check_dimension(reader, tree, one);
-  check_patch(reader, tree, one);
+  check_parts(reader, tree, one);
 }
 
 } // namespace dielast::cases

@@ -9,4 +9,7 @@ namespace dielast::cases {
 /// something to apply, time steps resolve the waves, a patch can do what it is asked.
 void check_rules(SectionReader& reader, const Node& tree, const Case& one);
 
+/// What a part must have, and what goes with what in it. Of the rules above, too.
+void check_parts(SectionReader& reader, const Node& tree, const Case& one);
+
 } // namespace dielast::cases

@@ -155,7 +155,8 @@ std::vector<EventRemark> event_remarks(const Case& one, const Solution& own,
       const Quantity& quantity = one.quantities[q];
       if (quantity.kind != QuantityKind::extreme || quantity.of != threshold.field ||
           quantity.extreme != threshold.extreme || !quantity.at.empty() || !std::isfinite(own.values[q]) ||
-          (one.film.tension_field && threshold.kind == "loss of tension"))
+          (one.any_film([](const Film& film) { return film.tension_field; }) &&
+           threshold.kind == "loss of tension"))
         continue;
       std::string remark = threshold_remark(quantity, own.values[q], own.rises[q], estimates[q],
                                             threshold.limit, unit_of(quantity, one.quantities));
@@ -186,7 +187,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
     estimates.reason = "the mesh is the coarsest already";
     return estimates;
   }
-  if (discretisations.front().size < 1 && one.film.tension_field) {
+  if (discretisations.front().size < 1 && own_run.device().tension_field) {
     estimates.reason =
         "a finer mesh of film that wrinkles may take far longer than this one; mesh.refine = 1 "
         "tells what it changes";
@@ -214,8 +215,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   if (!estimates.reason.empty()) return estimates;
 
   const meshing::CellType type = own_run.device().mesh.film()->type;
-  const bool corners =
-      std::holds_alternative<Honeycomb>(one.geometry) || std::holds_alternative<MeshFile>(one.geometry);
+  const bool corners = one.any_geometry<Honeycomb>() || one.any_geometry<MeshFile>();
   const bool smooth =
       !corners && (type == meshing::CellType::triangle6 || type == meshing::CellType::meridian3);
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {

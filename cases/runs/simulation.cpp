@@ -32,14 +32,17 @@ Simulation::Simulation(const Case& one, int threads)
       measurement_(one, device_), watch_(device_), steps_(one.steps),
       results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
   const Eigen::VectorXd frame = frame_force();
-  const double film_force = equilibrium_.assembler().block_residuals().front().norm();
+  double film_force = 0;
+  for (int b = 0; b < device_.films; ++b)
+    film_force =
+        std::max(film_force, equilibrium_.assembler().block_residuals()[static_cast<std::size_t>(b)].norm());
   const bool at_rest = frame.norm() <= std::max(balanced * film_force, equilibrium_.round_off());
   // A film drawn in tension with free edges must find its equilibrium before it can be driven.
   const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
   if (settles) steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
   for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
   for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
-  if (settles && !std::holds_alternative<Patch>(one.geometry))
+  if (settles && !one.any_geometry<Patch>())
     warnings_.push_back(
         fmt::format("the film is not held in its prestretch{}: a step \"settle\" before the first cuts it "
                     "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",
@@ -86,31 +89,31 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     energy_.add(std::move(point));
 }
 
-/// Whether the permittivity is positive everywhere; otherwise refusal_ says where it is not.
+/// Whether the permittivity of film under an electrode is positive everywhere; otherwise refusal_ says where
+/// it is not.
 bool Simulation::admits(const Step& step, double load_factor, const fem::State& state) {
   refusal_.reset();
-  const double left = smallest_permittivity(state);
-  if (left > 0) return true;
+  if (!case_.any_film([](const Film& film) { return film.material.dielectric.electrostriction != 0; }))
+    return true;
+  double smallest = std::numeric_limits<double>::infinity(), electrostriction = 0;
+  for (const fem::MembraneSample& at : device_.model.sample(state).film) {
+    if (at.electrode < 0) continue;
+    const int part = device_.film_parts[static_cast<std::size_t>(at.cell)];
+    const materials::Dielectric& dielectric =
+        case_.parts[static_cast<std::size_t>(part)].film->material.dielectric;
+    const Eigen::Matrix2d C = at.F.transpose() * at.F;
+    const double det = C.determinant() * at.widening * at.widening;
+    const double left = dielectric.permittivity_at(C.trace(), det) / dielectric.permittivity;
+    if (left < smallest) electrostriction = dielectric.electrostriction;
+    smallest = std::min(smallest, left);
+  }
+  if (smallest > 0) return true;
   refusal_ = {
       Ending::gave_up, "loss of permittivity",
       fmt::format("step \"{}\" stopped: at load factor {:.4g} electrostriction = {:.6g} would make the "
                   "permittivity of film under an electrode negative, {:.3g} of the undeformed film's",
-                  step.name, load_factor, case_.film.material.dielectric.electrostriction, left)};
+                  step.name, load_factor, electrostriction, smallest)};
   return false;
-}
-
-/// The smallest permittivity of film under an electrode, over that of the undeformed film.
-double Simulation::smallest_permittivity(const fem::State& state) const {
-  const materials::Dielectric& dielectric = case_.film.material.dielectric;
-  double smallest = std::numeric_limits<double>::infinity();
-  if (dielectric.electrostriction == 0) return smallest;
-  for (const fem::MembraneSample& at : device_.model.sample(state).film) {
-    if (at.electrode < 0) continue;
-    const Eigen::Matrix2d C = at.F.transpose() * at.F;
-    const double det = C.determinant() * at.widening * at.widening;
-    smallest = std::min(smallest, dielectric.permittivity_at(C.trace(), det) / dielectric.permittivity);
-  }
-  return smallest;
 }
 
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,

@@ -77,7 +77,6 @@ class Simulation {
  private:
   Eigen::VectorXd frame_force();
   bool admits(const Step& step, double load_factor, const fem::State& state);
-  double smallest_permittivity(const fem::State& state) const;
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
               const fem::Increment& increment, Reached reached);
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);

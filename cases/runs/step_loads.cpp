@@ -209,7 +209,7 @@ fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
 fem::RampOptions StepLoads::options(int number) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   fem::RampOptions options{
-      .newton = {case_.solver.tolerance, case_.solver.max_iterations, case_.film.tension_field},
+      .newton = {case_.solver.tolerance, case_.solver.max_iterations, device_.tension_field},
       .increments = step.increments,
       .smallest_increment = case_.solver.smallest_increment,
       .instantaneous = step.response == Response::instantaneous,
@@ -219,7 +219,9 @@ fem::RampOptions StepLoads::options(int number) const {
   options.inertia = step.inertia && device_.model.inertia.mass.nonZeros() > 0;
   if (step.record) options.landing = *step.record / *step.duration;
   // One backward Euler step of h errs by (h / tau)^2 / 2 of what is left to relax.
-  const double shortest = shortest_relaxation(case_.film.material, device_.model);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Part& part : case_.parts)
+    if (part.film) shortest = std::min(shortest, shortest_relaxation(part.film->material, device_.model));
   if (std::isfinite(shortest)) options.first_time_step = std::sqrt(2 * options.time_tolerance) * shortest;
   return options;
 }

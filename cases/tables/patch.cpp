@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/tables/patch.hpp"
 
+#include <cmath>
+
 namespace dielast::cases {
 namespace {
 
@@ -11,30 +13,38 @@ void hold(Case& one, const std::string& place, std::size_t axis, std::optional<W
   one.supports.push_back(std::move(support));
 }
 
-/// The side that moves along an axis. With the stretch lambda it moves by (lambda - lambda_p) length from
-/// where the prestretched film is drawn; the nominal stress s is the dead force s H across.
-void drive_side(Case& one, const std::string& place, std::size_t axis, double length, double across,
-                const std::optional<Waveform>& stretch, const std::optional<Waveform>& stress) {
-  if (stretch) hold(one, place, axis, stretch->affine(length, -one.film.prestretch[axis] * length));
+/// The side that moves along an axis, of a patch that is turned (sign -1) or is not (1). With the stretch
+/// lambda it moves by (lambda - lambda_p) length from where the prestretched film is drawn; the nominal
+/// stress s is the dead force s H across.
+void drive_side(Case& one, const Film& film, double sign, const std::string& place, std::size_t axis,
+                double length, double across, const std::optional<Waveform>& stretch,
+                const std::optional<Waveform>& stress) {
+  if (stretch) hold(one, place, axis, stretch->affine(sign * length, -sign * film.prestretch[axis] * length));
   if (!stress) return;
   Load load{.place = place, .standard = true};
-  load.force[axis] = stress->affine(one.film.thickness * across, 0);
+  load.force[axis] = stress->affine(sign * film.thickness * across, 0);
   one.loads.push_back(std::move(load));
+}
+
+void add_sides(Case& one, const Part& part, const Patch& patch) {
+  const bool alike = patch.mode == PatchMode::equal_biaxial;
+  const double sign = std::cos(part.turned) < 0 ? -1 : 1;
+  hold(one, part.called("left"), 0);
+  hold(one, part.called("bottom"), 1);
+  if (one.dimension == fem::Dimension::spatial) hold(one, part.called("film"), 2);
+  if (patch.mode == PatchMode::pure_shear) hold(one, part.called("top"), 1);
+  drive_side(one, *part.film, sign, part.called("right"), 0, patch.length, patch.width, patch.stretch_x,
+             patch.stress_x);
+  drive_side(one, *part.film, sign, part.called("top"), 1, patch.width, patch.length,
+             alike ? patch.stretch_x : patch.stretch_y, alike ? patch.stress_x : patch.stress_y);
 }
 
 } // namespace
 
 void add_patch_sides(Case& one) {
-  const auto* patch = std::get_if<Patch>(&one.geometry);
-  if (!patch) return;
-  const bool alike = patch->mode == PatchMode::equal_biaxial;
-  hold(one, "left", 0);
-  hold(one, "bottom", 1);
-  if (one.dimension == fem::Dimension::spatial) hold(one, "film", 2);
-  if (patch->mode == PatchMode::pure_shear) hold(one, "top", 1);
-  drive_side(one, "right", 0, patch->length, patch->width, patch->stretch_x, patch->stress_x);
-  drive_side(one, "top", 1, patch->width, patch->length, alike ? patch->stretch_x : patch->stretch_y,
-             alike ? patch->stress_x : patch->stress_y);
+  for (const Part& part : one.parts)
+    if (const auto* patch = std::get_if<Patch>(&part.geometry); patch && part.film)
+      add_sides(one, part, *patch);
 }
 
 } // namespace dielast::cases

@@ -194,18 +194,6 @@ Section circuit_section() {
   return section;
 }
 
-/// Access to a section that is there or not.
-template<class T>
-Access present(std::optional<T> Case::*part) {
-  return {[part](void* parent, const std::string&) -> void* {
-            return &(static_cast<Case*>(parent)->*part).emplace();
-          },
-          [part](const void* parent) {
-            const auto& object = static_cast<const Case*>(parent)->*part;
-            return object ? std::vector<Access::Entry>{{"", &*object}} : std::vector<Access::Entry>{};
-          }};
-}
-
 template<class T>
 std::vector<Key> mass_keys() {
   return {measure("mass", "kg", to(&T::mass), "its mass").at_least(0),

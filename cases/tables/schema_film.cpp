@@ -187,7 +187,7 @@ Section film_section() {
   section.name = "film";
   section.meaning = "the dielectric film";
   section.presence = Section::Presence::required;
-  section.access = member(&Case::film);
+  section.access = present(&Part::film);
   section.keys = {
       measure("thickness", "m", to(&Film::thickness), "thickness of the unstretched film")
           .above(0)

@@ -14,18 +14,20 @@ namespace {
 template<class T>
 Access geometry_of_type() {
   return {[](void* parent, const std::string&) -> void* {
-            return &static_cast<Case*>(parent)->geometry.emplace<T>();
+            return &static_cast<Part*>(parent)->geometry.emplace<T>();
           },
           [](const void* parent) {
-            const T* present = std::get_if<T>(&static_cast<const Case*>(parent)->geometry);
+            const T* present = std::get_if<T>(&static_cast<const Part*>(parent)->geometry);
             return present ? std::vector<Access::Entry>{{"", present}} : std::vector<Access::Entry>{};
           }};
 }
 
-Section wall_material_section() {
+/// A named solid, or a table of its parameters. `beam(object)` returns a reference to the Beam in the object.
+template<class T, class Bars>
+Section bar_material_section(std::string name, Bars beam) {
   Section section;
-  section.name = "wall_material";
-  section.meaning = "a named material (wall_material = \"...\"), or a table";
+  section.meaning = fmt::format("a named material ({} = \"...\"), or a table", name);
+  section.name = std::move(name);
   section.fallback = "TPU 78 MPa";
   section.access = same_object();
   section.names = [] {
@@ -33,19 +35,20 @@ Section wall_material_section() {
     for (const auto& solid : materials::named_solids()) names.emplace_back(solid.name);
     return names;
   };
-  section.start = [](void* object, const std::string& name) {
+  section.start = [beam](void* object, const std::string& wanted) {
     for (const auto& named : materials::named_solids())
-      if (named.name == name) {
-        static_cast<Honeycomb*>(object)->wall_material = named.solid;
+      if (named.name == wanted) {
+        beam(*static_cast<T*>(object)).material = named.solid;
         return true;
       }
     return false;
   };
   section.keys.push_back(
-      text("name", to(&Honeycomb::wall_material_name), "a named material to start from, or a label")
+      text("name", to_part<T>([beam](auto& object) -> auto& { return beam(object).material_name; }),
+           "a named material to start from, or a label")
           .optional());
-  add_parameter_keys<Honeycomb, materials::ElasticSolid>(
-      section.keys, [](auto& honeycomb) { return &honeycomb.wall_material; });
+  add_parameter_keys<T, materials::ElasticSolid>(section.keys,
+                                                 [beam](auto& object) { return &beam(object).material; });
   return section;
 }
 
@@ -81,17 +84,20 @@ Section honeycomb_section() {
       measure("wall_length", "m", to(&Honeycomb::wall_length), "length of each of a cell's six walls")
           .above(0)
           .at_most(1),
-      measure("wall_width", "m", to(&Honeycomb::wall_width), "width of a wall in the film's plane")
+      measure("wall_width", "m", to_part<Honeycomb>([](auto& h) -> auto& { return h.wall.width; }),
+              "width of a wall in the film's plane")
           .above(0)
           .at_most(1),
-      measure("wall_height", "m", to(&Honeycomb::wall_height), "height of a wall normal to the film")
+      measure("wall_height", "m", to_part<Honeycomb>([](auto& h) -> auto& { return h.wall.height; }),
+              "height of a wall normal to the film")
           .above(0)
           .at_most(1),
   };
-  section.sections.push_back(wall_material_section());
+  section.sections.push_back(bar_material_section<Honeycomb>(
+      "wall_material", [](auto& honeycomb) -> auto& { return honeycomb.wall; }));
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& honeycomb = *static_cast<const Honeycomb*>(object);
-    if (honeycomb.wall_width < honeycomb.wall_length) return std::nullopt;
+    if (honeycomb.wall.width < honeycomb.wall_length) return std::nullopt;
     return Conflict{"wall_width", "a wall is wider than it is long; wall_width must be below wall_length"};
   };
   return section;
@@ -211,23 +217,38 @@ Section patch_section() {
 
 Binding mesh_file() {
   return {[](void* object, const Value& value) {
-            static_cast<Case*>(object)->geometry = MeshFile{value.at(0).text};
+            static_cast<Part*>(object)->geometry = MeshFile{value.at(0).text};
           },
           [](const void* object) -> std::optional<Value> {
-            const auto* file = std::get_if<MeshFile>(&static_cast<const Case*>(object)->geometry);
+            const auto* file = std::get_if<MeshFile>(&static_cast<const Part*>(object)->geometry);
             return file ? value_of(file->path) : std::nullopt;
           }};
 }
 
 template<class M>
 Binding mesh_option(M MeshOptions::*option) {
-  return to_part<Case>([option](auto& one) -> auto& { return one.mesh.*option; });
+  return to_part<Part>([option](auto& part) -> auto& { return part.mesh.*option; });
 }
 
 } // namespace
 
 std::vector<Section> geometry_sections() {
   return {honeycomb_section(), disc_section(), annulus_section(), balloon_section(), patch_section()};
+}
+
+Section beam_section() {
+  Section section;
+  section.name = "beam";
+  section.meaning = "bars of rectangular section along the lines of the part's place";
+  section.presence = Section::Presence::optional;
+  section.access = present(&Part::beam);
+  section.keys = {
+      measure("width", "m", to(&Beam::width), "width of a bar in the film's plane").above(0).at_most(1),
+      measure("height", "m", to(&Beam::height), "height of a bar normal to the film").above(0).at_most(1),
+  };
+  section.sections.push_back(bar_material_section<Beam>(
+      "material", [](auto& beam) -> auto& { return beam; }));
+  return section;
 }
 
 Section mesh_section() {

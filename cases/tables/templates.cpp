@@ -151,21 +151,26 @@ void add_patch_steps(Node& tree) {
 
 } // namespace
 
-std::vector<const Node*> geometries_of(const Node& tree) {
+std::vector<const Node*> geometries_of(const Node& table) {
   std::vector<const Node*> found;
   for (const Section& section : case_schema().sections)
-    if (const Node* node = tree.find(section.name); node && section.presence == Section::Presence::geometry)
+    if (const Node* node = table.find(section.name); node && section.presence == Section::Presence::geometry)
       found.push_back(node);
-  const Node* mesh = tree.find("mesh");
+  const Node* mesh = table.find("mesh");
   if (const Node* file = mesh ? mesh->find("file") : nullptr) found.push_back(file);
   return found;
 }
 
-const Template* template_of(const Node& tree) {
+const Template* template_of(const Node& table) {
   for (const Template& candidate : templates())
-    if (tree.find(candidate.name) && (candidate.with.empty() || tree.find(candidate.with))) return &candidate;
-  const Node* mesh = tree.find("mesh");
+    if (table.find(candidate.name) && (candidate.with.empty() || table.find(candidate.with)))
+      return &candidate;
+  const Node* mesh = table.find("mesh");
   return mesh && mesh->find("file") ? &templates().back() : nullptr;
+}
+
+std::string geometry_of(const Node& table) {
+  return geometries_of(table).size() == 1 ? std::string(template_of(table)->name) : "";
 }
 
 namespace {
@@ -187,44 +192,134 @@ void add_motion_defaults(Node& tree) {
 
 } // namespace
 
-void add_defaults(Node& tree, const Template& device) {
-  const Node defaults = parse_default(device.defaults, tree);
-  for (std::size_t i = 0; i < defaults.items.size(); ++i)
-    if (!tree.find(defaults.keys[i])) tree.add(defaults.keys[i], defaults.items[i]);
-  if (device.name == "patch") add_patch_steps(tree);
+namespace {
+
+/// A part with a geometry of its own.
+struct TemplatePart {
+  std::string name;
+  const Template* device;
+};
+
+std::vector<TemplatePart> parts_with_geometry(const Node& tree) {
+  std::vector<TemplatePart> found;
+  const Node* parts = tree.find("part");
+  for (std::size_t i = 0; parts && parts->is(Node::Kind::table) && i < parts->items.size(); ++i)
+    if (const Template* device =
+            parts->items[i].is(Node::Kind::table) ? template_of(parts->items[i]) : nullptr)
+      found.push_back({parts->keys[i], device});
+  return found;
+}
+
+/// Puts the part's name in front of a place.
+void prefix(Node* place, const std::string& part) {
+  if (!place) return;
+  if (place->is(Node::Kind::text)) place->text = part + "." + place->text;
+  for (Node& item : place->items) prefix(&item, part);
+}
+
+/// Adds a part's electrode or supports to those of the case.
+void add_part_defaults(Node& tree, const std::string& key, const TemplatePart& part, const Source& source) {
+  const Node defaults = parse_default(part.device->defaults, tree);
+  const Node* brought = defaults.find(key);
+  if (!brought) return;
+  Node* list = tree.find(key);
+  if (!list) {
+    Node none;
+    none.kind = Node::Kind::list;
+    none.source = source;
+    list = &tree.add(key, none);
+  }
+  for (Node item : brought->items) {
+    prefix(item.find("place"), part.name);
+    if (Node* name = item.find("name")) name->text = part.name;
+    list->items.push_back(std::move(item));
+  }
+}
+
+} // namespace
+
+void add_defaults(Node& tree) {
+  const Source source{tree.source.file, 0, 0};
+  const std::array keys{"electrode", "support"};
+  std::array<bool, 2> written{};
+  for (std::size_t k = 0; k < keys.size(); ++k) written[k] = tree.find(keys[k]);
+  if (const Template* device = template_of(tree)) {
+    const Node defaults = parse_default(device->defaults, tree);
+    for (std::size_t i = 0; i < defaults.items.size(); ++i)
+      if (!tree.find(defaults.keys[i])) tree.add(defaults.keys[i], defaults.items[i]);
+    if (device->name == "patch") add_patch_steps(tree);
+  }
+  const std::vector<TemplatePart> parts = parts_with_geometry(tree);
+  for (const TemplatePart& part : parts)
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (!written[k]) add_part_defaults(tree, keys[k], part, source);
+  if (!parts.empty() && !tree.find("step")) tree.add("step", parse_value("[{ kind = \"voltage\" }]", source));
   add_motion_defaults(tree);
 }
 
 namespace {
 
-std::string standard_text(const Node& tree, const Template& device) {
-  return fmt::format("{}{}{}", device.quantities, tree.find("chamber") ? chamber_quantities : "",
-                     quantities_of_all);
+/// Standard quantities of a template; those of a part are about its places. Extremes are of the whole case.
+std::vector<Node> template_quantities(const Node& tree, const Template& device, const std::string& part) {
+  const std::set<std::string> of_no_place{"extreme", "energy", "natural frequency"};
+  std::vector<Node> quantities;
+  for (Node quantity : items_of(parse_default(device.quantities, tree), "quantity")) {
+    if (!part.empty()) {
+      const std::string kind = text_at(quantity, "kind");
+      if (kind == "extreme" || kind == "natural frequency") continue;
+      quantity.find("name")->text = part + "_" + text_at(quantity, "name");
+      prefix(quantity.find("between"), part);
+      if (!of_no_place.contains(kind)) prefix(quantity.find("of"), part);
+    }
+    quantities.push_back(std::move(quantity));
+  }
+  return quantities;
 }
 
 } // namespace
 
-int add_standard_quantities(Node& tree, const Template& device) {
-  if (const Node* written = tree.find("quantity"); written && !written->is(Node::Kind::list)) return 0;
+std::vector<Node> standard_quantities(const Node& tree, const Template* device) {
   const Source source{tree.source.file, 0, 0};
+  const std::vector<TemplatePart> parts = parts_with_geometry(tree);
   std::vector<Node> standard;
-  for (Node quantity : items_of(parse_default(standard_text(tree, device), tree), "quantity")) {
-    if (quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty()) continue;
+  if (device) standard = template_quantities(tree, *device, "");
+  for (const TemplatePart& part : parts)
+    for (Node& quantity : template_quantities(tree, *part.device, part.name))
+      standard.push_back(std::move(quantity));
+  if (device || !parts.empty())
+    for (Node& quantity :
+         items_of(parse_default(
+                      fmt::format("{}{}", tree.find("chamber") ? chamber_quantities : "", quantities_of_all),
+                      tree),
+                  "quantity"))
+      standard.push_back(std::move(quantity));
+  std::erase_if(standard, [&](const Node& quantity) {
+    return quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty();
+  });
+  for (Node& quantity : standard) {
     for (const char* key : {"at", "since"})
       if (Node* step = quantity.find(key)) step->text = name_of_step(tree, step->text);
     if (text_at(quantity, "since").empty()) quantity.remove("since");
-    standard.push_back(std::move(quantity));
   }
+  const bool patch =
+      (device && device->name == "patch") ||
+      std::ranges::any_of(parts, [](const TemplatePart& part) { return part.device->name == "patch"; });
   for (Node& quantity : of_each_electrode(tree, "capacitance", source))
     standard.push_back(std::move(quantity));
-  if (device.name == "patch")
+  if (patch)
     for (Node& quantity : of_each_electrode(tree, "charge", source)) standard.push_back(std::move(quantity));
+  return standard;
+}
 
+int add_standard_quantities(Node& tree) {
+  if (const Node* written = tree.find("quantity"); written && !written->is(Node::Kind::list)) return 0;
+  const std::vector<Node> standard = standard_quantities(tree, template_of(tree));
+  if (standard.empty()) return 0;
   Node* quantities = tree.find("quantity");
   if (!quantities) {
     Node list;
     list.kind = Node::Kind::list;
-    list.source = source;
+    list.source = {tree.source.file, 0, 0};
     quantities = &tree.add("quantity", list);
   }
   quantities->items.insert(quantities->items.begin(), standard.begin(), standard.end());

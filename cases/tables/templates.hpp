@@ -29,17 +29,26 @@ struct Template {
 
 std::span<const Template> templates();
 
-/// The template that the case asks for; null when there is none. With several, the first of the file.
-const Template* template_of(const Node& tree);
+/// The template that a case's top, or a part, asks for; null when there is none. With several, the first of
+/// the table.
+const Template* template_of(const Node& table);
 
-/// Every geometry of the tree: [honeycomb], ..., or the key mesh.file.
-std::vector<const Node*> geometries_of(const Node& tree);
+/// Every geometry of a case's top or of a part: [honeycomb], ..., or the key mesh.file.
+std::vector<const Node*> geometries_of(const Node& table);
 
-/// Adds the template's electrodes, supports and steps where the case has none.
-void add_defaults(Node& tree, const Template& device);
+/// Name of the only geometry of a case's top or of a part; empty: it has none or several.
+std::string geometry_of(const Node& table);
 
-/// Puts the standard quantities in front of the user's; returns how many. Quantities of the release step are
-/// left out of a case without one, and elongations start at the mesh as drawn there.
-int add_standard_quantities(Node& tree, const Template& device);
+/// Adds the electrodes, supports and steps of all templates of the case where it has none. Those of a part's
+/// electrode are called after the part.
+void add_defaults(Node& tree);
+
+/// Standard quantities of a case whose top is that device (null: of none), with those of its parts.
+std::vector<Node> standard_quantities(const Node& tree, const Template* device);
+
+/// Puts the standard quantities in front of the user's; returns how many. Those of a part are called
+/// "<part>_<name>". Quantities of the release step are left out of a case without one, and elongations start
+/// at the mesh as drawn there.
+int add_standard_quantities(Node& tree);
 
 } // namespace dielast::cases

@@ -4,6 +4,7 @@
 #include "fem/elements/beam_kinematics.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -61,7 +62,7 @@ template<int Nodes>
 class BeamBlock final : public ElementBlock {
  public:
   BeamBlock(const meshing::Mesh& mesh, const meshing::CellBlock& lines, const materials::BeamSection& section,
-            const Eigen::Vector3d& normal);
+            const Eigen::Vector3d& normal, std::vector<int> numbers);
 
   int element_count() const override { return static_cast<int>(elements_.size()); }
   int dofs_per_element() const override { return dofs; }
@@ -100,13 +101,15 @@ class BeamBlock final : public ElementBlock {
 
   std::vector<Element> elements_;
   materials::BeamSection section_;
+  std::vector<int> numbers_; ///< of the lines, in the mesh's block
   Vector6 stiffness_;
 };
 
 template<int Nodes>
 BeamBlock<Nodes>::BeamBlock(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
-                            const materials::BeamSection& section, const Eigen::Vector3d& normal)
-    : section_(section) {
+                            const materials::BeamSection& section, const Eigen::Vector3d& normal,
+                            std::vector<int> numbers)
+    : section_(section), numbers_(std::move(numbers)) {
   stiffness_ << section.EA, section.GA2, section.GA3, section.GJ, section.EI2, section.EI3;
   const auto rule = line_rule<Nodes>();
   elements_.resize(static_cast<std::size_t>(lines.size()));
@@ -277,7 +280,7 @@ void BeamBlock<Nodes>::sample(const State& state, Samples& samples) const {
       const Vector6 strain = kinematics(point, n).strain() - point.rest;
       const Vector6 stress = stiffness_.cwiseProduct(strain);
       BeamSample s;
-      s.cell = static_cast<int>(e);
+      s.cell = numbers_[e];
       s.length = point.length;
       s.force = stress.head<3>();
       s.moment = stress.tail<3>();
@@ -295,10 +298,14 @@ void BeamBlock<Nodes>::sample(const State& state, Samples& samples) const {
 
 std::unique_ptr<ElementBlock> make_beam_block(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
                                               const materials::BeamSection& section,
-                                              const Eigen::Vector3d& normal) {
+                                              const Eigen::Vector3d& normal, std::vector<int> numbers) {
+  if (numbers.empty()) {
+    numbers.resize(static_cast<std::size_t>(lines.size()));
+    std::iota(numbers.begin(), numbers.end(), 0);
+  }
   if (lines.type == meshing::CellType::line3)
-    return std::make_unique<BeamBlock<3>>(mesh, lines, section, normal);
-  return std::make_unique<BeamBlock<2>>(mesh, lines, section, normal);
+    return std::make_unique<BeamBlock<3>>(mesh, lines, section, normal, std::move(numbers));
+  return std::make_unique<BeamBlock<2>>(mesh, lines, section, normal, std::move(numbers));
 }
 
 } // namespace dielast::fem

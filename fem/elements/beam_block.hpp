@@ -18,11 +18,13 @@ namespace dielast::fem {
 /// singularity below half a turn within one element, and with short exact derivatives. One (2 nodes) or two
 /// (3 nodes) Gauss points: no shear or membrane locking. `section` has its axis 1 along the line and its axis
 /// 3 along `normal`, which must not be parallel to any line. Nodes are shared with other blocks: that is the
-/// tie to the film. As drawn, the beams are free of stress. Their mass is that of the centreline
-/// (consistent): slender walls' sections have next to no rotary inertia. Throws std::invalid_argument for a
-/// line of zero length or parallel to `normal`.
+/// tie to the film. `numbers` are those of the lines in the mesh's own block, for samples; empty: in their
+/// order here. As drawn, the beams are free of stress. Their mass is that of the centreline (consistent):
+/// slender walls' sections have next to no rotary inertia. Throws std::invalid_argument for a line of zero
+/// length or parallel to `normal`.
 std::unique_ptr<ElementBlock> make_beam_block(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
                                               const materials::BeamSection& section,
-                                              const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ());
+                                              const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ(),
+                                              std::vector<int> numbers = {});
 
 } // namespace dielast::fem

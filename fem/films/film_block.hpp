@@ -15,14 +15,14 @@ namespace dielast::fem {
 /// Membrane elements of one kinematics and one law, `lanes` at a time.
 ///
 /// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see
-/// materials/laws/plane_stress.hpp and FilmResponse), where that is a sheet by the voltages of its corners: k =
-/// eps sum_a N_a (V_a/H)^2 with N_a linear (see SheetPoint). A point's volume is that of the film, of a full
-/// turn where it is a film of revolution.
+/// materials/laws/plane_stress.hpp and FilmResponse), where that is a sheet by the voltages of its corners: k
+/// = eps sum_a N_a (V_a/H)^2 with N_a linear (see SheetPoint). A point's volume is that of the film, of a
+/// full turn where it is a film of revolution.
 template<class Kinematics, class Law>
 class MembraneBlock final : public ElementBlock {
  public:
   MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells, const MembraneSection& section,
-                Law law, std::vector<int> electrodes, int integration_points);
+                Law law, std::vector<int> electrodes, int integration_points, std::vector<int> numbers);
 
   int element_count() const override { return count_; }
   int dofs_per_element() const override { return dofs; }
@@ -83,13 +83,12 @@ class MembraneBlock final : public ElementBlock {
   Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const;
 
   FilmResponse<Law> film_;
-  double thickness_; ///< undeformed, m
-  double density_;   ///< kg/m^3
+  double thickness_, density_; ///< undeformed, m; kg/m^3
   Eigen::Vector2d prestretch_;
-  int count_ = 0;
-  int points_ = 0;
+  int count_ = 0, points_ = 0;
   std::vector<int> nodes_;      ///< padded to whole packs by repeating the last element
-  std::vector<int> electrodes_; ///< likewise
+  std::vector<int> electrodes_; ///< padded like nodes_
+  std::vector<int> numbers_;    ///< of the elements, in the mesh's block
   FilmSheets<Corners> sheets_;
   std::vector<Eigen::Vector3d> reference_;
   std::vector<Point> geometry_; ///< points_ per pack
@@ -98,11 +97,12 @@ class MembraneBlock final : public ElementBlock {
 template<class Kinematics, class Law>
 MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                                               const MembraneSection& section, Law law,
-                                              std::vector<int> electrodes, int integration_points)
+                                              std::vector<int> electrodes, int integration_points,
+                                              std::vector<int> numbers)
     : film_(std::move(law), section), thickness_(section.thickness), density_(section.material.density),
       prestretch_(section.prestretch[0], section.prestretch[1]), count_(cells.size()),
       points_(integration_points), nodes_(cells.nodes), electrodes_(std::move(electrodes)),
-      reference_(mesh.nodes) {
+      numbers_(std::move(numbers)), reference_(mesh.nodes) {
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e) {
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
@@ -115,7 +115,7 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
       const auto& place = places[static_cast<std::size_t>(p)];
       if (e == 0) sheets_.add_place(place.corner_shape);
       if (!(place.area > 0))
-        throw std::invalid_argument(Kinematics::element + (" " + std::to_string(e)) +
+        throw std::invalid_argument(std::string(Kinematics::element) + " " + std::to_string(numbers_[e]) +
                                     " is inverted or degenerate as drawn");
       Point& point = geometry_[static_cast<std::size_t>(e / lanes * points_ + p)];
       for (int a = 0; a < Nodes; ++a)
@@ -318,7 +318,7 @@ void MembraneBlock<Kinematics, Law>::sample(const State& state, Samples& samples
     const materials::TensionField field = film_.resolve(state, at.point, at.C, at.k);
     const materials::InPlaneC<double>& natural = field.natural;
     MembraneSample s;
-    s.cell = at.element;
+    s.cell = numbers_[static_cast<std::size_t>(at.element)];
     s.volume = at.geometry.volume[at.lane];
     s.F = Kinematics::gradient_of(at.deformation, at.lane);
     s.S = materials::tension_field::stress(field.potential);

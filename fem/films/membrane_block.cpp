@@ -3,6 +3,8 @@
 
 #include "fem/films/film_block.hpp"
 
+#include <numeric>
+
 namespace dielast::fem {
 
 namespace {
@@ -10,11 +12,12 @@ namespace {
 template<class Kinematics>
 std::unique_ptr<ElementBlock> make_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                                          const MembraneSection& section, std::vector<int> electrodes,
-                                         int integration_points) {
+                                         int integration_points, std::vector<int> numbers) {
   return std::visit(
       [&](const auto& law) -> std::unique_ptr<ElementBlock> {
         using Block = MembraneBlock<Kinematics, std::decay_t<decltype(law)>>;
-        return std::make_unique<Block>(mesh, cells, section, law, std::move(electrodes), integration_points);
+        return std::make_unique<Block>(mesh, cells, section, law, std::move(electrodes), integration_points,
+                                       std::move(numbers));
       },
       section.material.law);
 }
@@ -23,13 +26,19 @@ std::unique_ptr<ElementBlock> make_block(const meshing::Mesh& mesh, const meshin
 
 std::unique_ptr<ElementBlock> make_membrane_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                                                   const MembraneSection& section, std::vector<int> electrodes,
-                                                  Dimension dimension, int integration_points) {
+                                                  Dimension dimension, int integration_points,
+                                                  std::vector<int> numbers) {
   if (cells.size() == 0 || static_cast<int>(electrodes.size()) != cells.size())
     throw std::invalid_argument("a membrane needs elements, and one electrode number for each");
+  if (numbers.empty()) {
+    numbers.resize(electrodes.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+  }
   if ((dimension == Dimension::axisymmetric) != meshing::is_meridian(cells.type))
     throw std::invalid_argument("a film of revolution is made of meridians, any other of triangles");
   const auto make = [&]<class Kinematics>() {
-    return make_block<Kinematics>(mesh, cells, section, std::move(electrodes), integration_points);
+    return make_block<Kinematics>(mesh, cells, section, std::move(electrodes), integration_points,
+                                  std::move(numbers));
   };
   const bool planar = dimension == Dimension::planar;
   switch (cells.type) {

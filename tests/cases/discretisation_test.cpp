@@ -17,8 +17,8 @@ Case honeycomb(int wall_elements) {
 TEST(OtherDiscretisations, HalveAndQuarterTheMesh) {
   const auto of_8 = other_discretisations(honeycomb(8));
   ASSERT_EQ(of_8.size(), 2u);
-  EXPECT_EQ(of_8[0].one.mesh.wall_elements, 4);
-  EXPECT_EQ(of_8[1].one.mesh.wall_elements, 2);
+  EXPECT_EQ(of_8[0].one.parts.front().mesh.wall_elements, 4);
+  EXPECT_EQ(of_8[1].one.parts.front().mesh.wall_elements, 2);
   EXPECT_EQ(other_discretisations(honeycomb(3)).size(), 1u);
   EXPECT_TRUE(other_discretisations(honeycomb(1)).empty());
   EXPECT_EQ(other_discretisations(read_case(valid / "disc.toml")).size(), 2u);
@@ -30,7 +30,7 @@ TEST(OtherDiscretisations, HalveAndQuarterTheMesh) {
 TEST(OtherDiscretisations, TellTheirSize) {
   for (const int elements : {2, 3, 5, 8})
     for (const Discretisation& other : other_discretisations(honeycomb(elements)))
-      EXPECT_DOUBLE_EQ(other.size * other.one.mesh.wall_elements, elements);
+      EXPECT_DOUBLE_EQ(other.size * other.one.parts.front().mesh.wall_elements, elements);
 }
 
 TEST(OtherDiscretisations, OfAnOwnMeshRefineItOrTakeBackARefinement) {
@@ -39,12 +39,12 @@ TEST(OtherDiscretisations, OfAnOwnMeshRefineItOrTakeBackARefinement) {
         read_case(valid / "own_mesh.toml", {"mesh.refine=" + std::to_string(times)}));
   };
   ASSERT_EQ(refined(0).size(), 1u);
-  EXPECT_EQ(refined(0)[0].one.mesh.refine, 1);
+  EXPECT_EQ(refined(0)[0].one.parts.front().mesh.refine, 1);
   EXPECT_EQ(refined(0)[0].size, 0.5);
   ASSERT_EQ(refined(1).size(), 1u);
-  EXPECT_EQ(refined(1)[0].one.mesh.refine, 0);
+  EXPECT_EQ(refined(1)[0].one.parts.front().mesh.refine, 0);
   ASSERT_EQ(refined(3).size(), 2u);
-  EXPECT_EQ(refined(3)[1].one.mesh.refine, 1);
+  EXPECT_EQ(refined(3)[1].one.parts.front().mesh.refine, 1);
   EXPECT_EQ(refined(3)[1].size, 4);
 }
 
@@ -77,7 +77,7 @@ TEST(OtherDiscretisations, DoNotMixMeshesWhereTimePasses) {
   const Case one = read_case(valid / "moved.toml", {"mesh.rings=7"});
   const auto others = other_discretisations(one);
   ASSERT_EQ(others.size(), 1u);
-  EXPECT_EQ(others[0].one.mesh.rings, 3);
+  EXPECT_EQ(others[0].one.parts.front().mesh.rings, 3);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "cases/runs/simulation.hpp"
 #include "tests/cases/scratch.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

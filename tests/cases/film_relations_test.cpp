@@ -166,7 +166,7 @@ TEST_F(FilmRelations, a_fit_has_the_model_of_a_run) {
         plain;
     const Ran ran = run(text);
     write("material.toml", text);
-    const materials::Material material = read_case(directory / "material.toml").film.material;
+    const materials::Material material = read_case(directory / "material.toml").parts.front().film->material;
     StretchHistory history{.mode = kind};
     std::vector<double> stress;
     for (std::size_t row = 1; row < ran.time.size(); ++row) {

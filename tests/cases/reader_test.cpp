@@ -32,26 +32,26 @@ TEST(Reader, HoneycombInSI) {
   const Case one = honeycomb();
   EXPECT_EQ(one.title, "Unidirectional honeycomb actuator");
   EXPECT_EQ(one.dimension, fem::Dimension::planar);
-  EXPECT_EQ(one.film.thickness, 0.001);
-  EXPECT_EQ(one.film.prestretch, (std::array{4.0, 2.5}));
-  EXPECT_EQ(std::get<0>(one.film.material.law).shear_modulus, 45e3);
-  EXPECT_EQ(one.film.material.dielectric.permittivity, 4e-11);
-  const auto& lattice = std::get<Honeycomb>(one.geometry);
+  EXPECT_EQ(one.parts.front().film->thickness, 0.001);
+  EXPECT_EQ(one.parts.front().film->prestretch, (std::array{4.0, 2.5}));
+  EXPECT_EQ(std::get<0>(one.parts.front().film->material.law).shear_modulus, 45e3);
+  EXPECT_EQ(one.parts.front().film->material.dielectric.permittivity, 4e-11);
+  const auto& lattice = *one.geometry<Honeycomb>();
   EXPECT_DOUBLE_EQ(lattice.angle, 150 * std::numbers::pi / 180);
-  EXPECT_EQ(lattice.wall_width, 0.0008);
+  EXPECT_EQ(lattice.wall.width, 0.0008);
   EXPECT_EQ(one.drives, (std::map<std::string, Drive>{{"film", {Waveform::constant_at(7500), {}}}}));
 }
 
 TEST(Reader, HoneycombDefaults) {
   const Case one = honeycomb();
-  const auto& lattice = std::get<Honeycomb>(one.geometry);
+  const auto& lattice = *one.geometry<Honeycomb>();
   EXPECT_EQ(lattice.columns, (std::vector{7, 6, 7, 6, 7}));
-  EXPECT_EQ(lattice.wall_material_name, "TPU 78 MPa");
-  EXPECT_EQ(lattice.wall_material.youngs_modulus, 78e6);
-  EXPECT_EQ(one.mesh.order, 2);
-  EXPECT_EQ(one.mesh.wall_elements, 8);
-  EXPECT_EQ(one.mesh.grading, 3);
-  EXPECT_EQ(one.mesh.quadrature, 3);
+  EXPECT_EQ(lattice.wall.material_name, "TPU 78 MPa");
+  EXPECT_EQ(lattice.wall.material.youngs_modulus, 78e6);
+  EXPECT_EQ(one.parts.front().mesh.order, 2);
+  EXPECT_EQ(one.parts.front().mesh.wall_elements, 8);
+  EXPECT_EQ(one.parts.front().mesh.grading, 3);
+  EXPECT_EQ(one.parts.front().mesh.quadrature, 3);
   ASSERT_EQ(one.electrodes.size(), 1u);
   EXPECT_EQ(one.electrodes[0].place, "film");
   EXPECT_TRUE(one.supports.empty());
@@ -78,12 +78,12 @@ TEST(Reader, HoneycombDefaults) {
 TEST(Reader, DiscDefaults) {
   const Case one = read_case(valid / "disc.toml");
   EXPECT_EQ(one.title, "disc");
-  EXPECT_EQ(one.film.prestretch, (std::array{3.0, 3.0}));
+  EXPECT_EQ(one.parts.front().film->prestretch, (std::array{3.0, 3.0}));
   EXPECT_EQ(one.electrodes.at(0).place, "electrode");
   EXPECT_EQ(one.supports.at(0).place, "rim");
   EXPECT_EQ(one.supports.at(0).fixed, (std::array{true, true, true, false, false, false}));
-  EXPECT_EQ(one.mesh.rings, 24);
-  EXPECT_EQ(one.mesh.quadrature, 6);
+  EXPECT_EQ(one.parts.front().mesh.rings, 24);
+  EXPECT_EQ(one.parts.front().mesh.quadrature, 6);
   EXPECT_EQ(one.drives.at("film"), Drive{}); // not driven
   EXPECT_EQ(one.quantities.at(0).name, "electrode_radius");
 }
@@ -91,7 +91,7 @@ TEST(Reader, DiscDefaults) {
 TEST(Reader, SeveralElectrodesOfAnAnnulus) {
   const Case one = read_case(valid / "annulus.toml");
   EXPECT_EQ(one.dimension, fem::Dimension::spatial);
-  EXPECT_DOUBLE_EQ(one.film.material.dielectric.permittivity, 4.7 * 8.8541878128e-12);
+  EXPECT_DOUBLE_EQ(one.parts.front().film->material.dielectric.permittivity, 4.7 * 8.8541878128e-12);
   EXPECT_EQ(one.drives,
             (std::map<std::string, Drive>{{"left", {Waveform::constant_at(5000), {}}}, {"right", {}}}));
   EXPECT_EQ(one.supports.size(), 2u);
@@ -106,7 +106,7 @@ TEST(Reader, SeveralElectrodesOfAnAnnulus) {
 
 TEST(Reader, OwnMeshIsFoundBesideTheCase) {
   const Case one = read_case(valid / "own_mesh.toml");
-  EXPECT_EQ(std::get<MeshFile>(one.geometry).path, valid / "own.msh");
+  EXPECT_EQ(one.geometry<MeshFile>()->path, valid / "own.msh");
   EXPECT_EQ(one.drives.at("film").voltage, Waveform::constant_at(3000));
 }
 
@@ -131,15 +131,15 @@ TEST(Reader, PercentOfACheckIsOfItsValue) {
 
 TEST(Reader, NamedMaterialCanBeChangedInPart) {
   const Case one = honeycomb({"film.material.shear_modulus=47 kPa"});
-  EXPECT_EQ(one.film.material_name, "VHB 4910 (honeycomb)");
-  EXPECT_EQ(std::get<0>(one.film.material.law).shear_modulus, 47e3);
-  EXPECT_EQ(one.film.material.dielectric.permittivity, 4e-11);
+  EXPECT_EQ(one.parts.front().film->material_name, "VHB 4910 (honeycomb)");
+  EXPECT_EQ(std::get<0>(one.parts.front().film->material.law).shear_modulus, 47e3);
+  EXPECT_EQ(one.parts.front().film->material.dielectric.permittivity, 4e-11);
 }
 
 TEST(Reader, PatchWithBranchesWavesSpringsAndTimedSteps) {
   const Case one = read_case(valid / "patch.toml");
-  EXPECT_TRUE(one.film.tension_field);
-  const materials::Material& material = one.film.material;
+  EXPECT_TRUE(one.parts.front().film->tension_field);
+  const materials::Material& material = one.parts.front().film->material;
   EXPECT_EQ(std::get<materials::Ogden>(material.law).moduli, (std::vector{20e3, -1e3}));
   EXPECT_EQ(std::get<materials::Ogden>(material.law).exponents, (std::vector{2.0, -2.0}));
   EXPECT_EQ(material.dielectric.electrostriction, -0.05);
@@ -231,8 +231,8 @@ TEST(Reader, WavesOfMotionsAndForces) {
 TEST(Reader, WrittenBranchesReplaceThoseOfTheNamedMaterial) {
   const Case one = honeycomb({"film.material={name='VHB 4910 (honeycomb)', branch=[{shear_modulus='1 kPa', "
                               "relaxation_time='2 s'}]}"});
-  ASSERT_EQ(one.film.material.branches.size(), 1u);
-  EXPECT_DOUBLE_EQ(one.film.material.branches[0].viscosity, 2e3);
+  ASSERT_EQ(one.parts.front().film->material.branches.size(), 1u);
+  EXPECT_DOUBLE_EQ(one.parts.front().film->material.branches[0].viscosity, 2e3);
 }
 
 TEST(Overrides, ReachEverything) {
@@ -240,12 +240,12 @@ TEST(Overrides, ReachEverything) {
                               "film.prestretch=[3, 3]", "drive.voltage=5 kV", "mesh.wall_elements=5",
                               "mesh.order=1", "step.voltage.increments=4", "step[1].increments=2",
                               "title=plain words", "output.fields=false", "honeycomb.columns=[1]"});
-  EXPECT_DOUBLE_EQ(std::get<Honeycomb>(one.geometry).angle, 140 * std::numbers::pi / 180);
-  EXPECT_EQ(std::get<Honeycomb>(one.geometry).wall_height, 0.004);
-  EXPECT_EQ(one.film.prestretch, (std::array{3.0, 3.0}));
+  EXPECT_DOUBLE_EQ(one.geometry<Honeycomb>()->angle, 140 * std::numbers::pi / 180);
+  EXPECT_EQ(one.geometry<Honeycomb>()->wall.height, 0.004);
+  EXPECT_EQ(one.parts.front().film->prestretch, (std::array{3.0, 3.0}));
   EXPECT_EQ(one.drives.at("film").voltage, Waveform::constant_at(5000));
-  EXPECT_EQ(one.mesh.wall_elements, 5);
-  EXPECT_EQ(one.mesh.order, 1);
+  EXPECT_EQ(one.parts.front().mesh.wall_elements, 5);
+  EXPECT_EQ(one.parts.front().mesh.order, 1);
   EXPECT_EQ(one.steps[0].increments, 2);
   EXPECT_EQ(one.steps[1].increments, 4);
   EXPECT_EQ(one.title, "plain words");
@@ -254,7 +254,9 @@ TEST(Overrides, ReachEverything) {
 
 TEST(Overrides, AValueCannotBringAnotherKey) { EXPECT_EQ(honeycomb({"title=a\nb = 2"}).title, "a\nb = 2"); }
 
-TEST(Overrides, TheLastOneWins) { EXPECT_EQ(honeycomb({"mesh.order=1", "mesh.order=2"}).mesh.order, 2); }
+TEST(Overrides, TheLastOneWins) {
+  EXPECT_EQ(honeycomb({"mesh.order=1", "mesh.order=2"}).parts.front().mesh.order, 2);
+}
 
 TEST(Overrides, OddTextsAreErrorsNotAccidents) {
   for (const char* assignment : {"", "=", "=5", "a=\xff", "film.prestretch[=3", "film[1]=2",
@@ -272,13 +274,13 @@ TEST(Resolved, ReadingItGivesTheSameCase) {
     const Case again = read_case(path);
     EXPECT_EQ(resolved_text(again), resolved_text(one)) << name;
     EXPECT_EQ(quantity_names(again), quantity_names(one));
-    EXPECT_EQ(again.geometry.index(), one.geometry.index());
+    EXPECT_EQ(again.parts.front().geometry.index(), one.parts.front().geometry.index());
     EXPECT_EQ(again.drives, one.drives);
-    EXPECT_EQ(again.film.prestretch, one.film.prestretch);
+    EXPECT_EQ(again.parts.front().film->prestretch, one.parts.front().film->prestretch);
     EXPECT_EQ(again.supports.size(), one.supports.size());
     EXPECT_EQ(again.loads.size(), one.loads.size());
-    if (const auto* lattice = std::get_if<Honeycomb>(&one.geometry)) {
-      EXPECT_EQ(std::get<Honeycomb>(again.geometry).angle, lattice->angle);
+    if (const auto* lattice = one.geometry<Honeycomb>()) {
+      EXPECT_EQ(again.geometry<Honeycomb>()->angle, lattice->angle);
     }
   }
 }

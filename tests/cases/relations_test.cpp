@@ -73,7 +73,7 @@ class Relations : public test::ScratchTest {
   /// A voltage at which a free film of that text is far from pull-in: Phi/H = share sqrt(mu/eps).
   double voltage(const std::string& text, double share) {
     write("case.toml", text + "[patch]\n");
-    const Film read = read_case(directory / "case.toml").film;
+    const Film read = *read_case(directory / "case.toml").parts.front().film;
     return share * read.thickness *
            std::sqrt(materials::initial_shear_modulus(read.material.law) /
                      read.material.dielectric.permittivity);

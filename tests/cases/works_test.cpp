@@ -189,9 +189,9 @@ class RandomTransient {
 template<class Oracle>
 Oracle driven_oracle(const Case& one) {
   Oracle oracle;
-  oracle.modulus = materials::initial_shear_modulus(one.film.material.law);
-  oracle.permittivity = one.film.material.dielectric.permittivity;
-  oracle.thickness = one.film.thickness;
+  oracle.modulus = materials::initial_shear_modulus(one.parts.front().film->material.law);
+  oracle.permittivity = one.parts.front().film->material.dielectric.permittivity;
+  oracle.thickness = one.parts.front().film->thickness;
   if (one.drives.begin()->second.charge) oracle.supply = Oracle::Supply::charge;
   if (!one.circuits.empty() && !one.drives.begin()->second.charge) {
     oracle.supply = Oracle::Supply::circuit;
@@ -200,7 +200,7 @@ Oracle driven_oracle(const Case& one) {
     if (circuit.leakage_resistance) oracle.leakage = 1 / *circuit.leakage_resistance;
     if (circuit.current_limit) oracle.current_limit = *circuit.current_limit;
   }
-  for (const materials::Branch& branch : one.film.material.branches) {
+  for (const materials::Branch& branch : one.parts.front().film->material.branches) {
     const double modulus = materials::initial_shear_modulus(branch.law);
     oracle.branches.push_back({modulus, branch.viscosity / modulus});
   }
@@ -208,10 +208,10 @@ Oracle driven_oracle(const Case& one) {
 }
 
 PatchOracle patch_oracle(const Case& one) {
-  const auto& patch = std::get<Patch>(one.geometry);
+  const auto& patch = *one.geometry<Patch>();
   auto oracle = driven_oracle<PatchOracle>(one);
   for (std::size_t b = 0; b < oracle.branches.size(); ++b)
-    oracle.branches[b].nominal = one.film.material.branches[b].dashpot == materials::Dashpot::nominal;
+    oracle.branches[b].nominal = one.parts.front().film->material.branches[b].dashpot == materials::Dashpot::nominal;
   oracle.alike = patch.mode == PatchMode::equal_biaxial;
   oracle.held = {patch.stretch_x.has_value(), patch.mode == PatchMode::pure_shear};
   oracle.begin();
@@ -220,7 +220,7 @@ PatchOracle patch_oracle(const Case& one) {
 
 SheetOracle sheet_oracle(const Case& one) {
   auto oracle = driven_oracle<SheetOracle>(one);
-  oracle.prestretch = one.film.prestretch[0];
+  oracle.prestretch = one.parts.front().film->prestretch[0];
   const Electrode& electrode = one.electrodes.front();
   oracle.sheet_resistance = *electrode.sheet_resistance;
   oracle.begin(build_mesh(one), electrode.place, electrode.terminal, "rim");
@@ -232,7 +232,7 @@ template<class Oracle>
 std::vector<Row> reference(const Case& one, Oracle oracle, const std::vector<Row>& rows) {
   const Drive& drive = one.drives.begin()->second;
   std::vector<const Waveform*> waves{drive.charge ? &*drive.charge : &*drive.voltage};
-  const auto* patch = std::get_if<Patch>(&one.geometry);
+  const auto* patch = one.geometry<Patch>();
   if (patch && patch->stretch_x) waves.push_back(&*patch->stretch_x);
   if (patch && patch->stress_x) waves.push_back(&*patch->stress_x);
   const double duration = *one.steps.front().duration;

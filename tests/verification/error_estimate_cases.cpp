@@ -25,9 +25,9 @@ constexpr double smallest_printed = 1e-6; ///< of a value
 /// Elements and time steps smaller by 4.
 Case reference_of(Case one) {
   constexpr int factor = 4;
-  if (std::holds_alternative<MeshFile>(one.geometry)) one.mesh.refine += 2;
-  one.mesh.wall_elements *= factor;
-  one.mesh.rings *= factor;
+  if (one.geometry<MeshFile>()) one.parts.front().mesh.refine += 2;
+  one.parts.front().mesh.wall_elements *= factor;
+  one.parts.front().mesh.rings *= factor;
   for (Step& step : one.steps)
     if (step.duration) step.increments *= factor;
   one.solver.time_tolerance /= std::pow(factor, 3);

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/text/waveform.hpp"
+#include "materials/beam_section.hpp"
+#include "materials/material.hpp"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace dielast::cases {
+
+/// [film]
+struct Film {
+  std::string material_name;
+  materials::Material material;
+  double thickness = 0;               ///< undeformed H, m
+  std::array<double, 2> prestretch{}; ///< lambda_p along x and y
+  bool tension_field = false;         ///< it wrinkles where it would be compressed, and carries tension only
+};
+
+/// Bars of rectangular section: the walls of a lattice, or [part.NAME.beam] along lines of a mesh
+struct Beam {
+  double width = 0, height = 0; ///< in the film's plane and normal to it, m
+  std::string material_name;
+  materials::ElasticSolid material;
+};
+
+/// [honeycomb]: the geometry template of the unidirectional actuator
+struct Honeycomb {
+  double angle = 0;         ///< interior angle at a cell's four equal vertices, rad
+  std::vector<int> columns; ///< cells in each column, left to right
+  double wall_length = 0;   ///< m
+  Beam wall;
+};
+
+/// [disc]: clamped at its rim; dimensions as clamped, after the prestretch
+struct Disc {
+  double radius = 0;           ///< m
+  double electrode_radius = 0; ///< m
+};
+
+/// [annulus]: dimensions as clamped, after the prestretch
+struct Annulus {
+  double inner_radius = 0, outer_radius = 0; ///< m
+};
+
+enum class PatchMode {
+  biaxial,       ///< x and y move independently
+  equal_biaxial, ///< both stretches are one
+  pure_shear,    ///< y is held
+};
+
+/// [patch]: a homogeneous block of film. Stretches are with respect to the unstretched film, stresses nominal
+/// (force over undeformed section); a direction with neither is free of stress.
+struct Patch {
+  double length = 0, width = 0; ///< along x and y, before the prestretch, m
+  PatchMode mode{};
+  std::optional<Waveform> stretch_x, stretch_y;
+  std::optional<Waveform> stress_x, stress_y; ///< Pa
+};
+
+/// [mesh] file = "...": the user's own mesh, drawn after the prestretch, physical names as places
+struct MeshFile {
+  std::filesystem::path path;
+};
+
+/// [balloon]: a sphere of film, as drawn
+struct Balloon {
+  double radius = 0; ///< m
+};
+
+/// What has no mesh of its own is std::monostate.
+using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, MeshFile>;
+
+/// [mesh]
+struct MeshOptions {
+  std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
+  int refine = 0;               ///< how often each triangle of a user's own mesh is split into four
+  int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
+  int wall_elements = 8; ///< beams per wall (honeycomb)
+  double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
+  int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
+  int quadrature = 3;    ///< integration points of a 6-node triangle: 3 or 6
+};
+
+/// A film or bars, with a mesh of their own or in a place of the unnamed part's. The part without a name is
+/// what stands at the top of the file, in [film], [disc], [mesh] ...; others are [part.NAME]. Places of a
+/// named part's own mesh are called "NAME.<place>", and all of it "NAME".
+struct Part {
+  std::string name;
+  std::string place; ///< of the unnamed part's mesh; empty: it has a mesh of its own
+  std::optional<Film> film;
+  std::optional<Beam> beam;
+  Geometry geometry;
+  MeshOptions mesh;
+  std::array<double, 3> at{}; ///< where the origin of its mesh is, m
+  double turned = 0;          ///< of its mesh about z, rad
+
+  bool has_mesh() const { return !std::holds_alternative<std::monostate>(geometry); }
+  /// A place of its own mesh as the case calls it.
+  std::string called(const std::string& own_place) const {
+    return name.empty() ? own_place : name + "." + own_place;
+  }
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/devices/sections.hpp"
+
+#include "fem/elements/beam_block.hpp"
+#include "fem/films/membrane_block.hpp"
+#include "meshing/mesh_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace dielast::cases {
+namespace {
+
+/// Electrode over each triangle.
+std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {
+  std::vector<int> map(static_cast<std::size_t>(film.size()), fem::passive);
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    const auto place = mesh.cell_sets.find(one.electrodes[e].place);
+    if (place == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(place->second.block)] != &film)
+      throw meshing::MeshError("electrode \"" + one.electrodes[e].name + "\": the place \"" +
+                               one.electrodes[e].place + "\" is not a part of the film");
+    for (const int cell : place->second.cells) {
+      int& electrode = map[static_cast<std::size_t>(cell)];
+      if (electrode != fem::passive)
+        throw meshing::MeshError("electrodes \"" + one.electrodes[static_cast<std::size_t>(electrode)].name +
+                                 "\" and \"" + one.electrodes[e].name + "\" overlap");
+      electrode = static_cast<int>(e);
+    }
+  }
+  return map;
+}
+
+/// The mesh's options that hold for a part: those of the mesh in which it is.
+const MeshOptions& mesh_options(const Case& one, const Part& part) {
+  return part.has_mesh() ? part.mesh : one.unnamed()->mesh;
+}
+
+} // namespace
+
+std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh) {
+  const meshing::CellBlock& film = *mesh.film();
+  std::vector<int> parts(static_cast<std::size_t>(film.size()), -1);
+  const auto claim = [&](std::size_t p, const std::string& place, bool alone) {
+    const auto set = mesh.cell_sets.find(place);
+    if (set == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(set->second.block)] != &film)
+      throw meshing::MeshError(
+          fmt::format("part \"{}\": the place \"{}\" is no film of the mesh", one.parts[p].name, place));
+    for (const int cell : set->second.cells) {
+      int& part = parts[static_cast<std::size_t>(cell)];
+      if (alone && part >= 0 && one.parts[static_cast<std::size_t>(part)].has_mesh() == false)
+        throw meshing::MeshError(fmt::format("parts \"{}\" and \"{}\" overlap",
+                                             one.parts[static_cast<std::size_t>(part)].name,
+                                             one.parts[p].name));
+      part = static_cast<int>(p);
+    }
+  };
+  for (std::size_t p = 0; p < one.parts.size(); ++p)
+    if (one.parts[p].has_mesh() && one.parts[p].film) claim(p, one.parts[p].called("film"), false);
+  for (std::size_t p = 0; p < one.parts.size(); ++p)
+    if (!one.parts[p].has_mesh() && one.parts[p].film) claim(p, one.parts[p].place, true);
+  if (const auto without = std::ranges::count(parts, -1); without > 0)
+    throw meshing::MeshError(
+        fmt::format("{} of the film's {} elements belong to no part with a film; add [film], or a "
+                    "[part.NAME] with their place",
+                    without, film.size()));
+  return parts;
+}
+
+void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model) {
+  const meshing::CellBlock& film = *mesh.film();
+  const std::vector<int> electrodes = electrode_map(one, mesh, film);
+  for (std::size_t p = 0; p < one.parts.size(); ++p) {
+    std::vector<int> cells, over;
+    for (int cell = 0; cell < film.size(); ++cell) {
+      if (parts[static_cast<std::size_t>(cell)] != static_cast<int>(p)) continue;
+      cells.push_back(cell);
+      over.push_back(electrodes[static_cast<std::size_t>(cell)]);
+    }
+    if (cells.empty()) continue;
+    const Part& part = one.parts[p];
+    // Two points of a 3-node meridian: there stretches are one order better than elsewhere.
+    const int points = film.type == meshing::CellType::triangle6   ? mesh_options(one, part).quadrature
+                       : film.type == meshing::CellType::meridian3 ? 2
+                                                                   : 1;
+    model.blocks.push_back(fem::make_membrane_block(
+        mesh, meshing::subset(film, cells),
+        {part.film->material, part.film->thickness, part.film->prestretch, part.film->tension_field},
+        std::move(over), one.dimension, points, cells));
+  }
+}
+
+void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  const auto add = [&](const std::string& part, const std::string& place, const Beam& beam) {
+    const auto set = mesh.cell_sets.find(place);
+    if (set == mesh.cell_sets.end() ||
+        !meshing::is_line(mesh.blocks[static_cast<std::size_t>(set->second.block)].type))
+      throw meshing::MeshError(
+          fmt::format("part \"{}\": the place \"{}\" has no lines in the mesh", part, place));
+    const meshing::CellBlock& lines = mesh.blocks[static_cast<std::size_t>(set->second.block)];
+    model.blocks.push_back(
+        fem::make_beam_block(mesh, meshing::subset(lines, set->second.cells),
+                             materials::rectangular_section(beam.material, beam.width, beam.height),
+                             Eigen::Vector3d::UnitZ(), set->second.cells));
+  };
+  for (const Part& part : one.parts) {
+    if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
+      add(part.name, part.called("walls"), lattice->wall);
+    if (part.beam) add(part.name, part.place, *part.beam);
+  }
+}
+
+void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent) {
+  std::map<int, std::pair<double, double>> range;
+  const meshing::CellBlock& film = *mesh.film();
+  for (int cell = 0; cell < film.size(); ++cell)
+    for (const int node : film.cell(cell)) {
+      const double z = mesh.nodes[static_cast<std::size_t>(node)].z();
+      auto& [low, high] = range.try_emplace(parts[static_cast<std::size_t>(cell)], z, z).first->second;
+      low = std::min(low, z);
+      high = std::max(high, z);
+    }
+  for (const auto& [part, z] : range)
+    if (z.second - z.first > 1e-9 * extent)
+      throw meshing::MeshError("the film must lie in a plane of constant z");
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "fem/model/model.hpp"
+#include "meshing/mesh.hpp"
+
+#include <vector>
+
+namespace dielast::cases {
+
+/// For each cell of the mesh's film the part to which it belongs, a number in Case::parts: a part that is a
+/// place, otherwise the part whose mesh it is. Throws MeshError: a place that is no film, two places that
+/// overlap, film of no part.
+std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh);
+
+/// Adds one block of membrane elements for each part that is a film, in the order of the parts; `parts` are
+/// film_parts(). Throws MeshError and std::invalid_argument for electrodes and elements that cannot be.
+void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model);
+
+/// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws MeshError for a place without
+/// lines.
+void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
+
+/// Throws MeshError where a film does not lie in a plane of constant z. `extent`: of the mesh, m.
+void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent);
+
+} // namespace dielast::cases

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/rules.hpp"
+#include "cases/tables/templates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+/// The table in which a part is written.
+const Node& top_of(const Node& tree, const Part& part) {
+  return part.name.empty() ? tree : *tree.find("part")->find(part.name);
+}
+
+std::string key_of(const Part& part, const std::string& key) {
+  if (part.name.empty()) return key;
+  return fmt::format("part.{}{}{}", part.name, key.empty() ? "" : ".", key);
+}
+
+void check_patch(SectionReader& reader, const Node& tree, const Part& part) {
+  const auto* patch = std::get_if<Patch>(&part.geometry);
+  if (!patch || !part.film || patch->mode != PatchMode::equal_biaxial ||
+      part.film->prestretch[0] == part.film->prestretch[1])
+    return;
+  const Node* written = top_of(tree, part).find("film")->find("prestretch");
+  reader.report(
+      written->source, key_of(part, "film.prestretch"),
+      fmt::format("found {}: in equal-biaxial tension x and y are stretched alike", text_of(*written)));
+}
+
+/// A film that is alike in all directions of its plane may be turned as one likes.
+bool knows_x_from_y(const Part& part) {
+  if (!part.film || std::holds_alternative<Patch>(part.geometry)) return true;
+  const auto has_axes = [](const materials::Branch& branch) {
+    return branch.dashpot == materials::Dashpot::nominal;
+  };
+  return part.film->prestretch[0] != part.film->prestretch[1] ||
+         std::ranges::any_of(part.film->material.branches, has_axes);
+}
+
+} // namespace
+
+void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
+  for (const Part& part : one.parts) {
+    const Node& top = top_of(tree, part);
+    check_patch(reader, tree, part);
+    if (part.name.empty()) continue;
+    const auto report = [&](const char* key, const std::string& message) {
+      const Node* blamed = top.find(key);
+      reader.report(blamed ? blamed->key_source : top.source, key_of(part, blamed ? key : ""), message);
+    };
+    const auto geometries = geometries_of(top);
+    if (geometries.size() > 1)
+      reader.report(geometries[1]->key_source, key_of(part, ""),
+                    fmt::format("there are {} geometries; a part has one", geometries.size()));
+    if (!part.place.empty() && !geometries.empty())
+      report("place", "given twice: a part is a place of the mesh or has a geometry of its own");
+    if (part.place.empty() && geometries.empty())
+      report("", "a part needs a place of the mesh at the top of the file, or a geometry of its own");
+    if (!part.place.empty() && !(one.unnamed() && one.unnamed()->has_mesh()))
+      report("place", "there is no mesh at the top of the file whose place it could be");
+    if (part.film.has_value() == part.beam.has_value())
+      report("beam", part.film ? "a part is a film or bars, not both" : "a part needs a [film] or a [beam]");
+    if (part.beam && !geometries.empty()) report("beam", "bars are lines of a mesh: give the part a place");
+    if (!part.place.empty())
+      for (const char* key : {"mesh", "at", "turned"})
+        if (top.find(key)) report(key, "a part that is a place has the mesh and the position of its place");
+    if (!geometries.empty() && one.dimension == fem::Dimension::axisymmetric)
+      report("", "parts with geometries of their own are planar or in space; model = \"axisymmetric\" has "
+                 "one meridian");
+    if (!geometries.empty() && (one.plate || one.chamber))
+      report("", "[plate] and [chamber] are for a case without geometries in parts; use [[body]]");
+    const double half_turns = part.turned / std::numbers::pi;
+    if (knows_x_from_y(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
+      report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
+  }
+  if (one.unnamed() && one.unnamed()->film && !one.unnamed()->has_mesh())
+    reader.report(tree.find("film")->key_source, "film",
+                  "a film without geometry; add one, or give each [part.NAME] its own [part.NAME.film]");
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/assembly.hpp"
+
+#include "meshing/mesh_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace dielast::meshing {
+
+namespace {
+
+/// The block of `whole` that takes the cells of another.
+int block_for(Mesh& whole, CellType type, const std::string& name) {
+  const bool lines = is_line(type);
+  const auto found =
+      std::ranges::find_if(whole.blocks, [&](const CellBlock& b) { return is_line(b.type) == lines; });
+  if (found == whole.blocks.end()) {
+    whole.blocks.push_back({type, {}});
+    return static_cast<int>(whole.blocks.size()) - 1;
+  }
+  if (found->type != type)
+    throw MeshError(fmt::format(
+        "the elements of part \"{}\" have {} nodes, those of the parts before it {}; give all parts "
+        "one mesh.order",
+        name, nodes_per_cell(type), nodes_per_cell(found->type)));
+  return static_cast<int>(found - whole.blocks.begin());
+}
+
+std::vector<int> shifted(std::vector<int> numbers, int by) {
+  for (int& number : numbers) number += by;
+  return numbers;
+}
+
+/// Puts new numbers in the place of nodes' old ones.
+void renumber(Mesh& mesh, const std::vector<int>& number) {
+  const auto now = [&](int node) { return number[static_cast<std::size_t>(node)]; };
+  for (CellBlock& block : mesh.blocks) std::ranges::transform(block.nodes, block.nodes.begin(), now);
+  for (auto& [place, nodes] : mesh.node_sets) {
+    std::ranges::transform(nodes, nodes.begin(), now);
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  }
+}
+
+} // namespace
+
+void append(Mesh& whole, const Mesh& part, const std::string& name) {
+  const int first = whole.node_count();
+  whole.nodes.insert(whole.nodes.end(), part.nodes.begin(), part.nodes.end());
+  std::vector<int> block_of, first_cell;
+  for (const CellBlock& block : part.blocks) {
+    CellBlock& into =
+        whole.blocks[static_cast<std::size_t>(block_of.emplace_back(block_for(whole, block.type, name)))];
+    first_cell.push_back(into.size());
+    const std::vector<int> nodes = shifted(block.nodes, first);
+    into.nodes.insert(into.nodes.end(), nodes.begin(), nodes.end());
+  }
+  const auto add_nodes = [&](const std::string& place, std::vector<int> nodes) {
+    if (!whole.node_sets.emplace(place, std::move(nodes)).second)
+      throw MeshError(
+          fmt::format("part \"{}\": there is a place \"{}\" already; call the part otherwise", name, place));
+  };
+  for (const auto& [place, nodes] : part.node_sets) add_nodes(name + "." + place, shifted(nodes, first));
+  std::vector<int> all(part.nodes.size());
+  std::iota(all.begin(), all.end(), first);
+  add_nodes(name, std::move(all));
+  for (const auto& [place, set] : part.cell_sets) {
+    const auto b = static_cast<std::size_t>(set.block);
+    whole.cell_sets[name + "." + place] = {block_of[b], shifted(set.cells, first_cell[b])};
+  }
+}
+
+void join(Mesh& mesh, const std::string& place, const std::string& other) {
+  const auto* fewer = &mesh.node_sets.at(place);
+  const auto* more = &mesh.node_sets.at(other);
+  if (fewer->size() > more->size()) std::swap(fewer, more);
+  Eigen::Vector3d low = mesh.nodes.front(), high = low;
+  for (const auto& x : mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double same_point = 1e-6 * (high - low).norm();
+  const auto at = [&](int node) -> const Eigen::Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(node)];
+  };
+  std::vector<int> kept(mesh.nodes.size());
+  std::iota(kept.begin(), kept.end(), 0);
+  for (const int node : *fewer) {
+    const int nearest =
+        *std::ranges::min_element(*more, {}, [&](int n) { return (at(n) - at(node)).norm(); });
+    const double distance = (at(nearest) - at(node)).norm();
+    if (distance > same_point)
+      throw MeshError(fmt::format(
+          "\"{}\" and \"{}\" cannot be tied: the node at ({:.6g}, {:.6g}, {:.6g}) m of the one is "
+          "{:.3g} m from the nearest of the other; let their nodes coincide, or let a [[body]] carry both",
+          place, other, at(node).x(), at(node).y(), at(node).z(), distance));
+    kept[static_cast<std::size_t>(std::max(node, nearest))] = std::min(node, nearest);
+  }
+  std::vector<int> number(mesh.nodes.size());
+  std::vector<Eigen::Vector3d> nodes;
+  for (std::size_t n = 0; n < number.size(); ++n) {
+    const auto k = static_cast<std::size_t>(kept[n]);
+    if (k == n) {
+      number[n] = static_cast<int>(nodes.size());
+      nodes.push_back(mesh.nodes[n]);
+    } else {
+      number[n] = number[k];
+    }
+  }
+  mesh.nodes = std::move(nodes);
+  renumber(mesh, number);
+}
+
+} // namespace dielast::meshing

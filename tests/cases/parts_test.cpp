@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cases of several parts: films of their own, places of one mesh, bars along lines.
+#include "cases/readers/reader.hpp"
+#include "cases/readers/resolved.hpp"
+#include "cases/runs/simulation.hpp"
+#include "meshing/gmsh/gmsh_text.hpp"
+#include "meshing/honeycomb_mesh.hpp"
+#include "meshing/mesh_error.hpp"
+#include "meshing/middle_nodes.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <boost/math/tools/roots.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+class Parts : public test::ScratchTest {
+ protected:
+  Case read(const std::string& text) const {
+    write("case.toml", text);
+    return read_case(directory / "case.toml");
+  }
+  /// Values of the quantities at the end of a run that ends well.
+  std::map<std::string, double> run(const std::string& text) const {
+    const Case one = read(text);
+    Simulation simulation(one, 1);
+    const Outcome outcome = simulation.run({});
+    EXPECT_EQ(outcome.ending, Ending::complete) << outcome.message;
+    std::map<std::string, double> values;
+    for (std::size_t q = 0; q < one.quantities.size(); ++q)
+      values[one.quantities[q].name] = simulation.results()[q];
+    return values;
+  }
+  std::string mesh_error(const std::string& text) const {
+    try {
+      build_device(read(text));
+    } catch (const meshing::MeshError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+double root(const std::function<double(double)>& f, double low, double high) {
+  boost::uintmax_t iterations = 200;
+  const auto found = boost::math::tools::toms748_solve(
+      f, low, high, boost::math::tools::eps_tolerance<double>(50), iterations);
+  return (found.first + found.second) / 2;
+}
+
+struct Patch {
+  double modulus, thickness, length, width; ///< Pa, m
+  double permittivity = 8.8541878128e-12 * 4;
+
+  /// Force along x of a neo-Hookean patch that is free along y, at the stretch x, under a voltage. The
+  /// stretch y makes the nominal stress mu (y - 1/(x^2 y^3)) - eps (phi/H)^2 x^2 y vanish, that along x is mu
+  /// (x - 1/(x^3 y^2)) - eps (phi/H)^2 x y^2.
+  double force(double x, double voltage) const {
+    const double k = permittivity * voltage * voltage / (thickness * thickness);
+    const double y =
+        root([&](double l) { return modulus * (l - 1 / (x * x * l * l * l)) - k * x * x * l; }, 0.05, 5);
+    return thickness * width * (modulus * (x - 1 / (x * x * x * y * y)) - k * x * y * y);
+  }
+};
+
+const std::string antagonists = R"toml(
+[part.left.film]
+thickness = "1 mm"
+prestretch = [2, 1]
+[part.left.film.material]
+shear_modulus = "50 kPa"
+relative_permittivity = 4
+[part.left.patch]
+length = "20 mm"
+width = "10 mm"
+[part.right]
+at = ["100 mm", 0, 0]
+turned = "180 deg"
+[part.right.film]
+thickness = "0.5 mm"
+prestretch = [1.5, 1]
+[part.right.film.material]
+shear_modulus = "80 kPa"
+relative_permittivity = 4
+[part.right.patch]
+length = "25 mm"
+width = "12 mm"
+[[spring]]
+between = ["left.right", "right.right"]
+along = "x"
+stiffness = "30 N/m"
+free_length = "5 mm"
+[drive.left]
+voltage = "6 kV"
+[drive.right]
+voltage = "3 kV"
+[[step]]
+kind = "release"
+[[step]]
+kind = "voltage"
+electrode = "left"
+increments = 3
+)toml";
+
+// Both patches pull with the force of the spring between them; one of them is charged, then the other.
+TEST_F(Parts, AntagonisticPatchesAreInTheBalanceOfTheirClosedForms) {
+  const Patch left{50e3, 1e-3, 20e-3, 10e-3}, right{80e3, 0.5e-3, 25e-3, 12e-3};
+  const auto expect = [&](const std::map<std::string, double>& found, double on_left, double on_right) {
+    const auto spring = [&](double x, double z) { return 30 * (100e-3 - 20e-3 * x - 25e-3 * z - 5e-3); };
+    const auto stretch_of_right = [&](double x) {
+      return root([&](double z) { return right.force(z, on_right) - spring(x, z); }, 1, 3.5);
+    };
+    const double x =
+        root([&](double l) { return left.force(l, on_left) - spring(l, stretch_of_right(l)); }, 1, 3.5);
+    EXPECT_NEAR(found.at("left_stretch_x"), x, 1e-8 * x);
+    EXPECT_NEAR(found.at("right_stretch_x"), stretch_of_right(x), 1e-8 * x);
+    EXPECT_NEAR(found.at("left_stress_x") * 1e-3 * 10e-3, found.at("right_stress_x") * 0.5e-3 * 12e-3, 1e-9);
+  };
+  expect(run(antagonists), 6e3, 0);
+  expect(run(antagonists +
+             "[[step]]\nname = \"other\"\nkind = \"voltage\"\nelectrode = \"right\"\nincrements = 3\n"),
+         6e3, 3e3);
+}
+
+TEST_F(Parts, TheirResolvedTextGivesThemAgain) {
+  const Case one = read(antagonists);
+  write("again.toml", resolved_text(one));
+  const Case again = read_case(directory / "again.toml");
+  EXPECT_EQ(resolved_text(again), resolved_text(one));
+  ASSERT_EQ(again.parts.size(), 2u);
+  EXPECT_EQ(again.parts[1].name, "right");
+  EXPECT_DOUBLE_EQ(again.parts[1].turned, std::numbers::pi);
+  EXPECT_EQ(again.electrodes.at(1).place, "right.film");
+}
+
+/// A strip along x of two pieces of film, 10 mm and 20 mm long and 8 mm wide, each of 2 x 2 squares.
+meshing::Mesh strip() {
+  meshing::Mesh mesh;
+  const std::array x{0.0, 5e-3, 10e-3, 20e-3, 30e-3};
+  for (int j = 0; j < 3; ++j)
+    for (const double at : x) mesh.nodes.emplace_back(at, 4e-3 * j, 0);
+  mesh.blocks = {{meshing::CellType::triangle3, {}}};
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const int a = 5 * j + i, cell = mesh.blocks[0].size();
+      auto& nodes = mesh.blocks[0].nodes;
+      nodes.insert(nodes.end(), {a, a + 1, a + 6, a, a + 6, a + 5});
+      for (const char* place : {"film", i < 2 ? "thin" : "thick"})
+        for (const int c : {cell, cell + 1}) mesh.cell_sets[place].cells.push_back(c);
+    }
+  meshing::add_middle_nodes(mesh);
+  meshing::add_node_sets(mesh);
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    if (mesh.nodes[static_cast<std::size_t>(n)].x() == 0) mesh.node_sets["left"].push_back(n);
+    if (mesh.nodes[static_cast<std::size_t>(n)].x() == 30e-3) mesh.node_sets["right"].push_back(n);
+  }
+  return mesh;
+}
+
+const std::string two_thicknesses = R"toml(
+[mesh]
+file = "strip.msh"
+unit = "1 m"
+[part.a]
+place = "thin"
+[part.a.film]
+thickness = "0.5 mm"
+[part.a.film.material]
+shear_modulus = "40 kPa"
+relative_permittivity = 4
+[part.b]
+place = "thick"
+[part.b.film]
+thickness = "1 mm"
+[part.b.film.material]
+law = "gent"
+shear_modulus = "60 kPa"
+stretch_limit = 20
+relative_permittivity = 3
+[[support]]
+place = "film"
+fix = ["y"]
+[[support]]
+place = "left"
+fix = ["x"]
+[[support]]
+place = "right"
+displacement = { x = "15 mm" }
+[[step]]
+kind = "move"
+[[quantity]]
+name = "pull"
+kind = "force"
+of = "right"
+along = "x"
+[[quantity]]
+name = "hold"
+kind = "force"
+of = "left"
+along = "x"
+[[quantity]]
+name = "end"
+kind = "displacement"
+of = "thin"
+along = "x"
+)toml";
+
+// Held along y both pieces are in pure shear: one nominal force goes through them, and their lengths add up.
+TEST_F(Parts, TwoThicknessesInOneStripCarryOneForce) {
+  write("strip.msh", meshing::gmsh_text(strip()));
+  const auto found = run(two_thicknesses);
+  const auto thin = [](double l) { return 0.5e-3 * 8e-3 * 40e3 * (l - std::pow(l, -3)); };
+  const auto thick = [](double l) {
+    return 1e-3 * 8e-3 * 60e3 * (l - std::pow(l, -3)) / (1 - (l * l + 1 / (l * l) - 2) / 20);
+  };
+  const double l = root([&](double a) { return thin(a) - thick((45e-3 - 10e-3 * a) / 20e-3); }, 1, 3);
+  EXPECT_NEAR(found.at("pull"), thin(l), 1e-8 * thin(l));
+  EXPECT_NEAR(found.at("pull") + found.at("hold"), 0, 1e-10 * thin(l));
+}
+
+TEST_F(Parts, FilmOfNoPartOverlapsAndWrongPlacesAreErrors) {
+  write("strip.msh", meshing::gmsh_text(strip()));
+  const auto without = [](std::string text, const std::string& from, const std::string& to) {
+    const auto first = text.find(from);
+    return text.erase(first, text.find(to) - first);
+  };
+  const std::string of_one = without(two_thicknesses, "[part.b]", "[[support]]");
+  EXPECT_EQ(mesh_error(of_one),
+            "8 of the film's 16 elements belong to no part with a film; add [film], or a [part.NAME] with "
+            "their place");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = two_thicknesses;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_EQ(mesh_error(with("place = \"thick\"", "place = \"film\"")), "parts \"a\" and \"b\" overlap");
+  EXPECT_EQ(mesh_error(with("place = \"thick\"", "place = \"left\"")),
+            "part \"b\": the place \"left\" is no film of the mesh");
+}
+
+// The lattice of the template, written as a gmsh file and read back with its walls as bars along lines.
+TEST_F(Parts, BarsAlongLinesOfAFileAreTheWallsOfTheTemplate) {
+  const std::string
+      film = "[film]\nmaterial = \"VHB 4910 (honeycomb)\"\nthickness = \"1 mm\"\nprestretch = [4, 2.5]\n"
+             "[drive]\nvoltage = \"6 kV\"\n[[step]]\nkind = \"release\"\n[[step]]\nkind = \"voltage\"\n"
+             "increments = 2\n",
+      lattice = "[honeycomb]\nangle = \"150 deg\"\ncolumns = [2, 1, 2]\nwall_length = \"8 mm\"\n"
+                "wall_width = \"0.8 mm\"\nwall_height = \"2 mm\"\n[mesh]\nwall_elements = 4\n";
+  const auto expected = run(film + lattice);
+  write("lattice.msh", meshing::gmsh_text(build_mesh(read(film + lattice))));
+  const auto found = run(film + R"toml(
+[mesh]
+file = "lattice.msh"
+unit = "1 m"
+[part.frame]
+place = "walls"
+[part.frame.beam]
+width = "0.8 mm"
+height = "2 mm"
+[[quantity]]
+name = "eps_x"
+kind = "elongation"
+between = ["left_apex", "right_apex"]
+along = "x"
+since = "release"
+[[quantity]]
+name = "eps_y"
+kind = "elongation"
+between = ["corner_bottom", "corner_top"]
+along = "y"
+since = "release"
+)toml");
+  for (const char* name : {"eps_x", "eps_y", "stored_energy", "max_field", "capacitance"})
+    EXPECT_NEAR(found.at(name), expected.at(name), 1e-10 * std::abs(expected.at(name))) << name;
+}
+
+const std::string two_discs = R"toml(
+[part.a.film]
+material = "VHB 4910 (honeycomb)"
+thickness = "1 mm"
+[part.a.disc]
+radius = "20 mm"
+electrode_radius = "10 mm"
+[part.a.mesh]
+rings = 4
+[part.b]
+at = [0.1, 0, 0]
+[part.b.film]
+material = "VHB 4910 (honeycomb)"
+thickness = "1 mm"
+[part.b.patch]
+)toml";
+
+TEST_F(Parts, PlacesHaveThePartInTheirName) {
+  const Device device = build_device(read(two_discs));
+  for (const char* place : {"a", "b", "a.rim", "a.electrode", "b.left", "b.film"})
+    EXPECT_TRUE(device.mesh.node_sets.contains(place)) << place;
+  EXPECT_EQ(device.mesh.node_sets.at("b").size(), 9u); // triangles of the disc's order
+  EXPECT_NEAR(device.mesh.nodes[static_cast<std::size_t>(device.mesh.node_sets.at("b.right")[0])].x(), 0.11,
+              1e-15);
+}
+
+// A tie makes one node of two; what does not meet cannot be tied.
+TEST_F(Parts, TiesJoinNodesThatCoincide) {
+  const std::string apart = "[[tie]]\nbetween = [\"a.rim\", \"b.left\"]\n";
+  EXPECT_NE(mesh_error(two_discs + apart)
+                .find("\"a.rim\" and \"b.left\" cannot be tied: the node at (0.1, 0, 0) m"),
+            std::string::npos)
+      << mesh_error(two_discs + apart);
+  std::string pair = antagonists;
+  const std::string far = "at = [\"100 mm\", 0, 0]", near = "at = [\"77.5 mm\", \"10 mm\", 0]";
+  pair.replace(pair.find(far), far.size(), near); // 20 mm x 2 + 25 mm x 1.5
+  pair.replace(pair.find("width = \"12 mm\""), 15, "width = \"10 mm\"");
+  const auto nodes = [&](const std::string& text) { return build_device(read(text)).mesh.node_count(); };
+  EXPECT_EQ(nodes(pair), 8);
+  EXPECT_EQ(nodes(pair + "[[tie]]\nbetween = [\"left.right\", \"right.right\"]\n"), 6);
+}
+
+} // namespace
+} // namespace dielast::cases
