@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/tables/templates.hpp"
 
+#include "cases/language/convert.hpp"
 #include "cases/language/schema.hpp"
 
 #include <fmt/format.h>
@@ -204,8 +205,9 @@ std::vector<TemplatePart> parts_with_geometry(const Node& tree) {
   std::vector<TemplatePart> found;
   const Node* parts = tree.find("part");
   for (std::size_t i = 0; parts && parts->is(Node::Kind::table) && i < parts->items.size(); ++i)
-    if (const Template* device =
-            parts->items[i].is(Node::Kind::table) ? template_of(parts->items[i]) : nullptr)
+    if (const Template* device = parts->items[i].is(Node::Kind::table) && is_name(parts->keys[i])
+                                     ? template_of(parts->items[i])
+                                     : nullptr)
       found.push_back({parts->keys[i], device});
   return found;
 }
