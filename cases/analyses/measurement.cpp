@@ -3,6 +3,7 @@
 
 #include "cases/analyses/analysis.hpp"
 #include "cases/analyses/radial_stretch.hpp"
+#include "cases/case/quantities.hpp"
 #include "fem/linear/modal.hpp"
 
 #include <algorithm>
@@ -284,8 +285,7 @@ bool Measurement::has_peaks_of_fields() const {
   return std::ranges::any_of(case_.quantities, [this](const Quantity& quantity) {
     if (quantity.kind != QuantityKind::peak) return false;
     const QuantityKind kind = subject(quantity).kind;
-    return kind == QuantityKind::extreme || kind == QuantityKind::nominal_stress ||
-           kind == QuantityKind::radial_stretch;
+    return kind == QuantityKind::extreme || reads_film(kind);
   });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/case/quantities.hpp"
 
+#include <fmt/format.h>
+
 namespace dielast::cases {
 
 std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) {
@@ -50,6 +52,70 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
   for (const post::Scalar& field : post::scalars())
     if (field.name == quantity.of) return std::string(field.unit);
   return "1";
+}
+
+std::string meaning_of(const Quantity& q) {
+  static constexpr const char* axes[] = {"x", "y", "z", "gravity"};
+  const std::string along = q.along ? fmt::format(" along {}", axes[*q.along]) : "";
+  const std::string at = q.at.empty() ? "" : fmt::format(", at the end of \"{}\"", q.at);
+  switch (q.kind) {
+  case QuantityKind::distance:
+    return fmt::format("distance of {} and {}{}{}", q.between[0], q.between[1], along, at);
+  case QuantityKind::elongation:
+    return fmt::format("elongation from {} to {}{}, since {}{}", q.between[0], q.between[1], along,
+                       q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
+  case QuantityKind::size:
+    return fmt::format("size of {}{}{}", q.of, along, at);
+  case QuantityKind::growth:
+    return fmt::format("growth of {}{}, since {}{}", q.of, along,
+                       q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
+  case QuantityKind::displacement:
+    return fmt::format("displacement of {}{}{}{}", q.of, along,
+                       q.since.empty() ? "" : ", since \"" + q.since + "\"", at);
+  case QuantityKind::radius:
+    return fmt::format("mean radius of {}{}", q.of, at);
+  case QuantityKind::angle:
+    return fmt::format("rotation of {}{}{}", q.of, along, at);
+  case QuantityKind::moment:
+    return fmt::format("moment of the support of {} on it{}{}", q.of, along, at);
+  case QuantityKind::force:
+    return fmt::format("force of the support {} on the device{}{}", q.of, along, at);
+  case QuantityKind::capacitance:
+    return fmt::format("capacitance of electrode {}{}", q.of, at);
+  case QuantityKind::charge:
+    return fmt::format("charge on electrode {}{}", q.of, at);
+  case QuantityKind::current:
+    return fmt::format("current from the source of electrode {}{}", q.of, at);
+  case QuantityKind::pressure:
+    return fmt::format("pressure in the chamber{}", at);
+  case QuantityKind::volume:
+    return fmt::format("volume of the chamber{}", at);
+  case QuantityKind::pumped_volume:
+    return fmt::format("volume pumped into the chamber, as it is without pressure{}", at);
+  case QuantityKind::stiffness:
+    return fmt::format("force on {} per displacement{}{}", q.of, along, at);
+  case QuantityKind::natural_frequency:
+    return fmt::format("natural frequency number {}{}", q.mode, at);
+  case QuantityKind::radial_stretch:
+    return fmt::format("stretch along the radius at {}{}", q.of, at);
+  case QuantityKind::peak:
+    return fmt::format("{} {} so far{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
+                       at);
+  case QuantityKind::stretch:
+    return fmt::format("stretch between {} and {}{}{}", q.between[0], q.between[1], along, at);
+  case QuantityKind::nominal_stress:
+    return fmt::format("mean nominal stress of {}{}{}", q.of, along, at);
+  case QuantityKind::energy:
+    return fmt::format("energy balance: {}{}", q.of, at);
+  case QuantityKind::extreme:
+    return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
+                       at);
+  }
+  return "";
+}
+
+bool reads_film(QuantityKind kind) {
+  return kind == QuantityKind::nominal_stress || kind == QuantityKind::radial_stretch;
 }
 
 const Quantity* response_quantity(const Case& one, const std::string& name) {

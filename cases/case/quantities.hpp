@@ -12,6 +12,12 @@ namespace dielast::cases {
 /// `all`: the quantities of the case, of which a peak needs another.
 std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all);
 
+/// A quantity in words, for a person who did not write the case.
+std::string meaning_of(const Quantity& quantity);
+
+/// Whether it is read from the film's integration points at a place.
+bool reads_film(QuantityKind kind);
+
 /// Quantity of kind displacement by which a linear model responds: the named one, or the first with a
 /// direction; null when there is none.
 const Quantity* response_quantity(const Case& one, const std::string& name);

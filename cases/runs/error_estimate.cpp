@@ -104,13 +104,11 @@ OrderRange orders_of(const Quantity& quantity, const Case& one, bool smooth) {
     return {0.5, 1};
   case QuantityKind::peak:
     return {1, 1}; // read at some times only
-  case QuantityKind::radial_stretch:
-  case QuantityKind::nominal_stress:
-    return {0.5, 2}; // read in the elements next to a place
   case QuantityKind::size:
   case QuantityKind::growth:
     return {1, 2}; // whichever node is outermost
   default:
+    if (reads_film(quantity.kind)) return {0.5, 2}; // in the elements next to a place
     return {1, smooth && !takes_time(one) ? 3.0 : 2.0};
   }
 }
