@@ -2,7 +2,7 @@
 #include "cases/analyses/measurement.hpp"
 
 #include "cases/analyses/analysis.hpp"
-#include "cases/analyses/radial_stretch.hpp"
+#include "cases/analyses/film_values.hpp"
 #include "cases/case/quantities.hpp"
 #include "fem/linear/modal.hpp"
 
@@ -237,7 +237,10 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   case QuantityKind::natural_frequency:
     return natural_frequency(quantity, measured);
   case QuantityKind::radial_stretch:
-    return radial_stretch(device_.mesh, measured.samples, quantity.of);
+    return mean(readings_at(quantity.of, device_.mesh, measured.samples), measured.samples,
+                [](const fem::MembraneSample& sample, const FilmReading& reading) {
+                  return (sample.F * reading.drawn.head<2>().normalized()).norm();
+                });
   case QuantityKind::peak: // of the others, see all()
     return unknown;
   case QuantityKind::extreme: {

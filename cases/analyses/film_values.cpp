@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/analyses/film_values.hpp"
+
+#include "fem/films/meridian.hpp"
+#include "fem/films/triangle.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <map>
+
+namespace dielast::cases {
+namespace {
+
+using meshing::CellType;
+
+constexpr double close_by = 1e-3; ///< of an element's size
+
+/// Values of the shape functions at a place in an element and their derivatives there.
+struct Shape {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd slope; ///< one column per local coordinate
+};
+
+Shape shape(CellType type, const Eigen::VectorXd& local) {
+  switch (type) {
+  case CellType::triangle3:
+    return {fem::shape_values<3>(local[0], local[1]), fem::shape_gradients<3>(local[0], local[1])};
+  case CellType::triangle6:
+    return {fem::shape_values<6>(local[0], local[1]), fem::shape_gradients<6>(local[0], local[1])};
+  case CellType::meridian2:
+    return {fem::meridian_shape<2>(local[0]), fem::meridian_slope<2>(local[0])};
+  default:
+    return {fem::meridian_shape<3>(local[0]), fem::meridian_slope<3>(local[0])};
+  }
+}
+
+/// Local coordinates of the nodes, one per row: (xi, eta), of meridians xi.
+Eigen::MatrixXd local_nodes(CellType type) {
+  if (meshing::is_meridian(type)) return Eigen::Vector3d(-1, 1, 0);
+  return (Eigen::MatrixXd(6, 2) << 0, 0, 1, 0, 0, 1, 0.5, 0, 0.5, 0.5, 0, 0.5).finished();
+}
+
+/// Those of the integration points.
+Eigen::MatrixXd local_points(CellType type, int points) {
+  Eigen::MatrixXd local(points, meshing::is_meridian(type) ? 1 : 2);
+  for (int p = 0; p < points; ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    if (meshing::is_meridian(type))
+      local(p, 0) = fem::meridian_rule(points)[i].xi;
+    else
+      local.row(p) << fem::triangle_rule(points)[i].xi, fem::triangle_rule(points)[i].eta;
+  }
+  return local;
+}
+
+/// What a linear function through the values at the integration points has at these local coordinates: one
+/// row of weights for each. One point tells a constant.
+Eigen::MatrixXd continued(CellType type, int points, const Eigen::MatrixXd& local) {
+  const auto basis = [points](const Eigen::MatrixXd& at) {
+    Eigen::MatrixXd linear(at.rows(), points > 1 ? 1 + at.cols() : 1);
+    linear.col(0).setOnes();
+    if (points > 1) linear.rightCols(at.cols()) = at;
+    return linear;
+  };
+  return basis(local) * basis(local_points(type, points))
+                            .colPivHouseholderQr()
+                            .solve(Eigen::MatrixXd::Identity(points, points));
+}
+
+/// The integration points of an element among the samples; films of a case may have different rules.
+struct Points {
+  int first = 0, count = 0;
+};
+
+std::vector<Points> points_of_cells(const meshing::CellBlock& film, const fem::Samples& samples) {
+  std::vector<Points> points(static_cast<std::size_t>(film.size()));
+  for (int i = 0; i < std::ssize(samples.film); ++i) {
+    Points& own = points[static_cast<std::size_t>(samples.film[static_cast<std::size_t>(i)].cell)];
+    if (own.count++ == 0) own.first = i;
+  }
+  return points;
+}
+
+/// Whether local coordinates are in the element, or as good as in it.
+bool is_inside(CellType type, const Eigen::VectorXd& local) {
+  if (meshing::is_meridian(type)) return std::abs(local[0]) <= 1 + close_by;
+  return std::min(local.minCoeff(), 1 - local.sum()) >= -close_by;
+}
+
+} // namespace
+
+std::vector<FilmReading> readings_at(const std::string& place, const meshing::Mesh& mesh,
+                                     const fem::Samples& samples) {
+  const meshing::CellBlock& film = *mesh.film();
+  const std::vector<Points> points = points_of_cells(film, samples);
+  std::vector<FilmReading> readings;
+  std::map<int, Eigen::MatrixXd> to_nodes; // by number of points
+  const auto& nodes = mesh.node_sets.at(place);
+  for (int cell = 0; cell < film.size(); ++cell) {
+    const auto own = film.cell(cell);
+    const auto [first, count] = points[static_cast<std::size_t>(cell)];
+    for (std::size_t a = 0; a < own.size(); ++a) {
+      if (!std::binary_search(nodes.begin(), nodes.end(), own[a])) continue;
+      Eigen::MatrixXd& weights = to_nodes[count];
+      if (weights.size() == 0) weights = continued(film.type, count, local_nodes(film.type));
+      readings.push_back({cell, first, mesh.nodes[static_cast<std::size_t>(own[a])],
+                          weights.row(static_cast<Eigen::Index>(a)).transpose()});
+    }
+  }
+  return readings;
+}
+
+std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,
+                                     const fem::Samples& samples) {
+  const meshing::CellBlock& film = *mesh.film();
+  const bool of_revolution = meshing::is_meridian(film.type);
+  const Eigen::Vector3d wanted =
+      of_revolution ? Eigen::Vector3d(point.head<2>().norm(), 0, point.z()) : point;
+  const std::vector<Points> points = points_of_cells(film, samples);
+  std::vector<FilmReading> readings;
+  for (int cell = 0; cell < film.size(); ++cell) {
+    const auto nodes = film.cell(cell);
+    Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(nodes.size()));
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      x.col(static_cast<Eigen::Index>(a)) = mesh.nodes[static_cast<std::size_t>(nodes[a])];
+    const double size = (x.colwise() - x.col(0)).colwise().norm().maxCoeff();
+    if ((x.col(0) - wanted).norm() > 2 * size) continue;
+    // The nearest point of the element, by the Gauss-Newton method from its middle.
+    Eigen::VectorXd local = of_revolution ? Eigen::VectorXd::Zero(1) : Eigen::VectorXd::Constant(2, 1.0 / 3);
+    Eigen::Vector3d away;
+    constexpr int iterations = 20; // sides are straight or nearly so: a few are enough
+    for (int i = 0; i < iterations; ++i) {
+      const Shape at = shape(film.type, local);
+      const Eigen::MatrixXd tangent = x * at.slope;
+      away = wanted - x * at.value;
+      local += (tangent.transpose() * tangent).inverse() * (tangent.transpose() * away);
+    }
+    if (!is_inside(film.type, local) || !(away.norm() <= close_by * size)) continue;
+    const auto [first, count] = points[static_cast<std::size_t>(cell)];
+    readings.push_back({cell, first, wanted, continued(film.type, count, local.transpose()).transpose()});
+  }
+  return readings;
+}
+
+std::vector<FilmReading> readings_in(const std::string& place, const meshing::Mesh& mesh,
+                                     const fem::Samples& samples) {
+  const meshing::CellBlock& film = *mesh.film();
+  const auto part = mesh.cell_sets.find(place);
+  if (part == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(part->second.block)] != &film)
+    return {};
+  const std::vector<Points> points = points_of_cells(film, samples);
+  std::vector<FilmReading> readings;
+  for (const int cell : part->second.cells) {
+    const auto [first, count] = points[static_cast<std::size_t>(cell)];
+    Eigen::VectorXd volume(count);
+    for (int p = 0; p < count; ++p) volume[p] = samples.film[static_cast<std::size_t>(first + p)].volume;
+    readings.push_back(
+        {cell, first, mesh.nodes[static_cast<std::size_t>(film.cell(cell)[0])], std::move(volume)});
+  }
+  return readings;
+}
+
+} // namespace dielast::cases

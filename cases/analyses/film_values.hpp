@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/model/samples.hpp"
+#include "meshing/mesh.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dielast::cases {
+
+/// Where a field of the film is read, and with which weights the integration points of the element there
+/// count. At a point of an element they add up to 1: values are continued by a linear function (least
+/// squares). In a part of the film they are the undeformed volumes, m^3.
+struct FilmReading {
+  int cell = 0;
+  int first = 0;         ///< number of the element's first integration point among the samples
+  Eigen::Vector3d drawn; ///< the point, m; of a part of the film a node of the element
+  Eigen::VectorXd weight;
+};
+
+/// At the nodes of a place, in every element that has them. `samples`: of any state.
+std::vector<FilmReading> readings_at(const std::string& place, const meshing::Mesh& mesh,
+                                     const fem::Samples& samples);
+
+/// In the elements that have the point, as drawn, to a thousandth of their size; in a film of revolution it
+/// may be at any angle about the z axis. None beside the film.
+std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,
+                                     const fem::Samples& samples);
+
+/// In all elements of a part of the film; none where the place is no part of it.
+std::vector<FilmReading> readings_in(const std::string& place, const meshing::Mesh& mesh,
+                                     const fem::Samples& samples);
+
+/// Mean of `value(sample, reading)`; NaN without readings.
+template<class Value>
+double mean(const std::vector<FilmReading>& readings, const fem::Samples& samples, Value&& value) {
+  double sum = 0, weight = 0;
+  for (const FilmReading& reading : readings) {
+    for (Eigen::Index p = 0; p < reading.weight.size(); ++p)
+      sum += reading.weight[p] * value(samples.film[static_cast<std::size_t>(reading.first + p)], reading);
+    weight += reading.weight.sum();
+  }
+  return sum / weight;
+}
+
+} // namespace dielast::cases
