@@ -306,9 +306,10 @@ struct Case {
   int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
   SolverOptions solver;
   Linearise linearise;
-  bool error_estimate = true;  ///< [output] error_estimate: solve again with other elements and steps
-  bool fields = true;          ///< [output] fields: write the VTK series
-  std::vector<Mention> places; ///< every place that the case names, for check_places
+  bool error_estimate = true;         ///< [output] error_estimate: solve again with other elements and steps
+  bool fields = true;                 ///< [output] fields: write the VTK series
+  std::vector<Mention> places;        ///< every place that the case names, for check_places
+  std::map<std::string, Source> keys; ///< where they stand, by path, for what only the device can tell
   std::vector<Diagnostic> warnings{};
 
   /// What stands at the top of the file; null: everything is in named parts.
@@ -330,6 +331,12 @@ struct Case {
   bool any_geometry() const {
     return std::ranges::any_of(parts,
                                [](const Part& part) { return std::holds_alternative<T>(part.geometry); });
+  }
+
+  /// Where the key of this path stands, or the file as a whole.
+  Source where(const std::string& key) const {
+    const auto found = keys.find(key);
+    return found == keys.end() ? Source{source.string()} : found->second;
   }
 };
 

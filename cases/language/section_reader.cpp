@@ -133,6 +133,7 @@ void SectionReader::set(const Key& key, const Node& node, const Node& table, voi
     const Value value =
         convert(key, node, *unit, [&](const Node& inner) { return read_wave(key, inner, path); });
     key.binding.set(object, value);
+    keys_[path] = node.source;
     for (const Scalar& scalar : value)
       if (key.refers != Reference::none) mentions_[key.refers].push_back({scalar.text, path, node.source});
   } catch (const Mismatch& wrong) {

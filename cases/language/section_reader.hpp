@@ -47,6 +47,8 @@ class SectionReader {
   /// Every name of that kind that the case mentions.
   const std::vector<Mention>& mentions(Reference kind) { return mentions_[kind]; }
   const std::vector<WrittenWave>& waves() const { return waves_; }
+  /// Where the keys that were understood stand, by their paths.
+  const std::map<std::string, Source>& keys() const { return keys_; }
 
  private:
   void read_key(const Section& section, const Key& key, const std::string& selected, const Node& table,
@@ -67,6 +69,7 @@ class SectionReader {
   std::size_t unread_ = 0; ///< keys that could not be understood because of an error elsewhere
   std::map<Reference, std::vector<Mention>> mentions_;
   std::vector<WrittenWave> waves_;
+  std::map<std::string, Source> keys_;
 };
 
 } // namespace dielast::cases

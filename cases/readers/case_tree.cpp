@@ -112,6 +112,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   for (Part& part : one.parts) locate_mesh(reader, tree, one, part);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   one.places = reader.mentions(Reference::place);
+  one.keys = reader.keys();
   one.linearise.written = tree.find("linearise");
   one.warnings = reader.warnings();
   for (Diagnostic& idle : idle_keys(tree, one)) one.warnings.push_back(std::move(idle));
