@@ -96,6 +96,14 @@ const std::vector<FilmField> film_table{
      {},
      "thickness of the deformed film",
      [](const FilmPoint& p, double* v) { *v = p.thickness; }},
+    {"slope",
+     "rad",
+     {},
+     "angle between the film and the plane across z, in which flat films are drawn; at most pi/2",
+     [](const FilmPoint& p, double* v) {
+       const Eigen::Vector3d normal = p.direction.col(2);
+       *v = std::atan2(normal.head<2>().norm(), std::abs(normal.z()));
+     }},
     {"electric_field",
      "V/m",
      {},

@@ -107,6 +107,17 @@ TEST(FilmFields, TurnWithTheFilmInSpace) {
   }
 }
 
+TEST(FilmFields, SlopeIsThatOfThePlaneWhicheverSideIsUp) {
+  for (const double angle : {0.0, 1e-9, 0.3, 1.5}) {
+    const Eigen::Matrix3d tilt = Eigen::AngleAxisd(angle, Eigen::Vector3d(0.6, 0.8, 0)).toRotationMatrix();
+    const auto tilted = film_sample(tilt * stretched(3, 2));
+    expect_near(value("slope", tilted), {angle}, 1e-15);
+    Eigen::Matrix<double, 3, 2> turned_over = tilted.F;
+    turned_over.col(0) *= -1;
+    expect_near(value("slope", film_sample(turned_over)), {angle}, 1e-15);
+  }
+}
+
 TEST(FilmFields, UnknownLimitsGiveZeroRatios) {
   auto sample = film_sample(stretched(1, 1));
   sample.breakdown_field = 0;
