@@ -166,6 +166,17 @@ Extremes::Extremes(const fem::Samples& samples) {
       samples.walls, wall_fields(), [](const fem::BeamSample& sample) { return sample; }, Part::walls);
 }
 
+double film_value(const fem::MembraneSample& sample, std::string_view scalar) {
+  std::array<double, widest_field> values;
+  for (const FilmField& field : film_fields())
+    for (int c = 0; c < field.width(); ++c)
+      if (scalar_name(field, static_cast<std::size_t>(c)) == scalar) {
+        field.evaluate(FilmPoint(sample), values.data());
+        return values[static_cast<std::size_t>(c)];
+      }
+  throw std::invalid_argument("unknown field '" + std::string(scalar) + "' of the film");
+}
+
 std::optional<Extremum> Extremes::find(std::string_view scalar, Extreme which) const {
   for (const Entry& entry : entries_)
     if (entry.name == scalar) return which == Extreme::minimum ? entry.low : entry.high;

@@ -21,6 +21,9 @@ std::vector<std::vector<double>> average(std::span<const fem::MembraneSample> sa
 std::vector<std::vector<double>> average(std::span<const fem::BeamSample> samples,
                                          std::span<const WallField> fields, int cell_count);
 
+/// One scalar of the film at an integration point. Throws std::invalid_argument for an unknown name.
+double film_value(const fem::MembraneSample& sample, std::string_view scalar);
+
 enum class Part { film, walls };
 enum class Extreme { minimum, maximum };
 

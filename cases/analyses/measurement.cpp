@@ -2,9 +2,10 @@
 #include "cases/analyses/measurement.hpp"
 
 #include "cases/analyses/analysis.hpp"
-#include "cases/analyses/film_values.hpp"
 #include "cases/case/quantities.hpp"
 #include "fem/linear/modal.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,42 @@ Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::St
   Eigen::VectorXd dead = at.dead_force;
   device.model.dofs.gather(at, dead);
   reaction -= dead;
+}
+
+Measurement::Measurement(const Case& one, const Device& device) : case_(one), device_(device) {
+  if (std::ranges::count(one.quantities, QuantityKind::value, &Quantity::kind) == 0) return;
+  const fem::Samples drawn = device.model.sample(device.model.initial_state());
+  int written = 0; // by the user, who counts no others
+  for (const Quantity& quantity : one.quantities) {
+    written += !quantity.standard;
+    if (quantity.kind == QuantityKind::value)
+      readings_[quantity.name] = readings_of(quantity, fmt::format("quantity[{}]", written), drawn);
+  }
+}
+
+std::vector<FilmReading> Measurement::readings_of(const Quantity& quantity, const std::string& key,
+                                                  const fem::Samples& drawn) const {
+  const std::string where = key + (quantity.point ? ".point" : ".place");
+  const auto fail = [&](const char* message) { throw CaseError({{case_.where(where), where, message}}); };
+  std::vector<FilmReading> readings;
+  if (quantity.point) {
+    readings = readings_at(Eigen::Vector3d(quantity.point->data()), device_.mesh, drawn);
+  } else {
+    readings = readings_in(quantity.place, device_.mesh, drawn);
+    if (!readings.empty()) return readings;
+    readings = readings_at(quantity.place, device_.mesh, drawn);
+  }
+  if (readings.empty()) fail("there is no film; coordinates are those of the film as drawn");
+  const auto film = [&](const FilmReading& reading) {
+    return std::pair(device_.film_parts[static_cast<std::size_t>(reading.cell)],
+                     drawn.film[static_cast<std::size_t>(reading.first)].electrode);
+  };
+  for (const FilmReading& reading : readings)
+    if (film(reading) != film(readings[0]))
+      fail(
+          "the edge of an electrode or of a film is there, where a field has two values; give a point beside "
+          "it, or a part of the film");
+  return readings;
 }
 
 const std::vector<char>& Measurement::film_at(const std::string& place) const {
@@ -240,6 +277,11 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     return mean(readings_at(quantity.of, device_.mesh, measured.samples), measured.samples,
                 [](const fem::MembraneSample& sample, const FilmReading& reading) {
                   return (sample.F * reading.drawn.head<2>().normalized()).norm();
+                });
+  case QuantityKind::value:
+    return mean(readings_.at(quantity.name), measured.samples,
+                [&](const fem::MembraneSample& sample, const auto&) {
+                  return post::film_value(sample, quantity.of);
                 });
   case QuantityKind::peak: // of the others, see all()
     return unknown;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cases/analyses/film_values.hpp"
 #include "cases/devices/device.hpp"
 #include "fem/paths/energy_balance.hpp"
 
@@ -30,7 +31,8 @@ struct Measured {
 /// Evaluates the quantities of a case on the states of a device.
 class Measurement {
  public:
-  Measurement(const Case& one, const Device& device) : case_(one), device_(device) {}
+  /// Throws CaseError where a quantity is of a point beside the film.
+  Measurement(const Case& one, const Device& device);
 
   /// All quantities, in the case's order and in SI; NaN where one has no meaning yet (an elongation since a
   /// step that has not ended).
@@ -57,6 +59,9 @@ class Measurement {
   double displacement(const Quantity& quantity, const fem::State& state) const;
   double stiffness(const Quantity& quantity, const Measured& measured) const;
   double natural_frequency(const Quantity& quantity, const Measured& measured) const;
+  /// Where a value of a field is read; `key`: the quantity's path.
+  std::vector<FilmReading> readings_of(const Quantity& quantity, const std::string& key,
+                                       const fem::Samples& drawn) const;
   std::size_t electrode(const std::string& name) const;
   Eigen::Vector3d position(const std::string& place, const fem::State& state) const;
   /// Which triangles belong to a place: its own, or those with a node there.
@@ -64,6 +69,7 @@ class Measurement {
 
   const Case& case_;
   const Device& device_;
+  std::map<std::string, std::vector<FilmReading>> readings_; ///< by quantity
   mutable std::map<std::string, std::vector<char>> film_at_;
 };
 

@@ -217,6 +217,7 @@ enum class QuantityKind {
   natural_frequency,
   radial_stretch,
   energy,
+  value,
   extreme,
   peak
 };
@@ -234,11 +235,13 @@ struct Quantity {
   std::string name;
   QuantityKind kind{};
   std::array<std::string, 2> between; ///< distance, elongation, stretch: two places (their centroids)
-  std::string
-      of; ///< size, growth, displacement, radius, force, nominal_stress, stiffness, radial_stretch: a
-          ///< place; capacitance, charge, current: an electrode; extreme: a field; peak: another quantity
-  std::optional<int> along; ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
-  int mode = 1;             ///< natural_frequency: its number, from the lowest
+  std::string of; ///< size, growth, displacement, radius, force, nominal_stress, stiffness, radial_stretch: a
+                  ///< place; capacitance, charge, current: an electrode; value, extreme: a field; peak:
+                  ///< another quantity
+  std::optional<int> along;                   ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
+  std::string place;                          ///< value: over which it is the mean
+  std::optional<std::array<double, 3>> point; ///< value: instead of a place, as drawn, m
+  int mode = 1;                               ///< natural_frequency: its number, from the lowest
   post::Extreme extreme{};
   std::string at; ///< the step at whose end summary.json reads it; empty: the last
   std::string

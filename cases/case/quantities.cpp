@@ -46,6 +46,7 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
     for (const Quantity& other : all)
       if (other.name == quantity.of && other.kind != QuantityKind::peak) return unit_of(other, all);
     return "1";
+  case QuantityKind::value:
   case QuantityKind::extreme:
     break;
   }
@@ -107,6 +108,11 @@ std::string meaning_of(const Quantity& q) {
     return fmt::format("mean nominal stress of {}{}{}", q.of, along, at);
   case QuantityKind::energy:
     return fmt::format("energy balance: {}{}", q.of, at);
+  case QuantityKind::value:
+    if (q.point)
+      return fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m as drawn{}", q.of, (*q.point)[0], (*q.point)[1],
+                         (*q.point)[2], at);
+    return fmt::format("mean {} at {}{}", q.of, q.place, at);
   case QuantityKind::extreme:
     return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
                        at);
@@ -115,7 +121,8 @@ std::string meaning_of(const Quantity& q) {
 }
 
 bool reads_film(QuantityKind kind) {
-  return kind == QuantityKind::nominal_stress || kind == QuantityKind::radial_stretch;
+  return kind == QuantityKind::nominal_stress || kind == QuantityKind::radial_stretch ||
+         kind == QuantityKind::value;
 }
 
 const Quantity* response_quantity(const Case& one, const std::string& name) {

@@ -14,12 +14,15 @@ Section quantity_section() {
       list_section("quantity", "a number of the state, in every row of history.csv and in summary.json",
                    each(&Case::quantities));
   section.selector = "kind";
-  std::vector<Choice> fields;
-  for (const post::Scalar& field : post::scalars())
+  std::vector<Choice> fields, of_film;
+  for (const post::Scalar& field : post::scalars()) {
     fields.push_back({field.name, std::string(field.meaning)});
+    if (field.part == post::Part::film) of_film.push_back(fields.back());
+  }
   // in messages the scalars come before the components of tensors
-  std::stable_partition(fields.begin(), fields.end(),
-                        [](const Choice& field) { return field.word.find('.') == std::string::npos; });
+  for (auto* all : {&fields, &of_film})
+    std::stable_partition(all->begin(), all->end(),
+                          [](const Choice& field) { return field.word.find('.') == std::string::npos; });
   const auto of = [](std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); };
   section.keys = {
       text("name", to(&Quantity::name), "its name in results").distinct(),
@@ -32,7 +35,7 @@ Section quantity_section() {
             {"displacement", "of the centroid of a place (m)"},
             {"angle", "rotation of a body about an axis (rad)"},
             {"radius", "mean distance of a place's nodes from their centroid (m)"},
-            {"force", "reaction at a support (N)"},
+            {"force", "reaction at a support while it holds (N)"},
             {"moment", "reaction about an axis where a body's rotation is fixed (N m)"},
             {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
             {"capacitance", "of an electrode (F)"},
@@ -47,6 +50,7 @@ Section quantity_section() {
                                   "not at rest (rad/s)"},
             {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
             {"energy", "part of the energy balance (J)"},
+            {"value", "of a field of the film: at a point, or its mean over a place"},
             {"extreme", "smallest or largest value of a field"},
             {"peak", "smallest or largest value of another quantity so far"}},
            to(&Quantity::kind), "what is measured"),
@@ -63,6 +67,16 @@ Section quantity_section() {
       of("the body").only({"angle", "moment"}).refers_to(Reference::body),
       of("the electrode").only({"capacitance", "charge", "current"}).refers_to(Reference::electrode),
       word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
+      word("of", of_film, to(&Quantity::of), "the field").only({"value"}),
+      text("place", to(&Quantity::place),
+           "the place: a part of the film (mean by volume), or nodes (mean of what the elements continue to "
+           "them)")
+          .only({"value"})
+          .refers_to(Reference::place),
+      measure("point", "m", to(&Quantity::point), "the point of the film, as drawn")
+          .values(3, 3)
+          .only({"value"})
+          .replacing("place"),
       word("of",
            {{"electrical_work", "done on the film's electrodes: sum of int Phi dQ"},
             {"mechanical_work", "done by loads, moved supports and the pressure in a chamber; where several "

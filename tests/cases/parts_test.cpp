@@ -213,7 +213,13 @@ along = "x"
 // Held along y both pieces are in pure shear: one nominal force goes through them, and their lengths add up.
 TEST_F(Parts, TwoThicknessesInOneStripCarryOneForce) {
   write("strip.msh", meshing::gmsh_text(strip()));
-  const auto found = run(two_thicknesses);
+  const auto at = [](const std::string& name, const std::string& x) {
+    return fmt::format(
+        "[[quantity]]\nname = \"{}\"\nkind = \"value\"\nof = \"principal_stretches.lambda1\"\npoint = "
+        "[\"{} mm\", \"3 mm\", \"0 mm\"]\n",
+        name, x);
+  };
+  const auto found = run(two_thicknesses + at("thin", "7") + at("thick", "22"));
   const auto thin = [](double l) { return 0.5e-3 * 8e-3 * 40e3 * (l - std::pow(l, -3)); };
   const auto thick = [](double l) {
     return 1e-3 * 8e-3 * 60e3 * (l - std::pow(l, -3)) / (1 - (l * l + 1 / (l * l) - 2) / 20);
@@ -221,6 +227,10 @@ TEST_F(Parts, TwoThicknessesInOneStripCarryOneForce) {
   const double l = root([&](double a) { return thin(a) - thick((45e-3 - 10e-3 * a) / 20e-3); }, 1, 3);
   EXPECT_NEAR(found.at("pull"), thin(l), 1e-8 * thin(l));
   EXPECT_NEAR(found.at("pull") + found.at("hold"), 0, 1e-10 * thin(l));
+  EXPECT_NEAR(found.at("thin"), l, 1e-9);
+  EXPECT_NEAR(found.at("thick"), (45e-3 - 10e-3 * l) / 20e-3, 1e-9);
+  const Case one = read(two_thicknesses + at("between", "10"));
+  EXPECT_THROW(Simulation(one, 1), CaseError); // there it has two values
 }
 
 TEST_F(Parts, FilmOfNoPartOverlapsAndWrongPlacesAreErrors) {

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/cases/film_cases.hpp"
+
+#include <cmath>
+#include <numbers>
+
+// Fields of the film at a point or at a place, as quantities.
+
+namespace dielast::cases {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A quantity of kind "value"; `where`: its place or point as written.
+std::string value(const std::string& name, const std::string& field, const std::string& where) {
+  return fmt::format("[[quantity]]\nname = \"{}\"\nkind = \"value\"\nof = \"{}\"\n{}\n", name, field, where);
+}
+
+std::string point(double x, double y, double z) {
+  return fmt::format("point = [\"{:.17g} m\", \"{:.17g} m\", \"{:.17g} m\"]", x, y, z);
+}
+
+std::string film(const std::string& model) {
+  return "model = \"" + model +
+         "\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nlaw = \"neo-hookean\"\n"
+         "shear_modulus = \"40 kPa\"\nrelative_permittivity = 4.7\n[output]\nerror_estimate = false\n"
+         "fields = false\n";
+}
+
+const double inner = 12.7e-3;
+
+/// A plate of 100 g lifted by film at 3 kV.
+std::string diaphragm(const std::string& model) {
+  return film(model) +
+         "[annulus]\ninner_radius = \"12.7 mm\"\nouter_radius = \"68.58 mm\"\n[plate]\nmass = \"100 g\"\n"
+         "[drive]\nvoltage = \"3 kV\"\n[[step]]\nkind = \"weight\"\n[[step]]\nkind = \"voltage\"\n";
+}
+
+class FilmValues : public FilmCases {
+ protected:
+  /// What is told instead of a run.
+  std::string refusal(const std::string& text) {
+    write("film.toml", text);
+    try {
+      const Case one = read_case(directory / "film.toml");
+      Simulation(one, 1);
+    } catch (const CaseError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string at(int line, int column) const {
+    return fmt::format("{}:{}:{}: error: ", (directory / "film.toml").string(), line, column);
+  }
+};
+
+TEST_F(FilmValues, AreThoseOfUniformFilmEverywhere) {
+  const Ran ran = run(
+      film("planar") +
+      "[patch]\nlength = \"10 mm\"\nwidth = \"20 mm\"\nstretch_x = 3\nstretch_y = 2.5\n[[step]]\nkind = "
+      "\"move\"\n" +
+      value("point", "principal_stretches.lambda1", point(1e-3, 7e-3, 0)) +
+      value("corner", "principal_stretches.lambda2", point(0, 0, 0)) +
+      value("mean", "principal_stretches.lambda3", "place = \"film\"") +
+      value("edge", "cauchy_stress.xx", "place = \"left\"") + value("slope", "slope", "place = \"film\""));
+  EXPECT_NEAR(ran.last("point"), 3, 1e-12);
+  EXPECT_NEAR(ran.last("corner"), 2.5, 1e-12);
+  EXPECT_NEAR(ran.last("mean"), 1 / 7.5, 1e-13);
+  EXPECT_NEAR(ran.last("edge"), 40e3 * (9 - std::pow(7.5, -2)), 1e-6);
+  EXPECT_EQ(ran.last("slope"), 0);
+}
+
+TEST_F(FilmValues, AtAnEdgeCarryThePlate) {
+  const std::string edge = "place = \"inner\"";
+  const std::string fields = value("stress", "max_principal_stress", edge) +
+                             value("thickness", "thickness", edge) + value("slope", "slope", edge);
+  for (const auto& [model, bound] : {std::pair{"axisymmetric", 2e-4}, {"3d", 5e-3}}) {
+    const Ran ran = run(diaphragm(model) + fields +
+                        value("there", "slope", point(inner * std::cos(0.7), inner * std::sin(0.7), 0)) +
+                        value("stretch", "principal_stretches.lambda1", edge));
+    // What the film pulls along the radius has the plate's weight as its part along z.
+    const double lift =
+        2 * pi * inner * ran.last("stress") * ran.last("thickness") * std::sin(ran.last("slope"));
+    EXPECT_NEAR(lift, 0.1 * 9.81, bound * 0.981) << model;
+    EXPECT_NEAR(ran.last("there"), ran.last("slope"), bound * ran.last("slope")) << model;
+    EXPECT_NEAR(ran.last("stretch"), ran.last("stretch_inner"), bound) << model;
+  }
+}
+
+TEST_F(FilmValues, OnASphereItsSlopeIsTheAngleFromThePole) {
+  std::string quantities;
+  for (int i = 0; i < 5; ++i)
+    quantities += value(
+        fmt::format("slope_{}", i), "slope",
+        point(0.6 * 20e-3 * std::sin(0.7 * i), 0.8 * 20e-3 * std::sin(0.7 * i), 20e-3 * std::cos(0.7 * i)));
+  const Ran ran = run(film("axisymmetric") +
+                      "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = \"0.5 kPa\"\n[[step]]\nkind = "
+                      "\"pressure\"\n" +
+                      quantities);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(ran.last(fmt::format("slope_{}", i)), std::min(0.7 * i, pi - 0.7 * i), 2e-3) << i;
+}
+
+// The film ends there, or its fields do.
+TEST_F(FilmValues, BesideTheFilmOrOnAnEdgeOfAnElectrodeThereAreNone) {
+  const std::string disc = film("3d") + "[disc]\nradius = \"30 mm\"\nelectrode_radius = \"10 mm\"\n[drive]\n"
+                                        "voltage = \"1 kV\"\n[[step]]\nkind = \"voltage\"\n";
+  const int line = static_cast<int>(std::count(disc.begin(), disc.end(), '\n')) + 5;
+  const std::string nothing = "there is no film; coordinates are those of the film as drawn";
+  EXPECT_EQ(refusal(disc + value("far", "thickness", point(31e-3, 0, 0))),
+            at(line, 9) + "quantity[1].point: " + nothing);
+  EXPECT_EQ(refusal(disc + value("high", "thickness", point(1e-3, 0, 5e-3))),
+            at(line, 9) + "quantity[1].point: " + nothing);
+  const std::string two =
+      "the edge of an electrode or of a film is there, where a field has two values; give a point beside it, "
+      "or a part of the film";
+  EXPECT_EQ(refusal(disc + value("edge", "thickness", point(6e-3, 8e-3, 0))),
+            at(line, 9) + "quantity[1].point: " + two);
+  EXPECT_EQ(refusal(disc + value("beside", "thickness", point(6.1e-3, 8e-3, 0))), "");
+  EXPECT_EQ(refusal(disc + value("edge", "thickness", "place = \"electrode_edge\"")),
+            at(line, 9) + "quantity[1].place: " + two);
+}
+
+} // namespace
+} // namespace dielast::cases
