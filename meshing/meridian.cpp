@@ -67,10 +67,12 @@ void append_steps(std::vector<double>& points, double from, double to, int count
 } // namespace
 
 Mesh disc_meridian(double radius, double electrode_radius, int elements, int order) {
-  validate_radii(electrode_radius, radius, "the radii of electrode and disc");
+  const bool covered = electrode_radius == radius;
+  validate_radii(covered ? radius / 2 : electrode_radius, radius, "the radii of electrode and disc");
   validate(elements, 2, order);
-  const int inside =
-      std::clamp(static_cast<int>(std::lround(elements * electrode_radius / radius)), 1, elements - 1);
+  const int inside = covered ? elements
+                             : std::clamp(static_cast<int>(std::lround(elements * electrode_radius / radius)),
+                                          1, elements - 1);
   const int outside = elements - inside;
   std::vector<double> radii;
   append_steps(radii, radius, electrode_radius, outside);
@@ -79,7 +81,7 @@ Mesh disc_meridian(double radius, double electrode_radius, int elements, int ord
 
   Mesh mesh = flat_chain(radii, order);
   name_cells(mesh, "film", 0, elements);
-  name_cells(mesh, "passive", 0, outside);
+  if (!covered) name_cells(mesh, "passive", 0, outside);
   name_cells(mesh, "electrode", outside, elements);
   mesh.node_sets["rim"] = {0};
   mesh.node_sets["electrode_edge"] = {outside};

@@ -12,7 +12,7 @@ namespace dielast::meshing {
 /// parameter is out of range.
 
 /// `elements` >= 2, uniform on either side of the electrode's edge. Places: cells `film`, `electrode` (inside
-/// electrode_radius < radius), `passive`; nodes `electrode_edge`, `rim`, `centre`.
+/// electrode_radius <= radius), `passive` (where there is any); nodes `electrode_edge`, `rim`, `centre`.
 Mesh disc_meridian(double radius, double electrode_radius, int elements, int order);
 
 /// `elements` >= 1, growing outwards geometrically; `grading` >= 1: length of the outermost over that of the

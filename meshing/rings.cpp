@@ -128,20 +128,25 @@ void validate(double inside, double outside, const char* names, int rings, int f
 } // namespace
 
 Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, bool curved) {
-  validate(electrode_radius, radius, "the radii of electrode and disc", rings, 2, order);
+  const bool covered = electrode_radius == radius;
+  validate(covered ? radius / 2 : electrode_radius, radius, "the radii of electrode and disc", rings, 2,
+           order);
   const int inside =
-      std::clamp(static_cast<int>(std::lround(rings * electrode_radius / radius)), 1, rings - 1);
+      covered ? rings
+              : std::clamp(static_cast<int>(std::lround(rings * electrode_radius / radius)), 1, rings - 1);
   std::vector<double> radii;
   for (int i = 0; i < inside; ++i) radii.push_back(electrode_radius * i / inside);
   for (int i = inside; i <= rings; ++i)
-    radii.push_back(std::lerp(electrode_radius, radius, static_cast<double>(i - inside) / (rings - inside)));
+    radii.push_back(
+        covered ? radius
+                : std::lerp(electrode_radius, radius, static_cast<double>(i - inside) / (rings - inside)));
 
   // Triangles of curved sides hold no parabola, and those next to the middle stay as curved as they are in
   // finer meshes: the height there would converge with order 2. So only edges are curved.
   Rings pattern(0, std::move(radii), order, curved ? std::vector{inside, rings} : std::vector<int>{});
   pattern.name_triangles("film", 0, rings);
   pattern.name_triangles("electrode", 0, inside);
-  pattern.name_triangles("passive", inside, rings);
+  if (!covered) pattern.name_triangles("passive", inside, rings);
   pattern.name_circle("electrode_edge", inside);
   pattern.name_circle("rim", rings);
   pattern.name_circle("centre", 0);

@@ -6,12 +6,12 @@
 namespace dielast::meshing {
 
 /// Disc of hexagonal rings about the origin: ring i has 6 i nodes, ring 0 is the centre. The radii are
-/// piecewise uniform, such that one ring lies on `electrode_radius` (m, inside `radius`); `rings` >= 2,
+/// piecewise uniform, such that one ring lies on `electrode_radius` (m, at most `radius`); `rings` >= 2,
 /// `order` 1 or 2. `curved` puts the middle nodes of sides along the electrode's edge and the rim onto
 /// their circles (order 2).
 ///
-/// Places: triangles `film`, `electrode` (inside electrode_radius), `passive`; nodes `electrode_edge`, `rim`,
-/// `centre`. Throws std::invalid_argument when a parameter is out of range, MeshError when a ring is too thin
+/// Places: triangles `film`, `electrode` (inside electrode_radius), `passive` (where there is any); nodes
+/// `electrode_edge`, `rim`, `centre`. Throws std::invalid_argument when a parameter is out of range, MeshError when a ring is too thin
 /// for its sides.
 Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, bool curved);
 

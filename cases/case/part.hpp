@@ -40,8 +40,8 @@ struct Honeycomb {
 
 /// [disc]: clamped at its rim; dimensions as clamped, after the prestretch
 struct Disc {
-  double radius = 0;           ///< m
-  double electrode_radius = 0; ///< m
+  double radius = 0;                        ///< m
+  std::optional<double> electrode_radius{}; ///< m; absent: all of the film is under the electrode
 };
 
 /// [annulus]: dimensions as clamped, after the prestretch

@@ -76,9 +76,10 @@ meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_orde
                                            {options.order, options.wall_elements, options.grading});
           },
           [&](const Disc& d) {
+            const double electrode = d.electrode_radius.value_or(d.radius);
             if (of_revolution)
-              return meshing::disc_meridian(d.radius, d.electrode_radius, options.rings, options.order);
-            return meshing::disc_mesh(d.radius, d.electrode_radius, options.rings, options.order, true);
+              return meshing::disc_meridian(d.radius, electrode, options.rings, options.order);
+            return meshing::disc_mesh(d.radius, electrode, options.rings, options.order, true);
           },
           [&](const Annulus& a) {
             if (of_revolution)

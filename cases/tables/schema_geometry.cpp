@@ -113,13 +113,15 @@ Section disc_section() {
       measure("radius", "m", to(&Disc::radius), "radius as clamped, after the prestretch")
           .above(0)
           .at_most(1),
-      measure("electrode_radius", "m", to(&Disc::electrode_radius), "radius of the electrode as clamped")
+      measure("electrode_radius", "m", to(&Disc::electrode_radius),
+              "radius of the electrode as clamped; without it the whole disc")
           .above(0)
-          .at_most(1),
+          .at_most(1)
+          .optional(),
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& disc = *static_cast<const Disc*>(object);
-    if (disc.electrode_radius < disc.radius) return std::nullopt;
+    if (!disc.electrode_radius || *disc.electrode_radius < disc.radius) return std::nullopt;
     return Conflict{"electrode_radius", "must be below the disc's radius"};
   };
   return section;

@@ -121,5 +121,22 @@ TEST_F(FilmValues, BesideTheFilmOrOnAnEdgeOfAnElectrodeThereAreNone) {
             at(line, 9) + "quantity[1].place: " + two);
 }
 
+// Clamped film that is all under voltage has nowhere to go: its tension falls everywhere alike.
+TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
+  for (const std::string model : {"axisymmetric", "planar", "3d"}) {
+    const std::string disc = film(model) + "[disc]\nradius = \"30 mm\"\n[drive]\nvoltage = \"2 kV\"\n";
+    const Ran ran = run(disc + value("field", "electric_field", "place = \"rim\"") +
+                        value("centre", "max_principal_stress", point(0, 0, 0)));
+    const double permittivity = 4.7 * 8.8541878128e-12, field = 2e3 / (1e-3 / 4);
+    EXPECT_NEAR(ran.last("field"), field, 1e-9 * field) << model;
+    EXPECT_NEAR(ran.last("centre"), 40e3 * (4 - std::pow(4.0, -2)) - permittivity * field * field, 1e-3)
+        << model;
+    EXPECT_NEAR(ran.last("capacitance"), permittivity * pi * 9e-4 / (1e-3 / 4),
+                1e-4 * ran.last("capacitance"));
+    EXPECT_NEAR(ran.last("electrode_radius"), 30e-3, 1e-6) << model;
+    EXPECT_NE(refusal(disc + value("outside", "slope", "place = \"passive\"")), "") << model;
+  }
+}
+
 } // namespace
 } // namespace dielast::cases

@@ -104,9 +104,16 @@ TEST(Meridian, QualityCountsThem) {
   EXPECT_EQ(format(report), "nodes      17\nmeridians  8\nlines      0\n");
 }
 
+TEST(Meridian, ADiscMayBeAllElectrode) {
+  const Mesh mesh = disc_meridian(1, 1, 10, 2);
+  EXPECT_EQ(mesh.cell_sets.at("electrode").cells, mesh.cell_sets.at("film").cells);
+  EXPECT_EQ(mesh.node_sets.at("electrode_edge"), mesh.node_sets.at("rim"));
+  EXPECT_FALSE(mesh.node_sets.contains("passive"));
+}
+
 TEST(Meridian, RejectsWhatCannotBeDrawn) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(disc_meridian(1, 1, 10, 2), std::invalid_argument);
+  EXPECT_THROW(disc_meridian(1, 1.1, 10, 2), std::invalid_argument);
   EXPECT_THROW(disc_meridian(1, 0, 10, 2), std::invalid_argument);
   EXPECT_THROW(disc_meridian(infinity, 1, 10, 2), std::invalid_argument);
   EXPECT_THROW(disc_meridian(1, 0.5, 1, 2), std::invalid_argument);

@@ -100,8 +100,15 @@ TEST(Rings, KeepTheirShapeForAnyProportion) {
   }
 }
 
+TEST(Rings, ADiscMayBeAllElectrode) {
+  const Mesh mesh = disc_mesh(1, 1, 6, 2, true);
+  EXPECT_EQ(mesh.cell_sets.at("electrode").cells, mesh.cell_sets.at("film").cells);
+  EXPECT_EQ(mesh.node_sets.at("electrode_edge"), mesh.node_sets.at("rim"));
+  EXPECT_FALSE(mesh.node_sets.contains("passive"));
+}
+
 TEST(Rings, RejectWhatCannotBeDrawn) {
-  EXPECT_THROW(disc_mesh(1, 1, 10, 2, true), std::invalid_argument);
+  EXPECT_THROW(disc_mesh(1, 1.1, 10, 2, true), std::invalid_argument);
   EXPECT_THROW(disc_mesh(1, 0, 10, 2, true), std::invalid_argument);
   EXPECT_THROW(disc_mesh(1, 0.5, 1, 2, true), std::invalid_argument);
   EXPECT_THROW(disc_mesh(1, 0.5, 10, 3, true), std::invalid_argument);
