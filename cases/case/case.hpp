@@ -41,11 +41,19 @@ struct Support {
   bool moves() const { return motion[0] || motion[1] || motion[2]; }
 };
 
-/// [[load]]: a dead force spread evenly over the nodes of a place
+/// [[load]]: a dead force spread evenly over the nodes of a place, or a moment over those that can turn
 struct Load {
   std::string place;
-  std::array<Waveform, 3> force{}; ///< N
-  bool standard = false;           ///< brought by the geometry, not written by the user
+  std::array<Waveform, 3> force{};                 ///< N
+  std::optional<std::array<Waveform, 3>> moment{}; ///< about axes that stay, N m; instead of a force
+
+  /// The component along x, y, z (0..2) or about them (3..5); null where there is none.
+  const Waveform* component(int c) const {
+    const auto i = static_cast<std::size_t>(c % 3);
+    if (c < 3) return moment ? nullptr : &force[i];
+    return moment ? &(*moment)[i] : nullptr;
+  }
+  bool standard = false; ///< brought by the geometry, not written by the user
 };
 
 /// [drive]: what the source of an electrode does; different steps may use the one and the other

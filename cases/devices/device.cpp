@@ -49,20 +49,21 @@ std::vector<std::string> size_warnings(const Case& one, const Eigen::Vector3d& s
 
 /// Says which [[load]] cannot act.
 [[noreturn]] void reject_load(const Case& one, std::size_t number, const std::string& reason) {
-  const std::string key = "load[" + std::to_string(number + 1) + "].";
-  for (const Mention& mention : one.places)
-    if (mention.key == key + "place") throw CaseError({{mention.source, key + "force", reason}});
-  throw CaseError({{{one.source.string()}, key + "force", reason}});
+  const std::string load = fmt::format("load[{}].", number + 1);
+  const char* what = one.loads[number].moment ? "moment" : "force";
+  throw CaseError({{one.where(load + what), load + what, reason}});
 }
 
 /// Times that tell whether the loads balance at all times.
 std::vector<double> telling_times(const Case& one) {
   std::vector<double> times{0};
   for (const Load& load : one.loads)
-    for (const Waveform& wave : load.force) {
-      const double period = wave.period();
+    for (int c = 0; c < fem::DofMap::components; ++c) {
+      const Waveform* wave = load.component(c);
+      if (!wave) continue;
+      const double period = wave->period();
       if (std::isfinite(period)) times.insert(times.end(), {period / 3, period / 7});
-      for (const double t : wave.kinks(0, std::isfinite(period) ? period : 1e10)) times.push_back(t);
+      for (const double t : wave->kinks(0, std::isfinite(period) ? period : 1e10)) times.push_back(t);
     }
   return times;
 }
@@ -70,25 +71,36 @@ std::vector<double> telling_times(const Case& one) {
 /// Every load must have something to act on, and nothing would hold a free body.
 void require_loads_that_act(const Case& one, const Device& device) {
   for (std::size_t l = 0; l < one.loads.size(); ++l)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Waveform& wave = one.loads[l].force[c];
-      if (wave == Waveform::constant_at(0)) continue;
-      for (const int node : device.mesh.node_sets.at(one.loads[l].place))
-        if (device.model.dofs.equation(node, static_cast<int>(c)) == fem::DofMap::absent)
-          reject_load(one, l, "a planar model does not move along z; use model = \"3d\"");
+    for (int c = 0; c < fem::DofMap::components; ++c) {
+      const Waveform* wave = one.loads[l].component(c);
+      if (!wave || *wave == Waveform::constant_at(0)) continue;
+      const auto& nodes = device.mesh.node_sets.at(one.loads[l].place);
+      const auto moving = std::ranges::count_if(
+          nodes, [&](int node) { return device.model.dofs.equation(node, c) != fem::DofMap::absent; });
+      if (c < 3 && moving < std::ssize(nodes))
+        reject_load(one, l, "a planar model does not move along z; use model = \"3d\"");
+      if (c >= 3 && moving == 0)
+        reject_load(one, l,
+                    fmt::format("nothing turns about {} at \"{}\": film has no rotations, walls and bodies "
+                                "have, in a planar model about z",
+                                "xyz"[c - 3], one.loads[l].place));
     }
   if (!device.free_body) return;
   for (const double t : telling_times(one)) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double largest = 0;
+    std::array<double, fem::DofMap::components> sum{};
+    std::array<double, 2> largest{}; // force, moment
     for (const Load& load : one.loads)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double force = load.force[c].at(t);
-        sum[static_cast<int>(c)] += force;
-        largest = std::max(largest, std::abs(force));
-      }
-    if (sum.norm() > 1e-9 * largest)
-      reject_load(one, 0, "the forces on a free body must balance; hold it with [[support]]");
+      for (int c = 0; c < fem::DofMap::components; ++c)
+        if (const Waveform* wave = load.component(c)) {
+          sum.at(static_cast<std::size_t>(c)) += wave->at(t);
+          double& most = largest.at(static_cast<std::size_t>(c / 3));
+          most = std::max(most, std::abs(wave->at(t)));
+        }
+    for (std::size_t c = 0; c < sum.size(); ++c)
+      if (std::abs(sum[c]) > 1e-9 * largest.at(c / 3))
+        reject_load(one, 0,
+                    c < 3 ? "the forces on a free body must balance; hold it with [[support]]"
+                          : "the moments on a free body must balance; hold it with [[support]]");
   }
 }
 

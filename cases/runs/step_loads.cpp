@@ -106,10 +106,15 @@ Eigen::VectorXd StepLoads::dead_force(int step, Instant t) const {
   if (!happened(step, StepKind::force) && !happened(step, StepKind::transient)) return force;
   for (const Load& load : case_.loads) {
     const auto& nodes = device_.mesh.node_sets.at(load.place);
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < fem::DofMap::components; ++c) {
+      const Waveform* wave = load.component(c);
+      if (!wave) continue;
+      const auto acts = [&](int node) { return dofs.equation(node, c) != fem::DofMap::absent; };
+      // Every node of a place moves, or none does; film among walls does not turn.
+      const auto share = 1 / static_cast<double>(std::ranges::count_if(nodes, acts));
       for (const int node : nodes)
-        if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
-          force[e] += t.of(load.force[static_cast<std::size_t>(c)]) / static_cast<double>(nodes.size());
+        if (acts(node)) force[dofs.equation(node, c)] += t.of(*wave) * share;
+    }
   }
   return force;
 }
@@ -163,7 +168,8 @@ std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
     for (const auto& wave : {source.voltage, source.charge})
       if (wave) add(*wave);
   for (const Load& load : case_.loads)
-    for (const Waveform& wave : load.force) add(wave);
+    for (int c = 0; c < fem::DofMap::components; ++c)
+      if (const Waveform* wave = load.component(c)) add(*wave);
   for (const Support& support : case_.supports)
     for (const auto& wave : support.motion)
       if (wave) add(*wave);

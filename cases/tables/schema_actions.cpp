@@ -106,12 +106,23 @@ Section support_section() {
 }
 
 Section load_section() {
-  Section section = list_section(
-      "load", "a dead force, applied by the steps of kind \"force\" and \"transient\"", each(&Case::loads));
+  Section section =
+      list_section("load", "a dead force or moment, applied by the steps of kind \"force\" and \"transient\"",
+                   each(&Case::loads));
+  Binding force = to(&Load::force);
+  force.get = [](const void* object) -> std::optional<Value> {
+    const auto& load = *static_cast<const Load*>(object);
+    return load.moment ? std::nullopt : value_of(load.force);
+  };
   section.keys = {
       text("place", to(&Load::place), "the place over whose nodes it is spread evenly")
           .refers_to(Reference::place),
-      wave("force", "N", to(&Load::force), "components along x, y and z").values(3, 3),
+      wave("force", "N", force, "components along x, y and z").values(3, 3),
+      wave("moment", "N m", to(&Load::moment),
+           "components about axes along x, y and z that stay; on a body, or on those nodes of walls that can "
+           "turn")
+          .values(3, 3)
+          .replacing("force"),
   };
   return section;
 }

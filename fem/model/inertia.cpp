@@ -47,10 +47,17 @@ Inertia Inertia::of(const std::vector<std::unique_ptr<ElementBlock>>& blocks, co
 
 Eigen::VectorXd position(const State& state, const DofMap& dofs) {
   Eigen::VectorXd position = Eigen::VectorXd::Zero(dofs.count());
-  for (int n = 0; n < dofs.node_count(); ++n)
+  for (int n = 0; n < dofs.node_count(); ++n) {
+    const auto i = static_cast<std::size_t>(n);
     for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(n, c); e != DofMap::absent)
-        position[e] = state.displacement[static_cast<std::size_t>(n)][c];
+      if (const int e = dofs.equation(n, c); e != DofMap::absent) position[e] = state.displacement[i][c];
+    Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(n, 3 + c); e != DofMap::absent) {
+        if (spin.isZero()) spin = spin_of(state.rotation[i]);
+        position[e] = spin[c];
+      }
+  }
   return position;
 }
 

@@ -19,7 +19,7 @@ struct Inertia {
   bool empty() const { return mass.nonZeros() == 0 && damping.nonZeros() == 0; }
 };
 
-/// Displacements of a state per equation, m (0 for rotations).
+/// Displacements of a state per equation, m, and of rotations their vectors, rad.
 Eigen::VectorXd position(const State& state, const DofMap& dofs);
 
 /// The forces of inertia and damping in a trial state as a linear function of the displacement d since the

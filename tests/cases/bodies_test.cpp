@@ -139,5 +139,105 @@ TEST_F(Bodies, walls_can_be_clamped_and_film_cannot) {
   EXPECT_THROW(build_device(read_case(directory / "film.toml")), CaseError);
 }
 
+std::string moment(const std::string& place, double x, double y, double z) {
+  return fmt::format("[[load]]\nplace = \"{}\"\nmoment = [\"{:.17g} N.m\", \"{:.17g} N.m\", \"{:.17g} "
+                     "N.m\"]\n[[step]]\nkind = "
+                     "\"force\"\nincrements = 4\n",
+                     place, x, y, z);
+}
+
+// Its work is half of moment times angle, as the film answers linearly.
+TEST_F(Bodies, a_moment_tilts_as_a_weight_beside_the_middle) {
+  const double a = 10e-3, b = 40e-3, tension = 40e3 * 1e-3 * (1 - std::pow(2, -6)), m = weight * arm;
+  const double pi = 3.14159265358979;
+  const Ran ran = run(annulus("3d", "", moment("hub", 0, m, 0)));
+  EXPECT_NEAR(ran.last("angle"), m * (b * b - a * a) / (2 * pi * tension * a * a * b * b), 3e-5);
+  EXPECT_NEAR(ran.last("mechanical_work"), m * ran.last("angle") / 2, 1e-2 * m * ran.last("angle"));
+  EXPECT_LT(std::abs(ran.last("energy_error")), 1e-6 * ran.last("mechanical_work"));
+  const Ran fixed =
+      run(annulus("3d", "fix = [\"turn_y\"]\n", moment("hub", 0, m, 0) + quantity("carried", "moment", "y")));
+  EXPECT_NEAR(fixed.last("carried"), -m, 1e-12);
+  EXPECT_EQ(fixed.last("angle"), 0);
+}
+
+TEST_F(Bodies, moments_about_several_axes_do_work_that_the_balance_knows) {
+  const double m = 70 * weight * arm;
+  const Ran ran = run(annulus("3d", "", moment("hub", m, 0.7 * m, 0.5 * m)));
+  EXPECT_GT(ran.last("angle"), 0.1);
+  EXPECT_LT(std::abs(ran.last("energy_error")), 1e-2 * ran.last("mechanical_work"));
+}
+
+TEST_F(Bodies, film_has_nothing_that_a_moment_could_turn) {
+  for (const auto& [model, place] : {std::pair{"3d", "outer"}, {"planar", "hub"}}) {
+    write("film.toml", annulus(model, "", moment(place, 0, 1e-6, 0)));
+    std::string message;
+    try {
+      build_device(read_case(directory / "film.toml"));
+    } catch (const CaseError& error) {
+      message = error.what();
+    }
+    const std::string told = fmt::format(
+        ": error: load[1].moment: nothing turns about y at \"{}\": film has no rotations, walls and "
+        "bodies have, in a planar model about z",
+        place);
+    EXPECT_TRUE(message.ends_with(told)) << message;
+    EXPECT_TRUE(message.starts_with((directory / "film.toml").string() + ":")) << message;
+  }
+}
+
+/// A rectangle of film 40 mm x 20 mm of 3-node triangles, as gmsh writes it, with its left and right side.
+std::string rectangle() {
+  constexpr int across = 8, up = 4;
+  std::string nodes, elements;
+  int count = 0;
+  const auto node = [](int i, int j) { return 1 + i * (up + 1) + j; };
+  for (int i = 0; i <= across; ++i)
+    for (int j = 0; j <= up; ++j) nodes += fmt::format("{} {} {} 0\n", node(i, j), 5 * i, 5 * j);
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < up; ++j) {
+      elements +=
+          fmt::format("{} 2 2 3 1 {} {} {}\n", ++count, node(i, j), node(i + 1, j), node(i + 1, j + 1));
+      elements +=
+          fmt::format("{} 2 2 3 1 {} {} {}\n", ++count, node(i, j), node(i + 1, j + 1), node(i, j + 1));
+    }
+  for (int j = 0; j < up; ++j)
+    for (const auto& [group, i] : {std::pair{1, 0}, {2, across}})
+      elements += fmt::format("{} 1 2 {} {} {} {}\n", ++count, group, group, node(i, j), node(i, j + 1));
+  return fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"left\"\n1 2 \"right\"\n2 3 "
+      "\"film\"\n$EndPhysicalNames\n$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
+      (across + 1) * (up + 1), nodes, count, elements);
+}
+
+// An edge that stays straight but is free to move and to turn; the other one carries what acts on it.
+TEST_F(Bodies, an_edge_moves_rigidly_and_freely) {
+  write("film.msh", rectangle());
+  const double force = 0.4, m = 1e-3, width = 20e-3;
+  const auto of = [](const std::string& name, const std::string& kind, const std::string& body,
+                     const std::string& along) {
+    return fmt::format("[[quantity]]\nname = \"{}\"\nkind = \"{}\"\nof = \"{}\"\nalong = \"{}\"\n", name,
+                       kind, body, along);
+  };
+  const Ran ran = run(
+      "model = \"planar\"\n[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nlaw = "
+      "\"neo-hookean\"\n"
+      "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[mesh]\nfile = \"film.msh\"\nunit = \"1 "
+      "mm\"\n"
+      "[[body]]\nname = \"frame\"\nplaces = [\"left\"]\nfix = [\"x\", \"y\", \"turn_z\"]\n[[body]]\nname = "
+      "\"bar\"\nplaces = [\"right\"]\n[output]\nerror_estimate = false\nfields = false\n" +
+      fmt::format("[[load]]\nplace = \"bar\"\nforce = [\"{} N\", \"0 N\", \"0 N\"]\n", force) +
+      moment("bar", 0, 0, m) + of("angle", "angle", "bar", "z") + of("height", "size", "right", "y") +
+      of("depth", "size", "right", "x") + of("pull", "force", "frame", "x") +
+      of("lift", "force", "frame", "y") + of("carried", "moment", "frame", "z") +
+      of("rise", "displacement", "bar", "y") + of("reach", "displacement", "bar", "x"));
+  EXPECT_GT(ran.last("angle"), 0.05);
+  EXPECT_NEAR(ran.last("height"), width * std::cos(ran.last("angle")), 1e-12);
+  EXPECT_NEAR(ran.last("depth"), width * std::sin(ran.last("angle")), 1e-12);
+  EXPECT_GT(std::abs(ran.last("reach")), 1e-3);
+  EXPECT_NEAR(ran.last("pull"), -force, 1e-8);
+  EXPECT_NEAR(ran.last("lift"), 0, 1e-8);
+  EXPECT_NEAR(ran.last("carried"), -m + force * ran.last("rise"), 1e-9);
+}
+
 } // namespace
 } // namespace dielast::cases
