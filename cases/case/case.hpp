@@ -36,7 +36,8 @@ struct Support {
   std::string place;
   std::array<bool, 6> fixed{};                     ///< displacements along x, y, z, rotations about them
   std::array<std::optional<Waveform>, 3> motion{}; ///< displacement of fixed directions, m; absent: none
-  bool standard = false;                           ///< brought by the geometry, not written by the user
+  std::string from{}, until{}; ///< the first and the last step in which it holds; empty: the case's
+  bool standard = false;       ///< brought by the geometry, not written by the user
 
   bool moves() const { return motion[0] || motion[1] || motion[2]; }
 };

@@ -211,6 +211,25 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
+void check_supports(SectionReader& reader, const Node& tree, const Case& one) {
+  const Node* list = tree.find("support");
+  for (std::size_t i = 0; list && i < list->items.size(); ++i) {
+    const Support& support = one.supports[i];
+    const auto from = std::ranges::find(one.steps, support.from, &Step::name),
+               until = std::ranges::find(one.steps, support.until, &Step::name);
+    for (const auto& [key, step] : {std::pair{"from", from}, {"until", until}})
+      if (step != one.steps.end() && step->is_analysis())
+        reader.report(list->items[i].find(key)->source, fmt::format("support[{}].{}", i + 1, key),
+                      fmt::format("found \"{}\": in a step of this kind no support changes; name the step "
+                                  "before it",
+                                  step->name));
+    if (!support.from.empty() && !support.until.empty() && until < from)
+      reader.report(list->items[i].find("until")->source, fmt::format("support[{}].until", i + 1),
+                    fmt::format("found \"{}\", which is before \"{}\", the first step in which it holds",
+                                support.until, support.from));
+  }
+}
+
 void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   const auto need = [&](StepKind kind, const char* word, bool given) {
     for (std::size_t s = 0; s < one.steps.size(); ++s)
@@ -339,6 +358,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_rows(reader, tree, one);
   check_masses(reader, tree, one);
   check_bodies(reader, tree, one);
+  check_supports(reader, tree, one);
   check_chamber(reader, tree, one);
   check_sheets(reader, tree, one);
   check_quantities(reader, tree, one);

@@ -222,6 +222,7 @@ void Recorder::save_checkpoint() {
        {"references", progress.references},
        {"active_events", progress.active_events},
        {"time_error", progress.time_error},
+       {"let_go", post::pack({progress.let_go.data(), static_cast<std::size_t>(progress.let_go.size())})},
        {"results", post::pack(simulation_.results())},
        {"steps_ended", steps_ended_},
        {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
@@ -248,14 +249,18 @@ void Recorder::restore_checkpoint() try {
   for (const std::string& name : kept)
     if (!std::filesystem::exists(folder_ / name))
       throw post::CheckpointError(fmt::format("{}, which belongs to it, is missing", name));
+  simulation_.enter(saved.at("step"));
   const Device& device = simulation_.device();
   const auto sizes = post::StateSizes::of(device.model);
+  const std::vector<double> let_go = post::unpack(saved.at("let_go"));
+  if (!let_go.empty() && let_go.size() != sizes.equations) throw post::CheckpointError("damaged");
   StepProgress in_step{post::restore_ramp(saved.at("ramp"), sizes), {}, saved.at("jumps")};
   if (const json& followed = saved.at("followed"); !followed.is_null())
     in_step.followed = post::restore_continuation(followed, sizes);
   simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
                       post::restore_energy(saved.at("energy"), sizes), saved.at("references"),
-                      saved.at("active_events"), saved.at("time_error")});
+                      saved.at("active_events"), saved.at("time_error"),
+                      Eigen::Map<const Eigen::VectorXd>(let_go.data(), std::ssize(let_go))});
   simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
   steps_ended_ = saved.at("steps_ended");
   if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();

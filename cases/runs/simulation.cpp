@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/simulation.hpp"
 
+#include "cases/runs/phases.hpp"
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
@@ -28,18 +29,24 @@ post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step
 } // namespace
 
 Simulation::Simulation(const Case& one, int threads)
-    : case_(one), device_(build_device(one)), equilibrium_(device_.model, threads),
-      measurement_(one, device_), watch_(device_), steps_(one.steps),
+    : case_(one), threads_(threads), holding_(holding_in(one, one.steps, 0)),
+      now_(with_supports(one, holding_)), device_(build_device(now_)), measurement_(one, device_),
+      watch_(device_), steps_(one.steps),
       results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
-  const Eigen::VectorXd frame = frame_force();
+  equilibrium_.emplace(device_.model, threads);
+  frame_ = frame_force();
   double film_force = 0;
   for (int b = 0; b < device_.films; ++b)
     film_force =
-        std::max(film_force, equilibrium_.assembler().block_residuals()[static_cast<std::size_t>(b)].norm());
-  const bool at_rest = frame.norm() <= std::max(balanced * film_force, equilibrium_.round_off());
+        std::max(film_force, equilibrium_->assembler().block_residuals()[static_cast<std::size_t>(b)].norm());
+  const bool at_rest = frame_.norm() <= std::max(balanced * film_force, equilibrium_->round_off());
   // A film drawn in tension with free edges must find its equilibrium before it can be driven.
   const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
   if (settles) steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
+  if (holding_in(case_, steps_, 0) != holding_) {
+    enter(0);
+    frame_ = frame_force();
+  }
   for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
   for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
   if (settles && !one.any_geometry<Patch>())
@@ -48,20 +55,55 @@ Simulation::Simulation(const Case& one, int threads)
                     "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",
                     one.supports.empty() ? ", there is no [[support]]" : ""));
   fem::State drawn_state = device_.model.initial_state();
-  drawn_state.dead_force = frame;
+  drawn_state.dead_force = frame_;
   in_step_.ramp.points = {{0, std::move(drawn_state)}};
-  loads_.emplace(case_, device_, steps_, frame);
+  loads_.emplace(now_, device_, steps_, frame_);
+}
+
+void Simulation::enter(int step) {
+  std::vector<char> holding = holding_in(case_, steps_, step);
+  if (holding == holding_) return;
+  holding_ = std::move(holding);
+  const fem::DofMap before = device_.model.dofs;
+  now_ = with_supports(case_, holding_);
+  equilibrium_.reset();
+  device_ = build_device(now_);
+  equilibrium_.emplace(device_.model, threads_);
+  frame_ = Renumbering(before, device_.model.dofs)(frame_);
+  loads_.emplace(now_, device_, steps_, frame_);
+}
+
+/// Supports let go and take hold at the beginning of the current step. What lets go hands its forces to the
+/// loads, so that the state stays in balance.
+void Simulation::change_supports(fem::State& state) {
+  loads_->let_go.resize(0);
+  if (holding_in(case_, steps_, step_) == holding_) return;
+  const fem::DofMap before = device_.model.dofs;
+  const Measured measured(device_, *equilibrium_, state, energy_, false);
+  enter(step_);
+  const Renumbering renumbered(before, device_.model.dofs);
+  const Eigen::VectorXd let_go = renumbered.let_go(measured.reaction);
+  state = renumbered(std::move(state));
+  state.dead_force += let_go;
+  if (!let_go.isZero(0)) loads_->let_go = let_go;
+  fem::EnergyBalance::Record record = energy_.record();
+  for (fem::EnergyPoint& point : record.points)
+    for (Eigen::VectorXd* part : {&point.mechanical.force, &point.mechanical.coordinate})
+      *part = renumbered(*part);
+  energy_ = fem::EnergyBalance(std::move(record));
+  accounted_ = state;
 }
 
 Eigen::VectorXd Simulation::frame_force() {
   Eigen::VectorXd force;
-  equilibrium_.assembler().residual(device_.model.initial_state(), force); // on tied nodes where they are
+  equilibrium_->assembler().residual(device_.model.initial_state(), force); // on tied nodes where they are
   force.segment(device_.model.dofs.free_count(), device_.model.dofs.held_count()).setZero();
   return force;
 }
 
 SimulationProgress Simulation::progress() const {
-  return {step_, records_, in_step_, energy_.record(), measurement_.references, watch_.active, time_error_};
+  return {step_,         records_,    in_step_,      energy_.record(), measurement_.references,
+          watch_.active, time_error_, loads_->let_go};
 }
 
 void Simulation::resume(const SimulationProgress& progress) {
@@ -73,12 +115,13 @@ void Simulation::resume(const SimulationProgress& progress) {
   measurement_.references = progress.references;
   watch_.active = progress.active_events;
   time_error_ = progress.time_error;
+  loads_->let_go = progress.let_go;
 }
 
 void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {
   if (increment.turns) energy_.corner();
-  fem::EnergyPoint point = fem::energy_point(equilibrium_, state, increment.length);
-  if (!energy_.empty()) point.flow = fem::flow_heat(equilibrium_, accounted_, state);
+  fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length);
+  if (!energy_.empty()) point.flow = fem::flow_heat(*equilibrium_, accounted_, state);
   accounted_ = state;
   time_error_ += increment.time_error;
   if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release)
@@ -123,7 +166,7 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   if (increment.lands) return record(observer, step, state, increment, reached);
   unrecorded_ = increment;
   if (measurement_.has_peaks())
-    measurement_.pass({device_, equilibrium_, state, energy_, measurement_.has_peaks_of_fields()});
+    measurement_.pass({device_, *equilibrium_, state, energy_, measurement_.has_peaks_of_fields()});
   return !observer.on_pass || observer.on_pass();
 }
 
@@ -132,7 +175,7 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
   unrecorded_.reset();
   const bool is_drawn = records_ == 0;
   const bool ends = !is_drawn && increment.load_factor >= 1;
-  Measured measured(device_, equilibrium_, state, energy_);
+  Measured measured(device_, *equilibrium_, state, energy_);
   measured.may_rest = ends || !step.duration;
   if (ends) measurement_.step_ended(step.name, measured);
   const std::vector<double> values = measurement_.all(measured);
@@ -174,18 +217,19 @@ Outcome Simulation::run(const SimulationObserver& observer) {
     if (step.is_analysis()) {
       if (!observer.on_analysis) continue;
       try {
-        observer.on_analysis(analyse(case_, device_, equilibrium_, state(), step), state());
+        observer.on_analysis(analyse(case_, device_, *equilibrium_, state(), step), state());
       } catch (const AnalysisError& error) {
         return {Ending::gave_up, "no vibration", fmt::format("step \"{}\": {}", step.name, error.what())};
       }
       continue;
     }
-    const fem::RampOptions options = loads_->options(step_);
     if (ramp.load_factor >= 1 || ramp.increment == 0) {
       fem::State state = std::move(ramp.points.back().state);
+      change_supports(state);
       loads_->begin(step_, state);
-      ramp = fem::RampProgress::begin(state, device_.model.dofs, options);
+      ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
     }
+    const fem::RampOptions options = loads_->options(step_);
     const fem::LoadPath path = loads_->path(step_, ramp.start);
     const StepObserver watcher{
         observer.on_try,
@@ -199,7 +243,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         [&](const fem::State& state, const fem::Increment& increment, Reached reached) {
           return accept(observer, step, state, increment, reached);
         }};
-    const Outcome outcome = StepRun(equilibrium_, step, path, options, in_step_, watcher).run();
+    const Outcome outcome = StepRun(*equilibrium_, step, path, options, in_step_, watcher).run();
     if (outcome.ending == Ending::gave_up && unrecorded_)
       record(observer, step, state(), *unrecorded_, Reached::along_path);
     if (refusal_) return *std::exchange(refusal_, std::nullopt);

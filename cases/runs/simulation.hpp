@@ -19,7 +19,8 @@ struct SimulationProgress {
   fem::EnergyBalance::Record energy;
   std::map<std::string, double> references;
   std::set<std::string> active_events;
-  double time_error = 0; ///< sum over the time steps
+  double time_error = 0;    ///< sum over the time steps
+  Eigen::VectorXd let_go{}; ///< see StepLoads
 };
 
 /// An accepted state.
@@ -56,11 +57,14 @@ class Simulation {
   Outcome run(const SimulationObserver& observer);
 
   const Device& device() const { return device_; }
-  fem::Equilibrium& equilibrium() { return equilibrium_; }
+  fem::Equilibrium& equilibrium() { return *equilibrium_; }
   /// The last accepted state.
   const fem::State& state() const { return in_step_.ramp.points.back().state; }
-  const fem::Timings& timings() const { return equilibrium_.timings(); }
+  const fem::Timings& timings() const { return equilibrium_->timings(); }
   SimulationProgress progress() const;
+  /// Makes the device that it is in a step (by its number), with the supports that hold then.
+  void enter(int step);
+  /// The device must be that of the step.
   void resume(const SimulationProgress& progress);
   /// What the user should know before looking at results, one sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -76,6 +80,7 @@ class Simulation {
 
  private:
   Eigen::VectorXd frame_force();
+  void change_supports(fem::State& state);
   bool admits(const Step& step, double load_factor, const fem::State& state);
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
               const fem::Increment& increment, Reached reached);
@@ -84,13 +89,17 @@ class Simulation {
               const fem::Increment& increment, Reached reached);
 
   const Case& case_;
-  Device device_;
-  fem::Equilibrium equilibrium_;
+  int threads_;
+  std::vector<char> holding_; ///< which supports of the case
+  Case now_;                  ///< with these alone
+  Device device_;             ///< of it
+  std::optional<fem::Equilibrium> equilibrium_;
   Measurement measurement_;
   Watch watch_;
   std::vector<Step> steps_;
   std::vector<std::string> warnings_;
   std::optional<Outcome> refusal_; ///< of a state that no physics allows
+  Eigen::VectorXd frame_;          ///< see StepLoads
   std::optional<StepLoads> loads_;
   std::vector<double> results_;
   int step_ = 0, records_ = 0;

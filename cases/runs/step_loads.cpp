@@ -134,8 +134,12 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   fem::Loads loads = start;
   const auto does = [&step](StepKind kind) { return step.kind == kind || step.kind == StepKind::transient; };
+  const bool has_let_go = let_go.size() > 0;
   if (does(StepKind::force) || step.kind == StepKind::release || step.kind == StepKind::weight)
     loads.dead_force = dead_force(number, t);
+  else if (has_let_go)
+    loads.dead_force -= let_go;
+  if (has_let_go) loads.dead_force += left(step, t) * let_go;
   if (does(StepKind::move)) move(loads.held, t);
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
     const bool isolated = supply(step, e) == fem::Supply::charge;
@@ -156,6 +160,10 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
       loads.charge[port] = *goal;
   }
   return loads;
+}
+
+double StepLoads::left(const Step& step, Instant t) const {
+  return step.kind == StepKind::transient ? 1 - t.t / *step.duration : 0;
 }
 
 std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {

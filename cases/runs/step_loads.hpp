@@ -28,6 +28,9 @@ class StepLoads {
   fem::LoadPath path(int step, const fem::Loads& start) const;
   fem::RampOptions options(int step) const;
 
+  /// Forces of supports that the step lets go, dead when it begins and zero when it ends; empty: none.
+  Eigen::VectorXd let_go{};
+
  private:
   fem::Supply supply(const Step& step, std::size_t electrode) const;
   /// What a ramp leads to, or a transient has at t; nothing where the step is not about it.
@@ -41,6 +44,8 @@ class StepLoads {
   Eigen::VectorXd dead_force(int step, Instant t) const;
   void move(Eigen::VectorXd& held, Instant t) const;
   fem::Loads at(int step, const fem::Loads& start, Instant t) const;
+  /// What is left of `let_go`: ramps lead to nothing.
+  double left(const Step& step, Instant t) const;
   /// Kinks of waves that are as good as one, s.
   struct Break {
     double first = 0, last = 0;

@@ -95,6 +95,13 @@ Section support_section() {
            "what its nodes cannot do; walls have rotations, film has none")
           .values(1, 6)
           .optional(),
+      text("from", to(&Support::from), "the first step in which it holds, its place being where it is then")
+          .optional()
+          .refers_to(Reference::step),
+      text("until", to(&Support::until),
+           "the last step in which it holds; in the next its forces are ramped to zero")
+          .optional()
+          .refers_to(Reference::step),
   };
   section.sections.push_back(displacement_section());
   section.check = [](const void* object) -> std::optional<Conflict> {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/phases.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dielast::cases {
+
+std::vector<char> holding_in(const Case& one, const std::vector<Step>& steps, int step) {
+  step = std::min(step, static_cast<int>(steps.size()) - 1);
+  while (step > 0 && steps[static_cast<std::size_t>(step)].is_analysis()) --step;
+  const auto number = [&](const std::string& name) {
+    return static_cast<int>(std::ranges::find(steps, name, &Step::name) - steps.begin());
+  };
+  std::vector<char> holding;
+  for (const Support& support : one.supports)
+    holding.push_back((support.from.empty() || step >= number(support.from)) &&
+                      (support.until.empty() || step <= number(support.until)));
+  return holding;
+}
+
+Case with_supports(Case one, const std::vector<char>& holding) {
+  std::vector<Support> all = std::exchange(one.supports, {});
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (holding[i]) one.supports.push_back(std::move(all[i]));
+  return one;
+}
+
+Renumbering::Renumbering(const fem::DofMap& from, const fem::DofMap& to)
+    : to_(to), from_(static_cast<std::size_t>(to.count())), was_held_(from_.size()) {
+  for (int node = 0; node < to.node_count(); ++node)
+    for (int c = 0; c < fem::DofMap::components; ++c)
+      if (const int e = to.equation(node, c); e != fem::DofMap::absent) {
+        const auto at = static_cast<std::size_t>(e);
+        from_[at] = from.equation(node, c);
+        was_held_[at] = from.is_held(from_[at]);
+      }
+}
+
+Eigen::VectorXd Renumbering::operator()(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd moved = values;
+  for (std::size_t e = 0; e < from_.size(); ++e) moved[static_cast<Eigen::Index>(e)] = values[from_[e]];
+  return moved;
+}
+
+fem::State Renumbering::operator()(fem::State state) const {
+  state.dead_force = (*this)(state.dead_force);
+  if (!state.motion) return state;
+  fem::Motion motion = *state.motion;
+  for (Eigen::VectorXd* part :
+       {&motion.position, &motion.velocity, &motion.acceleration, &motion.unbalanced}) {
+    *part = (*this)(*part);
+    if (part != &motion.position) part->segment(to_.free_count(), to_.held_count()).setZero();
+  }
+  for (int e = 0; e < to_.free_count(); ++e)
+    if (was_held_[static_cast<std::size_t>(e)]) motion.unbalanced[e] = 0;
+  motion.step = 0; // time steps begin anew
+  state.motion = std::make_shared<const fem::Motion>(std::move(motion));
+  return state;
+}
+
+Eigen::VectorXd Renumbering::let_go(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd freed = Eigen::VectorXd::Zero(to_.count());
+  for (int e = 0; e < to_.free_count(); ++e)
+    if (was_held_[static_cast<std::size_t>(e)]) freed[e] = values[from_[static_cast<std::size_t>(e)]];
+  return freed;
+}
+
+} // namespace dielast::cases
