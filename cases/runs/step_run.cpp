@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/step_run.hpp"
 
+#include "fem/paths/held_masses.hpp"
 #include "fem/paths/jump.hpp"
 #include "post/engineering.hpp"
 
@@ -40,11 +41,13 @@ fem::State StepRun::loaded(fem::State state, double s) const {
   return state;
 }
 
-/// The loads at s, as a person would name them.
-std::string StepRun::load_text(double s) const {
-  fem::State at = last(), begin = at;
-  path_.apply(at, s);
-  path_.apply(begin, 0);
+/// The loads of a state at s, as a person would name them: that which has changed most since before the step.
+std::string StepRun::load_text(const fem::State& at, double s) const {
+  fem::State begin = at;
+  if (timed())
+    path_.before(begin, 0); // a load may jump there
+  else
+    path_.apply(begin, 0);
   std::string text;
   double largest = 0;
   for (std::size_t e = 0; e < at.voltage.size(); ++e) {
@@ -57,14 +60,22 @@ std::string StepRun::load_text(double s) const {
     const char* unit = chamber ? (isolated ? "m^3" : "Pa") : (isolated ? "C" : "V");
     text = post::engineering(to, unit, post::Ratio::plain, 5);
   }
-  return text.empty() ? fmt::format("load factor {:.5g}", s) : text;
+  if (!text.empty()) return text;
+  return s > 0 ? fmt::format("load factor {:.5g}", s) : "the beginning of the step";
+}
+
+std::string StepRun::load_text(double s) const {
+  fem::State at = last();
+  path_.apply(at, s);
+  return load_text(at, s);
 }
 
 /// A critical point at which the step ends is called what the step's failure() is.
 void StepRun::announce(const fem::CriticalPoint& critical, bool ends) {
   if (!observer_.on_critical) return;
   const bool branches_off = critical.kind == fem::Instability::bifurcation;
-  const std::string load = load_text(critical.load_factor);
+  const double s = critical.load_factor;
+  const std::string load = timed() ? load_text(critical.state, s) : load_text(s);
   observer_.on_critical(
       critical,
       ends ? post::Event{word(fem::Instability::limit_point), "",
@@ -99,10 +110,12 @@ std::optional<fem::CriticalPoint> StepRun::locate(double s) const {
                                      options_.newton);
 }
 
-/// The last accepted state, where it is about to lose its stability at the pace of the step.
+/// The last accepted state, where it is about to lose its stability at the pace of the step; with inertia,
+/// that of what has no mass.
 std::optional<fem::CriticalPoint> StepRun::limit_in_time() const {
   const double reached = progress_.ramp.load_factor;
   fem::State state = loaded(last(), reached);
+  if (options_.inertia) state = fem::with_masses_held(equilibrium_, std::move(state));
   auto mode = fem::lowest_mode(equilibrium_, state);
   if (!mode || std::abs(mode->eigenvalue) > critical_in_time) return std::nullopt;
   return fem::CriticalPoint{fem::Instability::limit_point, reached, std::move(state), std::move(*mode)};
@@ -160,7 +173,7 @@ Outcome StepRun::run() {
     } else if (trouble.ramp.failure.outcome == fem::Outcome::refused) {
       return {Ending::gave_up}; // whoever refuses says why
     } else if (timed()) {
-      if (!options_.inertia) trouble.critical = limit_in_time();
+      trouble.critical = limit_in_time();
     } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows() &&
                !equilibrium_.is_slack(last())) {
       trouble.critical = locate(trouble.ramp.failed_at);
@@ -258,7 +271,9 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   } else {
     return failure(trouble);
   }
+  const fem::State before = last();
   state = loaded(std::move(state), s);
+  if (options_.inertia) state = fem::with_masses_held(equilibrium_, std::move(state));
   const fem::JumpResult result = fem::jump(equilibrium_, state, direction, {.newton = options_.newton});
   if (result.end != fem::JumpEnd::landed) {
     Outcome outcome = failure(trouble);
@@ -266,6 +281,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
                                    result.end == fem::JumpEnd::ran_away ? "runs away" : "is stuck");
     return outcome;
   }
+  if (options_.inertia) state = fem::with_masses_let_go(model(), std::move(state), before);
   state = model().settled(std::move(state));
   ramp.load_factor = s;
   ramp.increment = 1.0 / options_.increments;
@@ -292,10 +308,10 @@ Outcome StepRun::failure(const Trouble& trouble) const {
   if (trouble.ramp.failure.outcome == fem::Outcome::singular)
     return {Ending::gave_up, "singular tangent",
             fmt::format(
-                "step \"{}\" stopped at load factor {:.4g}: the tangent is singular. Part of the device can "
+                "step \"{}\" stopped at {}: the tangent is singular. Part of the device can "
                 "move freely: hold it with [[support]]; an unstretched film in space has no stiffness normal "
                 "to itself: stretch it or use model = \"planar\"",
-                step_.name, reached)};
+                step_.name, load_text(reached))};
   if (const auto lost = lost_film(trouble.ramp.failed_at); !lost.empty())
     return {Ending::gave_up, "electromechanical loss",
             fmt::format(
@@ -322,7 +338,7 @@ Outcome StepRun::failure(const Trouble& trouble) const {
       return {Ending::gave_up, "limit point",
               fmt::format("limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of "
                           "the step.{}\"jump\"",
-                          load_text(reached), last().time, more)};
+                          load_text(last(), reached), last().time, more)};
     return {
         Ending::gave_up, "limit point",
         fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}\"follow\" or \"jump\"",
@@ -344,12 +360,12 @@ Outcome StepRun::failure(const Trouble& trouble) const {
   if (trouble.ramp.failure.outcome == fem::Outcome::off_path)
     return {Ending::gave_up, "limit point",
             fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
-                        "of another branch beyond it.{}\"follow\" or \"jump\"",
-                        load_text(reached), more)};
+                        "of another branch beyond it.{}{}\"jump\"",
+                        load_text(last(), reached), more, timed() ? "" : "\"follow\" or ")};
   return {Ending::gave_up, "no equilibrium",
-          fmt::format("step \"{}\" stopped at load factor {:.4g}: no equilibrium found at {:.4g}, and the "
+          fmt::format("step \"{}\" stopped at {}: no equilibrium found at {}, and the "
                       "increments are smaller than solver.smallest_increment. A finer mesh may help{}",
-                      step_.name, reached, trouble.ramp.failed_at,
+                      step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
                       timed() ? "; or let the step go on with on_instability = \"jump\"" : "")};
 }
 

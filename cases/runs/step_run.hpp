@@ -73,6 +73,7 @@ class StepRun {
   std::optional<Outcome> leave(const Trouble& trouble);
   std::optional<Outcome> follow();
   std::optional<Outcome> jump(const Trouble& trouble);
+  std::string load_text(const fem::State& at, double s) const;
   std::string load_text(double s) const;
   std::vector<std::size_t> lost_film(double s) const;
   Outcome failure(const Trouble& trouble) const;

@@ -82,6 +82,9 @@ class Equilibrium {
   /// `state` is where the iteration stopped.
   NewtonResult solve(State& state, const NewtonOptions& options,
                      const std::function<void(const Iteration&)>& log = {});
+  /// solve() with the voltages under sheets as they are.
+  NewtonResult balance_forces(State& state, const NewtonOptions& options,
+                              const std::function<void(const Iteration&)>& log = {});
 
   /// Whether the film carries no tension: the tangent tells of rounding there, and no path leads on.
   bool is_slack(const State& state) const;
@@ -126,8 +129,6 @@ class Equilibrium {
   const Timings& timings() const { return timings_; }
 
  private:
-  NewtonResult balance_forces(State& state, const NewtonOptions& options,
-                              const std::function<void(const Iteration&)>& log);
   NewtonResult newton(State& state, const NewtonOptions& options,
                       const std::function<void(const Iteration&)>& log);
   NewtonResult descend(State& state, const NewtonOptions& options,

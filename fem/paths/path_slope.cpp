@@ -26,6 +26,11 @@ double potential(const Balance& balance, const State& state, const DofMap& dofs)
   return balance.energy - state.dead_force.dot(position(state, dofs));
 }
 
+double distance(const DofMap& dofs, const Eigen::VectorXd& stiffness, const State& from, const State& to) {
+  const Eigen::VectorXd u = dofs.increment(from, to);
+  return std::sqrt(u.dot(stiffness.cwiseProduct(u)));
+}
+
 } // namespace
 
 PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s, double reach,
@@ -59,18 +64,21 @@ PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& 
   return slope;
 }
 
-bool is_foreseen(const Equilibrium& equilibrium, std::span<const PathPoint> points, double parameter,
-                 const State& predicted, const State& trial) {
+bool is_foreseen(const DofMap& dofs, const Eigen::VectorXd& stiffness, std::span<const PathPoint> points,
+                 double parameter, const State& predicted, const State& trial) {
   constexpr double close = 0.1, faster = 3;
   if (points.size() < 2) return false;
-  const auto size = [&equilibrium](const State& from, const State& to) {
-    const Eigen::VectorXd u = equilibrium.model().dofs.increment(from, to);
-    return std::sqrt(u.dot(equilibrium.stiffness().cwiseProduct(u)));
-  };
+  const auto size = [&](const State& from, const State& to) { return distance(dofs, stiffness, from, to); };
   const PathPoint &before = points[points.size() - 2], &here = points.back();
   const double longer = (parameter - here.parameter) / (here.parameter - before.parameter);
   const double step = size(here.state, trial);
   return size(predicted, trial) <= close * step && step <= faster * longer * size(before.state, here.state);
+}
+
+bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, const State& from,
+              const State& to) {
+  return distance(equilibrium.model().dofs, stiffness, from, to) <=
+         still * std::sqrt(equilibrium.energy_scale());
 }
 
 bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,

@@ -26,10 +26,14 @@ PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& 
                    bool factored = true);
 
 /// Whether a predictor through the `points` of a path has led to `trial`, at `parameter`, closely, in the
-/// norm of Equilibrium::stiffness(). As a predictor that runs away may meet another branch, the path must not
-/// have become several times faster either since the increment before.
-bool is_foreseen(const Equilibrium& equilibrium, std::span<const PathPoint> points, double parameter,
-                 const State& predicted, const State& trial);
+/// norm of `stiffness` (per free equation). As a predictor that runs away may meet another branch, the path
+/// must not have become several times faster either since the increment before.
+bool is_foreseen(const DofMap& dofs, const Eigen::VectorXd& stiffness, std::span<const PathPoint> points,
+                 double parameter, const State& predicted, const State& trial);
+
+/// Whether an increment is too small to tell of a path, in the norm of `stiffness` (per free equation).
+bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, const State& from,
+              const State& to);
 
 /// How far an increment may be from what the slopes at its ends tell of it; see is_joined().
 struct Steadiness {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/ramp.hpp"
 
+#include "fem/paths/held_masses.hpp"
+#include "fem/paths/homotopy.hpp"
 #include "fem/paths/time_error.hpp"
 
 #include <algorithm>
@@ -15,7 +17,6 @@ constexpr std::size_t most_points = 4; ///< of the predictor
 constexpr double round_off = 1e-9;     ///< in load factors
 constexpr double most_growth = 2;      ///< of a time step: BDF2 is stable below 2.41
 constexpr double safety = 0.9;
-constexpr int back_parts = 8;              ///< of loads that are taken back
 constexpr int jump_parts = 8;              ///< of loads that jump
 constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
 constexpr double smallest_on_path = 1e-9;  ///< of the load factor, where other branches are found
@@ -30,13 +31,16 @@ class Ramp {
        const RampObserver& observer)
       : equilibrium_(equilibrium), path_(path), options_(options), progress_(progress), observer_(observer),
         largest_(1.0 / options.increments), landing_(options.landing > 0 ? options.landing : largest_),
-        smallest_(options.duration > 0 ? smallest_in_time : options.smallest_increment) {}
+        smallest_(options.duration > 0 ? smallest_in_time : options.smallest_increment) {
+    if (options.inertia) massless_ = stiffness_without_mass(equilibrium, last());
+  }
 
   RampResult run();
 
  private:
   bool timed() const { return options_.duration > 0; }
   const State& last() const { return progress_.points.back().state; }
+  double smallest_off_path() const { return std::min(smallest_, smallest_on_path); }
   double parameter(double s) const { return timed() ? s : path_.parameter(s); }
   double next_break() const;
   double next_load_factor() const;
@@ -45,7 +49,7 @@ class Ramp {
   bool less_stable() const;
   LoadPath within(double s) const;
   PathSlope slope_of_start(const LoadPath& increment, double length);
-  bool leads_back(const State& trial, double s);
+  bool follows(const State& predicted, const State& trial, double s) const;
   bool goes_on(const State& predicted, const State& trial, double s);
   bool detour(const LoadPath& path, State start, const RampOptions& options, bool tells);
   bool pass_break();
@@ -59,6 +63,7 @@ class Ramp {
   RampProgress& progress_;
   const RampObserver& observer_;
   double largest_, landing_, smallest_;
+  Eigen::VectorXd massless_; ///< with inertia, see stiffness_without_mass()
   NewtonResult newton_;
   std::optional<PathSlope> slope_; ///< at the trial state
   int unstable_before_ = -1;       ///< unstable modes before the increment that is being accepted
@@ -145,15 +150,22 @@ PathSlope Ramp::slope_of_start(const LoadPath& increment, double length) {
   return slope_at(equilibrium_, increment, start, at, 1, regular);
 }
 
+/// Whether what has no mass has followed what has one continuously; the motion itself has no other branch.
+bool Ramp::follows(const State& predicted, const State& trial, double s) const {
+  return massless_.size() == 0 || is_still(equilibrium_, massless_, last(), trial) ||
+         is_foreseen(equilibrium_.model().dofs, massless_, progress_.points, parameter(s), predicted, trial);
+}
+
 /// Whether a converged trial lies on the path through the last accepted states.
 bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   slope_.reset();
   const Model& model = equilibrium_.model();
   if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
-  if (options_.inertia) return true; // motion has no other branch
+  if (options_.inertia) return follows(predicted, trial, s);
   if (options_.newton.wrinkles && equilibrium_.is_slack(last()))
-    return equilibrium_.is_slack(trial) || leads_back(trial, s);
-  if (is_foreseen(equilibrium_, progress_.points, parameter(s), predicted, trial)) return true;
+    return equilibrium_.is_slack(trial) || leads_back_to_slack(equilibrium_, within(s), trial, options_);
+  if (is_foreseen(model.dofs, equilibrium_.stiffness(), progress_.points, parameter(s), predicted, trial))
+    return true;
   const double length = s - progress_.load_factor;
   const LoadPath increment = within(s);
   const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
@@ -172,25 +184,6 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   return true;
 }
 
-/// Whether a state that was found from slack film, from which no path leads, is on one that leads back to
-/// slack film, or to almost none of the increment's loads.
-bool Ramp::leads_back(const State& trial, double s) {
-  constexpr double almost_none = 0.02;
-  const LoadPath increment = within(s);
-  LoadPath back;
-  back.apply = [&](State& state, double part) { increment.apply(state, 1 - part * (1 - almost_none)); };
-  const RampOptions options{.newton = options_.newton,
-                            .increments = back_parts,
-                            .smallest_increment = options_.smallest_increment,
-                            .instantaneous = timed() || options_.instantaneous};
-  RampProgress progress = RampProgress::begin(timed() ? equilibrium_.model().settled(trial) : trial,
-                                              equilibrium_.model().dofs, options);
-  const RampObserver watcher{.on_accept = [&](const RampProgress& now, const Increment&) {
-    return !equilibrium_.is_slack(now.points.back().state);
-  }};
-  return Ramp(equilibrium_, back, options, progress, watcher).run().end != RampEnd::gave_up;
-}
-
 /// Takes the last state along a path of its own, on which no time passes; the observer hears of all of its
 /// states but the last.
 bool Ramp::detour(const LoadPath& path, State start, const RampOptions& options, bool tells) {
@@ -200,7 +193,9 @@ bool Ramp::detour(const LoadPath& path, State start, const RampOptions& options,
   RampObserver watcher;
   watcher.on_iteration = observer_.on_iteration;
   watcher.on_accept = [&](const RampProgress& now, const Increment& increment) {
-    progress_.points = {{at, now.points.back().state}};
+    const State& reached = now.points.back().state;
+    progress_.points = {
+        {at, options_.inertia ? with_masses_let_go(equilibrium_.model(), reached, start) : reached}};
     progress_.unstable_modes = increment.newton.unstable_modes;
     newton_ = increment.newton;
     last_part_ = increment.length;
@@ -245,15 +240,17 @@ bool Ramp::pass_break() {
             (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
   progress_.points = {{at, state}};
   if (!jumped_) return true;
-  const LoadPath jump = linear_path(dofs, before, after, equilibrium_.model().electrodes.size());
-  if (!options_.inertia)
+  LoadPath jump = linear_path(dofs, before, after, equilibrium_.model().electrodes.size());
+  const bool follows = options_.inertia && massless_.size() > 0;
+  if (follows) jump = with_masses_held(equilibrium_, std::move(jump), state);
+  if (!options_.inertia || follows)
     return detour(jump, std::move(state),
                   {.newton = options_.newton,
                    .increments = jump_parts,
                    .smallest_increment = options_.smallest_increment,
                    .instantaneous = true},
                   true);
-  newton_ = {}; // nothing moves
+  newton_ = {}; // everything has a mass: nothing moves
   last_part_ = 1.0 / jump_parts;
   for (int part = 1; part <= jump_parts; ++part) {
     jump.apply(state, part * last_part_);
@@ -272,7 +269,6 @@ bool Ramp::flow() {
   state.scheme = scheme(0);
   Balance relaxed;
   equilibrium_.balance(state, relaxed);
-  const Eigen::Index free = equilibrium_.model().dofs.free_count();
   if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
     equilibrium_.conduct(state);
     State flown = equilibrium_.model().settled(std::move(state));
@@ -287,12 +283,7 @@ bool Ramp::flow() {
     progress_.turns = true;
     return true;
   }
-  Eigen::VectorXd lost = Eigen::VectorXd::Zero(relaxed.force.size());
-  lost.head(free) = relaxed.force.head(free);
-  LoadPath path;
-  path.apply = [&, loads = state.dead_force](State& at, double part) {
-    at.dead_force = loads + (1 - part) * lost;
-  };
+  const LoadPath path = fading_imbalance(equilibrium_, state);
   path.apply(state, 0);
   const bool flows =
       detour(path, std::move(state),
@@ -349,15 +340,16 @@ RampResult Ramp::run() {
     State trial = solve(predicted, s);
     if ((newton_.outcome != Outcome::converged || less_stable()) && progress_.points.size() > 1)
       trial = solve(last(), s); // the predictor may have led astray
-    if (newton_.outcome == Outcome::converged && !goes_on(predicted, trial, s))
+    if (newton_.outcome == Outcome::converged && !goes_on(predicted, trial, s) &&
+        !(timed() && tried < 2 * smallest_off_path() &&
+          is_reached_continuously(equilibrium_, last(), trial, options_)))
       newton_.outcome = Outcome::off_path;
     if (newton_.outcome == Outcome::converged && observer_.admits && !observer_.admits(s, trial))
       newton_.outcome = Outcome::refused;
     if (newton_.outcome != Outcome::converged || (less_stable() && tried >= 2 * smallest_)) {
       if (observer_.on_cutback) observer_.on_cutback(s, newton_);
       progress_.increment = tried / 2;
-      const double smallest =
-          newton_.outcome == Outcome::off_path ? std::min(smallest_, smallest_on_path) : smallest_;
+      const double smallest = newton_.outcome == Outcome::off_path ? smallest_off_path() : smallest_;
       if (progress_.increment < smallest) return {RampEnd::gave_up, s, newton_};
       continue;
     }

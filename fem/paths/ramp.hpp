@@ -88,10 +88,12 @@ struct RampResult {
 /// In time the dashpots go by BDF2, after a break by one backward Euler step. The local error is estimated
 /// from the distance to the polynomial through the last three accepted internal variables (Milne's device);
 /// steps grow at most by two. With inertia the step is generalised-alpha's (backward Euler after a break),
-/// and so is its error, relative to a hundredth of the model's extent. Loads that jump at a break act at
-/// once, with the dashpots as they are, and, with inertia, nothing moved: in parts, so that their work can be
-/// told. Where no time passes and dashpots flow that have not flowed before, they do so first, at the loads
-/// that the step starts from.
+/// and so is its error, relative to a hundredth of the model's extent. What has no mass follows what has one;
+/// an increment over which it does so in another way than foreseen is halved until it hardly moves. Loads
+/// that jump at a break act at once, with the dashpots as they are, and, with inertia, the masses held: in
+/// parts, so that their work can be told. An increment that is as small as may be, and still too long for
+/// what flows in it, is accepted where is_reached_continuously(). Where no time passes and dashpots flow that
+/// have not flowed before, they do so first, at the loads that the step starts from.
 ///
 /// `progress.points.back().state` is the last accepted state.
 RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,

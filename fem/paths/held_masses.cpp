@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/paths/held_masses.hpp"
+
+#include "fem/model/inertia.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr double stiffer = 1e8; ///< the inertia that holds a mass, over the stiffness
+
+/// Of the free equations, those of tied nodes moved to their masters, kg and kg m^2.
+Eigen::VectorXd masses(const Model& model, const State& state) {
+  const Eigen::SparseMatrix<double> jacobian = model.dofs.jacobian(state);
+  const Eigen::SparseMatrix<double> reduced = jacobian.transpose() * model.inertia.mass * jacobian;
+  return reduced.diagonal();
+}
+
+} // namespace
+
+Eigen::VectorXd stiffness_without_mass(const Equilibrium& equilibrium, const State& state) {
+  const Model& model = equilibrium.model();
+  const Eigen::VectorXd mass = masses(model, state);
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(mass.size());
+  for (int n = 0; n < model.dofs.node_count(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = model.dofs.equation(n, c); e >= 0 && e < mass.size() && mass[e] == 0)
+        stiffness[e] = equilibrium.stiffness()[e];
+  return stiffness.isZero(0) ? Eigen::VectorXd() : stiffness;
+}
+
+State with_masses_held(const Equilibrium& equilibrium, State state) {
+  const Model& model = equilibrium.model();
+  const Eigen::VectorXd mass = masses(model, state);
+  double square = std::numeric_limits<double>::infinity(); // of the time step
+  for (Eigen::Index e = 0; e < mass.size(); ++e)
+    if (mass[e] > 0) square = std::min(square, mass[e] / (stiffer * equilibrium.stiffness()[e]));
+  if (std::isinf(square) || !state.motion) return state;
+  const double dt = std::sqrt(square);
+  Motion motion = *state.motion;
+  motion.position = position(state, model.dofs) - dt * motion.velocity;
+  motion.acceleration.setZero();
+  motion.unbalanced.setZero();
+  state.motion = std::make_shared<const Motion>(std::move(motion));
+  state.motion_scheme = GeneralisedAlpha::backward_euler(dt);
+  return state;
+}
+
+State with_masses_let_go(const Model& model, State state, const State& before) {
+  Motion motion = *before.motion;
+  motion.position = position(state, model.dofs);
+  state.motion = std::make_shared<const Motion>(std::move(motion));
+  state.motion_scheme = {};
+  return state;
+}
+
+LoadPath with_masses_held(const Equilibrium& equilibrium, LoadPath path, const State& state) {
+  const State held = with_masses_held(equilibrium, state);
+  path.apply = [apply = std::move(path.apply), motion = held.motion, scheme = held.motion_scheme](State& at,
+                                                                                                  double s) {
+    apply(at, s);
+    at.motion = motion;
+    at.motion_scheme = scheme;
+  };
+  return path;
+}
+
+} // namespace dielast::fem

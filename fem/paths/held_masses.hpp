@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/equilibrium/equilibrium.hpp"
+#include "fem/paths/load_path.hpp"
+
+namespace dielast::fem {
+
+// What has no mass follows what has one, and the loads, at once: it is in equilibrium at every time, and a
+// path of equilibria may lose its stability and end while the masses hardly move.
+
+/// Equilibrium::stiffness() at the free displacements that have no mass, 0 at all other equations; empty
+/// where every free displacement has one.
+Eigen::VectorXd stiffness_without_mass(const Equilibrium& equilibrium, const State& state);
+
+/// The state with its masses held where they are: by the inertia of a time step that is far too short for
+/// them to move. They keep their velocities.
+State with_masses_held(const Equilibrium& equilibrium, State state);
+
+/// A state that was found with the masses held, at the motion that `before` has.
+State with_masses_let_go(const Model& model, State state, const State& before);
+
+/// `path` with the masses held where `state` has them. `equilibrium` must outlive the path.
+LoadPath with_masses_held(const Equilibrium& equilibrium, LoadPath path, const State& state);
+
+} // namespace dielast::fem

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/paths/homotopy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::fem {
+
+namespace {
+
+constexpr int back_parts = 8;          ///< of loads that are taken back
+constexpr double almost_none = 0.02;   ///< of the loads
+constexpr double same_state = 1e-3;    ///< of the way
+constexpr double rounded_state = 1e-7; ///< mean displacement over the extent, where nothing moves
+
+} // namespace
+
+LoadPath fading_imbalance(Equilibrium& equilibrium, const State& state) {
+  State at = state;
+  Balance balance;
+  equilibrium.balance(at, balance);
+  Eigen::VectorXd lacking = Eigen::VectorXd::Zero(balance.force.size());
+  const Eigen::Index free = equilibrium.model().dofs.free_count();
+  lacking.head(free) = balance.force.head(free);
+  LoadPath path;
+  path.apply = [loads = state.dead_force, lacking = std::move(lacking)](State& now, double part) {
+    now.dead_force = loads + (1 - part) * lacking;
+  };
+  return path;
+}
+
+bool is_reached_continuously(Equilibrium& equilibrium, const State& from, const State& to,
+                             const RampOptions& options) {
+  const Model& model = equilibrium.model();
+  State state = to;
+  state.displacement = from.displacement;
+  state.rotation = from.rotation;
+  Loads::of(to, model.dofs).apply(state, model.dofs);
+  const LoadPath path = fading_imbalance(equilibrium, state);
+  path.apply(state, 0);
+  const bool regular = equilibrium.factor(state);
+  const int unstable_modes = regular ? equilibrium.tangent().unstable_modes() : 0;
+  PathSlope slope = slope_at(equilibrium, path, state, 0, 1, regular);
+  double faded = 0, part = 1;
+  while (faded < 1) {
+    part = std::min(part, 1 - faded);
+    State trial = state;
+    path.apply(trial, faded + part);
+    const NewtonResult newton = equilibrium.balance_forces(trial, options.newton);
+    bool joined = newton.outcome == Outcome::converged && newton.unstable_modes <= unstable_modes &&
+                  !is_turned_over(model.corners, model.drawn, state, trial);
+    if (joined) {
+      PathSlope next = slope_at(equilibrium, path, trial, faded + part, -part);
+      joined = is_joined(equilibrium, state, slope.per(1 / part), trial, next.per(1 / part),
+                         Steadiness::resolved());
+      if (joined) slope = std::move(next);
+    }
+    if (!joined) {
+      part /= 2;
+      if (part < options.smallest_increment) return false;
+      continue;
+    }
+    state = std::move(trial);
+    faded += part;
+    part *= 2;
+  }
+  const auto size = [&](const State& a, const State& b) {
+    const Eigen::VectorXd u = model.dofs.increment(a, b);
+    return std::sqrt(u.dot(equilibrium.stiffness().cwiseProduct(u)));
+  };
+  return size(state, to) <=
+         same_state * size(from, to) + rounded_state * std::sqrt(equilibrium.energy_scale());
+}
+
+bool leads_back_to_slack(Equilibrium& equilibrium, const LoadPath& increment, State state,
+                         const RampOptions& options) {
+  LoadPath back;
+  back.apply = [&](State& at, double part) { increment.apply(at, 1 - part * (1 - almost_none)); };
+  const RampOptions parts{.newton = options.newton,
+                          .increments = back_parts,
+                          .smallest_increment = options.smallest_increment,
+                          .instantaneous = options.duration > 0 || options.instantaneous};
+  if (options.duration > 0) state = equilibrium.model().settled(std::move(state));
+  RampProgress progress = RampProgress::begin(state, equilibrium.model().dofs, parts);
+  const RampObserver watcher{.on_accept = [&](const RampProgress& now, const Increment&) {
+    return !equilibrium.is_slack(now.points.back().state);
+  }};
+  return ramp(equilibrium, back, parts, progress, watcher).end != RampEnd::gave_up;
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/paths/ramp.hpp"
+
+namespace dielast::fem {
+
+/// Forces that would balance `state` under its own loads and time scheme, added to its dead forces and taken
+/// away while the load factor goes from 0 to 1: a path on which no time passes.
+LoadPath fading_imbalance(Equilibrium& equilibrium, const State& state);
+
+/// Whether a state that one increment in time has led to is also reached from the last state by a stable,
+/// continuous path: at the loads and with the time scheme of the increment, while the forces fade that the
+/// last state lacks for equilibrium. So dashpots and charges that flow much faster than the smallest
+/// increment are told from a state beyond a limit point.
+bool is_reached_continuously(Equilibrium& equilibrium, const State& from, const State& to,
+                             const RampOptions& options);
+
+/// Whether a state that was found from slack film, from which no path leads, is on one that leads back to
+/// slack film, or to almost none of the loads of `increment`, which leads from 0 to `state` at 1.
+bool leads_back_to_slack(Equilibrium& equilibrium, const LoadPath& increment, State state,
+                         const RampOptions& options);
+
+} // namespace dielast::fem
