@@ -291,13 +291,29 @@ std::vector<Row> reference(const Case& one, Oracle oracle, const std::vector<Row
 
 class Works : public test::ScratchTest {};
 
+/// The time tolerance bounds the errors of a sheet's charges over their largest of the whole run. Rows at its
+/// very beginning, which have exchanged 1e-8 to 1e-4 of what the run exchanges, miss 1 % in two of 125 draws
+/// (184: 1.9 %, 268: 1.5 %); with a tenth of the tolerance they miss 0.3 %, with a hundredth 0.07 %: so it is
+/// the run's tolerance that shows there, not the independent integration's.
+struct Draw {
+  unsigned seed;
+  bool fine = false; ///< with a tenth of the time tolerance, and compared from the first row on
+};
+
+std::vector<Draw> all_draws() {
+  std::vector<Draw> draws{{184, true}, {268, true}};
+  for (unsigned seed = 1; seed <= WORKS_CASES; ++seed) draws.push_back({seed});
+  return draws;
+}
+
 TEST_F(Works, of_random_transients_agree_with_an_independent_integration) {
   int poor = 0, not_complete = 0;
   double worst = 0;
-  for (unsigned seed = 1; seed <= WORKS_CASES; ++seed) {
+  for (const auto& [seed, fine] : all_draws()) {
     const bool sheet = seed % 4 == 0;
     RandomTransient random(directory, seed);
-    const std::string text = sheet ? random.of_sheet() : random.of_patch();
+    std::string text = sheet ? random.of_sheet() : random.of_patch();
+    if (fine) text += "[solver]\ntime_tolerance = 1e-7\n";
     write("case.toml", text);
     SCOPED_TRACE(fmt::format("seed {}\n{}", seed, text));
     Case one;
@@ -330,9 +346,8 @@ TEST_F(Works, of_random_transients_agree_with_an_independent_integration) {
         sheet ? reference(one, sheet_oracle(one), rows) : reference(one, patch_oracle(one), rows);
     ASSERT_EQ(rows.size(), expected.size());
     double exchanged = 1e-15, off = 0;
-    // The voltages along a sheet are known to the time tolerance of all of the drive's: what the run
-    // exchanges while they are far below is not compared.
-    if (sheet)
+    // See Draw: of a sheet, rows that have exchanged less than 1 % of the run's work are compared with that.
+    if (sheet && !fine)
       for (const Row& b : expected)
         exchanged = std::max({exchanged, 0.01 * std::abs(b.electrical), 0.01 * std::abs(b.source)});
     std::size_t where = 0;
