@@ -145,6 +145,35 @@ kind = "voltage"
       << stopped.outcome.message;
 }
 
+// Film without tension has no stiffness across itself at the start.
+TEST_F(StiffPaths, a_plate_sinks_into_film_that_was_not_stretched) {
+  const auto drop = [this](const std::string& model, int rings) {
+    const Run done = run(fmt::format(R"toml(model = "{}"
+[film]
+thickness = "1 mm"
+prestretch = 1
+[film.material]
+shear_modulus = "40 kPa"
+permittivity = "4e-11 F/m"
+[annulus]
+inner_radius = "12.7 mm"
+outer_radius = "68.58 mm"
+[mesh]
+rings = {}
+[plate]
+mass = "100 g"
+[[step]]
+kind = "weight"
+)toml",
+                                     model, rings),
+                         "drop");
+    EXPECT_EQ(done.outcome.ending, Ending::complete) << done.outcome.message;
+    return done.rows.back().value;
+  };
+  const double meridian = drop("axisymmetric", 32);
+  EXPECT_NEAR(drop("3d", 4), meridian, 2e-3 * meridian);
+}
+
 TEST_F(StiffPaths, taut_film_is_that_of_a_model_without_wrinkles) {
   const auto capacitance = [this](const char* wrinkling) {
     const Run done = run(fmt::format(R"toml([film]
