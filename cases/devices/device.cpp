@@ -380,7 +380,7 @@ Device build_device(const Case& one) {
   device.film_parts = std::move(parts);
   device.films = films;
   device.tension_field = one.any_film([](const Film& f) { return f.tension_field; });
-  if (const auto* lattice = one.geometry<Honeycomb>()) device.wall_width = lattice->wall.width;
+  device.bar_widths = bar_widths(one, device.mesh);
   require_one_prestretch(one, device);
   device.warnings = std::move(warnings);
   return device;

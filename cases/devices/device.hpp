@@ -15,7 +15,7 @@ struct Device {
   fem::Model model;
   std::vector<int> film_parts;       ///< for each cell of the film, its part: a number in Case::parts
   int films = 0;                     ///< blocks of film; they stand in front of the model's others
-  std::optional<double> wall_width;  ///< m, of a lattice
+  std::vector<double> bar_widths;    ///< for each line of the mesh, m
   bool tension_field = false;        ///< a film wrinkles where it would be compressed
   bool free_body = false;            ///< no support: pinned against rigid motion only, without reactions
   Eigen::VectorXd weight;            ///< dead forces of gravity, per equation, N

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <set>
 
 namespace dielast::cases {
 namespace {
@@ -35,6 +37,29 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
 /// The mesh's options that hold for a part: those of the mesh in which it is.
 const MeshOptions& mesh_options(const Case& one, const Part& part) {
   return part.has_mesh() ? part.mesh : one.unnamed()->mesh;
+}
+
+/// Calls `use` with the lines and the section of each lattice's walls, and of each part along lines of the
+/// mesh.
+void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh,
+                          const std::function<void(const std::vector<int>& lines, const Beam& beam)>& use) {
+  std::set<int> taken;
+  const auto take = [&](const std::string& part, const std::string& place, const Beam& beam) {
+    const auto set = mesh.cell_sets.find(place);
+    if (set == mesh.cell_sets.end() ||
+        &mesh.blocks[static_cast<std::size_t>(set->second.block)] != mesh.walls())
+      throw meshing::MeshError(
+          fmt::format("part \"{}\": the place \"{}\" has no lines in the mesh", part, place));
+    for (const int line : set->second.cells)
+      if (!taken.insert(line).second)
+        throw meshing::MeshError(fmt::format("part \"{}\": a line of \"{}\" has a bar already", part, place));
+    use(set->second.cells, beam);
+  };
+  for (const Part& part : one.parts) {
+    if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
+      take(part.name, part.called("walls"), lattice->wall);
+    if (part.beam) take(part.name, part.place, *part.beam);
+  }
 }
 
 } // namespace
@@ -92,23 +117,20 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
 }
 
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  const auto add = [&](const std::string& part, const std::string& place, const Beam& beam) {
-    const auto set = mesh.cell_sets.find(place);
-    if (set == mesh.cell_sets.end() ||
-        !meshing::is_line(mesh.blocks[static_cast<std::size_t>(set->second.block)].type))
-      throw meshing::MeshError(
-          fmt::format("part \"{}\": the place \"{}\" has no lines in the mesh", part, place));
-    const meshing::CellBlock& lines = mesh.blocks[static_cast<std::size_t>(set->second.block)];
+  for_each_set_of_bars(one, mesh, [&](const std::vector<int>& lines, const Beam& beam) {
     model.blocks.push_back(
-        fem::make_beam_block(mesh, meshing::subset(lines, set->second.cells),
+        fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), lines),
                              materials::rectangular_section(beam.material, beam.width, beam.height),
-                             Eigen::Vector3d::UnitZ(), set->second.cells));
-  };
-  for (const Part& part : one.parts) {
-    if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
-      add(part.name, part.called("walls"), lattice->wall);
-    if (part.beam) add(part.name, part.place, *part.beam);
-  }
+                             Eigen::Vector3d::UnitZ(), lines));
+  });
+}
+
+std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh) {
+  std::vector<double> widths(mesh.walls() ? static_cast<std::size_t>(mesh.walls()->size()) : 0);
+  for_each_set_of_bars(one, mesh, [&](const std::vector<int>& lines, const Beam& beam) {
+    for (const int line : lines) widths[static_cast<std::size_t>(line)] = beam.width;
+  });
+  return widths;
 }
 
 void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent) {

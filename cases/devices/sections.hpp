@@ -22,6 +22,9 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
+/// Width of the bar along each line of the mesh, m.
+std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh);
+
 /// Throws MeshError where a film does not lie in a plane of constant z. `extent`: of the mesh, m.
 void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent);
 

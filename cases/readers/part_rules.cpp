@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace dielast::cases {
@@ -78,6 +79,10 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     if (knows_x_from_y(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
       report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
   }
+  const auto wrinkles = [](const Film& film) { return film.tension_field; };
+  if (one.any_film(wrinkles) && one.any_film(std::not_fn(wrinkles)))
+    reader.report(tree.find("part")->key_source, "part",
+                  "one film wrinkles and another does not; give all films of a case the same wrinkling");
   if (one.unnamed() && one.unnamed()->film && !one.unnamed()->has_mesh())
     reader.report(tree.find("film")->key_source, "film",
                   "a film without geometry; add one, or give each [part.NAME] its own [part.NAME.film]");

@@ -37,9 +37,9 @@ post::Ratio ratio_of(const Quantity& quantity) {
 }
 
 std::string meshing_summary(const Device& device) {
-  return meshing::format(meshing::quality(device.mesh)) +
-         fmt::format("unknowns: {} free, {} held\n", device.model.dofs.free_count(),
-                     device.model.dofs.held_count());
+  return meshing::format(meshing::quality(device.mesh)) + fmt::format("unknowns: {} free, {} held\n",
+                                                                      device.model.dofs.free_count(),
+                                                                      device.model.dofs.held_count());
 }
 
 post::Panel panel(const Device& device, const Snapshot& snapshot, const std::vector<double>& values) {
@@ -54,8 +54,9 @@ post::Panel panel(const Device& device, const Snapshot& snapshot, const std::vec
 std::vector<post::Section> picture_sections(const Device& device, const Journal& journal) {
   const auto& all = journal.snapshots;
   const Snapshot& last = all.back();
-  post::Picture shapes{
-      .quantity = "Film thickness", .unit = "m", .wall_width = device.wall_width.value_or(0)};
+  post::Picture shapes{.quantity = "Film thickness",
+                       .unit = "m",
+                       .wall_width = device.bar_widths.empty() ? 0 : std::ranges::max(device.bar_widths)};
   if (all.size() > 1)
     shapes.panels.push_back(panel(device, all[all.size() - 2], all[all.size() - 2].thickness));
   shapes.panels.push_back(panel(device, last, last.thickness));

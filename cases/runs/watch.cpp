@@ -12,12 +12,15 @@ namespace dielast::cases {
 
 namespace {
 
-bool is_cell(const std::string& place) { return place.starts_with("cell["); }
+/// Of a lattice, also of one that is a part with a name.
+bool is_cell(const std::string& place) {
+  return place.starts_with("cell[") || place.find(".cell[") != std::string::npos;
+}
 
 } // namespace
 
 Watch::Watch(const Device& device) : device_(device), lines_(device.mesh.walls()) {
-  if (device.wall_width && lines_) contacts_.emplace(device.mesh, *lines_, *device.wall_width);
+  if (lines_) contacts_.emplace(device.mesh, *lines_, device.bar_widths);
 }
 
 std::string Watch::place_of_triangle(int triangle) const {
@@ -78,13 +81,14 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
     const auto found = contacts_->find(state);
     if (begins(!found.empty(), "wall contact")) {
       const auto& worst = found.front();
+      const double width = device_.bar_widths[static_cast<std::size_t>(worst.lines[0])];
       events.push_back(
           {"wall contact", cell_of(worst.lines[0], worst.lines[1]),
            fmt::format("walls touch at {} place{}; the nearest centrelines are {} apart, the walls are {} "
                        "wide. Contact is not resisted: the shape beyond it is not what a device does",
                        found.size(), found.size() == 1 ? "" : "s",
                        worst.distance > 1e-9 ? post::engineering(worst.distance, "m") : "0",
-                       post::engineering(*device_.wall_width, "m"))});
+                       post::engineering(width, "m"))});
     }
   }
   if (begins(unstable_modes > 0, "instability"))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -29,8 +30,9 @@ double segment_distance(const Vector3d& p1, const Vector3d& q1, const Vector3d& 
 
 } // namespace
 
-WallContactSearch::WallContactSearch(const meshing::Mesh& mesh, const meshing::CellBlock& lines, double width)
-    : mesh_(mesh), width_(width) {
+WallContactSearch::WallContactSearch(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
+                                     std::vector<double> widths)
+    : mesh_(mesh), widths_(std::move(widths)), widest_(*std::ranges::max_element(widths_)) {
   std::vector<std::vector<int>> at(mesh.nodes.size()); // lines at each end node
   for (int l = 0; l < lines.size(); ++l) {
     lines_.push_back({{lines.cell(l)[0], lines.cell(l)[1]}, -1});
@@ -93,15 +95,18 @@ std::vector<WallContact> WallContactSearch::find(const State& state) const {
 
   std::map<std::array<int, 2>, WallContact> nearest; // by pair of walls
   for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low.x() < boxes[i].high.x() + width_; ++j) {
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low.x() < boxes[i].high.x() + widest_; ++j) {
       const Box &a = boxes[i], &b = boxes[j];
-      if ((a.low.array() > b.high.array() + width_).any() || (b.low.array() > a.high.array() + width_).any())
+      if ((a.low.array() > b.high.array() + widest_).any() ||
+          (b.low.array() > a.high.array() + widest_).any())
         continue;
       const int wall = lines_[static_cast<std::size_t>(a.line)].wall,
                 other = lines_[static_cast<std::size_t>(b.line)].wall;
       if (share_joint(wall, other)) continue;
       const double distance = segment_distance(a.p, a.q, b.p, b.q);
-      if (distance >= width_) continue;
+      const double touching =
+          (widths_[static_cast<std::size_t>(a.line)] + widths_[static_cast<std::size_t>(b.line)]) / 2;
+      if (distance >= touching) continue;
       const std::array<int, 2> key{std::min(wall, other), std::max(wall, other)};
       const auto [entry, fresh] = nearest.try_emplace(key, WallContact{{a.line, b.line}, distance});
       if (!fresh && distance < entry->second.distance) entry->second = {{a.line, b.line}, distance};

@@ -20,8 +20,8 @@ struct WallContact {
 /// chords. Contact is reported, not resisted.
 class WallContactSearch {
  public:
-  /// `width`: distance of the centrelines at which walls touch, m.
-  WallContactSearch(const meshing::Mesh& mesh, const meshing::CellBlock& lines, double width);
+  /// `widths`: of the wall at each line, m; walls touch where their centrelines are the mean of theirs apart.
+  WallContactSearch(const meshing::Mesh& mesh, const meshing::CellBlock& lines, std::vector<double> widths);
 
   /// The nearest pair of beams of every two walls in contact, by ascending distance.
   std::vector<WallContact> find(const State& state) const;
@@ -34,7 +34,8 @@ class WallContactSearch {
   bool share_joint(int wall, int other) const;
 
   const meshing::Mesh& mesh_;
-  double width_;
+  std::vector<double> widths_;
+  double widest_ = 0;
   std::vector<Line> lines_;
   std::vector<std::array<int, 2>> joints_; ///< end nodes of each wall
 };

@@ -288,6 +288,28 @@ since = "release"
     EXPECT_NEAR(found.at(name), expected.at(name), 1e-10 * std::abs(expected.at(name))) << name;
 }
 
+// Turned round, a patch is pulled and stretched the other way, and says the numbers of the one that is not.
+TEST_F(Parts, ATurnedPatchIsTheSamePatch) {
+  const auto values = [&](const std::string& at, const std::string& drive) {
+    return run("[part.p]\n" + at +
+               "[part.p.film]\nthickness = \"1 mm\"\nprestretch = [1.5, 1.2]\n[part.p.film.material]\n"
+               "shear_modulus = \"50 kPa\"\nrelative_permittivity = 4\n[part.p.patch]\nlength = \"20 "
+               "mm\"\nwidth = \"10 mm\"\n" +
+               drive);
+  };
+  for (const char* drive : {"stretch_x = 2\nstretch_y = 1.1\n[[step]]\nkind = \"move\"\n",
+                            "stress_x = \"60 kPa\"\nstress_y = \"-5 kPa\"\n[[step]]\nkind = \"force\"\n"}) {
+    const auto straight = values("", drive),
+               turned = values("at = [0.1, 0, 0]\nturned = \"180 deg\"\n", drive);
+    for (const char* name : {"p_stretch_x", "p_stretch_y", "p_stress_x", "p_stress_y"})
+      EXPECT_NEAR(turned.at(name), straight.at(name), 1e-9 * std::abs(straight.at(name)) + 1e-6)
+          << name << drive;
+  }
+  EXPECT_NEAR(
+      values("turned = \"180 deg\"\n", "stretch_x = 2\n[[step]]\nkind = \"move\"\n").at("p_stretch_x"), 2,
+      1e-12);
+}
+
 const std::string two_discs = R"toml(
 [part.a.film]
 material = "VHB 4910 (honeycomb)"

@@ -34,7 +34,8 @@ class Walls : public ::testing::Test {
     State state;
     state.displacement = displacement;
     state.displacement.resize(mesh.nodes.size(), Vector3d::Zero());
-    return WallContactSearch(mesh, lines, width).find(state);
+    return WallContactSearch(mesh, lines, std::vector(static_cast<std::size_t>(lines.size()), width))
+        .find(state);
   }
 
   meshing::Mesh mesh;
