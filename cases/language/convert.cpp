@@ -138,8 +138,9 @@ Scalar convert_item(const Key& key, const Node& node, std::string_view unit, con
     if (!node.is(Node::Kind::flag)) mismatch(node, "", allowed);
     return {node.flag ? 1.0 : 0.0, ""};
   case Type::word:
-    for (std::size_t i = 0; text && i < key.choices.size(); ++i)
-      if (key.choices[i].word == node.text) return {static_cast<double>(i), node.text};
+    if (const auto found = std::ranges::find(key.choices, node.text, &Choice::word);
+        text && found != key.choices.end())
+      return {found->value.value_or(0), node.text};
     mismatch(node, "", allowed + (text ? did_you_mean(node.text, words_of(key)) : ""));
   case Type::name:
     if (!text || !is_name(node.text)) mismatch(node, "", allowed);

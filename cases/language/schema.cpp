@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace dielast::cases {
 namespace {
@@ -26,7 +27,10 @@ bool Key::applies_to(const std::string& selected) const {
 }
 
 const std::string& Key::word_of(const Scalar& value) const {
-  return value.text.empty() ? choices.at(static_cast<std::size_t>(value.number)).word : value.text;
+  if (!value.text.empty()) return value.text;
+  const auto found = std::ranges::find(choices, std::optional(value.number), &Choice::value);
+  if (found == choices.end()) throw std::logic_error("key " + name + ": no word stands for the value");
+  return found->word;
 }
 
 Key Key::above(double low) && {
@@ -192,13 +196,14 @@ const Section& case_schema() {
     root.access = same_object();
     root.keys = {
         text("title", to(&Case::title), "title of the report").optional(),
-        word("model",
-             {{"planar", "in-plane displacements"},
-              {"3d", "displacements in space"},
-              {"axisymmetric", "a film of revolution about z, by its meridian"}},
-             to(&Case::dimension),
-             "how the device can move; with [plate], [chamber] or [balloon] the default is "
-             "\"axisymmetric\"")
+        word(
+            "model",
+            {{"planar", "in-plane displacements", fem::Dimension::planar},
+             {"3d", "displacements in space", fem::Dimension::spatial},
+             {"axisymmetric", "a film of revolution about z, by its meridian", fem::Dimension::axisymmetric}},
+            to(&Case::dimension),
+            "how the device can move; with [plate], [chamber] or [balloon] the default is "
+            "\"axisymmetric\"")
             .otherwise("planar"),
         text("case", {}, "of a study file: the case file that it varies").optional().only({"study"}),
     };

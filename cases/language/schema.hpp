@@ -15,7 +15,7 @@
 
 namespace dielast::cases {
 
-/// One element of a converted value: SI number (flag: 0 or 1; word: its place among the choices), text or
+/// One element of a converted value: SI number (flag: 0 or 1; word: the value that it stands for), text or
 /// wave.
 struct Scalar {
   double number = 0;
@@ -47,9 +47,18 @@ constexpr std::size_t longest_name = 100;
 /// What a text refers to, checked once everything is read (places: once the mesh exists).
 enum class Reference { none, place, supported_place, body, electrode, step, quantity };
 
+/// A word that a user may write, and the value that it stands for: an enumerator, a number or a flag. Without
+/// one the word itself is the value, of a text.
 struct Choice {
   std::string word;
   std::string meaning;
+  std::optional<double> value{};
+
+  Choice(std::string written, std::string means) : word(std::move(written)), meaning(std::move(means)) {}
+  template<class V>
+  requires std::is_enum_v<V> || std::is_arithmetic_v<V> Choice(std::string written, std::string means,
+                                                               V stands_for)
+      : word(std::move(written)), meaning(std::move(means)), value(static_cast<double>(stands_for)) {}
 };
 
 struct Range {

@@ -53,7 +53,7 @@ void add_law_keys(std::vector<Key>& keys, Law law, std::string meaning) {
       [law](const void* object) { return value_of(law(*static_cast<const T*>(object)).index()); }};
   const auto add = [&]<std::size_t... I>(std::index_sequence<I...>) {
     const std::vector<Choice> laws{{std::string(std::variant_alternative_t<I, ElasticLaw>::name),
-                                    std::string(std::variant_alternative_t<I, ElasticLaw>::formula)}...};
+                                    std::string(std::variant_alternative_t<I, ElasticLaw>::formula), I}...};
     keys.push_back(word("law", laws, choose, std::move(meaning)).otherwise(laws.front().word));
     (add_parameter_keys<T, std::variant_alternative_t<I, ElasticLaw>>(
          keys, [law](auto& object) { return std::get_if<I>(&law(object)); }, {laws[I].word}),

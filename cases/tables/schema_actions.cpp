@@ -10,7 +10,8 @@ namespace {
 
 constexpr double smallest_resistance = 1e-3; ///< Ohm: below, charging is quicker than any step of time
 
-const std::vector<Choice> axes{{"x", "along x"}, {"y", "along y"}, {"z", "normal to the undeformed film"}};
+const std::vector<Choice> axes{
+    {"x", "along x", 0}, {"y", "along y", 1}, {"z", "normal to the undeformed film", 2}};
 
 /// A key whose words are the indices at which an array of flags is set.
 template<class T, class Flags>
@@ -29,9 +30,12 @@ Binding flags(Flags T::*member) {
           }};
 }
 
-const std::vector<Choice> motions{
-    {"x", "along x"},      {"y", "along y"},      {"z", "normal to the undeformed film"},
-    {"turn_x", "about x"}, {"turn_y", "about y"}, {"turn_z", "about z, the normal of the undeformed film"}};
+const std::vector<Choice> motions{{"x", "along x", 0},
+                                  {"y", "along y", 1},
+                                  {"z", "normal to the undeformed film", 2},
+                                  {"turn_x", "about x", 3},
+                                  {"turn_y", "about y", 4},
+                                  {"turn_z", "about z, the normal of the undeformed film", 5}};
 
 Section electrode_section() {
   Section section = list_section("electrode", "a charged part of the film", each(&Case::electrodes));

@@ -68,12 +68,14 @@ Section branch_section() {
                              .replacing("relaxation_time"));
   section.keys.push_back(
       word("dashpot",
-           {{"log", "resists the rate of the logarithmic viscous strain (Reese & Govindjee 1998)"},
-            {"nominal", "resists the rate of the viscous stretches along x and y"}},
+           {{"log", "resists the rate of the logarithmic viscous strain (Reese & Govindjee 1998)",
+             materials::Dashpot::log},
+            {"nominal", "resists the rate of the viscous stretches along x and y",
+             materials::Dashpot::nominal}},
            to(&Branch::dashpot), "what the dashpot resists")
           .otherwise("log"));
   section.keys.push_back(
-      word("directions", {{"x", "along x"}, {"y", "along y"}}, directions,
+      word("directions", {{"x", "along x", 0}, {"y", "along y", 1}}, directions,
            "directions in which a nominal dashpot flows; along the other the spring is free of "
            "stress at stretch 1")
           .values(1, 2)
@@ -200,8 +202,8 @@ Section film_section() {
           .at_most(100)
           .otherwise("1"),
       word("wrinkling",
-           {{"compression", "it carries the compression"},
-            {"tension field", "it wrinkles and carries tension only"}},
+           {{"compression", "it carries the compression", false},
+            {"tension field", "it wrinkles and carries tension only", true}},
            to(&Film::tension_field), "what the film does where it would be compressed")
           .otherwise("compression"),
   };

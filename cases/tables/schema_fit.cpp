@@ -39,9 +39,9 @@ Section test_section() {
   section.keys = {
       text("file", to(&FitTest::file), "CSV file; its path starts at this file's folder"),
       word("kind",
-           {{"uniaxial", "one axis is pulled, the others are free"},
-            {"pure shear", "one axis is pulled, the width is held"},
-            {"equal-biaxial", "two axes are pulled alike"}},
+           {{"uniaxial", "one axis is pulled, the others are free", materials::Mode::uniaxial},
+            {"pure shear", "one axis is pulled, the width is held", materials::Mode::pure_shear},
+            {"equal-biaxial", "two axes are pulled alike", materials::Mode::equal_biaxial}},
            to(&FitTest::kind), "how the film is held"),
       text("stretch", to(&FitTest::stretch_column), "column of the stretch; without it \"stretch\"")
           .optional(),
@@ -62,8 +62,8 @@ Section test_section() {
            "the first row is the origin: its stretch counts as 1 and its stress as 0")
           .otherwise("false"),
       word("use",
-           {{"fit", "the material is fitted to it"},
-            {"predict", "kept out of the fit; how well it is predicted is reported"}},
+           {{"fit", "the material is fitted to it", false},
+            {"predict", "kept out of the fit; how well it is predicted is reported", true}},
            to(&FitTest::predict), "what it is for")
           .otherwise("fit"),
       number("weight", to(&FitTest::weight), "of its errors, which are relative to its largest stress")

@@ -203,9 +203,10 @@ Section patch_section() {
           .at_most(1)
           .otherwise_as("length"),
       word("mode",
-           {{"biaxial", "x and y move independently"},
-            {"equal-biaxial", "x and y are stretched alike; of the stresses only the sum is given"},
-            {"pure-shear", "y is held at the prestretch"}},
+           {{"biaxial", "x and y move independently", PatchMode::biaxial},
+            {"equal-biaxial", "x and y are stretched alike; of the stresses only the sum is given",
+             PatchMode::equal_biaxial},
+            {"pure-shear", "y is held at the prestretch", PatchMode::pure_shear}},
            to(&Patch::mode), "how the sides move")
           .otherwise("biaxial"),
       stretch("stretch_x", &Patch::stretch_x, "stretch along x of the unstretched film"),

@@ -26,34 +26,43 @@ Section quantity_section() {
   const auto of = [](std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); };
   section.keys = {
       text("name", to(&Quantity::name), "its name in results").distinct(),
-      word("kind",
-           {{"distance", "between the centroids of two places (m)"},
-            {"elongation", "relative change of the distance between two places (-)"},
-            {"stretch", "distance between two places over that of the unstretched film (-)"},
-            {"size", "of the box around a place (m)"},
-            {"growth", "relative change of the size of a place (-)"},
-            {"displacement", "of the centroid of a place (m)"},
-            {"angle", "rotation of a body about an axis (rad)"},
-            {"radius", "mean distance of a place's nodes from their centroid (m)"},
-            {"force", "reaction at a support while it holds (N)"},
-            {"moment", "reaction about an axis where a body's rotation is fixed (N m)"},
-            {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)"},
-            {"capacitance", "of an electrode (F)"},
-            {"charge", "of an electrode (C)"},
-            {"current", "that the source of an electrode's [circuit] gives (A)"},
-            {"pressure", "in the chamber (Pa)"},
-            {"volume", "of the chamber itself (m^3)"},
-            {"pumped volume", "that was pumped into the chamber, as it is without pressure (m^3)"},
-            {"stiffness", "force on a place per displacement along an axis, branches relaxed; none where the "
-                          "state is not at rest (N/m)"},
-            {"natural frequency", "of small vibrations about the state, branches relaxed; none where it is "
-                                  "not at rest (rad/s)"},
-            {"radial stretch", "stretch of the film along the radius, mean at an edge (-)"},
-            {"energy", "part of the energy balance (J)"},
-            {"value", "of a field of the film: at a point, or its mean over a place"},
-            {"extreme", "smallest or largest value of a field"},
-            {"peak", "smallest or largest value of another quantity so far"}},
-           to(&Quantity::kind), "what is measured"),
+      word(
+          "kind",
+          {{"distance", "between the centroids of two places (m)", QuantityKind::distance},
+           {"elongation", "relative change of the distance between two places (-)", QuantityKind::elongation},
+           {"stretch", "distance between two places over that of the unstretched film (-)",
+            QuantityKind::stretch},
+           {"size", "of the box around a place (m)", QuantityKind::size},
+           {"growth", "relative change of the size of a place (-)", QuantityKind::growth},
+           {"displacement", "of the centroid of a place (m)", QuantityKind::displacement},
+           {"angle", "rotation of a body about an axis (rad)", QuantityKind::angle},
+           {"radius", "mean distance of a place's nodes from their centroid (m)", QuantityKind::radius},
+           {"force", "reaction at a support while it holds (N)", QuantityKind::force},
+           {"moment", "reaction about an axis where a body's rotation is fixed (N m)", QuantityKind::moment},
+           {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)",
+            QuantityKind::nominal_stress},
+           {"capacitance", "of an electrode (F)", QuantityKind::capacitance},
+           {"charge", "of an electrode (C)", QuantityKind::charge},
+           {"current", "that the source of an electrode's [circuit] gives (A)", QuantityKind::current},
+           {"pressure", "in the chamber (Pa)", QuantityKind::pressure},
+           {"volume", "of the chamber itself (m^3)", QuantityKind::volume},
+           {"pumped volume", "that was pumped into the chamber, as it is without pressure (m^3)",
+            QuantityKind::pumped_volume},
+           {"stiffness",
+            "force on a place per displacement along an axis, branches relaxed; none where the "
+            "state is not at rest (N/m)",
+            QuantityKind::stiffness},
+           {"natural frequency",
+            "of small vibrations about the state, branches relaxed; none where it is "
+            "not at rest (rad/s)",
+            QuantityKind::natural_frequency},
+           {"radial stretch", "stretch of the film along the radius, mean at an edge (-)",
+            QuantityKind::radial_stretch},
+           {"energy", "part of the energy balance (J)", QuantityKind::energy},
+           {"value", "of a field of the film: at a point, or its mean over a place", QuantityKind::value},
+           {"extreme", "smallest or largest value of a field", QuantityKind::extreme},
+           {"peak", "smallest or largest value of another quantity so far", QuantityKind::peak}},
+          to(&Quantity::kind), "what is measured"),
       text("between", to(&Quantity::between), "the two places")
           .values(2, 2)
           .only({"distance", "elongation", "stretch"})
@@ -96,31 +105,33 @@ Section quantity_section() {
              "estimate of the error of works and heat; beyond 1 % of them the run ends with exit code 5"}},
            to(&Quantity::of), "the part")
           .only({"energy"}),
-      word("extreme", {{"minimum", "smallest value"}, {"maximum", "largest value"}}, to(&Quantity::extreme),
-           "which extreme")
+      word("extreme",
+           {{"minimum", "smallest value", post::Extreme::minimum},
+            {"maximum", "largest value", post::Extreme::maximum}},
+           to(&Quantity::extreme), "which extreme")
           .only({"extreme", "peak"}),
       of("the quantity").only({"peak"}).refers_to(Reference::quantity),
-      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along),
+      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
           .only_with(when::moves_along_it())
           .only({"distance", "elongation", "size", "growth", "force"}),
-      word("along", {{"x", ""}, {"y", ""}, {"z", ""}, {"gravity", "as it pulls"}}, to(&Quantity::along),
-           "component; without it the magnitude")
+      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}, {"gravity", "as it pulls", along_gravity}},
+           to(&Quantity::along), "component; without it the magnitude")
           .optional()
           .only_with(when::moves_along_it())
           .only({"displacement"}),
-      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "direction")
+      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along), "direction")
           .only_with(when::moves_along_it())
           .only({"stiffness"}),
-      word("along", {{"x", ""}, {"y", ""}, {"z", ""}}, to(&Quantity::along), "the axis")
+      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along), "the axis")
           .only({"angle", "moment"}),
       integer("mode", to(&Quantity::mode), "its number, from the lowest frequency")
           .at_least(1)
           .at_most(100)
           .otherwise("1")
           .only({"natural frequency"}),
-      word("along", {{"x", ""}, {"y", ""}}, to(&Quantity::along), "direction in the film's plane")
+      word("along", {{"x", "", 0}, {"y", "", 1}}, to(&Quantity::along), "direction in the film's plane")
           .only({"stretch", "nominal stress"}),
       text("since", to(&Quantity::since), "step at whose end it is zero; without it the mesh as drawn")
           .optional()

@@ -47,18 +47,19 @@ Section step_section() {
   section.selector = "kind";
   section.keys = {
       word("kind",
-           {{"release", "the prestretched film is cut free and finds its equilibrium"},
-            {"voltage", "ramps every drive to its voltage"},
-            {"charge", "ramps every drive to its charge: the electrodes are isolated"},
-            {"force", "ramps every load to its force"},
-            {"move", "ramps every moved support to its displacement"},
-            {"weight", "lets gravity act"},
-            {"pressure", "ramps the chamber to its pressure"},
-            {"inflate", "pumps the chamber to its volume"},
-            {"transient", "time passes: drives, loads and supports follow their waves"},
-            {"hold", "time passes: drives, loads and supports stay as they are"},
-            {"modes", "small free vibrations about the state, branches relaxed"},
-            {"harmonic", "response to a small sine of the source, frequency by frequency, branches relaxed"}},
+           {{"release", "the prestretched film is cut free and finds its equilibrium", StepKind::release},
+            {"voltage", "ramps every drive to its voltage", StepKind::voltage},
+            {"charge", "ramps every drive to its charge: the electrodes are isolated", StepKind::charge},
+            {"force", "ramps every load to its force", StepKind::force},
+            {"move", "ramps every moved support to its displacement", StepKind::move},
+            {"weight", "lets gravity act", StepKind::weight},
+            {"pressure", "ramps the chamber to its pressure", StepKind::pressure},
+            {"inflate", "pumps the chamber to its volume", StepKind::inflate},
+            {"transient", "time passes: drives, loads and supports follow their waves", StepKind::transient},
+            {"hold", "time passes: drives, loads and supports stay as they are", StepKind::hold},
+            {"modes", "small free vibrations about the state, branches relaxed", StepKind::modes},
+            {"harmonic", "response to a small sine of the source, frequency by frequency, branches relaxed",
+             StepKind::harmonic}},
            to(&Step::kind), "what happens in this step"),
       text("name", to(&Step::name), "its name in results").otherwise_as("kind").distinct(),
       measure("to", "V", to(&Step::to), "voltage that it ramps to, instead of that of [drive]")
@@ -88,8 +89,8 @@ Section step_section() {
       duration("time that it takes; without it no time passes").optional().only(ramps),
       duration("time that it takes").only(timed),
       word("response",
-           {{"relaxed", "the branches have all the time they need"},
-            {"instantaneous", "the branches have no time to flow"}},
+           {{"relaxed", "the branches have all the time they need", Response::relaxed},
+            {"instantaneous", "the branches have no time to flow", Response::instantaneous}},
            response, "what the branches of the film do in a ramp without a duration")
           .otherwise("relaxed")
           .only_with(when::branches())
@@ -101,9 +102,11 @@ Section step_section() {
           .optional()
           .only(moving),
       word("control",
-           {{"voltage", "the electrodes stay connected to their sources"},
-            {"charge", "the electrodes are isolated, or follow their charges; a source that is connected "
-                       "again takes up at the voltage that it needs to keep the electrode's"}},
+           {{"voltage", "the electrodes stay connected to their sources", Control::voltage},
+            {"charge",
+             "the electrodes are isolated, or follow their charges; a source that is connected "
+             "again takes up at the voltage that it needs to keep the electrode's",
+             Control::charge}},
            to(&Step::control), "what the electrodes keep")
           .otherwise("voltage")
           .only_with(when::electrodes())
@@ -129,14 +132,15 @@ Section step_section() {
           .only_with(when::has_mass())
           .only(timed),
       word("on_instability",
-           {{"stop", "the step ends at a limit point"},
-            {"follow", "along the unstable path, by arclength"},
-            {"jump", "to the next stable state, by damped motion"}},
+           {{"stop", "the step ends at a limit point", OnInstability::stop},
+            {"follow", "along the unstable path, by arclength", OnInstability::follow},
+            {"jump", "to the next stable state, by damped motion", OnInstability::jump}},
            to(&Step::on_instability), "what happens where the equilibrium ends or loses its stability")
           .otherwise("stop")
           .only(moving),
       word("on_bifurcation",
-           {{"follow", "along the path it is on"}, {"switch", "onto the branch that is stable"}},
+           {{"follow", "along the path it is on", OnBifurcation::follow},
+            {"switch", "onto the branch that is stable", OnBifurcation::switch_branch}},
            to(&Step::on_bifurcation), "what happens where another path branches off")
           .otherwise("follow")
           .only_with(when::without_duration())

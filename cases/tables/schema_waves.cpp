@@ -23,17 +23,18 @@ Section wave_section(std::string_view unit) {
       "lead to its value at t = 0, where it jumps there to the one before the jump";
   section.selector = "wave";
   section.keys = {
-      word("wave",
-           {{"constant", "does not change"},
-            {"ramp", "straight from one value to another"},
-            {"step", "jumps from one value to another"},
-            {"trapezoid", "rises, stays and falls back, once or again and again"},
-            {"sine", "mean + amplitude sin(2 pi frequency t + phase)"},
-            {"unipolar sine", "from + amplitude/2 (1 - cos(2 pi frequency t))"},
-            {"square", "jumps to and fro"},
-            {"sweep", "a sine whose frequency grows or falls steadily"},
-            {"file", "straight between the rows of a CSV file"}},
-           to(&Waveform::kind), "its form"),
+      word(
+          "wave",
+          {{"constant", "does not change", Waveform::Kind::constant},
+           {"ramp", "straight from one value to another", Waveform::Kind::ramp},
+           {"step", "jumps from one value to another", Waveform::Kind::step},
+           {"trapezoid", "rises, stays and falls back, once or again and again", Waveform::Kind::trapezoid},
+           {"sine", "mean + amplitude sin(2 pi frequency t + phase)", Waveform::Kind::sine},
+           {"unipolar sine", "from + amplitude/2 (1 - cos(2 pi frequency t))", Waveform::Kind::unipolar_sine},
+           {"square", "jumps to and fro", Waveform::Kind::square},
+           {"sweep", "a sine whose frequency grows or falls steadily", Waveform::Kind::sweep},
+           {"file", "straight between the rows of a CSV file", Waveform::Kind::file}},
+          to(&Waveform::kind), "its form"),
       level("from", &Waveform::from, "value before it, and where it returns to")
           .otherwise(zero)
           .only({"ramp", "step", "trapezoid", "unipolar sine", "square"}),

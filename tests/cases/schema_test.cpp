@@ -11,6 +11,8 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <set>
 
 namespace dielast::cases {
 namespace {
@@ -55,6 +57,31 @@ TEST(Schema, EveryDefaultIsValid) {
         EXPECT_NO_THROW(convert(key, parse_value(*key.fallback, {}), key.unit)) << path << "." << key.name;
       }
   });
+}
+
+// A word stands for a value, whatever its place in the list, and no other word of the key for the same one;
+// only what is kept as a text is its own value.
+TEST(Schema, EveryWordStandsForAValue) {
+  std::set<std::string> texts;
+  for_each_section([&](const Section& section, const std::string& path) {
+    for (const Key& key : section.keys) {
+      std::set<std::optional<double>> values;
+      for (const Choice& choice : key.choices) {
+        values.insert(choice.value);
+        if (!choice.value) {
+          texts.insert(path + "." + key.name);
+          continue;
+        }
+        const std::string word = toml_string(choice.word);
+        const Value value = convert(key, parse_value(key.is_list() ? "[" + word + "]" : word, {}), key.unit);
+        EXPECT_EQ(value.front().number, *choice.value) << path << "." << key.name;
+        EXPECT_EQ(key.word_of({*choice.value, ""}), choice.word) << path << "." << key.name;
+      }
+      if (texts.contains(path + "." + key.name)) continue;
+      EXPECT_EQ(values.size(), key.choices.size()) << path << "." << key.name;
+    }
+  });
+  EXPECT_EQ(texts, (std::set<std::string>{".quantity.of"}));
 }
 
 TEST(Schema, EveryWordOfASelectorIsOneOfItsChoices) {
