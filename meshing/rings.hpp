@@ -11,8 +11,8 @@ namespace dielast::meshing {
 /// their circles (order 2).
 ///
 /// Places: triangles `film`, `electrode` (inside electrode_radius), `passive` (where there is any); nodes
-/// `electrode_edge`, `rim`, `centre`. Throws std::invalid_argument when a parameter is out of range, MeshError when a ring is too thin
-/// for its sides.
+/// `electrode_edge`, `rim`, `centre`. Throws std::invalid_argument when a parameter is out of range,
+/// MeshError when a ring is too thin for its sides.
 Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, bool curved);
 
 /// Annulus of `rings` >= 1 rings of triangles between the two radii (m); `grading` >= 1: thickness of the

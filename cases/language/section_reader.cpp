@@ -37,7 +37,8 @@ void add_homes(const std::string& key, const Section& section, const std::string
   for (const Section& inner : section.sections) {
     const std::string inner_path = joined(path, inner.name);
     if (inner.find_key(key, "") || inner.find_section(key)) homes.push_back(inner.heading(inner_path));
-    if (inner.shape != Section::Shape::named) add_homes(key, inner, inner_path, homes); // they are at the top, too
+    if (inner.shape != Section::Shape::named)
+      add_homes(key, inner, inner_path, homes); // they are at the top, too
   }
 }
 

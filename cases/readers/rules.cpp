@@ -337,7 +337,8 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
     report_at(reader, tree, "model", "a balloon is a film of revolution: model = \"axisymmetric\"");
   if (of_revolution && !round && !balloon)
     report_at(reader, tree, "model", "\"axisymmetric\" is for [disc], [annulus] and [balloon]");
-  if (of_revolution && one.any_film([](const Film& film) { return film.prestretch[0] != film.prestretch[1]; }))
+  if (of_revolution &&
+      one.any_film([](const Film& film) { return film.prestretch[0] != film.prestretch[1]; }))
     report_at(reader, tree, "film", "a film of revolution has one prestretch in all directions");
   if (one.dimension == fem::Dimension::planar)
     for (const char* section : {"plate", "chamber"})

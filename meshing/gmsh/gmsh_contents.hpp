@@ -31,9 +31,9 @@ struct GmshContents {
 };
 
 /// Calls gmsh in a child process: it costs a tenth of a second to load, keeps global state, and writes
-/// outside its memory on some damaged files. It gets a copy of the file, and only of one that begins as a mesh
-/// of MSH 4.1 or 2.2; the child process can neither start programs nor write files. `error` says why a file
-/// cannot be read.
+/// outside its memory on some damaged files. It gets a copy of the file, and only of one that begins as a
+/// mesh of MSH 4.1 or 2.2; the child process can neither start programs nor write files. `error` says why a
+/// file cannot be read.
 GmshContents read_gmsh_contents(const std::filesystem::path& path);
 
 /// The only function of the gmsh module, which is loaded in that process; never throws.

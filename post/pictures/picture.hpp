@@ -28,8 +28,8 @@ struct Picture {
 };
 
 /// The picture as the bytes of a PNG file. Needs no display. Throws std::invalid_argument when a panel does
-/// not fit the mesh and for a mesh of meridians (post/pictures/profile.hpp draws those), std::runtime_error when it
-/// cannot be drawn.
+/// not fit the mesh and for a mesh of meridians (post/pictures/profile.hpp draws those), std::runtime_error
+/// when it cannot be drawn.
 std::string render_png(const meshing::Mesh& mesh, const Picture& picture);
 
 } // namespace dielast::post

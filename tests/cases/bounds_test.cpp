@@ -73,8 +73,8 @@ TEST_F(Bounds, DotsMakeNoTablesWithoutAnEnd) {
   const std::string dots(100, '.');
   for (const std::string& shallow :
        {dotted(20) + " = 1", "[" + dotted(20) + "]", "b = \"" + dots + R"(\")" + dots + "\"",
-        "b = '" + dots + "'", R"(b = """")" + dots + "\n" + dots + R"(\"""""")",
-        "b = '''\n''" + dots + "'''", "# " + dots, "'" + dots + "' = 1",
+        "b = '" + dots + "'", R"(b = """")" + dots + "\n" + dots + R"(\"""""")", "b = '''\n''" + dots + "'''",
+        "# " + dots, "'" + dots + "' = 1",
         "b = [[1.5, 2.5, 3.5], [" + std::string(100, '[') + std::string(100, ']') + "]]"})
     EXPECT_EQ(told(shallow + "\n"), "no error") << shallow;
 }

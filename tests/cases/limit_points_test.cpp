@@ -257,7 +257,8 @@ TEST_F(LimitPoints, of_random_films_are_found_whatever_the_increments) {
   Dice dice(20261121);
   int limits = 0, films = 0;
   for (int number = 0; films < DIELAST_LIMIT_CASES; ++number) {
-    const auto film = draw(dice, [&](const std::string& text) { return read(text).parts.front().film->material; });
+    const auto film =
+        draw(dice, [&](const std::string& text) { return read(text).parts.front().film->material; });
     if (!film) continue;
     ++films;
     const End& truth = film->truth;

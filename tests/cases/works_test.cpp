@@ -211,7 +211,8 @@ PatchOracle patch_oracle(const Case& one) {
   const auto& patch = *one.geometry<Patch>();
   auto oracle = driven_oracle<PatchOracle>(one);
   for (std::size_t b = 0; b < oracle.branches.size(); ++b)
-    oracle.branches[b].nominal = one.parts.front().film->material.branches[b].dashpot == materials::Dashpot::nominal;
+    oracle.branches[b].nominal =
+        one.parts.front().film->material.branches[b].dashpot == materials::Dashpot::nominal;
   oracle.alike = patch.mode == PatchMode::equal_biaxial;
   oracle.held = {patch.stretch_x.has_value(), patch.mode == PatchMode::pure_shear};
   oracle.begin();

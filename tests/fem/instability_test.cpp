@@ -224,7 +224,8 @@ TEST(Instability, of_twin_modes_one_is_chosen_by_the_order_of_the_unknowns) {
       ASSERT_EQ(equilibrium.solve(state, {.tolerance = 1e-12}).outcome, Outcome::converged);
       const auto mode = lowest_mode(equilibrium, state);
       ASSERT_TRUE(mode);
-      const Eigen::Vector3d u = displacements(model->dofs, state, mode->direction)[static_cast<std::size_t>(tip)];
+      const Eigen::Vector3d u =
+          displacements(model->dofs, state, mode->direction)[static_cast<std::size_t>(tip)];
       const Eigen::Vector3d expected =
           std::abs(along.x()) > 0.5 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
       EXPECT_LT((u - expected).norm(), 1e-5) << along.transpose() << ": " << u.transpose();

@@ -75,8 +75,7 @@ TEST_P(RigidMotion, keeps_the_energy_and_turns_residual_and_tangent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(FilmAndWalls, RigidMotion,
-                         ::testing::Combine(::testing::Values(1, 2), ::testing::Bool()),
-                         [](const auto& one) {
+                         ::testing::Combine(::testing::Values(1, 2), ::testing::Bool()), [](const auto& one) {
                            return std::string(std::get<0>(one.param) == 1 ? "linear" : "quadratic") +
                                   (std::get<1>(one.param) ? "_planar" : "_spatial");
                          });
