@@ -42,7 +42,7 @@ void renumber(Mesh& mesh, const std::vector<int>& number) {
   for (auto& [place, nodes] : mesh.node_sets) {
     std::ranges::transform(nodes, nodes.begin(), now);
     std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 }
 
