@@ -81,6 +81,16 @@ bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, 
          still * std::sqrt(equilibrium.energy_scale());
 }
 
+bool is_along(const Equilibrium& equilibrium, const State& from, const Eigen::VectorXd& slope_from,
+              const State& to, const Eigen::VectorXd& slope_to, const Steadiness& steadiness) {
+  const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from, to);
+  const auto norm = [&](const Eigen::VectorXd& a) {
+    return std::sqrt(a.dot(equilibrium.stiffness().cwiseProduct(a)));
+  };
+  return slope_from.size() > 0 && norm(chord - slope_from) <= steadiness.steady * norm(slope_from) &&
+         norm(chord - slope_to) <= steadiness.steady * norm(slope_to);
+}
+
 bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,
                const State& to, const PathSlope& slope_to, const Steadiness& steadiness) {
   const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from, to);
@@ -93,9 +103,7 @@ bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlop
   const Eigen::VectorXd &v0 = slope_from.displacement, &v1 = slope_to.displacement;
   const bool singular_start = v0.size() == 0;
   const double n0 = singular_start ? 0 : norm(v0), n1 = norm(v1);
-  if (!singular_start && norm(chord - v0) <= steadiness.steady * n0 &&
-      norm(chord - v1) <= steadiness.steady * n1)
-    return true;
+  if (is_along(equilibrium, from, v0, to, v1, steadiness)) return true;
   const double missing =
       std::abs(slope_to.potential - slope_from.potential - (slope_from.power + slope_to.power) / 2);
   const double round_off = rounding * (std::abs(slope_from.potential) + std::abs(slope_to.potential));

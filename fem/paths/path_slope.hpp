@@ -47,17 +47,23 @@ struct Steadiness {
   static constexpr Steadiness wrinkled() { return {std::numeric_limits<double>::infinity(), 0.5, 0.5}; }
 };
 
+/// Whether the chord between two states agrees with the slopes of the path at both, |c - v0| <= steady |v0|
+/// and |c - v1| <= steady |v1|, in the norm of Equilibrium::stiffness(): the tangents alone then tell that
+/// the states are joined.
+bool is_along(const Equilibrium& equilibrium, const State& from, const Eigen::VectorXd& slope_from,
+              const State& to, const Eigen::VectorXd& slope_to, const Steadiness& steadiness);
+
 /// Whether the state `to` lies on the path that goes through `from`, where s is 1 less: Newton's method may
 /// have found a state of another branch beyond a limit point. In the norm of Equilibrium::stiffness(), the
 /// chord c = u1 - u0 is compared with the mean v of the slopes v0, v1 at both ends, and the change of the
 /// potential P with its power p = dP/ds at fixed u:
 ///   |c - v| <= chord max(|v0|, |v1|)  and  |P1 - P0 - (p0 + p1)/2| <= energy |p1 - p0|.
 /// Where the path gets faster, |v1| > |v0|, it may do so up to the square root at a limit point: c may be
-/// near any point between v0 and v, and the energy may miss `energy_of_faster`. Where |c - v0| <= steady |v0|
-/// and |c - v1| <= steady |v1| the energy is not asked: while nothing but dashpots move, its powers at both
-/// ends differ by the time schemes of their increments, and by nothing else. What a film has set free
-/// on its way to another branch is missing from the energy; on another branch it is mostly slower. An
-/// increment that fails may just be too long. `slope_to` must not be that of a singular tangent.
+/// near any point between v0 and v, and the energy may miss `energy_of_faster`. Where is_along() the energy
+/// is not asked: while nothing but dashpots move, its powers at both ends differ by the time schemes of their
+/// increments, and by nothing else. What a film has set free on its way to another branch is missing from the
+/// energy; on another branch it is mostly slower. An increment that fails may just be too long. `slope_to`
+/// must not be that of a singular tangent.
 bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,
                const State& to, const PathSlope& slope_to, const Steadiness& steadiness);
 

@@ -169,8 +169,6 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const double length = s - progress_.load_factor;
   const LoadPath increment = within(s);
   const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
-  const PathSlope start = slope_of_start(increment, length);
-  progress_.slope = start.per(length);
   const auto wrinkles = [&model](const State& state) {
     return std::ranges::any_of(model.sample(state).film,
                                [](auto& sample) { return sample.tension != materials::Tension::taut; });
@@ -179,7 +177,14 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const Steadiness steadiness = wrinkled                  ? Steadiness::wrinkled()
                                 : length > longest_kinked ? Steadiness::resolved()
                                                           : Steadiness::kinked();
-  if (!is_joined(equilibrium_, last(), start, trial, end, steadiness)) return false;
+  const auto& known =
+      progress_.slope; // the tangents alone often tell, and the energies cost as much as Newton's method
+  if (!known ||
+      !is_along(equilibrium_, last(), length * known->displacement, trial, end.displacement, steadiness)) {
+    const PathSlope start = slope_of_start(increment, length);
+    progress_.slope = start.per(length);
+    if (!is_joined(equilibrium_, last(), start, trial, end, steadiness)) return false;
+  }
   slope_ = end.per(length);
   return true;
 }
