@@ -67,6 +67,18 @@ Snapshot restore_snapshot(const json& archived, const meshing::Mesh& mesh) {
   return snapshot;
 }
 
+constexpr double mode_drawn = 0.1; ///< of the device's extent: how far its largest displacement goes
+
+Snapshot snapshot(const Device& device, const std::string& title, const fem::State& state,
+                  const fem::Samples& samples) {
+  double voltage = 0;
+  for (std::size_t e = 0; e < device.model.electrodes.size(); ++e)
+    if (std::abs(state.voltage[e]) > std::abs(voltage)) voltage = state.voltage[e];
+  const int cells = device.mesh.film()->size();
+  return {title, voltage, state.displacement, post::average(samples, "thickness", cells),
+          post::average(samples, "electric_field", cells)};
+}
+
 json archive(const Analysis& analysis) {
   json rows = json::array();
   for (const auto& row : analysis.rows) rows.push_back(post::pack(row));
@@ -153,12 +165,23 @@ post::SeriesStep Recorder::series_step(double time, const std::string& name, dou
 }
 
 void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event& event) {
-  if (!case_.fields) return;
   const Device& device = simulation_.device();
+  const fem::Samples samples = device.model.sample(critical.state);
+  const std::vector<Eigen::Vector3d> mode =
+      fem::displacements(device.model.dofs, critical.state, critical.mode.direction);
+  Snapshot at = snapshot(device, event.message, critical.state, samples);
+  Snapshot along = at;
+  along.title = "displaced along its mode";
+  double largest = 0;
+  for (const Eigen::Vector3d& u : mode) largest = std::max(largest, u.norm());
+  if (largest > 0)
+    for (std::size_t n = 0; n < along.displacement.size() && n < mode.size(); ++n)
+      along.displacement[n] += mode_drawn * device.model.extent / largest * mode[n];
+  journal_.critical = {std::move(at), std::move(along)};
+  if (!case_.fields) return;
   if (!modes_) open_series(modes_, critical_name);
   modes_->write(series_step(journal_.modes++, event.message, critical.load_factor, critical.state.voltage),
-                critical.state.displacement, device.model.sample(critical.state),
-                fem::displacements(device.model.dofs, critical.state, critical.mode.direction));
+                critical.state.displacement, samples, mode);
 }
 
 void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
@@ -184,17 +207,13 @@ void Recorder::record(const Frame& frame) {
     series_->write(series_step(series_time(record), record.step, record.load_factor, record.voltages),
                    frame.measured.state.displacement, frame.measured.samples);
 
-  const Device& device = simulation_.device();
-  const int triangles = device.mesh.film()->size();
-  Snapshot snapshot{record.step, record.largest_voltage(), frame.measured.state.displacement,
-                    post::average(frame.measured.samples, "thickness", triangles),
-                    post::average(frame.measured.samples, "electric_field", triangles)};
+  Snapshot now = snapshot(simulation_.device(), record.step, frame.measured.state, frame.measured.samples);
   // The last accepted state is replaced until its step has ended.
   const bool replaces = record.index > 1 && journal_.records.back().step == record.step;
   if (replaces)
-    journal_.snapshots.back() = std::move(snapshot);
+    journal_.snapshots.back() = std::move(now);
   else
-    journal_.snapshots.push_back(std::move(snapshot));
+    journal_.snapshots.push_back(std::move(now));
   journal_.records.push_back(record);
   journal_.values.push_back(frame.values);
   steps_ended_ += frame.ends_step;
@@ -207,7 +226,9 @@ void Recorder::save_checkpoint() {
   for (const auto& analysis : journal_.analyses) analyses.push_back(archive(analysis));
   for (const auto& record : journal_.records) records.push_back(archive(record));
   for (const auto& row : journal_.values) values.push_back(post::pack(row));
-  for (const auto& snapshot : journal_.snapshots) snapshots.push_back(archive(snapshot));
+  for (const auto& one : journal_.snapshots) snapshots.push_back(archive(one));
+  json critical = json::array();
+  for (const auto& one : journal_.critical) critical.push_back(archive(one));
   const auto entries = [](const auto& series) { return series ? json(series->entries()) : json::array(); };
   post::write_checkpoint(
       folder_ / checkpoint_name,
@@ -233,6 +254,7 @@ void Recorder::save_checkpoint() {
          {"values", values},
          {"snapshots", snapshots},
          {"modes", journal_.modes},
+         {"critical", critical},
          {"analyses", analyses}}}});
   saved_ = std::chrono::steady_clock::now();
 }
@@ -271,8 +293,10 @@ void Recorder::restore_checkpoint() try {
   for (const json& row : journal.at("values"))
     journal_.values.push_back(post::unpack(row, case_.quantities.size()));
   if (journal_.values.size() != journal_.records.size()) throw post::CheckpointError("damaged");
-  for (const json& snapshot : journal.at("snapshots"))
-    journal_.snapshots.push_back(restore_snapshot(snapshot, device.mesh));
+  for (const json& one : journal.at("snapshots"))
+    journal_.snapshots.push_back(restore_snapshot(one, device.mesh));
+  for (const json& one : journal.at("critical"))
+    journal_.critical.push_back(restore_snapshot(one, device.mesh));
   folder_.begin(std::move(kept));
   if (!case_.fields) return;
   open_series(series_, "", saved.at("series"));

@@ -29,6 +29,7 @@ struct Journal {
   std::vector<std::vector<double>> values; ///< of the quantities, per record
   std::vector<Snapshot> snapshots;         ///< drawn, the end of each step, and the last accepted state
   int modes = 0;                           ///< of critical points, written so far
+  std::vector<Snapshot> critical; ///< the last critical point, and it displaced along its mode; or none
   std::vector<Analysis> analyses;
 };
 

@@ -65,11 +65,27 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
     for (std::string& svg : post::render_svg({post::profile_plot(device.mesh, "Meridian", shapes.panels)}))
       if (!svg.empty())
         profile.blocks.push_back(post::Image{std::move(svg), "Before and after the last step."});
+    if (!journal.critical.empty()) {
+      std::vector<post::Panel> mode;
+      for (const Snapshot& one : journal.critical) mode.push_back(panel(device, one, one.thickness));
+      for (std::string& svg : post::render_svg({post::profile_plot(device.mesh, "Critical mode", mode)}))
+        if (!svg.empty())
+          profile.blocks.push_back(post::Image{
+              std::move(svg), "The last critical point, and displaced along its mode, much exaggerated."});
+    }
     return {std::move(profile)};
   }
   std::vector<post::Section> sections{{"Shape",
                                        {post::Image{post::render_png(device.mesh, shapes),
                                                     "Before and after the last step, to one scale."}}}};
+  if (!journal.critical.empty()) {
+    post::Picture mode{.quantity = shapes.quantity, .unit = shapes.unit, .wall_width = shapes.wall_width};
+    for (const Snapshot& one : journal.critical) mode.panels.push_back(panel(device, one, one.thickness));
+    sections.push_back(
+        {"Critical mode",
+         {post::Image{post::render_png(device.mesh, mode),
+                      "The last critical point, and displaced along its mode, much exaggerated."}}});
+  }
   if (last.voltage != 0) {
     post::Picture field{.quantity = "True electric field", .unit = "V/m", .wall_width = shapes.wall_width};
     field.panels.push_back(panel(device, last, last.field));

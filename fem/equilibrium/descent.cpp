@@ -24,7 +24,7 @@ bool Equilibrium::is_slack(const State& state) const {
   const double stiffness = stiffness_.size() > 0 ? stiffness_.maxCoeff() : 0; // N/m
   const auto film = model_.sample(state).film;
   return !film.empty() && std::ranges::all_of(film, [stiffness](const MembraneSample& sample) {
-    return sample.S.norm() * sample.thickness <= next_to_nothing * stiffness;
+    return sample.voltage == 0 && sample.S.norm() * sample.thickness <= next_to_nothing * stiffness;
   });
 }
 

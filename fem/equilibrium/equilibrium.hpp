@@ -86,7 +86,8 @@ class Equilibrium {
   NewtonResult balance_forces(State& state, const NewtonOptions& options,
                               const std::function<void(const Iteration&)>& log = {});
 
-  /// Whether the film carries no tension: the tangent tells of rounding there, and no path leads on.
+  /// Whether the film carries no tension, nor a field that balances one: the tangent tells of rounding there,
+  /// and no path leads on.
   bool is_slack(const State& state) const;
 
   /// Lets the voltages of sheets follow, at fixed displacements.

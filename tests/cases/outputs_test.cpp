@@ -172,6 +172,19 @@ TEST_F(Outputs, ResolvedCaseGivesTheSameResults) {
     EXPECT_EQ(content(std::string("again/out/") + file), content(std::string("out/") + file)) << file;
 }
 
+// A free film in a field carries no tension and is not slack: what ends its run is the limit point, drawn
+// with its mode.
+TEST_F(Outputs, TheReportDrawsTheCriticalMode) {
+  for (const std::string wrinkling : {"compression", "tension field"}) {
+    const Ended ended =
+        dielast({"run", source_folder / "cases/gallery/material/pull_in.toml", "-o", "out", "--set",
+                 "step.voltage.on_instability=stop", "--set", "film.wrinkling=" + wrinkling});
+    EXPECT_EQ(ended.exit_code, 4);
+    EXPECT_NE((ended.out + ended.err).find("limit point near 23.122 kV"), std::string::npos) << ended.err;
+    EXPECT_EQ(count(content("out/report.html"), "<h2>Critical mode</h2>"), 1u);
+  }
+}
+
 TEST_F(Outputs, ASecondRunReplacesTheFirst) {
   ASSERT_EQ(dielast({"run", "small.toml", "-o", "out", "--set", "step.voltage.increments=6"}).exit_code, 0);
   ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);
