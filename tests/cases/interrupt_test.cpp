@@ -96,7 +96,8 @@ TEST_F(Interrupt, BrokenCheckpointsAreRefused) {
   ASSERT_FALSE(whole.empty());
   for (const std::string& broken :
        {whole.substr(0, whole.size() / 2), std::string(), std::string("checkpoint"),
-        whole.substr(0, whole.size() / 2) + "?" + whole.substr(whole.size() / 2 + 1)}) {
+        whole.substr(0, whole.size() / 2) + static_cast<char>(whole[whole.size() / 2] ^ 1) +
+            whole.substr(whole.size() / 2 + 1)}) {
     std::ofstream(checkpoint, std::ios::binary) << broken;
     const Ended ended = dielast(into("stopped", {"--resume"}));
     EXPECT_EQ(ended.exit_code, 1) << broken.size();
