@@ -78,12 +78,7 @@ void join(Mesh& mesh, const std::string& place, const std::string& other) {
   const auto* fewer = &mesh.node_sets.at(place);
   const auto* more = &mesh.node_sets.at(other);
   if (fewer->size() > more->size()) std::swap(fewer, more);
-  Eigen::Vector3d low = mesh.nodes.front(), high = low;
-  for (const auto& x : mesh.nodes) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  const double same_point = 1e-6 * (high - low).norm();
+  const double same_point = 1e-6 * mesh.bounds().diagonal().norm();
   const auto at = [&](int node) -> const Eigen::Vector3d& {
     return mesh.nodes[static_cast<std::size_t>(node)];
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <map>
 #include <span>
@@ -74,6 +74,20 @@ struct Mesh {
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, CellSet> cell_sets;
 
+  /// Cells of a place that are in that block of this mesh (null: none is); null where the place has none
+  /// there.
+  const std::vector<int>* cells_of(const std::string& place, const CellBlock* block) const {
+    const auto found = cell_sets.find(place);
+    const bool there =
+        found != cell_sets.end() && &blocks[static_cast<std::size_t>(found->second.block)] == block;
+    return there ? &found->second.cells : nullptr;
+  }
+  /// The smallest box along the axes that holds all nodes.
+  Eigen::AlignedBox3d bounds() const {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& x : nodes) box.extend(x);
+    return box;
+  }
   int node_count() const { return static_cast<int>(nodes.size()); }
   /// The block of triangles or meridians, of lines; null when there is none.
   const CellBlock* film() const { return find_block(false); }

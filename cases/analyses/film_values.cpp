@@ -147,12 +147,11 @@ std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing
 std::vector<FilmReading> readings_in(const std::string& place, const meshing::Mesh& mesh,
                                      const fem::Samples& samples) {
   const meshing::CellBlock& film = *mesh.film();
-  const auto part = mesh.cell_sets.find(place);
-  if (part == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(part->second.block)] != &film)
-    return {};
+  const std::vector<int>* cells = mesh.cells_of(place, &film);
+  if (!cells) return {};
   const std::vector<Points> points = points_of_cells(film, samples);
   std::vector<FilmReading> readings;
-  for (const int cell : part->second.cells) {
+  for (const int cell : *cells) {
     const auto [first, count] = points[static_cast<std::size_t>(cell)];
     Eigen::VectorXd volume(count);
     for (int p = 0; p < count; ++p) volume[p] = samples.film[static_cast<std::size_t>(first + p)].volume;

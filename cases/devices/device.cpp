@@ -309,19 +309,15 @@ Device build_device(const Case& one) {
   check_places(one, places);
   const fem::Dimension dimension = one.dimension;
 
-  Eigen::Vector3d low = mesh.nodes.front(), high = low;
-  for (const auto& x : mesh.nodes) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
+  const Eigen::Vector3d size = mesh.bounds().sizes(); // of the film; bodies have nodes of their own
   const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
-  model.extent = (high - low).norm();
+  model.extent = size.norm();
   model.drawn = mesh.nodes;
   model.corners = fem::element_corners(mesh);
 
-  std::vector<std::string> warnings = size_warnings(one, high - low);
+  std::vector<std::string> warnings = size_warnings(one, size);
   const bool of_revolution = dimension == fem::Dimension::axisymmetric;
   const meshing::CellBlock* film = mesh.film();
   if (!film) throw meshing::MeshError("the mesh has no triangles: there is no film");

@@ -28,12 +28,11 @@ template<class... Functions> // Clang 14 deduces none for aggregates
 Overloaded(Functions...)->Overloaded<Functions...>;
 
 /// Cells of a block that belong to one of the places, ascending.
-std::vector<int> cells_in(const meshing::Mesh& mesh, int block, const std::vector<std::string>& places) {
+std::vector<int> cells_in(const meshing::Mesh& mesh, const meshing::CellBlock& block,
+                          const std::vector<std::string>& places) {
   std::set<int> cells;
   for (const std::string& place : places)
-    if (const auto found = mesh.cell_sets.find(place);
-        found != mesh.cell_sets.end() && found->second.block == block)
-      cells.insert(found->second.cells.begin(), found->second.cells.end());
+    if (const std::vector<int>* own = mesh.cells_of(place, &block)) cells.insert(own->begin(), own->end());
   return {cells.begin(), cells.end()};
 }
 
@@ -43,7 +42,7 @@ meshing::Mesh film_and_bars(meshing::Mesh mesh, double unit, const std::vector<s
   for (int b = static_cast<int>(mesh.blocks.size()) - 1; b >= 0; --b) {
     meshing::CellBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
     if (!meshing::is_line(block.type)) continue;
-    const std::vector<int> kept = cells_in(mesh, b, bars);
+    const std::vector<int> kept = cells_in(mesh, block, bars);
     std::vector<int> number(static_cast<std::size_t>(block.size()), -1);
     for (std::size_t k = 0; k < kept.size(); ++k)
       number[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);

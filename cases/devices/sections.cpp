@@ -19,11 +19,11 @@ namespace {
 std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {
   std::vector<int> map(static_cast<std::size_t>(film.size()), fem::passive);
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
-    const auto place = mesh.cell_sets.find(one.electrodes[e].place);
-    if (place == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(place->second.block)] != &film)
+    const std::vector<int>* cells = mesh.cells_of(one.electrodes[e].place, &film);
+    if (!cells)
       throw meshing::MeshError("electrode \"" + one.electrodes[e].name + "\": the place \"" +
                                one.electrodes[e].place + "\" is not a part of the film");
-    for (const int cell : place->second.cells) {
+    for (const int cell : *cells) {
       int& electrode = map[static_cast<std::size_t>(cell)];
       if (electrode != fem::passive)
         throw meshing::MeshError("electrodes \"" + one.electrodes[static_cast<std::size_t>(electrode)].name +
@@ -45,15 +45,14 @@ void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh,
                           const std::function<void(const std::vector<int>& lines, const Beam& beam)>& use) {
   std::set<int> taken;
   const auto take = [&](const std::string& part, const std::string& place, const Beam& beam) {
-    const auto set = mesh.cell_sets.find(place);
-    if (set == mesh.cell_sets.end() ||
-        &mesh.blocks[static_cast<std::size_t>(set->second.block)] != mesh.walls())
+    const std::vector<int>* lines = mesh.cells_of(place, mesh.walls());
+    if (!lines)
       throw meshing::MeshError(
           fmt::format("part \"{}\": the place \"{}\" has no lines in the mesh", part, place));
-    for (const int line : set->second.cells)
+    for (const int line : *lines)
       if (!taken.insert(line).second)
         throw meshing::MeshError(fmt::format("part \"{}\": a line of \"{}\" has a bar already", part, place));
-    use(set->second.cells, beam);
+    use(*lines, beam);
   };
   for (const Part& part : one.parts) {
     if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
@@ -68,13 +67,13 @@ std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh) {
   const meshing::CellBlock& film = *mesh.film();
   std::vector<int> parts(static_cast<std::size_t>(film.size()), -1);
   const auto claim = [&](std::size_t p, const std::string& place, bool alone) {
-    const auto set = mesh.cell_sets.find(place);
-    if (set == mesh.cell_sets.end() || &mesh.blocks[static_cast<std::size_t>(set->second.block)] != &film)
+    const std::vector<int>* cells = mesh.cells_of(place, &film);
+    if (!cells)
       throw meshing::MeshError(
           fmt::format("part \"{}\": the place \"{}\" is no film of the mesh", one.parts[p].name, place));
-    for (const int cell : set->second.cells) {
+    for (const int cell : *cells) {
       int& part = parts[static_cast<std::size_t>(cell)];
-      if (alone && part >= 0 && one.parts[static_cast<std::size_t>(part)].has_mesh() == false)
+      if (alone && part >= 0 && !one.parts[static_cast<std::size_t>(part)].has_mesh())
         throw meshing::MeshError(fmt::format("parts \"{}\" and \"{}\" overlap",
                                              one.parts[static_cast<std::size_t>(part)].name,
                                              one.parts[p].name));
