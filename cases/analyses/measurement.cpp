@@ -63,13 +63,16 @@ Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::St
 }
 
 Measurement::Measurement(const Case& one, const Device& device) : case_(one), device_(device) {
-  if (std::ranges::count(one.quantities, QuantityKind::value, &Quantity::kind) == 0) return;
   const fem::Samples drawn = device.model.sample(device.model.initial_state());
   int written = 0; // by the user, who counts no others
   for (const Quantity& quantity : one.quantities) {
     written += !quantity.standard;
     if (quantity.kind == QuantityKind::value)
       readings_[quantity.name] = readings_of(quantity, fmt::format("quantity[{}]", written), drawn);
+    if (quantity.kind == QuantityKind::radial_stretch)
+      readings_[quantity.name] = readings_at(quantity.of, device.mesh, drawn);
+    if (quantity.kind == QuantityKind::stretch)
+      prestretch_[quantity.name] = prestretch_between(one, device, quantity.between, *quantity.along).value();
   }
 }
 
@@ -104,10 +107,8 @@ const std::vector<char>& Measurement::film_at(const std::string& place) const {
   const meshing::CellBlock& film = *device_.mesh.film();
   std::vector<char>& near = entry->second;
   near.assign(static_cast<std::size_t>(film.size()), 0);
-  const auto cells = device_.mesh.cell_sets.find(place);
-  if (cells != device_.mesh.cell_sets.end() &&
-      &device_.mesh.blocks[static_cast<std::size_t>(cells->second.block)] == &film) {
-    for (const int cell : cells->second.cells) near[static_cast<std::size_t>(cell)] = 1;
+  if (const std::vector<int>* cells = device_.mesh.cells_of(place, &film)) {
+    for (const int cell : *cells) near[static_cast<std::size_t>(cell)] = 1;
     return near;
   }
   const auto& nodes = device_.mesh.node_sets.at(place);
@@ -234,8 +235,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   }
   case QuantityKind::stretch: {
     const double drawn = length(quantity, device_.model.initial_state());
-    return length(quantity, state) / drawn *
-           *prestretch_between(case_, device_, quantity.between, *quantity.along);
+    return length(quantity, state) / drawn * prestretch_.at(quantity.name);
   }
   case QuantityKind::nominal_stress: {
     const std::vector<char>& near = film_at(quantity.of);
@@ -274,7 +274,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   case QuantityKind::natural_frequency:
     return natural_frequency(quantity, measured);
   case QuantityKind::radial_stretch:
-    return mean(readings_at(quantity.of, device_.mesh, measured.samples), measured.samples,
+    return mean(readings_.at(quantity.name), measured.samples,
                 [](const fem::MembraneSample& sample, const FilmReading& reading) {
                   return (sample.F * reading.drawn.head<2>().normalized()).norm();
                 });
