@@ -60,32 +60,24 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   if (all.size() > 1)
     shapes.panels.push_back(panel(device, all[all.size() - 2], all[all.size() - 2].thickness));
   shapes.panels.push_back(panel(device, last, last.thickness));
+  post::Picture mode{.quantity = shapes.quantity, .unit = shapes.unit, .wall_width = shapes.wall_width};
+  for (const Snapshot& one : journal.critical) mode.panels.push_back(panel(device, one, one.thickness));
+  constexpr const char* of_mode = "The last critical point, and displaced along its mode, much exaggerated.";
   if (meshing::is_meridian(device.mesh.film()->type)) {
     post::Section profile{"Shape", {}};
-    for (std::string& svg : post::render_svg({post::profile_plot(device.mesh, "Meridian", shapes.panels)}))
-      if (!svg.empty())
-        profile.blocks.push_back(post::Image{std::move(svg), "Before and after the last step."});
-    if (!journal.critical.empty()) {
-      std::vector<post::Panel> mode;
-      for (const Snapshot& one : journal.critical) mode.push_back(panel(device, one, one.thickness));
-      for (std::string& svg : post::render_svg({post::profile_plot(device.mesh, "Critical mode", mode)}))
-        if (!svg.empty())
-          profile.blocks.push_back(post::Image{
-              std::move(svg), "The last critical point, and displaced along its mode, much exaggerated."});
-    }
+    const auto draw = [&](const char* title, const post::Picture& states, const char* caption) {
+      for (std::string& svg : post::render_svg({post::profile_plot(device.mesh, title, states.panels)}))
+        if (!svg.empty()) profile.blocks.push_back(post::Image{std::move(svg), caption});
+    };
+    draw("Meridian", shapes, "Before and after the last step.");
+    if (!mode.panels.empty()) draw("Critical mode", mode, of_mode);
     return {std::move(profile)};
   }
   std::vector<post::Section> sections{{"Shape",
                                        {post::Image{post::render_png(device.mesh, shapes),
                                                     "Before and after the last step, to one scale."}}}};
-  if (!journal.critical.empty()) {
-    post::Picture mode{.quantity = shapes.quantity, .unit = shapes.unit, .wall_width = shapes.wall_width};
-    for (const Snapshot& one : journal.critical) mode.panels.push_back(panel(device, one, one.thickness));
-    sections.push_back(
-        {"Critical mode",
-         {post::Image{post::render_png(device.mesh, mode),
-                      "The last critical point, and displaced along its mode, much exaggerated."}}});
-  }
+  if (!mode.panels.empty())
+    sections.push_back({"Critical mode", {post::Image{post::render_png(device.mesh, mode), of_mode}}});
   if (last.voltage != 0) {
     post::Picture field{.quantity = "True electric field", .unit = "V/m", .wall_width = shapes.wall_width};
     field.panels.push_back(panel(device, last, last.field));

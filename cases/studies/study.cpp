@@ -196,21 +196,20 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     return ExitCode::interrupted;
   }
   folder.write("study.csv", study_table(study, points));
-  const auto solutions = solve_targets(study, points, settings.directory,
-                                       [&](const StudyPoint& point) -> std::optional<PointResult> {
-                                         folder.add(point.directory.filename());
-                                         const Kept kept = kept_of(study, point, settings.resume);
-                                         if (kept.result || interrupted()) return kept.result;
-                                         int status = 0;
-                                         const pid_t child = start(study, point, kept.resume);
-                                         while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-                                         }
-                                         const int code = exit_code_of(point, status);
-                                         if (code == static_cast<int>(ExitCode::interrupted))
-                                           return std::nullopt;
-                                         say("target: {}  exit {}\n", fmt::join(point.overrides, "  "), code);
-                                         return result_of(study, point);
-                                       });
+  const auto run = [&](const StudyPoint& point) -> std::optional<PointResult> {
+    folder.add(point.directory.filename());
+    const Kept kept = kept_of(study, point, settings.resume);
+    if (kept.result || interrupted()) return kept.result;
+    int status = 0;
+    const pid_t child = start(study, point, kept.resume);
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    const int code = exit_code_of(point, status);
+    if (code == static_cast<int>(ExitCode::interrupted)) return std::nullopt;
+    say("target: {}  exit {}\n", fmt::join(point.overrides, "  "), code);
+    return result_of(study, point);
+  };
+  const auto solutions = solve_targets(study, points, settings.directory, run);
   if (interrupted()) {
     say("interrupted; go on with --resume\n");
     return ExitCode::interrupted;

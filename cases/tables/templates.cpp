@@ -127,26 +127,29 @@ std::vector<std::string> patch_steps(const Node& tree) {
   return kinds;
 }
 
+/// The list at the top of the tree; one that nobody wrote where there is none.
+Node& list_at(Node& tree, const std::string& key) {
+  if (Node* list = tree.find(key)) return *list;
+  Node list;
+  list.kind = Node::Kind::list;
+  list.source = {tree.source.file, 0, 0};
+  return tree.add(key, std::move(list));
+}
+
 /// Adds the default steps of a patch; to default steps those that an override has made necessary.
 void add_patch_steps(Node& tree) {
   const Source source{tree.source.file, 0, 0};
-  Node* steps = tree.find("step");
-  if (!steps) {
-    Node list;
-    list.kind = Node::Kind::list;
-    list.source = source;
-    steps = &tree.add("step", list);
-  }
-  const bool written = steps->source.line > 0 || steps->source.file.text() != source.file.text();
+  Node& steps = list_at(tree, "step");
+  const bool written = steps.source.line > 0 || steps.source.file.text() != source.file.text();
   if (written) return;
   for (const std::string& kind : patch_steps(tree)) {
     const bool known =
-        std::ranges::any_of(steps->items, [&](const Node& s) { return text_at(s, "kind") == kind; });
+        std::ranges::any_of(steps.items, [&](const Node& s) { return text_at(s, "kind") == kind; });
     if (known) continue;
     Node step;
     step.source = source;
     step.add("kind", text_node(kind, source));
-    steps->items.push_back(std::move(step));
+    steps.items.push_back(std::move(step));
   }
 }
 
@@ -191,10 +194,6 @@ void add_motion_defaults(Node& tree) {
       step.add("inertia", parse_value("true", source));
 }
 
-} // namespace
-
-namespace {
-
 /// A part with a geometry of its own.
 struct TemplatePart {
   std::string name;
@@ -220,21 +219,14 @@ void prefix(Node* place, const std::string& part) {
 }
 
 /// Adds a part's electrode or supports to those of the case.
-void add_part_defaults(Node& tree, const std::string& key, const TemplatePart& part, const Source& source) {
+void add_part_defaults(Node& tree, const std::string& key, const TemplatePart& part) {
   const Node defaults = parse_default(part.device->defaults, tree);
   const Node* brought = defaults.find(key);
   if (!brought) return;
-  Node* list = tree.find(key);
-  if (!list) {
-    Node none;
-    none.kind = Node::Kind::list;
-    none.source = source;
-    list = &tree.add(key, none);
-  }
   for (Node item : brought->items) {
     prefix(item.find("place"), part.name);
     if (Node* name = item.find("name")) name->text = part.name;
-    list->items.push_back(std::move(item));
+    list_at(tree, key).items.push_back(std::move(item));
   }
 }
 
@@ -254,7 +246,7 @@ void add_defaults(Node& tree) {
   const std::vector<TemplatePart> parts = parts_with_geometry(tree);
   for (const TemplatePart& part : parts)
     for (std::size_t k = 0; k < keys.size(); ++k)
-      if (!written[k]) add_part_defaults(tree, keys[k], part, source);
+      if (!written[k]) add_part_defaults(tree, keys[k], part);
   if (!parts.empty() && !tree.find("step")) tree.add("step", parse_value("[{ kind = \"voltage\" }]", source));
   add_motion_defaults(tree);
 }
@@ -263,7 +255,6 @@ namespace {
 
 /// Standard quantities of a template; those of a part are about its places. Extremes are of the whole case.
 std::vector<Node> template_quantities(const Node& tree, const Template& device, const std::string& part) {
-  const std::set<std::string> of_no_place{"extreme", "energy", "natural frequency"};
   std::vector<Node> quantities;
   for (Node quantity : items_of(parse_default(device.quantities, tree), "quantity")) {
     if (!part.empty()) {
@@ -271,7 +262,7 @@ std::vector<Node> template_quantities(const Node& tree, const Template& device, 
       if (kind == "extreme" || kind == "natural frequency") continue;
       quantity.find("name")->text = part + "_" + text_at(quantity, "name");
       prefix(quantity.find("between"), part);
-      if (!of_no_place.contains(kind)) prefix(quantity.find("of"), part);
+      prefix(quantity.find("of"), part);
     }
     quantities.push_back(std::move(quantity));
   }
@@ -317,14 +308,8 @@ int add_standard_quantities(Node& tree) {
   if (const Node* written = tree.find("quantity"); written && !written->is(Node::Kind::list)) return 0;
   const std::vector<Node> standard = standard_quantities(tree, template_of(tree));
   if (standard.empty()) return 0;
-  Node* quantities = tree.find("quantity");
-  if (!quantities) {
-    Node list;
-    list.kind = Node::Kind::list;
-    list.source = {tree.source.file, 0, 0};
-    quantities = &tree.add("quantity", list);
-  }
-  quantities->items.insert(quantities->items.begin(), standard.begin(), standard.end());
+  std::vector<Node>& quantities = list_at(tree, "quantity").items;
+  quantities.insert(quantities.begin(), standard.begin(), standard.end());
   return static_cast<int>(standard.size());
 }
 

@@ -26,9 +26,12 @@ double potential(const Balance& balance, const State& state, const DofMap& dofs)
   return balance.energy - state.dead_force.dot(position(state, dofs));
 }
 
-double distance(const DofMap& dofs, const Eigen::VectorXd& stiffness, const State& from, const State& to) {
-  const Eigen::VectorXd u = dofs.increment(from, to);
+double norm_by(const Eigen::VectorXd& stiffness, const Eigen::VectorXd& u) {
   return std::sqrt(u.dot(stiffness.cwiseProduct(u)));
+}
+
+double distance(const DofMap& dofs, const Eigen::VectorXd& stiffness, const State& from, const State& to) {
+  return norm_by(stiffness, dofs.increment(from, to));
 }
 
 } // namespace
@@ -84,11 +87,11 @@ bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, 
 bool is_along(const Equilibrium& equilibrium, const State& from, const Eigen::VectorXd& slope_from,
               const State& to, const Eigen::VectorXd& slope_to, const Steadiness& steadiness) {
   const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from, to);
-  const auto norm = [&](const Eigen::VectorXd& a) {
-    return std::sqrt(a.dot(equilibrium.stiffness().cwiseProduct(a)));
+  const auto agrees = [&](const Eigen::VectorXd& slope) {
+    return norm_by(equilibrium.stiffness(), chord - slope) <=
+           steadiness.steady * norm_by(equilibrium.stiffness(), slope);
   };
-  return slope_from.size() > 0 && norm(chord - slope_from) <= steadiness.steady * norm(slope_from) &&
-         norm(chord - slope_to) <= steadiness.steady * norm(slope_to);
+  return slope_from.size() > 0 && agrees(slope_from) && agrees(slope_to);
 }
 
 bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,
@@ -97,7 +100,7 @@ bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlop
   const auto product = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     return a.dot(equilibrium.stiffness().cwiseProduct(b));
   };
-  const auto norm = [&](const Eigen::VectorXd& a) { return std::sqrt(product(a, a)); };
+  const auto norm = [&](const Eigen::VectorXd& a) { return norm_by(equilibrium.stiffness(), a); };
   const double least = still * std::sqrt(equilibrium.energy_scale());
   if (norm(chord) <= least) return true;
   const Eigen::VectorXd &v0 = slope_from.displacement, &v1 = slope_to.displacement;

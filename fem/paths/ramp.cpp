@@ -177,8 +177,8 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const Steadiness steadiness = wrinkled                  ? Steadiness::wrinkled()
                                 : length > longest_kinked ? Steadiness::resolved()
                                                           : Steadiness::kinked();
-  const auto& known =
-      progress_.slope; // the tangents alone often tell, and the energies cost as much as Newton's method
+  // The tangents alone often tell, and the energies cost as much as Newton's method.
+  const auto& known = progress_.slope;
   if (!known ||
       !is_along(equilibrium_, last(), length * known->displacement, trial, end.displacement, steadiness)) {
     const PathSlope start = slope_of_start(increment, length);
