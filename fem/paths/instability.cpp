@@ -17,7 +17,7 @@ constexpr int subspace = 4, most_iterations = 200;
 constexpr double eigen_tolerance = 1e-6;  ///< of the mode; that of the eigenvalue is its square
 constexpr double round_off = 1e-13;       ///< of the eigenvalue
 constexpr double singular_shift = 1e-9;   ///< of the stiffness as drawn, where the tangent cannot be factored
-constexpr double critical = 1e-7;         ///< eigenvalue, over the largest seen on the way
+constexpr double negligible = 1e-7;       ///< eigenvalue, over the largest seen on the way
 constexpr double zero = 1e-3;             ///< likewise, of a bracket that has closed
 constexpr double smallest_bracket = 1e-9; ///< over the first
 constexpr double least_reach = 1e-3;      ///< part of the way to a trial
@@ -154,7 +154,7 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
     if (!best || std::abs(mode->eigenvalue) < std::abs(best->mode.eigenvalue))
       best = CriticalPoint{{}, at->load_factor, at->state, *mode};
     largest = std::max(largest, std::abs(mode->eigenvalue));
-    closed = std::abs(mode->eigenvalue) <= critical * largest || width <= smallest_bracket * after.last_arc;
+    closed = std::abs(mode->eigenvalue) <= negligible * largest || width <= smallest_bracket * after.last_arc;
     if (at->newton.unstable_modes == modes) {
       low = {arc, mode->eigenvalue};
       nearer = std::move(at);
