@@ -106,6 +106,9 @@ void join(Mesh& mesh, const std::string& place, const std::string& other) {
       number[n] = number[k];
     }
   }
+  if (nodes.size() == mesh.nodes.size())
+    throw MeshError(
+        fmt::format("\"{}\" and \"{}\" share all of their nodes already: leave out their tie", place, other));
   mesh.nodes = std::move(nodes);
   renumber(mesh, number);
 }

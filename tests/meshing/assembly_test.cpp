@@ -58,6 +58,13 @@ TEST(Assembly, WhatDoesNotMeetIsSaid) {
   }
 }
 
+TEST(Assembly, ATieThatJoinsNothingIsSaid) {
+  Mesh whole = pair_of_patches(0);
+  join(whole, "right", "b.left");
+  EXPECT_THROW(join(whole, "right", "b.left"), MeshError);
+  EXPECT_THROW(join(whole, "right", "right"), MeshError);
+}
+
 TEST(Assembly, OneNameOneOrder) {
   Mesh whole = pair_of_patches(0);
   EXPECT_THROW(append(whole, patch_mesh(1, 1), "b"), MeshError);
