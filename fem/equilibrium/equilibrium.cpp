@@ -240,8 +240,12 @@ NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& opti
 NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
                                  const std::function<void(const Iteration&)>& log) {
   NewtonResult result;
-  const auto end = [&result](Outcome outcome) {
+  Balance current;
+  solved_.reset();
+  const auto end = [&](Outcome outcome) {
     result.outcome = outcome;
+    if (outcome == Outcome::converged && !conduction_ && !model_.closed_chamber(state))
+      solved_ = std::move(current);
     return result;
   };
   const auto factor_and_count = [&](const State& at) {
@@ -252,7 +256,6 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     }
     return regular;
   };
-  Balance current;
   Eigen::VectorXd step;
   if (!fill(state)) return end(Outcome::infeasible);
   balance(state, current, Pressure::is_unknown);

@@ -90,6 +90,10 @@ class Equilibrium {
   /// and no path leads on.
   bool is_slack(const State& state) const;
 
+  /// That of the state which the last solve() has converged to; null where its voltages or pressures have
+  /// moved since the forces were evaluated.
+  const Balance* solved() const { return solved_ ? &*solved_ : nullptr; }
+
   /// Lets the voltages of sheets follow, at fixed displacements.
   void conduct(State& state) {
     if (conduction_) conduction_->solve(state);
@@ -149,6 +153,7 @@ class Equilibrium {
   Eigen::VectorXd stiffness_;
   BorderedTangent tangent_;
   std::optional<SheetConduction> conduction_; ///< where there are sheets
+  std::optional<Balance> solved_;
   double energy_scale_ = 0;
   double round_off_ = 0;
   Timings timings_;

@@ -37,13 +37,14 @@ double distance(const DofMap& dofs, const Eigen::VectorXd& stiffness, const Stat
 } // namespace
 
 PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s, double reach,
-                   bool factored) {
+                   bool factored, const Balance* known) {
   const DofMap& dofs = equilibrium.model().dofs;
   PathSlope slope;
-  Balance here, there;
+  Balance evaluated, there;
   State at = state;
   path.apply(at, s);
-  equilibrium.balance(at, here);
+  if (!known) equilibrium.balance(at, evaluated);
+  const Balance& here = known ? *known : evaluated;
   slope.potential = potential(here, at, dofs);
   const double ds = difference * reach;
   path.apply(at, s + ds);
@@ -86,12 +87,11 @@ bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, 
 
 bool is_along(const Equilibrium& equilibrium, const State& from, const Eigen::VectorXd& slope_from,
               const State& to, const Eigen::VectorXd& slope_to, const Steadiness& steadiness) {
+  if (slope_from.size() == 0) return false;
+  const auto norm = [&](const Eigen::VectorXd& a) { return norm_by(equilibrium.stiffness(), a); };
   const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from, to);
-  const auto agrees = [&](const Eigen::VectorXd& slope) {
-    return norm_by(equilibrium.stiffness(), chord - slope) <=
-           steadiness.steady * norm_by(equilibrium.stiffness(), slope);
-  };
-  return slope_from.size() > 0 && agrees(slope_from) && agrees(slope_to);
+  return norm(chord - (slope_from + slope_to) / 2) <=
+         steadiness.steady * std::max(norm(slope_from), norm(slope_to));
 }
 
 bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,

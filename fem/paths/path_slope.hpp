@@ -21,9 +21,9 @@ struct PathSlope {
 
 /// Slope at `state`, converged at s. The equilibrium's tangent must be factored there, or one small step
 /// before; `factored` is false where it is singular. The loads are varied from s towards s + `reach`, no
-/// farther: beyond, the path may have a break.
+/// farther: beyond, the path may have a break. `known`: the state's balance, where it has been evaluated.
 PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s, double reach,
-                   bool factored = true);
+                   bool factored = true, const Balance* known = nullptr);
 
 /// Whether a predictor through the `points` of a path has led to `trial`, at `parameter`, closely, in the
 /// norm of `stiffness` (per free equation). As a predictor that runs away may meet another branch, the path
@@ -38,18 +38,18 @@ bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, 
 /// How far an increment may be from what the slopes at its ends tell of it; see is_joined().
 struct Steadiness {
   double chord, energy, energy_of_faster;
-  double steady = 0; ///< where the chord is as near as this to both slopes it tells all
+  double steady = 0; ///< where the chord is as near as this to the mean slope it tells all
   static constexpr Steadiness resolved() { return {0.1, 0.1, 0.25}; }
   /// For increments so short that they may hold a kink of the path, where wrinkles begin, but no other
   /// branch.
-  static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5, 0.01}; }
+  static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5, 0.05}; }
   /// For film that wrinkles: across them it may be anywhere, so that only the energy tells.
   static constexpr Steadiness wrinkled() { return {std::numeric_limits<double>::infinity(), 0.5, 0.5}; }
 };
 
-/// Whether the chord between two states agrees with the slopes of the path at both, |c - v0| <= steady |v0|
-/// and |c - v1| <= steady |v1|, in the norm of Equilibrium::stiffness(): the tangents alone then tell that
-/// the states are joined.
+/// Whether the chord between two states agrees with the slopes of the path at both,
+///   |c - (v0 + v1)/2| <= steady max(|v0|, |v1|),
+/// in the norm of Equilibrium::stiffness(): the tangents alone then tell that the states are joined.
 bool is_along(const Equilibrium& equilibrium, const State& from, const Eigen::VectorXd& slope_from,
               const State& to, const Eigen::VectorXd& slope_to, const Steadiness& steadiness);
 

@@ -168,7 +168,8 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
     return true;
   const double length = s - progress_.load_factor;
   const LoadPath increment = within(s);
-  const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1); // as long as its tangent is there
+  // as long as its tangent is there
+  const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1, true, equilibrium_.solved());
   const auto wrinkles = [&model](const State& state) {
     return std::ranges::any_of(model.sample(state).film,
                                [](auto& sample) { return sample.tension != materials::Tension::taut; });
