@@ -22,6 +22,8 @@ int block_for(Mesh& whole, CellType type, const std::string& name) {
     whole.blocks.push_back({type, {}});
     return static_cast<int>(whole.blocks.size()) - 1;
   }
+  if ((found->type == CellType::rod2) != (type == CellType::rod2))
+    throw MeshError(fmt::format("part \"{}\": rods and other film cannot be in one case", name));
   if (found->type != type)
     throw MeshError(fmt::format(
         "the elements of part \"{}\" have {} nodes, those of the parts before it {}; give all parts "

@@ -13,8 +13,8 @@ namespace dielast::meshing {
 /// Cell types; the node order is VTK's: corners first, then the middles of the sides
 /// (triangle6: v0 v1 v2 m01 m12 m20; line3, meridian3: v0 v1 middle). Triangles turn counter-clockwise about
 /// +z. Lines are walls. Meridians are pieces of a film of revolution: curves in the plane y = 0, x >= 0,
-/// revolved about the z axis.
-enum class CellType { line2, line3, triangle3, triangle6, meridian2, meridian3 };
+/// revolved about the z axis. Rods are straight pieces of film that is rolled or folded to a bar.
+enum class CellType { line2, line3, triangle3, triangle6, meridian2, meridian3, rod2 };
 
 constexpr int nodes_per_cell(CellType type) {
   switch (type) {
@@ -30,6 +30,8 @@ constexpr int nodes_per_cell(CellType type) {
     return 2;
   case CellType::meridian3:
     return 3;
+  case CellType::rod2:
+    return 2;
   }
   return 0;
 }
@@ -37,6 +39,9 @@ constexpr int nodes_per_cell(CellType type) {
 constexpr bool is_line(CellType type) { return type == CellType::line2 || type == CellType::line3; }
 constexpr bool is_meridian(CellType type) {
   return type == CellType::meridian2 || type == CellType::meridian3;
+}
+constexpr bool is_triangle(CellType type) {
+  return type == CellType::triangle3 || type == CellType::triangle6;
 }
 
 /// All cells of one type, node numbers one after another.
@@ -89,7 +94,7 @@ struct Mesh {
     return box;
   }
   int node_count() const { return static_cast<int>(nodes.size()); }
-  /// The block of triangles or meridians, of lines; null when there is none.
+  /// The block of triangles, meridians or rods, of lines; null when there is none.
   const CellBlock* film() const { return find_block(false); }
   const CellBlock* walls() const { return find_block(true); }
 

@@ -55,8 +55,10 @@ QualityReport quality(const Mesh& mesh) {
                        .smallest_area = infinity,
                        .largest_area = -infinity};
   for (const CellBlock& block : mesh.blocks) {
-    if (is_line(block.type) || is_meridian(block.type)) {
-      (is_line(block.type) ? report.lines : report.meridians) += block.size();
+    if (!is_triangle(block.type)) {
+      (is_line(block.type)       ? report.lines
+       : is_meridian(block.type) ? report.meridians
+                                 : report.rods) += block.size();
       continue;
     }
     for (int c = 0; c < block.size(); ++c) {
@@ -90,10 +92,14 @@ QualityReport quality(const Mesh& mesh) {
 }
 
 std::string format(const QualityReport& report) {
-  const bool of_revolution = report.meridians > 0;
-  std::string text = fmt::format("nodes      {}\n{}  {}\nlines      {}\n", report.nodes,
-                                 of_revolution ? "meridians" : "triangles",
-                                 of_revolution ? report.meridians : report.triangles, report.lines);
+  std::string text = fmt::format("nodes      {}\n", report.nodes);
+  if (report.meridians > 0)
+    text += fmt::format("meridians  {}\n", report.meridians);
+  else if (report.rods > 0)
+    text += fmt::format("rods       {}\n", report.rods);
+  else
+    text += fmt::format("triangles  {}\n", report.triangles);
+  text += fmt::format("lines      {}\n", report.lines);
   if (report.triangles == 0) return text;
   text += fmt::format("area       {:.6g} mm2 (triangles {:.4g} .. {:.4g} mm2)\n", report.area * 1e6,
                       report.smallest_area * 1e6, report.largest_area * 1e6);

@@ -7,10 +7,10 @@
 
 namespace dielast::meshing {
 
-/// How good the triangles of a mesh are; lines and meridians are only counted. Angles and aspect ratios are
-/// those of the straight triangle of the corners.
+/// How good the triangles of a mesh are; lines, meridians and rods are only counted. Angles and aspect ratios
+/// are those of the straight triangle of the corners.
 struct QualityReport {
-  int nodes = 0, triangles = 0, meridians = 0, lines = 0;
+  int nodes = 0, triangles = 0, meridians = 0, rods = 0, lines = 0;
   double smallest_angle = 0; ///< degrees
   int worst_cell = -1;       ///< triangle with the smallest angle, -1 without triangles
   Eigen::Vector3d worst_place = Eigen::Vector3d::Zero(); ///< its centroid, m

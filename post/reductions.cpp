@@ -65,8 +65,7 @@ auto with_scalar(const fem::Samples& samples, std::string_view name, Use&& use) 
 
 /// Corners of a cell, or ends of a line.
 std::span<const int> corners(const meshing::CellBlock& block, int cell) {
-  const bool triangle = !meshing::is_line(block.type) && !meshing::is_meridian(block.type);
-  return block.cell(cell).first(triangle ? 3 : 2);
+  return block.cell(cell).first(meshing::is_triangle(block.type) ? 3 : 2);
 }
 
 /// The cell and those next to it: triangles with a common side; lines and meridians whose common end has no

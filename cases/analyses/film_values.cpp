@@ -30,24 +30,25 @@ Shape shape(CellType type, const Eigen::VectorXd& local) {
   case CellType::triangle6:
     return {fem::shape_values<6>(local[0], local[1]), fem::shape_gradients<6>(local[0], local[1])};
   case CellType::meridian2:
+  case CellType::rod2:
     return {fem::meridian_shape<2>(local[0]), fem::meridian_slope<2>(local[0])};
   default:
     return {fem::meridian_shape<3>(local[0]), fem::meridian_slope<3>(local[0])};
   }
 }
 
-/// Local coordinates of the nodes, one per row: (xi, eta), of meridians xi.
+/// Local coordinates of the nodes, one per row: (xi, eta), of meridians and rods xi.
 Eigen::MatrixXd local_nodes(CellType type) {
-  if (meshing::is_meridian(type)) return Eigen::Vector3d(-1, 1, 0);
+  if (!meshing::is_triangle(type)) return Eigen::Vector3d(-1, 1, 0);
   return (Eigen::MatrixXd(6, 2) << 0, 0, 1, 0, 0, 1, 0.5, 0, 0.5, 0.5, 0, 0.5).finished();
 }
 
 /// Those of the integration points.
 Eigen::MatrixXd local_points(CellType type, int points) {
-  Eigen::MatrixXd local(points, meshing::is_meridian(type) ? 1 : 2);
+  Eigen::MatrixXd local(points, meshing::is_triangle(type) ? 2 : 1);
   for (int p = 0; p < points; ++p) {
     const auto i = static_cast<std::size_t>(p);
-    if (meshing::is_meridian(type))
+    if (!meshing::is_triangle(type))
       local(p, 0) = fem::meridian_rule(points)[i].xi;
     else
       local.row(p) << fem::triangle_rule(points)[i].xi, fem::triangle_rule(points)[i].eta;
@@ -85,7 +86,7 @@ std::vector<Points> points_of_cells(const meshing::CellBlock& film, const fem::S
 
 /// Whether local coordinates are in the element, or as good as in it.
 bool is_inside(CellType type, const Eigen::VectorXd& local) {
-  if (meshing::is_meridian(type)) return std::abs(local[0]) <= 1 + close_by;
+  if (!meshing::is_triangle(type)) return std::abs(local[0]) <= 1 + close_by;
   return std::min(local.minCoeff(), 1 - local.sum()) >= -close_by;
 }
 
@@ -128,7 +129,8 @@ std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing
     const double size = (x.colwise() - x.col(0)).colwise().norm().maxCoeff();
     if ((x.col(0) - wanted).norm() > 2 * size) continue;
     // The nearest point of the element, by the Gauss-Newton method from its middle.
-    Eigen::VectorXd local = of_revolution ? Eigen::VectorXd::Zero(1) : Eigen::VectorXd::Constant(2, 1.0 / 3);
+    Eigen::VectorXd local =
+        meshing::is_triangle(film.type) ? Eigen::VectorXd::Constant(2, 1.0 / 3) : Eigen::VectorXd::Zero(1);
     Eigen::Vector3d away;
     constexpr int iterations = 20; // sides are straight or nearly so: a few are enough
     for (int i = 0; i < iterations; ++i) {

@@ -30,6 +30,14 @@ struct Beam {
   materials::ElasticSolid material;
 };
 
+/// [rod]: a film rolled or folded to a bar that pulls along itself, and is free across itself
+struct Rod {
+  double width = 0;                         ///< of one layer, unstretched, m
+  int layers = 1;                           ///< of film, one on another or wound
+  std::optional<double> electrode_width{};  ///< of the electrode on a layer, unstretched, m; absent: all
+  std::optional<double> electrode_length{}; ///< likewise, along the rod
+};
+
 /// [honeycomb]: the geometry template of the unidirectional actuator
 struct Honeycomb {
   double angle = 0;         ///< interior angle at a cell's four equal vertices, rad
@@ -74,27 +82,33 @@ struct Balloon {
   double radius = 0; ///< m
 };
 
+/// [line]: a straight rod, or a straight row of beams, as drawn
+struct Line {
+  std::array<double, 3> from{}, to{}; ///< m
+};
+
 /// What has no mesh of its own is std::monostate.
-using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, MeshFile>;
+using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Line, MeshFile>;
 
 /// [mesh]
 struct MeshOptions {
   std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
   int refine = 0;               ///< how often each triangle of a user's own mesh is split into four
   int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
-  int wall_elements = 8; ///< beams per wall (honeycomb)
+  int wall_elements = 8; ///< beams per wall (honeycomb), or along a line
   double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
   int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
   int quadrature = 3;    ///< integration points of a 6-node triangle: 3 or 6
 };
 
-/// A film or bars, with a mesh of their own or in a place of the unnamed part's. The part without a name is
-/// what stands at the top of the file, in [film], [disc], [mesh] ...; others are [part.NAME]. Places of a
-/// named part's own mesh are called "NAME.<place>", and all of it "NAME".
+/// A film, rods of it, or bars, with a mesh of their own or in a place of the unnamed part's. The part
+/// without a name is what stands at the top of the file, in [film], [disc], [mesh] ...; others are
+/// [part.NAME]. Places of a named part's own mesh are called "NAME.<place>", and all of it "NAME".
 struct Part {
   std::string name;
   std::string place; ///< of the unnamed part's mesh; empty: it has a mesh of its own
   std::optional<Film> film;
+  std::optional<Rod> rod; ///< what the film is rolled to
   std::optional<Beam> beam;
   Geometry geometry;
   MeshOptions mesh;

@@ -320,11 +320,11 @@ Device build_device(const Case& one) {
   std::vector<std::string> warnings = size_warnings(one, size);
   const bool of_revolution = dimension == fem::Dimension::axisymmetric;
   const meshing::CellBlock* film = mesh.film();
-  if (!film) throw meshing::MeshError("the mesh has no triangles: there is no film");
+  if (!film) throw meshing::MeshError("the case has no film: neither triangles nor rods");
   if (of_revolution && !meshing::is_meridian(film->type))
     throw meshing::MeshError("model = \"axisymmetric\" is for discs, annuli and balloons");
   std::vector<int> parts = film_parts(one, mesh);
-  if (!of_revolution) require_flat_films(mesh, parts, model.extent);
+  if (meshing::is_triangle(film->type)) require_flat_films(mesh, parts, model.extent);
   const auto elements = static_cast<double>(film->size());
   model.length_scale = model.extent / (of_revolution ? elements : std::sqrt(elements));
   try {

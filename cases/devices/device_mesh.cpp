@@ -4,6 +4,7 @@
 #include "meshing/assembly.hpp"
 #include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/honeycomb_mesh.hpp"
+#include "meshing/line.hpp"
 #include "meshing/meridian.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/patch.hpp"
@@ -91,6 +92,11 @@ meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_orde
           [&](const Patch& p) {
             return meshing::patch_mesh(p.length * part.film->prestretch[0],
                                        p.width * part.film->prestretch[1], patch_order);
+          },
+          [&](const Line& line) {
+            const Eigen::Vector3d from(line.from.data()), to(line.to.data());
+            return part.rod ? meshing::rod_mesh(from, to)
+                            : meshing::line_mesh(from, to, options.wall_elements, options.order);
           },
           [&](const MeshFile& file) {
             meshing::Mesh mesh = meshing::read_gmsh(file.path);

@@ -17,7 +17,8 @@ struct Density {
 };
 
 std::optional<Density> density_of(const Geometry& geometry) {
-  if (std::holds_alternative<Honeycomb>(geometry)) return Density{&MeshOptions::wall_elements, 1};
+  if (std::holds_alternative<Honeycomb>(geometry) || std::holds_alternative<Line>(geometry))
+    return Density{&MeshOptions::wall_elements, 1};
   if (std::holds_alternative<Balloon>(geometry)) return Density{&MeshOptions::rings, 4};
   if (std::holds_alternative<Disc>(geometry) || std::holds_alternative<Annulus>(geometry))
     return Density{&MeshOptions::rings, 2};
@@ -43,11 +44,11 @@ double coarsen_mesh(Part& part, int factor) {
 }
 
 /// Elements of all parts larger by a factor; returns by how much they are, 1 where they cannot all be.
-/// Patches are exact.
+/// Patches and rods are exact.
 double coarsen_meshes(Case& one, int factor) {
   double coarser = 1;
   for (Part& part : one.parts) {
-    if (!part.has_mesh() || std::holds_alternative<Patch>(part.geometry)) continue;
+    if (!part.has_mesh() || std::holds_alternative<Patch>(part.geometry) || part.rod) continue;
     const double by = coarsen_mesh(part, factor);
     if (by == 1 || (coarser > 1 && by != coarser)) return 1;
     coarser = by;

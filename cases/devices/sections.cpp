@@ -57,8 +57,29 @@ void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh,
   for (const Part& part : one.parts) {
     if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
       take(part.name, part.called("walls"), lattice->wall);
-    if (part.beam) take(part.name, part.place, *part.beam);
+    if (part.beam) take(part.name, part.has_mesh() ? part.called("line") : part.place, *part.beam);
   }
+}
+
+/// Unstretched widths of the film of a rod with all its layers side by side, m: under the electrode, as if
+/// that were as long as the rod, and beside it.
+struct RodWidths {
+  double charged, passive;
+};
+
+RodWidths rod_widths(const Part& part, const meshing::Mesh& mesh) {
+  const auto end = [&](const char* place) -> const Eigen::Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(mesh.node_sets.at(part.called(place)).front())];
+  };
+  const double length = (end("end") - end("start")).norm() / part.film->prestretch[0];
+  const Rod& rod = *part.rod;
+  const double electrode = rod.electrode_length.value_or(length);
+  if (electrode > length * (1 + 1e-9))
+    throw meshing::MeshError(
+        fmt::format("{}rod.electrode_length: the electrode is {:.6g} mm long, the unstretched rod {:.6g} mm",
+                    part.name.empty() ? "" : "part." + part.name + ".", 1e3 * electrode, 1e3 * length));
+  const double charged = rod.layers * rod.electrode_width.value_or(rod.width) * electrode / length;
+  return {charged, std::max(0.0, rod.layers * rod.width - charged)};
 }
 
 } // namespace
@@ -108,10 +129,23 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
     const int points = film.type == meshing::CellType::triangle6   ? mesh_options(one, part).quadrature
                        : film.type == meshing::CellType::meridian3 ? 2
                                                                    : 1;
-    model.blocks.push_back(fem::make_membrane_block(
-        mesh, meshing::subset(film, cells),
-        {part.film->material, part.film->thickness, part.film->prestretch, part.film->tension_field},
-        std::move(over), one.dimension, points, cells));
+    const fem::MembraneSection section{part.film->material, part.film->thickness, part.film->prestretch,
+                                       part.film->tension_field};
+    const auto add = [&](const fem::MembraneSection& with, std::vector<int> under) {
+      model.blocks.push_back(fem::make_membrane_block(mesh, meshing::subset(film, cells), with,
+                                                      std::move(under), one.dimension, points, cells));
+    };
+    if (!part.rod) {
+      add(section, std::move(over));
+      continue;
+    }
+    // Layers side by side; what lies beside the electrode is stretched with what lies under it.
+    const RodWidths widths = rod_widths(part, mesh);
+    fem::MembraneSection strip = section;
+    strip.width = widths.charged;
+    add(strip, std::move(over));
+    strip.width = widths.passive;
+    if (strip.width > 0) add(strip, std::vector<int>(cells.size(), fem::passive));
   }
 }
 

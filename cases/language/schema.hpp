@@ -305,6 +305,7 @@ Section film_section();                       ///< of a Part
 std::vector<Section> geometry_sections();     ///< of a Part
 Section mesh_section();                       ///< of a Part
 Section beam_section();                       ///< of a Part
+Section rod_section();                        ///< of a Part
 std::vector<Section> unnamed_part_sections(); ///< film, the geometries, mesh
 std::vector<Section> part_sections();         ///< part, tie
 std::vector<Section> action_sections();       ///< electrode, support, load, spring, linkage, drive

@@ -33,8 +33,32 @@ void check_patch(SectionReader& reader, const Node& tree, const Part& part) {
       fmt::format("found {}: in equal-biaxial tension x and y are stretched alike", text_of(*written)));
 }
 
+/// What a line and a rod need of one another.
+void check_line(SectionReader& reader, const Node& top, const Part& part) {
+  const auto report = [&](const char* key, const std::string& message) {
+    const Node* blamed = top.find(key);
+    reader.report(blamed ? blamed->key_source : top.source, key_of(part, blamed ? key : ""), message);
+  };
+  const bool line = std::holds_alternative<Line>(part.geometry);
+  if (line && !part.rod && !part.beam) report("line", "a line is a [rod] of film, or a [beam]");
+  if (!part.rod) return;
+  if (!line) report("rod", "a rod is a [line]: write from where to where");
+  if (part.beam) report("rod", "given twice: a line is a [rod] of film, or a [beam]");
+  if (!part.film) return report("rod", "a rod is rolled of a [film]");
+  const Film& film = *part.film;
+  if (film.prestretch[0] != film.prestretch[1])
+    report("film", "a rod is stretched along itself only: give it one prestretch");
+  if (film.tension_field) report("film", "a rod does not wrinkle: leave out film.wrinkling");
+  if (std::ranges::any_of(film.material.branches, [](const materials::Branch& branch) {
+        return branch.dashpot == materials::Dashpot::nominal;
+      }))
+    report("film", "a rod's dashpots flow alike in all directions across it: dashpot = \"log\"");
+  if (top.find("mesh")) report("mesh", "a rod is one element");
+}
+
 /// A film that is alike in all directions of its plane may be turned as one likes.
 bool knows_x_from_y(const Part& part) {
+  if (std::holds_alternative<Line>(part.geometry)) return false;
   if (!part.film || std::holds_alternative<Patch>(part.geometry)) return true;
   const auto has_axes = [](const materials::Branch& branch) {
     return branch.dashpot == materials::Dashpot::nominal;
@@ -49,6 +73,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
   for (const Part& part : one.parts) {
     const Node& top = top_of(tree, part);
     check_patch(reader, tree, part);
+    check_line(reader, top, part);
     if (part.name.empty()) continue;
     const auto report = [&](const char* key, const std::string& message) {
       const Node* blamed = top.find(key);
@@ -66,7 +91,8 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
       report("place", "there is no mesh at the top of the file whose place it could be");
     if (part.film.has_value() == part.beam.has_value())
       report("beam", part.film ? "a part is a film or bars, not both" : "a part needs a [film] or a [beam]");
-    if (part.beam && !geometries.empty()) report("beam", "bars are lines of a mesh: give the part a place");
+    if (part.beam && !geometries.empty() && !std::holds_alternative<Line>(part.geometry))
+      report("beam", "bars are a [line], or lines of a mesh: give the part a place");
     if (!part.place.empty())
       for (const char* key : {"mesh", "at", "turned"})
         if (top.find(key)) report(key, "a part that is a place has the mesh and the position of its place");
@@ -79,6 +105,12 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     if (knows_x_from_y(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
       report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
   }
+  if (std::ranges::any_of(one.parts, [](const Part& part) { return part.rod.has_value(); }))
+    for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+      if (one.electrodes[e].sheet_resistance)
+        reader.report(tree.find("electrode")->items.at(e).find("sheet_resistance")->source,
+                      fmt::format("electrode[{}].sheet_resistance", e + 1),
+                      "the electrodes of rods do not resist; give their circuit a resistance");
   const auto wrinkles = [](const Film& film) { return film.tension_field; };
   if (one.any_film(wrinkles) && one.any_film(std::not_fn(wrinkles)))
     reader.report(tree.find("part")->key_source, "part",

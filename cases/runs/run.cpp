@@ -129,13 +129,14 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   Recorder recorder(one, simulation, folder, settings.resume);
   spdlog::logger log = make_logger(settings, folder);
   const Device& device = simulation.device();
+  const meshing::QualityReport quality = meshing::quality(device.mesh);
   log.info("dielast " DIELAST_VERSION "  {}", one.title);
   if (const int unknowns = device.model.dofs.free_count(); one.dimension == fem::Dimension::axisymmetric)
     log.info("{} elements along the meridian, {} unknowns", device.mesh.film()->size(), unknowns);
   else
-    log.info("{} triangles, {} beams, {} unknowns; smallest angle {:.1f} deg", device.mesh.film()->size(),
-             device.mesh.walls() ? device.mesh.walls()->size() : 0, unknowns,
-             meshing::quality(device.mesh).smallest_angle);
+    log.info("{} {}, {} beams, {} unknowns{}", device.mesh.film()->size(),
+             quality.rods > 0 ? "rods" : "triangles", quality.lines, unknowns,
+             quality.triangles > 0 ? fmt::format("; smallest angle {:.1f} deg", quality.smallest_angle) : "");
   for (const std::string& warning : simulation.warnings()) log.warn("{}", warning);
   if (!recorder.journal().records.empty())
     log.info("resumed behind {} accepted states", recorder.journal().records.size());

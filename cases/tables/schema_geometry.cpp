@@ -218,6 +218,24 @@ Section patch_section() {
   return section;
 }
 
+Section line_section() {
+  Section section;
+  section.name = "line";
+  section.meaning = "a straight [rod] of film, or a straight [beam]";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Line>();
+  section.keys = {
+      measure("from", "m", to(&Line::from), "where it starts").values(3, 3).otherwise("[0, 0, 0]"),
+      measure("to", "m", to(&Line::to), "where it ends, a film in its prestretch").values(3, 3),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& line = *static_cast<const Line*>(object);
+    if (line.from != line.to) return std::nullopt;
+    return Conflict{"to", "a line must end elsewhere than it starts"};
+  };
+  return section;
+}
+
 Binding mesh_file() {
   return {[](void* object, const Value& value) {
             static_cast<Part*>(object)->geometry = MeshFile{value.at(0).text};
@@ -236,7 +254,8 @@ Binding mesh_option(M MeshOptions::*option) {
 } // namespace
 
 std::vector<Section> geometry_sections() {
-  return {honeycomb_section(), disc_section(), annulus_section(), balloon_section(), patch_section()};
+  return {honeycomb_section(), disc_section(),  annulus_section(),
+          balloon_section(),   patch_section(), line_section()};
 }
 
 Section beam_section() {
@@ -251,6 +270,37 @@ Section beam_section() {
   };
   section.sections.push_back(bar_material_section<Beam>(
       "material", [](auto& beam) -> auto& { return beam; }));
+  return section;
+}
+
+Section rod_section() {
+  const auto electrode = [](std::string name, std::optional<double> Rod::*part, std::string meaning) {
+    return measure(std::move(name), "m", to(part), std::move(meaning)).above(0).at_most(10).optional();
+  };
+  Section section;
+  section.name = "rod";
+  section.meaning = "the film is rolled or folded to a bar: it pulls along itself and is free across itself";
+  section.presence = Section::Presence::optional;
+  section.access = present(&Part::rod);
+  section.keys = {
+      measure("width", "m", to(&Rod::width), "width of one layer of film across the rod, unstretched")
+          .above(0)
+          .at_most(10),
+      integer("layers", to(&Rod::layers), "layers of film, each with the electrode's voltage across it")
+          .at_least(1)
+          .at_most(100000)
+          .otherwise("1"),
+      electrode("electrode_width", &Rod::electrode_width,
+                "width of the electrode on a layer, unstretched; without it all of the width"),
+      electrode("electrode_length", &Rod::electrode_length,
+                "length of the electrode along the rod, unstretched; without it all of the length; the rod "
+                "is stretched alike everywhere"),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& rod = *static_cast<const Rod*>(object);
+    if (rod.electrode_width.value_or(0) <= rod.width) return std::nullopt;
+    return Conflict{"electrode_width", "the electrode is wider than the film"};
+  };
   return section;
 }
 
@@ -293,12 +343,12 @@ Section mesh_section() {
           .at_least(1)
           .at_most(2)
           .otherwise("2")
-          .only({"honeycomb", "disc", "annulus", "balloon"}),
-      integer("wall_elements", mesh_option(&MeshOptions::wall_elements), "beams per wall")
+          .only({"honeycomb", "disc", "annulus", "balloon", "line"}),
+      integer("wall_elements", mesh_option(&MeshOptions::wall_elements), "beams per wall, or along a line")
           .at_least(1)
           .at_most(200)
           .otherwise("8")
-          .only({"honeycomb"}),
+          .only({"honeycomb", "line"}),
       number("grading", mesh_option(&MeshOptions::grading),
              "largest film element over the wall's; 1 is uniform")
           .at_least(1)

@@ -36,7 +36,7 @@ bool is_without_mesh(const Node& outer) {
 } // namespace
 
 std::vector<Section> unnamed_part_sections() {
-  std::vector<Section> sections{film_section()};
+  std::vector<Section> sections{film_section(), rod_section()};
   sections.front().needless = [](const Node& outer) { return outer.find("part") != nullptr; };
   for (Section& section : geometry_sections()) sections.push_back(std::move(section));
   sections.push_back(mesh_section());
@@ -77,6 +77,7 @@ std::vector<Section> part_sections() {
   };
   part.sections.push_back(film_section());
   part.sections.back().presence = Section::Presence::optional;
+  part.sections.push_back(rod_section());
   part.sections.push_back(beam_section());
   for (Section& section : geometry_sections()) part.sections.push_back(std::move(section));
   part.sections.push_back(mesh_section());

@@ -198,6 +198,17 @@ std::span<const Template> templates() {
            {"centre", "the middle"}},
           patch_defaults,
           patch_quantities},
+      Template{"line",
+               "a rod of film between two points",
+               {{"film", "the rod"}, {"start", "where it starts"}, {"end", "where it ends"}},
+               file_defaults,
+               "",
+               "rod"},
+      Template{"line",
+               "a straight row of beams between two points",
+               {{"line", "the beams"}, {"start", "where it starts"}, {"end", "where it ends"}},
+               "",
+               ""},
       Template{"file", "your own gmsh mesh: [mesh] file = \"...\"", {}, file_defaults, ""},
   };
   return table;

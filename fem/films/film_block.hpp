@@ -83,8 +83,7 @@ class MembraneBlock final : public ElementBlock {
   Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const;
 
   FilmResponse<Law> film_;
-  double thickness_, density_; ///< undeformed, m; kg/m^3
-  Eigen::Vector2d prestretch_;
+  MembraneSection section_;
   int count_ = 0, points_ = 0;
   std::vector<int> nodes_;      ///< padded to whole packs by repeating the last element
   std::vector<int> electrodes_; ///< padded like nodes_
@@ -99,10 +98,9 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
                                               const MembraneSection& section, Law law,
                                               std::vector<int> electrodes, int integration_points,
                                               std::vector<int> numbers)
-    : film_(std::move(law), section), thickness_(section.thickness), density_(section.material.density),
-      prestretch_(section.prestretch[0], section.prestretch[1]), count_(cells.size()),
-      points_(integration_points), nodes_(cells.nodes), electrodes_(std::move(electrodes)),
-      numbers_(std::move(numbers)), reference_(mesh.nodes) {
+    : film_(std::move(law), section), section_(section), count_(cells.size()), points_(integration_points),
+      nodes_(cells.nodes), electrodes_(std::move(electrodes)), numbers_(std::move(numbers)),
+      reference_(mesh.nodes) {
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e) {
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
@@ -110,7 +108,7 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
   }
   geometry_.assign(static_cast<std::size_t>(packs * points_), Point{});
   for (int e = 0; e < packs * lanes; ++e) {
-    const auto places = Kinematics::places(drawn(e), prestretch_, points_);
+    const auto places = Kinematics::places(drawn(e), section_, points_);
     for (int p = 0; p < points_; ++p) {
       const auto& place = places[static_cast<std::size_t>(p)];
       if (e == 0) sheets_.add_place(place.corner_shape);
@@ -120,7 +118,7 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
       Point& point = geometry_[static_cast<std::size_t>(e / lanes * points_ + p)];
       for (int a = 0; a < Nodes; ++a)
         for (int i = 0; i < 2; ++i) point.gradient[a][i][e % lanes] = place.gradient(a, i);
-      point.volume[e % lanes] = e < count_ ? place.area * thickness_ : 0.0;
+      point.volume[e % lanes] = e < count_ ? place.area * section_.thickness : 0.0;
     }
   }
 }
@@ -128,10 +126,11 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
 /// Consistent: rho H int N_a N_b dA.
 template<class Kinematics, class Law>
 void MembraneBlock<Kinematics, Law>::add_mass(int element, std::span<double> packed) const {
-  for (const auto& place : Kinematics::places(drawn(element), prestretch_, Kinematics::mass_points))
+  for (const auto& place : Kinematics::places(drawn(element), section_, Kinematics::mass_points))
     for (int a = 0; a < Nodes; ++a)
       for (int b = 0; b <= a; ++b) {
-        const double mass = density_ * thickness_ * place.area * place.shape[a] * place.shape[b];
+        const double mass =
+            section_.material.density * section_.thickness * place.area * place.shape[a] * place.shape[b];
         for (int c = 0; c < Dim; ++c) {
           const int i = a * Dim + c;
           packed[static_cast<std::size_t>(i * (i + 1) / 2 + b * Dim + c)] += mass;
@@ -171,7 +170,7 @@ Lanes MembraneBlock<Kinematics, Law>::electric_modulus(const State& state, int p
   for (int l = 0; l < lanes; ++l) {
     const int electrode = electrodes_[static_cast<std::size_t>(pack * lanes + l)];
     if (electrode == passive) continue;
-    const double nominal_field = state.voltage[static_cast<std::size_t>(electrode)] / thickness_;
+    const double nominal_field = state.voltage[static_cast<std::size_t>(electrode)] / section_.thickness;
     k[l] = film_.dielectric().permittivity * nominal_field * nominal_field;
   }
   return k;
@@ -183,7 +182,7 @@ Lanes MembraneBlock<Kinematics, Law>::under_sheets(const State& state, int pack,
     const int element = pack * lanes + l;
     if (!sheets_.points(element)) continue;
     const auto electrode = static_cast<std::size_t>(electrodes_[static_cast<std::size_t>(element)]);
-    k[l] = film_.dielectric().permittivity / (thickness_ * thickness_) *
+    k[l] = film_.dielectric().permittivity / (section_.thickness * section_.thickness) *
            sheets_.mean_square(state, element, point, state.voltage[electrode]);
   }
   return k;
@@ -324,7 +323,8 @@ void MembraneBlock<Kinematics, Law>::sample(const State& state, Samples& samples
     s.S = materials::tension_field::stress(field.potential);
     s.widening = std::sqrt(natural.det() / at.C.det());
     s.tension = field.tension;
-    s.thickness = thickness_;
+    if constexpr (Kinematics::free_across) Kinematics::relieve(s, at.deformation, at.lane);
+    s.thickness = section_.thickness;
     s.voltage = voltage(state, at.element, at.place);
     s.electrode = electrodes_[static_cast<std::size_t>(at.element)];
     s.breakdown_field = film_.dielectric().breakdown_field_at(natural.det());
@@ -341,8 +341,8 @@ void MembraneBlock<Kinematics, Law>::add_charges(const State& state, const DofMa
     const auto e = static_cast<std::size_t>(electrode);
     const auto density = film_.charge_density(film_.shape(state, at.point, at.C, at.k), at.C);
     const double phi = voltage(state, at.element, at.place);
-    const double per_volt =
-        film_.dielectric().permittivity * at.geometry.volume[at.lane] / (thickness_ * thickness_);
+    const double per_volt = film_.dielectric().permittivity * at.geometry.volume[at.lane] /
+                            (section_.thickness * section_.thickness);
     charges.capacitance[e] += per_volt * density.value;
     charges.charge[e] += per_volt * phi * density.value;
     if (!dof_map) return;
@@ -366,11 +366,11 @@ void MembraneBlock<Kinematics, Law>::add_sheets(const State& state, SheetMatrice
   std::vector<FilmPlace<Nodes, Corners>> places;
   for_each_point(state, [&](const Visit& at) {
     if (!sheets_.points(at.element)) return;
-    if (at.place == 0) places = Kinematics::places(drawn(at.element), prestretch_, points_);
+    if (at.place == 0) places = Kinematics::places(drawn(at.element), section_, points_);
     const auto& place = places[static_cast<std::size_t>(at.place)];
     const materials::TensionField field = film_.shape(state, at.point, at.C, at.k);
-    const double per_volt =
-        film_.dielectric().permittivity * place.area / thickness_ * film_.charge_density(field, at.C).value;
+    const double per_volt = film_.dielectric().permittivity * place.area / section_.thickness *
+                            film_.charge_density(field, at.C).value;
     sheets_.add(matrices, at.element, place.corner_shape * per_volt,
                 std::sqrt(place.area) * place.corner_gradient, field.natural);
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem/films/lanes.hpp"
+#include "fem/films/membrane_section.hpp"
 #include "fem/films/meridian.hpp"
 #include "fem/films/triangle.hpp"
 
@@ -55,6 +56,7 @@ struct WeightedStress {
 template<int Nodes, int Dim>
 struct TriangleKinematics {
   static constexpr const char* element = "triangle";
+  static constexpr bool free_across = false; ///< its second direction follows the first without stress
   static constexpr int nodes = Nodes, dim = Dim, corners = 3;
   static constexpr std::array<int, 3> components{0, 1, 2}; ///< of the displacement, per unknown of a node
   static constexpr int mass_points = Nodes == 6 ? 6 : 3;   ///< that integrate N_a N_b exactly
@@ -67,8 +69,9 @@ struct TriangleKinematics {
 
   /// `X`: nodes as drawn, m.
   static std::vector<FilmPlace<Nodes, corners>> places(const Eigen::Matrix<double, 3, Nodes>& X,
-                                                       const Eigen::Vector2d& prestretch, int points) {
+                                                       const MembraneSection& section, int points) {
     std::vector<FilmPlace<Nodes, corners>> all;
+    const Eigen::Vector2d prestretch(section.prestretch.data());
     for (const TrianglePoint& at : triangle_rule(points)) {
       const Eigen::Matrix<double, Nodes, 2> dN = shape_gradients<Nodes>(at.xi, at.eta);
       const Eigen::Matrix2d jacobian = X.template topRows<2>() * dN;
@@ -157,6 +160,7 @@ struct TriangleKinematics {
 template<int Nodes>
 struct MeridianKinematics {
   static constexpr const char* element = "meridian";
+  static constexpr bool free_across = false;
   static constexpr int nodes = Nodes, dim = 2, corners = 2;
   static constexpr std::array<int, 2> components{0, 2};
   static constexpr int mass_points = 3;
@@ -169,14 +173,14 @@ struct MeridianKinematics {
   };
 
   static std::vector<FilmPlace<Nodes, corners>> places(const Eigen::Matrix<double, 3, Nodes>& X,
-                                                       const Eigen::Vector2d& prestretch, int points) {
+                                                       const MembraneSection& section, int points) {
     std::vector<FilmPlace<Nodes, corners>> all;
     for (const MeridianPoint& at : meridian_rule(points)) {
       FilmPlace<Nodes, corners> place{meridian_shape<Nodes>(at.xi), {}, 0, meridian_shape<2>(at.xi), {}};
       const Eigen::Matrix<double, Nodes, 1> slope = meridian_slope<Nodes>(at.xi);
       const Eigen::Vector3d tangent = X * slope, chord = X.col(1) - X.col(0);
-      const double length = std::copysign(tangent.norm(), tangent.dot(chord)) / prestretch[0];
-      const double radius = X.row(0).dot(place.shape) / prestretch[1];
+      const double length = std::copysign(tangent.norm(), tangent.dot(chord)) / section.prestretch[0];
+      const double radius = X.row(0).dot(place.shape) / section.prestretch[1];
       place.gradient.col(0) = slope / length;
       place.gradient.col(1) = place.shape / radius;
       place.area = at.weight * length * 2 * std::numbers::pi * radius;

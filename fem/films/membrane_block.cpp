@@ -2,6 +2,7 @@
 #include "fem/films/membrane_block.hpp"
 
 #include "fem/films/film_block.hpp"
+#include "fem/films/rod_kinematics.hpp"
 
 #include <numeric>
 
@@ -35,7 +36,7 @@ std::unique_ptr<ElementBlock> make_membrane_block(const meshing::Mesh& mesh, con
     std::iota(numbers.begin(), numbers.end(), 0);
   }
   if ((dimension == Dimension::axisymmetric) != meshing::is_meridian(cells.type))
-    throw std::invalid_argument("a film of revolution is made of meridians, any other of triangles");
+    throw std::invalid_argument("a film of revolution is made of meridians, any other of triangles or rods");
   const auto make = [&]<class Kinematics>() {
     return make_block<Kinematics>(mesh, cells, section, std::move(electrodes), integration_points,
                                   std::move(numbers));
@@ -52,8 +53,11 @@ std::unique_ptr<ElementBlock> make_membrane_block(const meshing::Mesh& mesh, con
     return make.template operator()<MeridianKinematics<3>>();
   case meshing::CellType::meridian2:
     return make.template operator()<MeridianKinematics<2>>();
+  case meshing::CellType::rod2:
+    return planar ? make.template operator()<RodKinematics<2>>()
+                  : make.template operator()<RodKinematics<3>>();
   default:
-    throw std::invalid_argument("a membrane is not made of lines");
+    throw std::invalid_argument("a membrane is not made of walls");
   }
 }
 

@@ -9,12 +9,14 @@ namespace dielast::fem {
 
 /// Reduces a film's material to a membrane. The mesh is drawn in the film's prestretched plane: with the
 /// prestretch F0 = diag(lambda_p1, lambda_p2) from the unstretched film to the drawing, C = F0^T C_drawn F0
-/// and the undeformed volume is H dA_drawn / (lambda_p1 lambda_p2).
+/// and the undeformed volume is H dA_drawn / (lambda_p1 lambda_p2). A rod is a strip of film, see
+/// RodKinematics.
 struct MembraneSection {
   materials::Material material;
   double thickness = 0;                       ///< undeformed H, m
-  std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing
+  std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing; of a rod along it
   bool tension_field = false;                 ///< wrinkles carry no compression (materials/tension_field.hpp)
+  double width = 0;                           ///< of a rod: unstretched, all layers side by side, m
 };
 
 } // namespace dielast::fem

@@ -3,8 +3,8 @@
 
 #include "fem/algebra/dense_algebra.hpp"
 
-#include <fmt/format.h>
 #include <stdexcept>
+#include <string>
 
 namespace dielast::fem {
 
@@ -53,7 +53,8 @@ std::vector<HarmonicResponse> harmonic_response(const Linearisation& at, const H
   for (const double omega : frequencies) {
     const Linearisation::Complex s(0, omega);
     auto Z = at.dynamic_stiffness(s);
-    if (!solver.factor(Z)) throw std::domain_error(fmt::format("undamped resonance at {:.6g} rad/s", omega));
+    if (!solver.factor(Z))
+      throw std::domain_error("undamped resonance at " + std::to_string(omega) + " rad/s");
     const Eigen::MatrixXcd X = solver.solve(columns.cast<Linearisation::Complex>());
     // dQ = held dPhi + pressed
     Eigen::MatrixXcd held = columns.leftCols(count).transpose() * X.leftCols(count);

@@ -16,9 +16,9 @@ std::vector<ElementCorners> element_corners(const meshing::Mesh& mesh) {
   using Shape = ElementCorners::Shape;
   std::vector<ElementCorners> all;
   for (const meshing::CellBlock& block : mesh.blocks) {
-    const Shape shape = meshing::is_line(block.type)       ? Shape::line
+    const Shape shape = meshing::is_triangle(block.type)   ? Shape::triangle
                         : meshing::is_meridian(block.type) ? Shape::meridian
-                                                           : Shape::triangle;
+                                                           : Shape::line;
     for (int c = 0; c < block.size(); ++c) {
       const auto nodes = block.cell(c);
       all.push_back({shape, {nodes[0], nodes[1], shape == Shape::triangle ? nodes[2] : nodes[1]}});

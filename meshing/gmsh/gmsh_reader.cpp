@@ -42,7 +42,7 @@ std::optional<CellType> cell_type(const GmshContents::Elements& elements) {
   return std::nullopt;
 }
 
-bool is_triangle(const CellBlock& block) { return !is_line(block.type); }
+bool has_triangles(const CellBlock& block) { return is_triangle(block.type); }
 
 void require(bool holds) {
   if (!holds) throw MeshError("what gmsh finds in it does not fit together; it is damaged, write it again");
@@ -103,7 +103,7 @@ class Converter {
       for (std::size_t first = 0; first + each <= elements.nodes.size(); first += each)
         cells.push_back(add_cell(*block, std::span(elements.nodes).subspan(first, each)));
     }
-    if (std::ranges::none_of(mesh_.blocks, is_triangle))
+    if (std::ranges::none_of(mesh_.blocks, has_triangles))
       throw MeshError(
           "it has no triangles; mesh the surfaces, and put them into a physical group or save all elements");
     if (orders.size() > 1)
@@ -139,7 +139,7 @@ class Converter {
   }
 
   void turn_counter_clockwise(CellBlock& block) const {
-    if (!is_triangle(block)) return;
+    if (!has_triangles(block)) return;
     const int n = nodes_per_cell(block.type);
     for (int c = 0; c < block.size(); ++c) {
       int* const cell = block.nodes.data() + c * n;
@@ -170,7 +170,7 @@ class Converter {
     std::ranges::sort(set.cells);
     set.cells.erase(std::unique(set.cells.begin(), set.cells.end()), set.cells.end());
     const auto block = std::ranges::find_if(
-        mesh_.blocks, [&](const CellBlock& b) { return is_triangle(b) == (group.dimension == 2); });
+        mesh_.blocks, [&](const CellBlock& b) { return has_triangles(b) == (group.dimension == 2); });
     set.block = static_cast<int>(block - mesh_.blocks.begin());
     mesh_.cell_sets[name] = std::move(set);
   }
@@ -190,7 +190,7 @@ class Converter {
   }
 
   void add_film() {
-    const auto block = std::ranges::find_if(mesh_.blocks, is_triangle);
+    const auto block = std::ranges::find_if(mesh_.blocks, has_triangles);
     CellSet film{static_cast<int>(block - mesh_.blocks.begin()),
                  std::vector<int>(static_cast<std::size_t>(block->size()))};
     std::iota(film.cells.begin(), film.cells.end(), 0);

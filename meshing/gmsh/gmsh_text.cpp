@@ -18,6 +18,7 @@ struct ElementType {
 ElementType element_type(CellType type) {
   switch (type) {
   case CellType::line2:
+  case CellType::rod2:
     return {1, 1};
   case CellType::line3:
     return {8, 1};

@@ -31,6 +31,7 @@ namespace {
 int vtk_type(meshing::CellType type) {
   switch (type) {
   case meshing::CellType::line2:
+  case meshing::CellType::rod2:
     return VTK_LINE;
   case meshing::CellType::line3:
     return VTK_QUADRATIC_EDGE;

@@ -38,6 +38,7 @@ struct Canvas {
 std::array<int, 6> outline(CellType type, std::span<const int> n) {
   switch (type) {
   case CellType::line2:
+  case CellType::rod2:
     return {n[0], n[1]};
   case CellType::line3:
     return {n[0], n[2], n[1]};

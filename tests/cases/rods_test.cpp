@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rods of film: against closed forms, a patch in uniaxial tension, and the antagonistic rolls' reduced model.
+#include "cases/readers/reader.hpp"
+#include "cases/runs/simulation.hpp"
+#include "meshing/mesh_error.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace dielast::cases {
+namespace {
+
+class Rods : public test::ScratchTest {
+ protected:
+  /// Values of the quantities at the end of a run that ends well.
+  std::map<std::string, double> run(const std::string& text) const {
+    write("case.toml", text);
+    const Case one = read_case(directory / "case.toml");
+    Simulation simulation(one, 1);
+    const Outcome outcome = simulation.run({});
+    EXPECT_EQ(outcome.ending, Ending::complete) << outcome.message;
+    std::map<std::string, double> values;
+    for (std::size_t q = 0; q < one.quantities.size(); ++q)
+      values[one.quantities[q].name] = simulation.results()[q];
+    return values;
+  }
+};
+
+/// Two layers of 0.1 x 141 mm, of which 125.83 x 15 mm under the electrode; 21 mm long, prestretched by 1.05.
+std::string roll(const std::string& rest) {
+  return R"toml(
+model = "planar"
+[film]
+thickness = "0.1 mm"
+prestretch = 1.05
+[film.material]
+law = "yeoh"
+c1 = "17 kPa"
+c2 = "3.86 kPa"
+c3 = "-68.9 Pa"
+relative_permittivity = 2.8
+[line]
+to = ["22.05 mm", 0, 0]
+[rod]
+width = "141 mm"
+layers = 2
+electrode_width = "125.83 mm"
+electrode_length = "15 mm"
+[[support]]
+place = "start"
+fix = ["x", "y"]
+[[support]]
+place = "end"
+fix = ["y"]
+)toml" + rest;
+}
+
+constexpr double section = 2 * 0.1e-3 * 141e-3, electrode = 2 * 125.83e-3 * 15e-3; // m^2
+constexpr double permittivity = 2.8 * 8.8541878128e-12;
+
+double force_of(double stretch, double voltage) {
+  const double excess = stretch * stretch + 2 / stretch - 3;
+  const double slope = 17e3 + 2 * 3.86e3 * excess + 3 * -68.9 * excess * excess;
+  return section * 2 * slope * (stretch - 1 / (stretch * stretch)) -
+         0.5 * permittivity * electrode / 0.1e-3 * voltage * voltage / 21e-3;
+}
+
+TEST_F(Rods, PullByTheirLawLessTheField) {
+  const auto held = run(roll(R"toml(
+[drive]
+voltage = "1200 V"
+[[support]]
+place = "end"
+fix = ["x"]
+[[step]]
+kind = "voltage"
+[[quantity]]
+name = "force"
+kind = "force"
+of = "end"
+along = "x"
+)toml"));
+  EXPECT_NEAR(held.at("force"), force_of(1.05, 1200), 1e-10 * force_of(1.05, 1200));
+  const double capacitance = permittivity * electrode / 0.1e-3 * 1.05;
+  EXPECT_NEAR(held.at("capacitance"), capacitance, 1e-10 * capacitance);
+}
+
+TEST_F(Rods, LengthenUntilTheyBalanceALoad) {
+  const auto loaded = run(roll(R"toml(
+[drive]
+voltage = "2 kV"
+[[load]]
+place = "end"
+force = ["0.3 N", 0, 0]
+[[step]]
+kind = "force"
+[[step]]
+kind = "voltage"
+[[quantity]]
+name = "length"
+kind = "distance"
+between = ["start", "end"]
+)toml"));
+  EXPECT_NEAR(force_of(loaded.at("length") / 21e-3, 2000), 0.3, 1e-9);
+}
+
+/// A patch that is free on its sides and carries no field is in uniaxial tension, as a rod is.
+TEST_F(Rods, TheirBranchesRelaxAsThoseOfAPatchInUniaxialTension) {
+  const std::string material = R"toml(
+[film]
+thickness = "0.1 mm"
+[film.material]
+law = "gent"
+shear_modulus = "20 kPa"
+stretch_limit = 80
+relative_permittivity = 4
+[[film.material.branch]]
+shear_modulus = "30 kPa"
+relaxation_time = "2 s"
+[[film.material.branch]]
+law = "gent"
+shear_modulus = "10 kPa"
+stretch_limit = 50
+relaxation_time = "20 s"
+)toml";
+  const std::string steps = R"toml(
+[[step]]
+name = "pull"
+kind = "move"
+response = "instantaneous"
+[[step]]
+kind = "hold"
+duration = "5 s"
+)toml";
+  const auto patch =
+      run(material + "[patch]\nlength = \"10 mm\"\nwidth = \"20 mm\"\nstretch_x = 1.8\n" + steps);
+  const auto rod = run("model = \"planar\"\n" + material + R"toml(
+[line]
+to = ["10 mm", 0, 0]
+[rod]
+width = "20 mm"
+[[support]]
+place = "start"
+fix = ["x", "y"]
+[[support]]
+place = "end"
+fix = ["y"]
+[support.displacement]
+x = "8 mm"
+[[quantity]]
+name = "force"
+kind = "force"
+of = "end"
+along = "x"
+)toml" + steps);
+  EXPECT_NEAR(rod.at("force"), patch.at("stress_x") * 0.1e-3 * 20e-3, 1e-8 * rod.at("force"));
+  EXPECT_NEAR(rod.at("dissipated_energy"), patch.at("dissipated_energy"), 1e-6 * rod.at("dissipated_energy"));
+}
+
+TEST_F(Rods, AnElectrodeLongerThanTheRodIsRefused) {
+  write("case.toml", roll("[drive]\nvoltage = \"1 kV\"\n"));
+  Case one = read_case(directory / "case.toml", {"rod.electrode_length=22 mm"});
+  EXPECT_THROW(build_device(one), meshing::MeshError);
+}
+
+} // namespace
+} // namespace dielast::cases
