@@ -9,6 +9,7 @@ namespace dielast::materials {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double close = 1e-5; ///< logarithmic stretch
 
 } // namespace
 
@@ -29,7 +30,9 @@ AxisymmetricPotential MaterialPoint::potential(double l, double across, const Ti
   return sum;
 }
 
-/// Damped Newton for the stretch across that minimises the potential, from `start`, in its logarithm.
+/// Damped Newton for the stretch across that minimises the potential, from `start`, in its logarithm. Close
+/// to the minimum its slope tells of descent: over a short time step a dashpot's energy is a small
+/// difference.
 double MaterialPoint::free_width(double l, double start, const TimeScheme& scheme) const {
   double across = start;
   AxisymmetricPotential at = potential(l, across, scheme);
@@ -41,9 +44,12 @@ double MaterialPoint::free_width(double l, double start, const TimeScheme& schem
     const bool last = curvature > 0 && std::abs(step) <= 1e-8; // one more step reaches the last digits
     const double noise = 1e-14 * std::abs(curvature);
     for (int halving = 0; halving < 40; ++halving, step /= 2) {
-      const AxisymmetricPotential trial = potential(l, across * std::exp(step), scheme);
-      if (!(trial.value <= at.value + noise)) continue;
-      across *= std::exp(step);
+      const double wider = across * std::exp(step);
+      const AxisymmetricPotential trial = potential(l, wider, scheme);
+      const bool flatter =
+          curvature > 0 && std::abs(step) <= close && std::abs(wider * trial.first[1]) < std::abs(slope);
+      if (!(trial.value <= at.value + noise) && !flatter) continue;
+      across = wider;
       at = trial;
       break;
     }
