@@ -45,7 +45,9 @@ constexpr double charge_tolerance = 1e-13; ///< of the voltage
 /// charge_tolerance.
 constexpr double charge_rounding = 1e-15;
 constexpr int most_turns = 40; ///< between forces and sheets
-constexpr int patience = 10;   ///< iterations after which the residual must be smaller than at the start
+/// Iterations after which the residual must be smaller than at the start. Thin shells that bend far are
+/// stretched by the first steps, and need more of both.
+constexpr int patience(const NewtonOptions& options) { return std::max(10, options.max_iterations - 15); }
 constexpr int most_indefinite =
     6; ///< tangents in a row: by then the iteration wanders between unstable states
 
@@ -276,7 +278,8 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
       return end(known ? Outcome::converged : Outcome::singular);
     }
     if (result.iterations >= options.max_iterations ||
-        (result.iterations >= patience && current.norm > first_norm) || indefinite >= most_indefinite)
+        (result.iterations >= patience(options) && current.norm > first_norm) ||
+        indefinite >= most_indefinite)
       return end(Outcome::not_converged);
     previous_norm = current.norm;
     stale_tangent = result.residual;

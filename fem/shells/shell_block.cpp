@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/films/triangle.hpp"
+#include "fem/shells/shell_elements.hpp"
+
+#include <Eigen/LU>
+
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace dielast::fem {
+
+Matrix32 axes(const Matrix32& tangents) {
+  const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1)).normalized();
+  const int along = std::abs(normal.x()) < 0.9 ? 0 : 1;
+  Matrix32 axes;
+  axes.col(0) = (Eigen::Vector3d::Unit(along) - normal[along] * normal).normalized();
+  axes.col(1) = normal.cross(axes.col(0));
+  return axes;
+}
+
+ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
+                       const ShellSection& section, std::vector<std::vector<int>> electrodes,
+                       std::vector<int> numbers)
+    : prestretch_(section.prestretch), count_(cells.size()), nodes_(cells.nodes),
+      numbers_(std::move(numbers)), reference_(mesh.nodes) {
+  const int packs = (count_ + lanes - 1) / lanes;
+  for (int e = count_; e < packs * lanes; ++e)
+    for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
+  double height = 0;
+  for (const ShellLayer& layer : section.layers) height += layer.thickness;
+  double bottom = section.offset - height / 2;
+  for (std::size_t l = 0; l < section.layers.size(); ++l) {
+    const ShellLayer& layer = section.layers[l];
+    const double H = layer.thickness, middle = bottom + H / 2, density = layer.material.density;
+    electrodes[l].resize(static_cast<std::size_t>(packs * lanes), electrodes[l].back());
+    layers_.push_back({make_film_layer(layer), H, density, middle, std::move(electrodes[l])});
+    shear_stiffness_ += shear_correction * H * materials::initial_shear_modulus(layer.material.law);
+    surface_density_ += density * H;
+    rotary_density_ += density * H * (middle * middle + H * H / 12);
+    bottom += H;
+  }
+  geometry_.assign(static_cast<std::size_t>(packs * points), ShellPoint{});
+  areas_.assign(static_cast<std::size_t>(packs), Lanes{});
+  for (int e = 0; e < packs * lanes; ++e) place_element(e);
+}
+
+void ShellBlock::place_element(int element) {
+  const int pack = element / lanes, lane = element % lanes;
+  const Matrix36 X = drawn(element);
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument("triangle " + std::to_string(numbers_[static_cast<std::size_t>(element)]) +
+                                what);
+  };
+  Matrix36 D;
+  for (int a = 0; a < Nodes; ++a) {
+    const Matrix32 t = X * matrix(shell_tables().node[static_cast<std::size_t>(a)]);
+    D.col(a) = t.col(0).cross(t.col(1)).normalized();
+  }
+  const Eigen::Vector3d middle = X.col(0);
+  for (int p = 0; p < points; ++p) {
+    const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
+    ShellPoint& place = geometry_[static_cast<std::size_t>(pack * points + p)];
+    const Matrix32 t = X * matrix(table.gradient), T = axes(t);
+    const Eigen::Matrix2d jacobian = T.transpose() * t;
+    const double det = jacobian.determinant();
+    if (!(det > 0)) fail(" is inverted or degenerate as drawn");
+    const bool flat = std::abs(T(2, 0)) + std::abs(T(2, 1)) < 1e-9;
+    if (flat && T(1, 1) < 0) fail(" is inverted as drawn");
+    if (!flat && (prestretch_[0] != 1 || prestretch_[1] != 1))
+      fail(": a prestretched shell must be drawn parallel to the xy plane");
+    const Eigen::Matrix2d G =
+        jacobian.inverse() * Eigen::Vector2d(prestretch_[0], prestretch_[1]).asDiagonal(); // r, s per metre
+    Eigen::Matrix3d map;
+    map << G(0, 0) * G(0, 0), G(1, 0) * G(1, 0), 2 * G(0, 0) * G(1, 0), //
+        G(0, 1) * G(0, 1), G(1, 1) * G(1, 1), 2 * G(0, 1) * G(1, 1),    //
+        G(0, 0) * G(0, 1), G(1, 0) * G(1, 1), G(0, 0) * G(1, 1) + G(1, 0) * G(0, 1);
+    Eigen::Vector3d metric, curvature;
+    const Matrix32 d = D * matrix(table.gradient);
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0;
+      for (int a = 0; a < Nodes; ++a)
+        for (int b = 0; b < Nodes; ++b)
+          sum += table.metric[c][static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] *
+                 (X.col(a) - middle).dot(X.col(b) - middle);
+      metric[static_cast<Eigen::Index>(c)] = sum;
+    }
+    curvature << t.col(0).dot(d.col(0)), t.col(1).dot(d.col(1)),
+        (t.col(0).dot(d.col(1)) + t.col(1).dot(d.col(0))) / 2;
+    const Eigen::Vector3d unity(prestretch_[0] * prestretch_[0], prestretch_[1] * prestretch_[1], 0),
+        a0 = unity - map * metric, b0 = -map * curvature;
+    const Eigen::Matrix2d inverse_metric = G * G.transpose();
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) place.T[i][j][lane] = map(i, j);
+      place.a[i][lane] = a0[i];
+      place.b[i][lane] = b0[i];
+      place.shear[i][lane] = i < 2 ? inverse_metric(i, i) : inverse_metric(0, 1);
+    }
+    for (std::size_t c = 0; c < 2; ++c) {
+      double sum = 0;
+      for (int a = 0; a < Nodes; ++a)
+        for (int b = 0; b < Nodes; ++b)
+          sum += table.shear[c][static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] *
+                 (X.col(a) - middle).dot(D.col(b));
+      place.gamma[c][lane] = sum;
+    }
+    place.area[lane] = element < count_ ? table.weight * det / (prestretch_[0] * prestretch_[1]) : 0.0;
+    areas_[static_cast<std::size_t>(pack)][lane] += place.area[lane];
+  }
+}
+
+void ShellBlock::claim_dofs(DofMap& dof_map, Dimension /*only space will do*/) const {
+  for (const int n : nodes_)
+    for (int c = 0; c < DofMap::components; ++c) dof_map.add(n, c);
+}
+
+void ShellBlock::element_equations(int element, const DofMap& dof_map, std::span<int> equations) const {
+  for (int a = 0; a < Nodes; ++a)
+    for (int c = 0; c < 6; ++c)
+      equations[static_cast<std::size_t>(6 * a + c)] = dof_map.equation(node(element, a), c);
+}
+
+/// Consistent.
+void ShellBlock::add_mass(int element, std::span<double> packed) const {
+  const Matrix36 X = drawn(element);
+  const double undrawn = areas_[static_cast<std::size_t>(element / lanes)][element % lanes];
+  double area = 0;
+  for (int pass = 0; pass < 2;
+       ++pass) // the drawn area first: its ratio to the undeformed one is everywhere alike
+    for (const TrianglePoint& at : triangle_rule(6)) {
+      const Matrix32 t = X * shape_gradients<6>(at.xi, at.eta);
+      const double here = at.weight * t.col(0).cross(t.col(1)).norm();
+      if (pass == 0) {
+        area += here;
+        continue;
+      }
+      const Eigen::Vector<double, 6> N = shape_values<6>(at.xi, at.eta);
+      for (int a = 0; a < Nodes; ++a)
+        for (int b = 0; b <= a; ++b)
+          for (int c = 0; c < 6; ++c) {
+            const int row = 6 * a + c, column = 6 * b + c;
+            packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] +=
+                (c < 3 ? surface_density_ : rotary_density_) * undrawn / area * here * N[a] * N[b];
+          }
+    }
+}
+
+ShellNodes ShellBlock::gather(const State& state, int pack) const {
+  ShellNodes nodes;
+  for (int l = 0; l < lanes; ++l) {
+    const int element = pack * lanes + l;
+    const Matrix36 X = drawn(element);
+    const auto first = static_cast<std::size_t>(node(element, 0));
+    for (int a = 0; a < Nodes; ++a) {
+      const auto n = static_cast<std::size_t>(node(element, a));
+      const Eigen::Vector3d x = X.col(a) - X.col(0) + (state.displacement[n] - state.displacement[first]);
+      const Matrix32 t = X * matrix(shell_tables().node[static_cast<std::size_t>(a)]);
+      const Matrix32 along = state.rotation[n].toRotationMatrix() * t;
+      const Eigen::Vector3d normal = along.col(0).cross(along.col(1));
+      const double area = normal.norm();
+      nodes.per_area[a][l] = 1 / area;
+      for (int c = 0; c < 3; ++c) {
+        nodes.x[a][c][l] = x[c];
+        nodes.d[a][c][l] = normal[c] / area;
+        for (int i = 0; i < 2; ++i) nodes.along[i][a][c][l] = along(c, i);
+      }
+    }
+  }
+  return nodes;
+}
+
+Lanes ShellBlock::electric_modulus(const State& state, const Layer& layer, int pack) const {
+  Lanes k{};
+  for (int l = 0; l < lanes; ++l) {
+    const int electrode = layer.electrodes[static_cast<std::size_t>(pack * lanes + l)];
+    if (electrode == passive) continue;
+    const double nominal_field = state.voltage[static_cast<std::size_t>(electrode)] / layer.thickness;
+    k[l] = layer.film->dielectric().permittivity * nominal_field * nominal_field;
+  }
+  return k;
+}
+
+Lanes ShellBlock::add_shear(const ShellPoint& here, const ShellDeformation& f, ShellStress& stress) const {
+  const Lanes g[2] = {f.gamma[0] - here.gamma[0], f.gamma[1] - here.gamma[1]};
+  for (int i = 0; i < 3; ++i) stress.shear[i] = shear_stiffness_ * here.area * here.shear[i];
+  stress.gamma[0] = stress.shear[0] * g[0] + stress.shear[2] * g[1];
+  stress.gamma[1] = stress.shear[2] * g[0] + stress.shear[1] * g[1];
+  return 0.5 * (stress.gamma[0] * g[0] + stress.gamma[1] * g[1]);
+}
+
+template<bool with_tangent>
+Evaluation ShellBlock::evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const {
+  Evaluation result;
+  Lanes energy{};
+  for (int pack = first / lanes; pack * lanes < last; ++pack) {
+    const ShellNodes nodes = gather(state, pack);
+    ShellSum<with_tangent> sum;
+    for (int p = 0; p < points; ++p) {
+      const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
+      const ShellPoint& here = point(pack, p);
+      const ShellDeformation f = deformation(table, nodes);
+      const ShellStrain at = strain(here, f);
+      const Lanes det = at.a.det();
+      SectionPotential section(at);
+      for (const Layer& layer : layers_)
+        across(state, layer, pack, p, at, [&](const Place& place) {
+          const Lanes within = place.C.det();
+          for (int l = 0; l < lanes; ++l)
+            if (!(within[l] > 0)) result.feasible = false;
+          section.add(place.Z, Lanes{} + place.weight,
+                      layer.film->potential(state, place.point, lanes_of(pack), place.C, place.k));
+        });
+      for (int l = 0; l < lanes; ++l)
+        if (!(f.normal[l] > 0 && det[l] > 0)) result.feasible = false;
+      ShellStress stress = ShellStress::of<with_tangent>(here, section.derivatives<with_tangent>());
+      energy += here.area * section.value() + add_shear(here, f, stress);
+      sum.add(table, nodes, f, stress);
+    }
+    energy += sum.add_drilling(nodes, drilling_stiffness(pack));
+    sum.finish(nodes);
+    scatter_pack(pack, sum, scatter);
+  }
+  for (int l = 0; l < lanes; ++l) result.energy += energy[l];
+  if (!std::isfinite(result.energy)) result.feasible = false; // beyond a stretch limit
+  return result;
+}
+
+Evaluation ShellBlock::evaluate(const State& state, int first, int last, const Scatter& scatter) const {
+  return scatter.tangent ? evaluate_packs<true>(state, first, last, scatter)
+                         : evaluate_packs<false>(state, first, last, scatter);
+}
+
+std::unique_ptr<ElementBlock> make_shell_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
+                                               const ShellSection& section,
+                                               std::vector<std::vector<int>> electrodes,
+                                               std::vector<int> numbers) {
+  if (cells.type != meshing::CellType::triangle6 || cells.size() == 0)
+    throw std::invalid_argument("a shell is made of 6-node triangles");
+  if (section.layers.empty() || electrodes.size() != section.layers.size())
+    throw std::invalid_argument("a shell needs layers, and the electrodes of each");
+  for (const auto& layer : electrodes)
+    if (static_cast<int>(layer.size()) != cells.size())
+      throw std::invalid_argument("a layer of a shell needs one electrode number for each element");
+  if (numbers.empty()) {
+    numbers.resize(static_cast<std::size_t>(cells.size()));
+    std::iota(numbers.begin(), numbers.end(), 0);
+  }
+  return std::make_unique<ShellBlock>(mesh, cells, section, std::move(electrodes), std::move(numbers));
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/model/element_block.hpp"
+#include "fem/shells/shell_section.hpp"
+#include "meshing/mesh.hpp"
+
+#include <memory>
+
+namespace dielast::fem {
+
+/// Builds the shell elements of a block of 6-node triangles in space: layers of film that resist bending.
+///
+/// Energy: int_A0 sum_layers int Psi(C(Z), k) dZ dA0 + 1/2 int_A0 k_s mu H |gamma|^2 dA0 + drilling, with
+/// C(Z) of ShellStrain, k = eps (Phi/H)^2 of each layer, and the transverse shear gamma_i = x,i . d, k_s =
+/// 5/6. The director d_a = R_a D_a of a node turns with it; D_a is normal to this element as drawn, so that
+/// folds and junctions are rigid corners. Strains are interpolated as ShellTables says: neither thin nor
+/// curved elements lock. Three Gauss points across each layer. Rotations about the directors are held to the
+/// film's own by a stiffness of 1e-3 k_s mu H times the area. As drawn, the shell is free of stress, but for
+/// its prestretch. Mass: that of the drawn surface, with the moment of inertia of a section as that of a
+/// sphere; an offset's coupling of the two is left out.
+///
+/// `electrodes`: for each layer, the electrode over each element, or `passive`. `numbers`: of the elements in
+/// the mesh's own block, for samples and messages; empty: in their order here. Throws std::invalid_argument
+/// for other elements, a non-positive Jacobian of a shell in the xy plane, one without area, and prestretch
+/// where the shell is not drawn parallel to the xy plane.
+std::unique_ptr<ElementBlock> make_shell_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
+                                               const ShellSection& section,
+                                               std::vector<std::vector<int>> electrodes,
+                                               std::vector<int> numbers = {});
+
+} // namespace dielast::fem

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/films/membrane_block.hpp"
+#include "fem/shells/film_layer.hpp"
+#include "fem/shells/shell_block.hpp"
+#include "fem/shells/shell_kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::fem {
+
+/// Gauss points across a layer, in -1..1.
+struct Depth {
+  double place, weight; ///< the weights add up to 1
+};
+constexpr int depths = 3;
+inline const std::array<Depth, depths> depth_rule{
+    {{-std::sqrt(0.6), 5.0 / 18}, {0, 8.0 / 18}, {std::sqrt(0.6), 5.0 / 18}}};
+
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+using Matrix32 = Eigen::Matrix<double, 3, 2>;
+
+inline Eigen::Matrix<double, 6, 2> matrix(const ShellTables::Gradient& gradient) {
+  Eigen::Matrix<double, 6, 2> all;
+  for (std::size_t a = 0; a < 6; ++a) all.row(static_cast<Eigen::Index>(a)) << gradient[a][0], gradient[a][1];
+  return all;
+}
+
+/// Orthonormal axes in the plane of two tangents: along x, or along y where the plane is next to normal to x,
+/// and to the left of it about the normal.
+Matrix32 axes(const Matrix32& tangents);
+
+/// See make_shell_block().
+class ShellBlock final : public ElementBlock {
+ public:
+  ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells, const ShellSection& section,
+             std::vector<std::vector<int>> electrodes, std::vector<int> numbers);
+
+  int element_count() const override { return count_; }
+  int dofs_per_element() const override { return dofs; }
+  int granularity() const override { return lanes; }
+  void claim_dofs(DofMap& dof_map, Dimension dimension) const override;
+  void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
+  void sample(const State& state, Samples& samples) const override;
+  void add_mass(int element, std::span<double> packed) const override;
+  void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
+  void add_energies(const State& state, EnergyParts& parts) const override;
+  void add_relaxation(const State& state, const RateWeight& weight, const Scatter& scatter) const override;
+  int history_size() const override;
+  void place_history(int first) override;
+  void start_history(std::vector<double>& all) const override;
+  void advance_history(const State& state, std::vector<double>& all) const override;
+
+ private:
+  static constexpr int Nodes = ShellTables::nodes, points = ShellTables::points;
+  static constexpr int dofs = ShellSum<true>::dofs;
+  static constexpr double shear_correction = 5.0 / 6, drilling_share = 1e-3;
+
+  struct Layer {
+    std::unique_ptr<FilmLayer> film;
+    double thickness, density, middle; ///< m, kg/m^3, m above the drawn surface
+    std::vector<int> electrodes;       ///< padded like nodes_
+  };
+  /// One point across the thickness at an integration point of a pack.
+  struct Place {
+    const Layer& layer;
+    double Z, weight;             ///< m
+    std::array<int, lanes> point; ///< numbers in the layer
+    materials::InPlaneC<Lanes> C;
+    Lanes k; ///< Pa
+  };
+
+  int node(int element, int a) const { return nodes_[static_cast<std::size_t>(element * Nodes + a)]; }
+  int lanes_of(int pack) const { return std::min(lanes, count_ - pack * lanes); }
+  Matrix36 drawn(int element) const {
+    Matrix36 X;
+    for (int a = 0; a < Nodes; ++a) X.col(a) = reference_[static_cast<std::size_t>(node(element, a))];
+    return X;
+  }
+  const ShellPoint& point(int pack, int p) const {
+    return geometry_[static_cast<std::size_t>(pack * points + p)];
+  }
+  void place_element(int element);
+  ShellNodes gather(const State& state, int pack) const;
+  Lanes electric_modulus(const State& state, const Layer& layer, int pack) const;
+  template<class Visitor>
+  void across(const State& state, const Layer& layer, int pack, int p, const ShellStrain& strain,
+              const Visitor& visit) const;
+  /// A point across the thickness of one element.
+  struct Visit {
+    const Place& place;
+    int lane, element, p;
+    double volume;   ///< m^3
+    double thinning; ///< see ShellStrain
+    const ShellDeformation& f;
+
+    int number() const { return place.point[static_cast<std::size_t>(lane)]; }
+  };
+  template<class Visitor>
+  void for_each_point(const State& state, const Visitor& visit) const;
+  template<bool with_tangent>
+  Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const;
+  template<bool with_tangent>
+  void scatter_pack(int pack, const ShellSum<with_tangent>& sum, const Scatter& scatter) const;
+  /// Energy of the transverse shear, J, and its stresses.
+  Lanes add_shear(const ShellPoint& here, const ShellDeformation& f, ShellStress& stress) const;
+  Lanes drilling_stiffness(int pack) const { // N m
+    return drilling_share * shear_stiffness_ / Nodes * areas_[static_cast<std::size_t>(pack)];
+  }
+
+  std::vector<Layer> layers_;
+  std::array<double, 2> prestretch_;
+  double shear_stiffness_ = 0;                      ///< k_s sum mu H, N/m
+  double surface_density_ = 0, rotary_density_ = 0; ///< sum rho H, kg/m^2; sum rho int Z^2 dZ, kg
+  int count_ = 0;
+  std::vector<int> nodes_;   ///< padded to whole packs by repeating the last element
+  std::vector<int> numbers_; ///< of the elements, in the mesh's block
+  std::vector<Eigen::Vector3d> reference_;
+  std::vector<ShellPoint> geometry_; ///< `points` per pack
+  std::vector<Lanes> areas_;         ///< undeformed, of the elements, per pack
+};
+
+template<class Visitor>
+void ShellBlock::across(const State& state, const Layer& layer, int pack, int p, const ShellStrain& strain,
+                        const Visitor& visit) const {
+  const Lanes k = electric_modulus(state, layer, pack), thinning = strain.thinning();
+  for (int q = 0; q < depths; ++q) {
+    const Depth& depth = depth_rule[static_cast<std::size_t>(q)];
+    std::array<int, lanes> numbers;
+    for (int l = 0; l < lanes; ++l)
+      numbers[static_cast<std::size_t>(l)] = ((pack * lanes + l) * points + p) * depths + q;
+    const double Z = layer.middle + depth.place * layer.thickness / 2;
+    visit(Place{layer, Z, depth.weight * layer.thickness, numbers, strain.at(thinning, Z), k});
+  }
+}
+
+template<class Visitor>
+void ShellBlock::for_each_point(const State& state, const Visitor& visit) const {
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    const ShellNodes nodes = gather(state, pack);
+    for (int p = 0; p < points; ++p) {
+      const ShellDeformation f = deformation(shell_tables().point[static_cast<std::size_t>(p)], nodes);
+      const ShellStrain at = strain(point(pack, p), f);
+      for (const Layer& layer : layers_)
+        across(state, layer, pack, p, at, [&](const Place& place) {
+          for (int l = 0; l < lanes_of(pack); ++l)
+            visit(Visit{place, l, pack * lanes + l, p, point(pack, p).area[l] * place.weight,
+                        at.thinning()[l], f});
+        });
+    }
+  }
+}
+
+template<bool with_tangent>
+void ShellBlock::scatter_pack(int pack, const ShellSum<with_tangent>& sum, const Scatter& scatter) const {
+  for (int l = 0; l < lanes_of(pack); ++l) {
+    const int element = pack * lanes + l;
+    if (scatter.residual) {
+      double values[dofs];
+      for (int i = 0; i < dofs; ++i) values[i] = sum.residual(i)[l];
+      scatter.add_residual(element, values);
+    }
+    if constexpr (with_tangent) {
+      double values[ShellSum<true>::packed_size];
+      for (int i = 0; i < ShellSum<true>::packed_size; ++i) values[i] = sum.tangent(i)[l];
+      scatter.add_tangent(element, values);
+    }
+  }
+}
+
+} // namespace dielast::fem

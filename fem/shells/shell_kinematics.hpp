@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/shells/section_potential.hpp"
+#include "fem/shells/shell_tables.hpp"
+
+namespace dielast::fem {
+
+/// One integration point of `lanes` shell elements.
+struct ShellPoint {
+  Lanes area;     ///< undeformed, m^2; 0 in lanes past the last element
+  Lanes T[3][3];  ///< components of a metric in the unstretched film from those in r, s, see metric_map()
+  Lanes shear[3]; ///< inverse metric of the unstretched film in r, s: rr, ss, rs; 1/m^2
+  Lanes a[3];     ///< what straightens the interpolated metric: 1 (of the drawing) - T . interpolated
+  Lanes b[3];     ///< -T . curvature of the drawing
+  Lanes gamma[2]; ///< transverse shear of the drawing, in r, s
+};
+
+/// Nodes of `lanes` shell elements as they are: positions, directors, and the drawn tangents turned with the
+/// nodes.
+struct ShellNodes {
+  static constexpr int nodes = ShellTables::nodes;
+  Lanes x[nodes][3], d[nodes][3], along[2][nodes][3];
+  Lanes per_area[nodes]; ///< 1/|along_r x along_s|
+};
+
+/// Strains of a point in r, s and what they are made of.
+struct ShellDeformation {
+  Lanes x[2][3], d[2][3]; ///< x,r x,s; d,r d,s
+  Lanes normal;           ///< (x,r x x,s) . d, with x and d of the point
+  Lanes metric[3], curvature[3], gamma[2];
+};
+
+inline Lanes dot(const Lanes (&u)[3], const Lanes (&v)[3]) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+
+inline void cross(const Lanes (&u)[3], const Lanes (&v)[3], Lanes (&w)[3]) {
+  w[0] = u[1] * v[2] - u[2] * v[1];
+  w[1] = u[2] * v[0] - u[0] * v[2];
+  w[2] = u[0] * v[1] - u[1] * v[0];
+}
+
+/// sum_ab form[a][b] u_a . v_b
+inline Lanes contract(const ShellTables::Form& form, const Lanes (&u)[6][3], const Lanes (&v)[6][3]) {
+  Lanes sum{};
+  for (std::size_t a = 0; a < 6; ++a) {
+    Lanes row[3] = {};
+    for (std::size_t b = 0; b < 6; ++b)
+      for (int c = 0; c < 3; ++c) row[c] += form[a][b] * v[b][c];
+    sum += dot(u[a], row);
+  }
+  return sum;
+}
+
+inline ShellDeformation deformation(const ShellTables::Point& table, const ShellNodes& nodes) {
+  ShellDeformation f{};
+  Lanes d[3] = {}, normal[3];
+  for (std::size_t a = 0; a < 6; ++a)
+    for (int c = 0; c < 3; ++c) {
+      d[c] += table.shape[a] * nodes.d[a][c];
+      for (std::size_t i = 0; i < 2; ++i) {
+        f.x[i][c] += table.gradient[a][i] * nodes.x[a][c];
+        f.d[i][c] += table.gradient[a][i] * nodes.d[a][c];
+      }
+    }
+  cross(f.x[0], f.x[1], normal);
+  f.normal = dot(normal, d);
+  for (std::size_t i = 0; i < 3; ++i) f.metric[i] = contract(table.metric[i], nodes.x, nodes.x);
+  for (std::size_t i = 0; i < 2; ++i) {
+    f.curvature[i] = dot(f.x[i], f.d[i]);
+    f.gamma[i] = contract(table.shear[i], nodes.x, nodes.d);
+  }
+  f.curvature[2] = 0.5 * (dot(f.x[0], f.d[1]) + dot(f.x[1], f.d[0]));
+  return f;
+}
+
+inline void times(const Lanes (&T)[3][3], const Lanes (&v)[3], Lanes (&product)[3]) {
+  for (int i = 0; i < 3; ++i) product[i] = T[i][0] * v[0] + T[i][1] * v[1] + T[i][2] * v[2];
+}
+
+inline ShellStrain strain(const ShellPoint& point, const ShellDeformation& f) {
+  Lanes a[3], b[3];
+  times(point.T, f.metric, a);
+  times(point.T, f.curvature, b);
+  for (int i = 0; i < 3; ++i) {
+    a[i] += point.a[i];
+    b[i] += point.b[i];
+  }
+  return {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}};
+}
+
+/// Stresses and stiffnesses of a point, conjugate to the strains in r, s, times its area.
+struct ShellStress {
+  Lanes a[3], b[3], gamma[2];
+  Lanes aa[3][3], ab[3][3], bb[3][3], shear[3];
+
+  template<bool with_second>
+  static ShellStress of(const ShellPoint& point, const SectionPotential::Derivatives& d) {
+    ShellStress s{};
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        s.a[j] += point.area * point.T[i][j] * d.a[i];
+        s.b[j] += point.area * point.T[i][j] * d.b[i];
+      }
+    if constexpr (with_second) {
+      pull_back(point, d.aa, s.aa);
+      pull_back(point, d.ab, s.ab);
+      pull_back(point, d.bb, s.bb);
+    }
+    return s;
+  }
+
+ private:
+  /// area T^T D T
+  static void pull_back(const ShellPoint& point, const Lanes (&D)[3][3], Lanes (&pulled)[3][3]) {
+    Lanes DT[3][3];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        DT[i][j] = Lanes{};
+        for (int k = 0; k < 3; ++k) DT[i][j] += point.area * D[i][k] * point.T[k][j];
+      }
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 3; ++k) pulled[i][j] += point.T[k][i] * DT[k][j];
+  }
+};
+
+/// Residual and tangent of `lanes` shell elements, gathered point by point. Every strain is a form in
+/// positions and directors: what the stresses do to their second variation is one number per pair of nodes,
+///   E'' = sum_ab xx[a][b] dx_a . dx_b + 2 xd[a][b] dx_a . dd_b,
+/// and the forces on x_a and d_a are those forms applied to x and d. Unknowns: x, y, z of a node, then its
+/// spin, by which dd = dspin x d.
+template<bool with_tangent>
+class ShellSum {
+ public:
+  static constexpr int nodes = ShellTables::nodes, dofs = 6 * nodes, packed_size = dofs * (dofs + 1) / 2;
+
+  void add(const ShellTables::Point& table, const ShellNodes& at, const ShellDeformation& f,
+           const ShellStress& stress) {
+    for (std::size_t a = 0; a < nodes; ++a)
+      for (std::size_t b = 0; b < nodes; ++b) {
+        const auto &Ga = table.gradient[a], &Gb = table.gradient[b];
+        Lanes bend{};
+        bend += stress.b[0] * (Ga[0] * Gb[0]) + stress.b[1] * (Ga[1] * Gb[1]) +
+                stress.b[2] * (0.5 * (Ga[0] * Gb[1] + Ga[1] * Gb[0]));
+        xd_[a][b] += bend + stress.gamma[0] * table.shear[0][a][b] + stress.gamma[1] * table.shear[1][a][b];
+        xx_[a][b] += stress.a[0] * (2 * table.metric[0][a][b]) + stress.a[1] * (2 * table.metric[1][a][b]) +
+                     stress.a[2] * (2 * table.metric[2][a][b]);
+      }
+    if constexpr (with_tangent) add_material(table, at, f, stress);
+  }
+
+  /// The rotations about the directors follow the film: 1/2 stiffness omega^2 with omega, the sine of the
+  /// angle between what the node and what the film (x,r and x,s at the node) have turned by.
+  Lanes add_drilling(const ShellNodes& at, const Lanes& stiffness);
+
+  /// After the last point: what acts on the unknowns, node by node.
+  void finish(const ShellNodes& at);
+
+  const Lanes& residual(int i) const { return residual_[i]; }
+  const Lanes& tangent(int i) const { return tangent_[i]; } ///< lower triangle row by row
+
+ private:
+  static int place(int i, int j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
+  void add_material(const ShellTables::Point& table, const ShellNodes& at, const ShellDeformation& f,
+                    const ShellStress& stress);
+  /// The part of the tangent in dx_a . (dspin x p) times a number.
+  void add_mixed(int a, int b, const Lanes (&p)[3], const Lanes& factor) {
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3; // (spin x p)_i = spin_j p_k - spin_k p_j
+      tangent_[place(6 * a + i, 6 * b + 3 + j)] += factor * p[k];
+      tangent_[place(6 * a + i, 6 * b + 3 + k)] -= factor * p[j];
+    }
+  }
+  /// What the curvature of the rotation group adds where a turning vector p feels the force g: the second
+  /// derivative of g . exp(spin) p.
+  void add_turning(int a, const Lanes (&p)[3], const Lanes (&g)[3]) {
+    const Lanes both = dot(p, g);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) {
+        Lanes sum = 0.5 * (p[i] * g[j] + g[i] * p[j]);
+        if (i == j) sum -= both;
+        tangent_[place(6 * a + 3 + i, 6 * a + 3 + j)] += sum;
+      }
+  }
+
+  Lanes xx_[nodes][nodes] = {}, xd_[nodes][nodes] = {};
+  Lanes residual_[dofs] = {};
+  Lanes tangent_[with_tangent ? packed_size : 1] = {};
+};
+
+/// B^T D B, where the rows of B are the strains' first variations.
+template<bool with_tangent>
+void ShellSum<with_tangent>::add_material(const ShellTables::Point& table, const ShellNodes& at,
+                                          const ShellDeformation& f, const ShellStress& stress) {
+  Lanes Ba[dofs][3], Bb[dofs][3], Bg[dofs][2]; // Ba: of displacements only
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const auto& G = table.gradient[a];
+    Lanes of_d[2 + 3][3]; // variations in d_a: shear, curvature
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t i = 6 * a + static_cast<std::size_t>(c);
+      for (std::size_t k = 0; k < 3; ++k) {
+        Ba[i][k] = Lanes{};
+        for (std::size_t b = 0; b < nodes; ++b) Ba[i][k] += 2 * table.metric[k][a][b] * at.x[b][c];
+      }
+      for (std::size_t k = 0; k < 2; ++k) {
+        Bg[i][k] = of_d[k][c] = Lanes{};
+        for (std::size_t b = 0; b < nodes; ++b) {
+          Bg[i][k] += table.shear[k][a][b] * at.d[b][c];
+          of_d[k][c] += table.shear[k][b][a] * at.x[b][c];
+        }
+        Bb[i][k] = G[k] * f.d[k][c];
+        of_d[2 + k][c] = G[k] * f.x[k][c];
+      }
+      Bb[i][2] = 0.5 * (G[0] * f.d[1][c] + G[1] * f.d[0][c]);
+      of_d[4][c] = 0.5 * (G[0] * f.x[1][c] + G[1] * f.x[0][c]);
+    }
+    for (int k = 0; k < 5; ++k) {
+      Lanes spin[3];
+      cross(at.d[a], of_d[k], spin);
+      for (int c = 0; c < 3; ++c)
+        (k < 2 ? Bg[6 * a + 3 + static_cast<std::size_t>(c)][k]
+               : Bb[6 * a + 3 + static_cast<std::size_t>(c)][k - 2]) = spin[c];
+    }
+  }
+  for (int i = 0; i < dofs; ++i) {
+    const bool moves = i % 6 < 3;
+    Lanes Da[3], Db[3];
+    for (int k = 0; k < 3; ++k) {
+      Da[k] = stress.ab[k][0] * Bb[i][0] + stress.ab[k][1] * Bb[i][1] + stress.ab[k][2] * Bb[i][2];
+      Db[k] = stress.bb[k][0] * Bb[i][0] + stress.bb[k][1] * Bb[i][1] + stress.bb[k][2] * Bb[i][2];
+      if (!moves) continue;
+      Da[k] += stress.aa[k][0] * Ba[i][0] + stress.aa[k][1] * Ba[i][1] + stress.aa[k][2] * Ba[i][2];
+      Db[k] += stress.ab[0][k] * Ba[i][0] + stress.ab[1][k] * Ba[i][1] + stress.ab[2][k] * Ba[i][2];
+    }
+    const Lanes Dg[2] = {stress.shear[0] * Bg[i][0] + stress.shear[2] * Bg[i][1],
+                         stress.shear[2] * Bg[i][0] + stress.shear[1] * Bg[i][1]};
+    for (int j = 0; j <= i; ++j) {
+      Lanes sum =
+          Db[0] * Bb[j][0] + Db[1] * Bb[j][1] + Db[2] * Bb[j][2] + Dg[0] * Bg[j][0] + Dg[1] * Bg[j][1];
+      if (j % 6 < 3) sum += Da[0] * Ba[j][0] + Da[1] * Ba[j][1] + Da[2] * Ba[j][2];
+      tangent_[i * (i + 1) / 2 + j] += sum;
+    }
+  }
+}
+
+template<bool with_tangent>
+Lanes ShellSum<with_tangent>::add_drilling(const ShellNodes& at, const Lanes& stiffness) {
+  Lanes energy{};
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const auto& G = shell_tables().node[n];
+    Lanes x[2][3] = {}, spin[3], other[3], row[dofs];
+    for (std::size_t a = 0; a < nodes; ++a)
+      for (std::size_t i = 0; i < 2; ++i)
+        for (int c = 0; c < 3; ++c) x[i][c] += G[a][i] * at.x[a][c];
+    const auto &r = at.along[0][n], &s = at.along[1][n];
+    const Lanes scale = at.per_area[n];
+    const Lanes omega = scale * (dot(r, x[1]) - dot(s, x[0])), force = stiffness * omega;
+    energy += 0.5 * force * omega;
+    cross(r, x[1], spin);
+    cross(s, x[0], other);
+    for (int c = 0; c < 3; ++c) {
+      spin[c] = scale * (spin[c] - other[c]);
+      residual_[6 * n + 3 + static_cast<std::size_t>(c)] += force * spin[c];
+      for (std::size_t a = 0; a < nodes; ++a) {
+        row[6 * a + static_cast<std::size_t>(c)] = scale * (G[a][1] * r[c] - G[a][0] * s[c]);
+        residual_[6 * a + static_cast<std::size_t>(c)] += force * row[6 * a + static_cast<std::size_t>(c)];
+      }
+    }
+    if constexpr (with_tangent) {
+      const int first = 6 * static_cast<int>(n) + 3;
+      const auto moving = [&](int a, int c) { return row[6 * a + c]; };
+      for (int a = 0; a < nodes; ++a)
+        for (int c = 0; c < 3; ++c) {
+          for (int b = 0; b <= a; ++b)
+            for (int e = 0; e < 3; ++e)
+              if (6 * b + e <= 6 * a + c)
+                tangent_[place(6 * a + c, 6 * b + e)] += stiffness * moving(a, c) * moving(b, e);
+          for (int e = 0; e < 3; ++e)
+            tangent_[place(6 * a + c, first + e)] += stiffness * moving(a, c) * spin[e];
+        }
+      for (int c = 0; c < 3; ++c)
+        for (int e = 0; e <= c; ++e) tangent_[place(first + c, first + e)] += stiffness * spin[c] * spin[e];
+      Lanes on_r[3], on_s[3];
+      for (int c = 0; c < 3; ++c) {
+        on_r[c] = force * scale * x[1][c];
+        on_s[c] = -force * scale * x[0][c];
+      }
+      add_turning(static_cast<int>(n), r, on_r);
+      add_turning(static_cast<int>(n), s, on_s);
+      for (std::size_t a = 0; a < nodes; ++a) {
+        add_mixed(static_cast<int>(a), static_cast<int>(n), r, force * scale * G[a][1]);
+        add_mixed(static_cast<int>(a), static_cast<int>(n), s, -force * scale * G[a][0]);
+      }
+    }
+  }
+  return energy;
+}
+
+template<bool with_tangent>
+void ShellSum<with_tangent>::finish(const ShellNodes& at) {
+  for (int a = 0; a < nodes; ++a) {
+    Lanes on_x[3] = {}, on_d[3] = {}, spin[3];
+    for (int b = 0; b < nodes; ++b)
+      for (int c = 0; c < 3; ++c) {
+        on_x[c] += xx_[a][b] * at.x[b][c] + xd_[a][b] * at.d[b][c];
+        on_d[c] += xd_[b][a] * at.x[b][c];
+      }
+    cross(at.d[a], on_d, spin);
+    for (int c = 0; c < 3; ++c) {
+      residual_[6 * a + c] += on_x[c];
+      residual_[6 * a + 3 + c] += spin[c];
+    }
+    if constexpr (with_tangent) {
+      for (int b = 0; b < nodes; ++b) {
+        for (int c = 0; b <= a && c < 3; ++c) tangent_[place(6 * a + c, 6 * b + c)] += xx_[a][b];
+        add_mixed(a, b, at.d[b], xd_[a][b]);
+      }
+      add_turning(a, at.d[a], on_d);
+    }
+  }
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/shells/shell_elements.hpp"
+
+#include <Eigen/LU>
+
+namespace dielast::fem {
+
+void ShellBlock::sample(const State& state, Samples& samples) const {
+  for_each_point(state, [&](const Visit& at) {
+    const Layer& layer = at.place.layer;
+    const auto C = lane_of(at.place.C, at.lane);
+    const materials::TensionField field = layer.film->resolve(state, at.number(), C, at.place.k[at.lane]);
+    const int electrode = layer.electrodes[static_cast<std::size_t>(at.element)];
+    MembraneSample s;
+    s.cell = numbers_[static_cast<std::size_t>(at.element)];
+    s.volume = at.volume;
+    const Matrix32 t =
+        drawn(at.element) * matrix(shell_tables().point[static_cast<std::size_t>(at.p)].gradient);
+    Matrix32 moved;
+    for (int i = 0; i < 2; ++i)
+      for (int c = 0; c < 3; ++c)
+        moved(c, i) = at.f.x[i][c][at.lane] + at.place.Z * at.thinning * at.f.d[i][c][at.lane];
+    s.F = moved * (axes(t).transpose() * t).inverse() *
+          Eigen::Vector2d(prestretch_[0], prestretch_[1]).asDiagonal();
+    s.S = materials::tension_field::stress(field.potential);
+    s.tension = field.tension;
+    s.thickness = layer.thickness;
+    s.voltage = electrode == passive ? 0 : state.voltage[static_cast<std::size_t>(electrode)];
+    s.electrode = electrode;
+    s.breakdown_field = layer.film->dielectric().breakdown_field_at(C.det());
+    samples.film.push_back(s);
+  });
+}
+
+void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges& charges) const {
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    const ShellNodes nodes = gather(state, pack);
+    for (const Layer& layer : layers_) {
+      ShellSum<false> sum;
+      const double per_volt = layer.film->dielectric().permittivity / (layer.thickness * layer.thickness);
+      Lanes density{};
+      for (int p = 0; p < points; ++p) {
+        const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
+        const ShellPoint& here = point(pack, p);
+        const ShellDeformation f = deformation(table, nodes);
+        const ShellStrain at = strain(here, f);
+        SectionPotential section(at);
+        across(state, layer, pack, p, at, [&](const Place& place) {
+          materials::MembranePotential<Lanes> q{};
+          for (int l = 0; l < lanes; ++l) set_lane(q, l, layer.film->charge_density(lane_of(place.C, l)));
+          section.add(place.Z, Lanes{} + place.weight, q);
+        });
+        density += here.area * section.value();
+        sum.add(table, nodes, f, ShellStress::of<false>(here, section.derivatives<false>()));
+      }
+      sum.finish(nodes);
+      for (int l = 0; l < lanes_of(pack); ++l) {
+        const int element = pack * lanes + l;
+        const int electrode = layer.electrodes[static_cast<std::size_t>(element)];
+        if (electrode == passive) continue;
+        const auto e = static_cast<std::size_t>(electrode);
+        const double phi = state.voltage[e];
+        charges.capacitance[e] += per_volt * density[l];
+        charges.charge[e] += per_volt * phi * density[l];
+        if (!dof_map) continue;
+        std::array<int, dofs> equations;
+        element_equations(element, *dof_map, equations);
+        for (int i = 0; i < dofs; ++i)
+          if (const int equation = equations[static_cast<std::size_t>(i)]; equation >= 0)
+            charges.coupling[e][equation] += per_volt * phi * sum.residual(i)[l];
+      }
+    }
+  }
+}
+
+void ShellBlock::add_energies(const State& state, EnergyParts& parts) const {
+  for_each_point(state, [&](const Visit& at) {
+    const EnergyParts density =
+        at.place.layer.film->energies(state, at.number(), lane_of(at.place.C, at.lane));
+    parts.elastic += at.volume * density.elastic;
+    parts.branches += at.volume * density.branches;
+    parts.dissipation += at.volume * density.dissipation;
+  });
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    const ShellNodes nodes = gather(state, pack);
+    ShellSum<false> unused;
+    Lanes energy = unused.add_drilling(nodes, drilling_stiffness(pack));
+    for (int p = 0; p < points; ++p) {
+      ShellStress stress{};
+      energy += add_shear(point(pack, p),
+                          deformation(shell_tables().point[static_cast<std::size_t>(p)], nodes), stress);
+    }
+    for (int l = 0; l < lanes_of(pack); ++l) parts.elastic += energy[l];
+  }
+}
+
+void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, const Scatter& scatter) const {
+  if (history_size() == 0) return;
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    const ShellNodes nodes = gather(state, pack);
+    ShellSum<true> sum;
+    for (int p = 0; p < points; ++p) {
+      const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
+      const ShellPoint& here = point(pack, p);
+      const ShellDeformation f = deformation(table, nodes);
+      const ShellStrain at = strain(here, f);
+      SectionPotential section(at);
+      for (const Layer& layer : layers_)
+        across(state, layer, pack, p, at, [&](const Place& place) {
+          materials::MembranePotential<Lanes> psi{};
+          for (int l = 0; l < lanes_of(pack); ++l)
+            set_lane(psi, l,
+                     layer.film->relaxation(state, place.point[static_cast<std::size_t>(l)],
+                                            lane_of(place.C, l), place.k[l], weight));
+          section.add(place.Z, Lanes{} + place.weight, psi);
+        });
+      sum.add(table, nodes, f, ShellStress::of<true>(here, section.derivatives<true>()));
+    }
+    sum.finish(nodes);
+    scatter_pack(pack, sum, scatter);
+  }
+}
+
+int ShellBlock::history_size() const {
+  int size = 0;
+  for (const Layer& layer : layers_) size += layer.film->history_size(count_ * points * depths);
+  return size;
+}
+
+void ShellBlock::place_history(int first) {
+  for (Layer& layer : layers_) {
+    layer.film->place_history(first);
+    first += layer.film->history_size(count_ * points * depths);
+  }
+}
+
+void ShellBlock::start_history(std::vector<double>& all) const {
+  for (const Layer& layer : layers_) layer.film->start_history(count_ * points * depths, all);
+}
+
+void ShellBlock::advance_history(const State& state, std::vector<double>& all) const {
+  if (history_size() == 0) return;
+  for_each_point(state, [&](const Visit& at) {
+    at.place.layer.film->advance_history(state, at.number(), lane_of(at.place.C, at.lane), all);
+  });
+}
+
+} // namespace dielast::fem
