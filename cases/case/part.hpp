@@ -82,13 +82,34 @@ struct Balloon {
   double radius = 0; ///< m
 };
 
+/// [hinge], [ribbon]: a thin beam
+struct Leaf {
+  double length = 0; ///< m
+  Beam beam;         ///< `width`: its thickness in the plane in which it bends
+};
+
+enum class RibbonBending {
+  with_hinge, ///< ribbons turn freely at their ends; what bends them is taken with the hinge
+  own,        ///< they are beams
+};
+
+/// [antagonistic_rolls]: a backbone that ends at x = 0, from which a hinge leads along -x to the tip; a roll
+/// on either side of it, parallel to x, pulls the tip by a ribbon
+struct AntagonisticRolls {
+  Rod roll;          ///< both
+  double length = 0; ///< of a roll, unstretched, m
+  double arm = 0;    ///< from the hinge's face to a ribbon's end on the tip, and from there to the roll, m
+  RibbonBending ribbons{};
+};
+
 /// [line]: a straight rod, or a straight row of beams, as drawn
 struct Line {
   std::array<double, 3> from{}, to{}; ///< m
 };
 
 /// What has no mesh of its own is std::monostate.
-using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Line, MeshFile>;
+using Geometry =
+    std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Line, AntagonisticRolls, MeshFile>;
 
 /// [mesh]
 struct MeshOptions {
@@ -110,11 +131,17 @@ struct Part {
   std::optional<Film> film;
   std::optional<Rod> rod; ///< what the film is rolled to
   std::optional<Beam> beam;
+  std::optional<Leaf> hinge{}, ribbon{}; ///< of antagonistic rolls
   Geometry geometry;
   MeshOptions mesh;
   std::array<double, 3> at{}; ///< where the origin of its mesh is, m
   double turned = 0;          ///< of its mesh about z, rad
 
+  /// What its film is rolled to; null: it lies flat, or is a film of revolution.
+  const Rod* rolled() const {
+    if (const auto* rolls = std::get_if<AntagonisticRolls>(&geometry)) return &rolls->roll;
+    return rod ? &*rod : nullptr;
+  }
   bool has_mesh() const { return !std::holds_alternative<std::monostate>(geometry); }
   /// A place of its own mesh as the case calls it.
   std::string called(const std::string& own_place) const {

@@ -2,9 +2,9 @@
 #include "cases/devices/device.hpp"
 
 #include "meshing/assembly.hpp"
+#include "meshing/bars.hpp"
 #include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/honeycomb_mesh.hpp"
-#include "meshing/line.hpp"
 #include "meshing/meridian.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/patch.hpp"
@@ -97,6 +97,11 @@ meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_orde
             const Eigen::Vector3d from(line.from.data()), to(line.to.data());
             return part.rod ? meshing::rod_mesh(from, to)
                             : meshing::line_mesh(from, to, options.wall_elements, options.order);
+          },
+          [&](const AntagonisticRolls& rolls) {
+            return meshing::rolls_mesh({rolls.length * part.film->prestretch[0], part.hinge->length,
+                                        part.hinge->beam.width, part.ribbon->length, rolls.arm},
+                                       options.wall_elements, options.order);
           },
           [&](const MeshFile& file) {
             meshing::Mesh mesh = meshing::read_gmsh(file.path);

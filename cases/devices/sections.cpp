@@ -39,12 +39,53 @@ const MeshOptions& mesh_options(const Case& one, const Part& part) {
   return part.has_mesh() ? part.mesh : one.unnamed()->mesh;
 }
 
+/// Unstretched widths of the film of a rod with all its layers side by side, m: under the electrode, as if
+/// that were as long as the rod, and beside it.
+struct RodWidths {
+  double charged, passive;
+};
+
+RodWidths rod_widths(const Part& part) {
+  const Rod& rod = *part.rolled();
+  const auto* line = std::get_if<Line>(&part.geometry);
+  const double length = line
+                            ? (Eigen::Vector3d(line->to.data()) - Eigen::Vector3d(line->from.data())).norm() /
+                                  part.film->prestretch[0]
+                            : std::get<AntagonisticRolls>(part.geometry).length;
+  const double electrode = rod.electrode_length.value_or(length);
+  if (electrode > length * (1 + 1e-9))
+    throw meshing::MeshError(
+        fmt::format("{}: the electrode is {:.6g} mm long, the unstretched rod {:.6g} mm",
+                    part.called(line ? "rod.electrode_length" : "antagonistic_rolls.electrode_length"),
+                    1e3 * electrode, 1e3 * length));
+  const double charged = rod.layers * rod.electrode_width.value_or(rod.width) * electrode / length;
+  return {charged, std::max(0.0, rod.layers * rod.width - charged)};
+}
+
+/// Hinge and ribbons. Ribbons that turn freely at their ends keep a trace of their bending stiffness.
+std::array<materials::BeamSection, 2> leaves(const Part& part) {
+  constexpr double trace = 1e-6;
+  const auto of = [](const Leaf& leaf) {
+    return materials::rectangular_section(leaf.beam.material, leaf.beam.width, leaf.beam.height);
+  };
+  materials::BeamSection hinge = of(*part.hinge), ribbon = of(*part.ribbon);
+  if (std::get<AntagonisticRolls>(part.geometry).ribbons == RibbonBending::with_hinge) {
+    hinge.EI3 += 2 * ribbon.EI3 * part.hinge->length / part.ribbon->length;
+    for (double* stiffness : {&ribbon.EI2, &ribbon.EI3, &ribbon.GJ}) *stiffness *= trace;
+  }
+  return {hinge, ribbon};
+}
+
+/// Lines of the mesh with the section of the bars along them, and their width in the plane, m.
+using UseBars =
+    std::function<void(const std::vector<int>& lines, const materials::BeamSection&, double width)>;
+
 /// Calls `use` with the lines and the section of each lattice's walls, and of each part along lines of the
 /// mesh.
-void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh,
-                          const std::function<void(const std::vector<int>& lines, const Beam& beam)>& use) {
+void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh, const UseBars& use) {
   std::set<int> taken;
-  const auto take = [&](const std::string& part, const std::string& place, const Beam& beam) {
+  const auto take = [&](const std::string& part, const std::string& place,
+                        const materials::BeamSection& section, double width) {
     const std::vector<int>* lines = mesh.cells_of(place, mesh.walls());
     if (!lines)
       throw meshing::MeshError(
@@ -52,34 +93,22 @@ void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh,
     for (const int line : *lines)
       if (!taken.insert(line).second)
         throw meshing::MeshError(fmt::format("part \"{}\": a line of \"{}\" has a bar already", part, place));
-    use(*lines, beam);
+    use(*lines, section, width);
+  };
+  const auto take_beam = [&](const std::string& part, const std::string& place, const Beam& beam) {
+    take(part, place, materials::rectangular_section(beam.material, beam.width, beam.height), beam.width);
   };
   for (const Part& part : one.parts) {
     if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
-      take(part.name, part.called("walls"), lattice->wall);
-    if (part.beam) take(part.name, part.has_mesh() ? part.called("line") : part.place, *part.beam);
+      take_beam(part.name, part.called("walls"), lattice->wall);
+    if (std::holds_alternative<AntagonisticRolls>(part.geometry)) {
+      const auto [hinge, ribbon] = leaves(part);
+      take(part.name, "hinge", hinge, part.hinge->beam.width);
+      for (const char* place : {"upper_ribbon", "lower_ribbon"})
+        take(part.name, place, ribbon, part.ribbon->beam.width);
+    }
+    if (part.beam) take_beam(part.name, part.has_mesh() ? part.called("line") : part.place, *part.beam);
   }
-}
-
-/// Unstretched widths of the film of a rod with all its layers side by side, m: under the electrode, as if
-/// that were as long as the rod, and beside it.
-struct RodWidths {
-  double charged, passive;
-};
-
-RodWidths rod_widths(const Part& part, const meshing::Mesh& mesh) {
-  const auto end = [&](const char* place) -> const Eigen::Vector3d& {
-    return mesh.nodes[static_cast<std::size_t>(mesh.node_sets.at(part.called(place)).front())];
-  };
-  const double length = (end("end") - end("start")).norm() / part.film->prestretch[0];
-  const Rod& rod = *part.rod;
-  const double electrode = rod.electrode_length.value_or(length);
-  if (electrode > length * (1 + 1e-9))
-    throw meshing::MeshError(
-        fmt::format("{}rod.electrode_length: the electrode is {:.6g} mm long, the unstretched rod {:.6g} mm",
-                    part.name.empty() ? "" : "part." + part.name + ".", 1e3 * electrode, 1e3 * length));
-  const double charged = rod.layers * rod.electrode_width.value_or(rod.width) * electrode / length;
-  return {charged, std::max(0.0, rod.layers * rod.width - charged)};
 }
 
 } // namespace
@@ -135,12 +164,12 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
       model.blocks.push_back(fem::make_membrane_block(mesh, meshing::subset(film, cells), with,
                                                       std::move(under), one.dimension, points, cells));
     };
-    if (!part.rod) {
+    if (!part.rolled()) {
       add(section, std::move(over));
       continue;
     }
     // Layers side by side; what lies beside the electrode is stretched with what lies under it.
-    const RodWidths widths = rod_widths(part, mesh);
+    const RodWidths widths = rod_widths(part);
     fem::MembraneSection strip = section;
     strip.width = widths.charged;
     add(strip, std::move(over));
@@ -150,19 +179,19 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
 }
 
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  for_each_set_of_bars(one, mesh, [&](const std::vector<int>& lines, const Beam& beam) {
-    model.blocks.push_back(
-        fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), lines),
-                             materials::rectangular_section(beam.material, beam.width, beam.height),
-                             Eigen::Vector3d::UnitZ(), lines));
-  });
+  for_each_set_of_bars(
+      one, mesh, [&](const std::vector<int>& lines, const materials::BeamSection& section, double) {
+        model.blocks.push_back(fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), lines), section,
+                                                    Eigen::Vector3d::UnitZ(), lines));
+      });
 }
 
 std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh) {
   std::vector<double> widths(mesh.walls() ? static_cast<std::size_t>(mesh.walls()->size()) : 0);
-  for_each_set_of_bars(one, mesh, [&](const std::vector<int>& lines, const Beam& beam) {
-    for (const int line : lines) widths[static_cast<std::size_t>(line)] = beam.width;
-  });
+  for_each_set_of_bars(one, mesh,
+                       [&](const std::vector<int>& lines, const materials::BeamSection&, double width) {
+                         for (const int line : lines) widths[static_cast<std::size_t>(line)] = width;
+                       });
   return widths;
 }
 

@@ -306,6 +306,9 @@ std::vector<Section> geometry_sections();     ///< of a Part
 Section mesh_section();                       ///< of a Part
 Section beam_section();                       ///< of a Part
 Section rod_section();                        ///< of a Part
+Section line_section();                       ///< a geometry of a Part
+Section rolls_section();                      ///< likewise
+std::vector<Section> leaf_sections();         ///< of a Part with antagonistic rolls
 std::vector<Section> unnamed_part_sections(); ///< film, the geometries, mesh
 std::vector<Section> part_sections();         ///< part, tie
 std::vector<Section> action_sections();       ///< electrode, support, load, spring, linkage, drive

@@ -40,10 +40,22 @@ void check_line(SectionReader& reader, const Node& top, const Part& part) {
     reader.report(blamed ? blamed->key_source : top.source, key_of(part, blamed ? key : ""), message);
   };
   const bool line = std::holds_alternative<Line>(part.geometry);
+  const bool rolls = std::holds_alternative<AntagonisticRolls>(part.geometry);
+  if (rolls && !part.name.empty())
+    return report("antagonistic_rolls", "antagonistic rolls are a case of their own, not a part");
+  for (const char* leaf : {"hinge", "ribbon"})
+    if (rolls && !top.find(leaf))
+      reader.report(top.find("antagonistic_rolls")->key_source, leaf,
+                    fmt::format("missing; [antagonistic_rolls] need a section [{}]", leaf));
+    else if (!rolls && top.find(leaf))
+      report(leaf, "only for [antagonistic_rolls]");
+  if (rolls && part.ribbon && part.ribbon->length <= std::get<AntagonisticRolls>(part.geometry).arm)
+    report("ribbon",
+           "its length must be above antagonistic_rolls.arm: it leads from the arm's end to the roll");
   if (line && !part.rod && !part.beam) report("line", "a line is a [rod] of film, or a [beam]");
-  if (!part.rod) return;
-  if (!line) report("rod", "a rod is a [line]: write from where to where");
-  if (part.beam) report("rod", "given twice: a line is a [rod] of film, or a [beam]");
+  if (!part.rolled()) return;
+  if (part.rod && !line) report("rod", "a rod is a [line]: write from where to where");
+  if (part.rod && part.beam) report("rod", "given twice: a line is a [rod] of film, or a [beam]");
   if (!part.film) return report("rod", "a rod is rolled of a [film]");
   const Film& film = *part.film;
   if (film.prestretch[0] != film.prestretch[1])
@@ -53,12 +65,12 @@ void check_line(SectionReader& reader, const Node& top, const Part& part) {
         return branch.dashpot == materials::Dashpot::nominal;
       }))
     report("film", "a rod's dashpots flow alike in all directions across it: dashpot = \"log\"");
-  if (top.find("mesh")) report("mesh", "a rod is one element");
+  if (part.rod && top.find("mesh")) report("mesh", "a rod is one element");
 }
 
 /// A film that is alike in all directions of its plane may be turned as one likes.
 bool knows_x_from_y(const Part& part) {
-  if (std::holds_alternative<Line>(part.geometry)) return false;
+  if (std::holds_alternative<Line>(part.geometry)) return false; // it knows its own way
   if (!part.film || std::holds_alternative<Patch>(part.geometry)) return true;
   const auto has_axes = [](const materials::Branch& branch) {
     return branch.dashpot == materials::Dashpot::nominal;
@@ -105,7 +117,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     if (knows_x_from_y(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
       report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
   }
-  if (std::ranges::any_of(one.parts, [](const Part& part) { return part.rod.has_value(); }))
+  if (std::ranges::any_of(one.parts, [](const Part& part) { return part.rolled(); }))
     for (std::size_t e = 0; e < one.electrodes.size(); ++e)
       if (one.electrodes[e].sheet_resistance)
         reader.report(tree.find("electrode")->items.at(e).find("sheet_resistance")->source,

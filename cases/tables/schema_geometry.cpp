@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/language/conditions.hpp"
-#include "cases/tables/parameter_keys.hpp"
-#include "materials/catalog.hpp"
+#include "cases/tables/bar_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -10,47 +9,6 @@
 
 namespace dielast::cases {
 namespace {
-
-template<class T>
-Access geometry_of_type() {
-  return {[](void* parent, const std::string&) -> void* {
-            return &static_cast<Part*>(parent)->geometry.emplace<T>();
-          },
-          [](const void* parent) {
-            const T* present = std::get_if<T>(&static_cast<const Part*>(parent)->geometry);
-            return present ? std::vector<Access::Entry>{{"", present}} : std::vector<Access::Entry>{};
-          }};
-}
-
-/// A named solid, or a table of its parameters. `beam(object)` returns a reference to the Beam in the object.
-template<class T, class Bars>
-Section bar_material_section(std::string name, Bars beam) {
-  Section section;
-  section.meaning = fmt::format("a named material ({} = \"...\"), or a table", name);
-  section.name = std::move(name);
-  section.fallback = "TPU 78 MPa";
-  section.access = same_object();
-  section.names = [] {
-    std::vector<std::string> names;
-    for (const auto& solid : materials::named_solids()) names.emplace_back(solid.name);
-    return names;
-  };
-  section.start = [beam](void* object, const std::string& wanted) {
-    for (const auto& named : materials::named_solids())
-      if (named.name == wanted) {
-        beam(*static_cast<T*>(object)).material = named.solid;
-        return true;
-      }
-    return false;
-  };
-  section.keys.push_back(
-      text("name", to_part<T>([beam](auto& object) -> auto& { return beam(object).material_name; }),
-           "a named material to start from, or a label")
-          .optional());
-  add_parameter_keys<T, materials::ElasticSolid>(section.keys,
-                                                 [beam](auto& object) { return &beam(object).material; });
-  return section;
-}
 
 /// Cells of neighbouring columns interlock.
 std::string interlocking(const Value& columns) {
@@ -218,24 +176,6 @@ Section patch_section() {
   return section;
 }
 
-Section line_section() {
-  Section section;
-  section.name = "line";
-  section.meaning = "a straight [rod] of film, or a straight [beam]";
-  section.presence = Section::Presence::geometry;
-  section.access = geometry_of_type<Line>();
-  section.keys = {
-      measure("from", "m", to(&Line::from), "where it starts").values(3, 3).otherwise("[0, 0, 0]"),
-      measure("to", "m", to(&Line::to), "where it ends, a film in its prestretch").values(3, 3),
-  };
-  section.check = [](const void* object) -> std::optional<Conflict> {
-    const auto& line = *static_cast<const Line*>(object);
-    if (line.from != line.to) return std::nullopt;
-    return Conflict{"to", "a line must end elsewhere than it starts"};
-  };
-  return section;
-}
-
 Binding mesh_file() {
   return {[](void* object, const Value& value) {
             static_cast<Part*>(object)->geometry = MeshFile{value.at(0).text};
@@ -254,54 +194,8 @@ Binding mesh_option(M MeshOptions::*option) {
 } // namespace
 
 std::vector<Section> geometry_sections() {
-  return {honeycomb_section(), disc_section(),  annulus_section(),
-          balloon_section(),   patch_section(), line_section()};
-}
-
-Section beam_section() {
-  Section section;
-  section.name = "beam";
-  section.meaning = "bars of rectangular section along the lines of the part's place";
-  section.presence = Section::Presence::optional;
-  section.access = present(&Part::beam);
-  section.keys = {
-      measure("width", "m", to(&Beam::width), "width of a bar in the film's plane").above(0).at_most(1),
-      measure("height", "m", to(&Beam::height), "height of a bar normal to the film").above(0).at_most(1),
-  };
-  section.sections.push_back(bar_material_section<Beam>(
-      "material", [](auto& beam) -> auto& { return beam; }));
-  return section;
-}
-
-Section rod_section() {
-  const auto electrode = [](std::string name, std::optional<double> Rod::*part, std::string meaning) {
-    return measure(std::move(name), "m", to(part), std::move(meaning)).above(0).at_most(10).optional();
-  };
-  Section section;
-  section.name = "rod";
-  section.meaning = "the film is rolled or folded to a bar: it pulls along itself and is free across itself";
-  section.presence = Section::Presence::optional;
-  section.access = present(&Part::rod);
-  section.keys = {
-      measure("width", "m", to(&Rod::width), "width of one layer of film across the rod, unstretched")
-          .above(0)
-          .at_most(10),
-      integer("layers", to(&Rod::layers), "layers of film, each with the electrode's voltage across it")
-          .at_least(1)
-          .at_most(100000)
-          .otherwise("1"),
-      electrode("electrode_width", &Rod::electrode_width,
-                "width of the electrode on a layer, unstretched; without it all of the width"),
-      electrode("electrode_length", &Rod::electrode_length,
-                "length of the electrode along the rod, unstretched; without it all of the length; the rod "
-                "is stretched alike everywhere"),
-  };
-  section.check = [](const void* object) -> std::optional<Conflict> {
-    const auto& rod = *static_cast<const Rod*>(object);
-    if (rod.electrode_width.value_or(0) <= rod.width) return std::nullopt;
-    return Conflict{"electrode_width", "the electrode is wider than the film"};
-  };
-  return section;
+  return {honeycomb_section(), disc_section(), annulus_section(), balloon_section(),
+          patch_section(),     line_section(), rolls_section()};
 }
 
 Section mesh_section() {
@@ -343,12 +237,13 @@ Section mesh_section() {
           .at_least(1)
           .at_most(2)
           .otherwise("2")
-          .only({"honeycomb", "disc", "annulus", "balloon", "line"}),
-      integer("wall_elements", mesh_option(&MeshOptions::wall_elements), "beams per wall, or along a line")
+          .only({"honeycomb", "disc", "annulus", "balloon", "line", "antagonistic_rolls"}),
+      integer("wall_elements", mesh_option(&MeshOptions::wall_elements),
+              "beams per wall, along a line, a hinge or a ribbon")
           .at_least(1)
           .at_most(200)
           .otherwise("8")
-          .only({"honeycomb", "line"}),
+          .only({"honeycomb", "line", "antagonistic_rolls"}),
       number("grading", mesh_option(&MeshOptions::grading),
              "largest film element over the wall's; 1 is uniform")
           .at_least(1)

@@ -130,6 +130,22 @@ constexpr std::string_view patch_defaults = R"(
 electrode = [{ name = "film", place = "film" }]
 )"; // and patch_steps()
 
+constexpr std::string_view rolls_defaults = R"(
+electrode = [{ name = "upper", place = "upper" }, { name = "lower", place = "lower" }]
+body = [{ name = "tip", places = ["tip_ends"] }]
+support = [{ place = "base", fix = ["x", "y", "turn_z"] }, { place = "roots", fix = ["x", "y"] },
+           { place = "joints", fix = ["y"] }]
+step = [{ kind = "release" }, { kind = "voltage" }]
+)";
+
+constexpr std::string_view rolls_quantities = R"(
+[[quantity]]
+name = "tip_angle"
+kind = "angle"
+of = "tip"
+along = "z"
+)";
+
 constexpr std::string_view file_defaults = R"(
 electrode = [{ name = "film", place = "film" }]
 step = [{ kind = "voltage" }]
@@ -198,6 +214,23 @@ std::span<const Template> templates() {
            {"centre", "the middle"}},
           patch_defaults,
           patch_quantities},
+      Template{
+          "antagonistic_rolls",
+          "two rolls of film beside a hinge that turn a tip by ribbons: the one that is charged lengthens",
+          {{"film", "both rolls"},
+           {"upper", "the roll at y > 0"},
+           {"lower", "the roll at y < 0"},
+           {"hinge", "the hinge, from the backbone along -x to the tip"},
+           {"upper_ribbon", "from the tip to the upper roll"},
+           {"lower_ribbon", "from the tip to the lower roll"},
+           {"base", "where the hinge begins, held"},
+           {"tip_ends", "what the body \"tip\" carries"},
+           {"joints", "of ribbons and rolls, held along y: a roll's end stays on its axis"},
+           {"roots", "where the rolls begin, held"}},
+          rolls_defaults,
+          rolls_quantities,
+          "",
+          true},
       Template{"line",
                "a rod of film between two points",
                {{"film", "the rod"}, {"start", "where it starts"}, {"end", "where it ends"}},

@@ -206,7 +206,8 @@ std::vector<TemplatePart> parts_with_geometry(const Node& tree) {
   for (std::size_t i = 0; parts && parts->is(Node::Kind::table) && i < parts->items.size(); ++i)
     if (const Template* device = parts->items[i].is(Node::Kind::table) && is_name(parts->keys[i])
                                      ? template_of(parts->items[i])
-                                     : nullptr)
+                                     : nullptr;
+        device && !device->alone)
       found.push_back({parts->keys[i], device});
   return found;
 }

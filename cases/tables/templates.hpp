@@ -25,6 +25,7 @@ struct Template {
   std::string_view quantities; ///< TOML: standard quantities; steps are named by
                                ///< their kind: the first of it is meant
   std::string_view with{};     ///< another section that makes it this device; empty: none
+  bool alone = false;          ///< a case of its own, never a part of one
 };
 
 std::span<const Template> templates();
