@@ -95,7 +95,7 @@ ExitCode mesh(const Arguments& arguments) {
 }
 
 ExitCode study(const Arguments& arguments) {
-  return run_study(cases::read_study(arguments.case_file),
+  return run_study(cases::read_study(arguments.case_file, arguments.overrides),
                    {arguments.output("-study"), arguments.threads, arguments.resume});
 }
 
@@ -215,6 +215,7 @@ int main(int argc, char** argv) {
   takes_directory(mesh_command);
 
   auto* study_command = takes_case(add("study", "run a case over grids of its keys, in parallel", study));
+  takes_overrides(study_command);
   takes_directory(study_command);
   takes_threads(study_command, "points at a time [every core]");
   study_command->add_flag("--resume", arguments.resume,

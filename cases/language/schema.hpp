@@ -314,6 +314,7 @@ std::vector<Section> part_sections();         ///< part, tie
 std::vector<Section> action_sections();       ///< electrode, support, load, spring, linkage, drive
 Section step_section();
 std::vector<Section> result_sections(); ///< quantity, check, solver, output, linearise, study
-std::vector<Section> fit_sections();    ///< fit, test
+Section study_section();
+std::vector<Section> fit_sections(); ///< fit, test
 
 } // namespace dielast::cases

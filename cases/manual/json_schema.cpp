@@ -104,7 +104,8 @@ Json section_schema(const Section& section) {
   }
   Json schema{{"type", "object"}, {"description", section.meaning}, {"properties", properties}};
   if (!required.empty()) schema["required"] = required;
-  schema["additionalProperties"] = section.name == "vary";
+  schema["additionalProperties"] =
+      section.keys.empty() && section.sections.empty(); // the user names its keys
   return schema;
 }
 

@@ -182,8 +182,9 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   const ExitCode code = outcome.ending == Ending::gave_up ? ExitCode::not_converged
                         : results.checks_passed()         ? ExitCode::ok
                                                           : ExitCode::check_failed;
-  folder.write("report.html",
-               run_report(one, device, results, recorder.journal(), read_text(folder / "run.log")).html());
+  post::Report report = run_report(one, device, results, recorder.journal(), read_text(folder / "run.log"));
+  report.part_of = settings.part_of;
+  folder.write("report.html", report.html());
   folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
   folder.set_complete(static_cast<int>(code));
   std::filesystem::remove(folder / checkpoint_name);

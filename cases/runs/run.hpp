@@ -3,16 +3,19 @@
 
 #include "cases/case/case.hpp"
 #include "cases/console/exit_code.hpp"
+#include "post/pictures/report.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace dielast::cases {
 
 struct RunSettings {
-  std::filesystem::path directory; ///< of all outputs; made when it does not exist
-  int threads = 0;                 ///< 0: every core
-  bool resume = false;             ///< go on from the directory's checkpoint, if the case is as it was
-  bool quiet = false;              ///< nothing on the terminal; run.log is written all the same
+  std::filesystem::path directory;     ///< of all outputs; made when it does not exist
+  int threads = 0;                     ///< 0: every core
+  bool resume = false;                 ///< go on from the directory's checkpoint, if the case is as it was
+  bool quiet = false;                  ///< nothing on the terminal; run.log is written all the same
+  std::optional<post::Link> part_of{}; ///< the page of the study whose point this is
 };
 
 /// Runs a case and writes everything into one directory: history.csv, the ParaView series, resolved.toml,

@@ -5,6 +5,7 @@
 #include "cases/readers/reader.hpp"
 #include "cases/readers/resolved.hpp"
 #include "cases/runs/run.hpp"
+#include "cases/studies/study_best.hpp"
 #include "cases/studies/study_report.hpp"
 #include "cases/studies/study_targets.hpp"
 #include "meshing/mesh_error.hpp"
@@ -34,9 +35,12 @@ namespace {
   int code = static_cast<int>(ExitCode::usage_or_file);
   std::string message;
   try {
-    code = static_cast<int>(
-        run_case(read_case(study.base, point.overrides),
-                 {.directory = point.directory, .threads = 1, .resume = resume, .quiet = true}));
+    code = static_cast<int>(run_case(read_case(study.base, point.overrides),
+                                     {.directory = point.directory,
+                                      .threads = 1,
+                                      .resume = resume,
+                                      .quiet = true,
+                                      .part_of = post::Link{study.title, "../report.html"}}));
   } catch (const CaseError& error) {
     code = static_cast<int>(ExitCode::invalid_case);
     message = error.what();
@@ -100,14 +104,14 @@ Kept kept_of(const Study& study, const StudyPoint& point, bool resume) {
 /// One line that says how far the study is: rewritten in place on a terminal, one per point in a pipe.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::size_t total) : total_(total) {}
+  ProgressLine(const Study& study, std::size_t total) : study_(study), total_(total) {}
 
   void done(const StudyPoint& point, int exit_code) {
     ++done_;
     ++ran_;
     failed_ += exit_code != 0;
     if (!terminal_) {
-      say("{}/{}  {}  exit {}\n", done_, total_, fmt::join(point.overrides, "  "), exit_code);
+      say("{}/{}  {}  exit {}\n", done_, total_, label(study_, point), exit_code);
       std::fflush(stdout);
     }
     show();
@@ -131,6 +135,7 @@ class ProgressLine {
   }
 
  private:
+  const Study& study_;
   bool terminal_ = isatty(STDOUT_FILENO);
   std::size_t total_, done_ = 0, ran_ = 0, failed_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -140,7 +145,7 @@ class ProgressLine {
 
 ExitCode run_study(const Study& study, const StudySettings& settings) {
   post::ResultsFolder folder(settings.directory, "study");
-  const Case base = read_case(study.base);
+  const Case base = read_case(study.base, study.settings);
   const std::string resolved = resolved_text(base);
   if (settings.resume) require_unchanged(settings.directory, resolved);
   const std::vector<StudyPoint> points = study_points(study, settings.directory);
@@ -158,7 +163,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
       settings.directory.string());
   for (const Diagnostic& warning : base.warnings) say(stderr, "{}\n", warning.text());
-  ProgressLine progress(points.size());
+  ProgressLine progress(study, points.size());
   struct Waiting {
     const StudyPoint* point;
     bool resume;
@@ -206,7 +211,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     }
     const int code = exit_code_of(point, status);
     if (code == static_cast<int>(ExitCode::interrupted)) return std::nullopt;
-    say("target: {}  exit {}\n", fmt::join(point.overrides, "  "), code);
+    say("target: {}  exit {}\n", label(study, point), code);
     return result_of(study, point);
   };
   const auto solutions = solve_targets(study, points, settings.directory, run);
@@ -214,18 +219,20 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     say("interrupted; go on with --resume\n");
     return ExitCode::interrupted;
   }
-  const std::vector<std::string> targets = target_lines(study, points, solutions);
-  folder.write("report.html", study_report(study, points, targets).html());
+  std::vector<std::string> answers = best_lines(study, points);
+  for (std::string& line : target_lines(study, points, solutions)) answers.push_back(std::move(line));
+  folder.write("report.html", study_report(study, points, answers).html());
 
   int failed = 0;
   for (const StudyPoint& point : points)
     if (const auto result = result_of(study, point); !result || result->exit_code != 0) {
       ++failed;
-      say("failed: {}: {}\n", fmt::join(point.overrides, "  "), result ? result->message : "not finished");
+      say("failed: {}: {}\n", label(study, point), result ? result->message : "not finished");
     }
-  for (const std::string& line : targets) say("{}\n", line);
-  say("{} of {} points in {}\n", points.size() - static_cast<std::size_t>(failed), points.size(),
-      (settings.directory / "study.csv").string());
+  for (const std::string& line : answers) say("{}\n", line);
+  say("{} of {} points in {}, report in {}\n", points.size() - static_cast<std::size_t>(failed),
+      points.size(), (settings.directory / "study.csv").string(),
+      (settings.directory / "report.html").string());
   const bool solved =
       std::ranges::all_of(solutions, [](const TargetSolution& one) { return one.problem.empty(); });
   const ExitCode code = failed || !solved ? ExitCode::not_converged : ExitCode::ok;

@@ -19,21 +19,34 @@ std::filesystem::path mark_path(const StudyPoint& point) { return point.director
 
 } // namespace
 
+std::string unquoted(const std::string& toml) {
+  return toml.size() > 1 && toml.front() == '"' ? toml.substr(1, toml.size() - 2) : toml;
+}
+
+std::string label(const Study& study, const StudyPoint& point) {
+  const std::vector<std::string> names = study.varied();
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}{} = {}", i ? ", " : "", names[i], unquoted(point.values[i]));
+  return text;
+}
+
+StudyPoint study_point(const Study& study, std::vector<std::string> axis_values) {
+  StudyPoint point{.values = std::move(axis_values), .overrides = study.settings};
+  std::vector<std::string> derived = derived_values(study, point.values);
+  point.values.insert(point.values.end(), derived.begin(), derived.end());
+  const std::vector<std::string> names = study.varied();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!study.is_parameter(names[i])) point.overrides.push_back(names[i] + "=" + point.values[i]);
+  return point;
+}
+
 std::vector<StudyPoint> study_points(const Study& study, const std::filesystem::path& directory) {
-  std::vector<StudyPoint> points{{}};
-  for (const StudyAxis& axis : study.axes) {
-    std::vector<StudyPoint> finer;
-    for (const StudyPoint& point : points)
-      for (const std::string& value : axis.values) {
-        finer.push_back(point);
-        finer.back().values.push_back(value);
-        finer.back().overrides.push_back(axis.key + "=" + value);
-      }
-    points = std::move(finer);
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i].number = static_cast<int>(i) + 1;
-    points[i].directory = directory / fmt::format("point-{:04d}", points[i].number);
+  std::vector<StudyPoint> points;
+  for (auto& values : grid_of(study)) {
+    StudyPoint& point = points.emplace_back(study_point(study, std::move(values)));
+    point.number = static_cast<int>(points.size());
+    point.directory = directory / fmt::format("point-{:04d}", point.number);
   }
   return points;
 }

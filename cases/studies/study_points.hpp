@@ -14,8 +14,8 @@ namespace dielast::cases {
 /// One case of a study's grid.
 struct StudyPoint {
   int number = 0;                     ///< from 1, the last axis running fastest
-  std::vector<std::string> values;    ///< of the axes, TOML texts
-  std::vector<std::string> overrides; ///< "key=value"
+  std::vector<std::string> values;    ///< of Study::varied(), TOML texts
+  std::vector<std::string> overrides; ///< "key=value", of those that are keys of the case
   std::filesystem::path directory;
 };
 
@@ -26,9 +26,24 @@ struct PointResult {
   std::vector<std::optional<double>> quantities; ///< the collected ones, SI
   std::vector<std::string> units;
   std::vector<std::string> events; ///< kinds, in order of their first appearance
+
+  /// Whether the quantities are those of the state that the case asks for.
+  bool has_ended() const {
+    return exit_code == static_cast<int>(ExitCode::ok) ||
+           exit_code == static_cast<int>(ExitCode::check_failed);
+  }
 };
 
-/// The full grid of a study, point directories below `directory`.
+/// A TOML text without its quotes, as a person reads it.
+std::string unquoted(const std::string& toml);
+
+/// "honeycomb.angle = 150 deg, drive.voltage = 4 kV"
+std::string label(const Study& study, const StudyPoint& point);
+
+/// The point at these values of the axes, without number and directory. Throws ExpressionError.
+StudyPoint study_point(const Study& study, std::vector<std::string> axis_values);
+
+/// The full grid of a study, where the axes of a pair are one; point directories below `directory`.
 std::vector<StudyPoint> study_points(const Study& study, const std::filesystem::path& directory);
 
 /// Remembers in the point's directory how its run ended; reads it back, nothing when the point was not

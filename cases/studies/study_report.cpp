@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/studies/study_report.hpp"
 
+#include "cases/studies/study_best.hpp"
+#include "cases/text/tree.hpp"
 #include "cases/text/units.hpp"
 #include "post/engineering.hpp"
 #include "post/files/history.hpp"
@@ -18,10 +20,6 @@ namespace dielast::cases {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-std::string unquoted(const std::string& toml) {
-  return toml.size() > 1 && toml.front() == '"' ? toml.substr(1, toml.size() - 2) : toml;
-}
 
 /// Results of the points, with the unit of each collected quantity.
 struct Collected {
@@ -46,10 +44,50 @@ std::optional<std::size_t> position(const Names& names, const std::string& name)
   return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
 }
 
-std::vector<std::string> axis_names(const Study& study) {
-  std::vector<std::string> names;
-  for (const StudyAxis& axis : study.axes) names.push_back(axis.key);
-  return names;
+/// A column of study.csv: numbers where the values are.
+struct Column {
+  std::string header;
+  std::vector<std::string> cells;
+};
+
+/// Columns of what varies: of numbers in the unit in which all are written, otherwise in SI; one for each
+/// item of a list; texts where something is no number.
+std::vector<Column> columns_of(const std::string& name, const std::vector<std::string>& values) {
+  std::vector<std::vector<WrittenMeasure>> rows;
+  std::size_t items = 1;
+  for (const std::string& value : values) {
+    const Node node = parse_value(value, {});
+    auto& row = rows.emplace_back();
+    for (const Node& item : node.is(Node::Kind::list) ? node.items : std::vector<Node>{node})
+      if (const auto number = written_measure(text_of(item))) row.push_back(*number);
+    items = std::max(items, row.size());
+    if (row.empty() || (node.is(Node::Kind::list) && row.size() != node.items.size())) rows.back().clear();
+  }
+  const bool numeric = std::ranges::all_of(rows, [&](const auto& row) {
+    return row.size() == items || row.size() == 1; // a number alone stands for all of the list
+  });
+  if (!numeric) {
+    Column texts{name, {}};
+    for (const std::string& value : values) texts.cells.push_back(unquoted(value));
+    return {std::move(texts)};
+  }
+  bool alike = true;
+  for (const auto& row : rows)
+    for (const WrittenMeasure& one : row) alike = alike && one.unit == rows[0][0].unit;
+  const std::string si = name_of_unit(si_unit(rows[0][0].unit).powers);
+  const std::string unit = alike ? rows[0][0].unit : si;
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < items; ++i) {
+    Column& column = columns.emplace_back();
+    column.header =
+        fmt::format("{}{}[{}]", name, items > 1 ? fmt::format(".{}", i + 1) : "", unit.empty() ? "1" : unit);
+    for (const auto& row : rows) {
+      const WrittenMeasure& one = row[std::min(i, row.size() - 1)];
+      column.cells.push_back(alike ? fmt::format("{}", one.number)
+                                   : fmt::format("{:.15g}", one.number * si_unit(one.unit).factor));
+    }
+  }
+  return columns;
 }
 
 /// A pure number is a strain or a ratio; studies of strains are read in percent.
@@ -59,7 +97,7 @@ post::Ratio ratio_of(const std::string& quantity) {
 
 post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vector<StudyPoint>& points,
                      const Collected& collected) {
-  const auto axes = axis_names(study);
+  const auto axes = study.varied();
   const auto x_axis = position(axes, spec.x), group = position(axes, spec.group);
   const auto x_quantity = position(study.collect, spec.x);
   post::Plot plot{.x_label = spec.x};
@@ -100,13 +138,20 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
 std::string study_table(const Study& study, const std::vector<StudyPoint>& points) {
   const Collected collected(study, points);
   std::string table = "point";
-  for (const StudyAxis& axis : study.axes) table += "," + post::csv_cell(axis.key);
+  std::vector<Column> varied;
+  const std::vector<std::string> names = study.varied();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::vector<std::string> values;
+    for (const StudyPoint& point : points) values.push_back(point.values[i]);
+    for (Column& column : columns_of(names[i], values)) varied.push_back(std::move(column));
+  }
+  for (const Column& column : varied) table += "," + post::csv_cell(column.header);
   for (std::size_t q = 0; q < study.collect.size(); ++q)
     table += fmt::format(",{}[{}]", study.collect[q], collected.units[q]);
   table += ",exit_code,events,message\n";
   for (std::size_t p = 0; p < points.size(); ++p) {
     table += fmt::format("{}", points[p].number);
-    for (const std::string& value : points[p].values) table += "," + post::csv_cell(unquoted(value));
+    for (const Column& column : varied) table += "," + post::csv_cell(column.cells[p]);
     for (std::size_t q = 0; q < study.collect.size(); ++q) {
       const double value = collected.value(p, q);
       table += std::isfinite(value) ? fmt::format(",{}", value) : ",";
@@ -121,7 +166,7 @@ std::string study_table(const Study& study, const std::vector<StudyPoint>& point
 }
 
 post::Report study_report(const Study& study, const std::vector<StudyPoint>& points,
-                          const std::vector<std::string>& targets) {
+                          const std::vector<std::string>& answers) {
   const Collected collected(study, points);
   post::Report report{
       .title = study.title,
@@ -131,9 +176,9 @@ post::Report study_report(const Study& study, const std::vector<StudyPoint>& poi
                                     [](const auto& result) { return !result || result->exit_code != 0; });
   report.status = failed ? post::Cell{fmt::format("{} points failed", failed), post::Tone::warning}
                          : post::Cell{"complete", post::Tone::good};
-  if (!targets.empty()) {
-    post::Section found{"Targets", {}};
-    for (const std::string& line : targets) found.blocks.push_back(post::Paragraph{line});
+  if (!answers.empty()) {
+    post::Section found{"Answers", {}};
+    for (const std::string& line : answers) found.blocks.push_back(post::Paragraph{line});
     report.sections.push_back(std::move(found));
   }
   std::vector<post::Plot> plots;
@@ -143,16 +188,22 @@ post::Report study_report(const Study& study, const std::vector<StudyPoint>& poi
     if (!svg.empty()) drawn.blocks.push_back(post::Image{std::move(svg), ""});
   if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
 
+  std::vector<std::pair<std::size_t, std::string>> best; // point and quantity
+  for (const StudyBest& one : study.best)
+    if (const auto found = best_point(study, one, points)) best.emplace_back(*found, one.quantity());
   post::Table table{{"point"}, {}};
-  for (const StudyAxis& axis : study.axes) table.header.push_back(axis.key);
+  for (std::string& name : study.varied()) table.header.push_back(std::move(name));
   for (const std::string& name : study.collect) table.header.push_back(name);
   for (const char* last : {"exit", "events", "message"}) table.header.emplace_back(last);
   for (std::size_t p = 0; p < points.size(); ++p) {
     std::vector<post::Cell> row{std::to_string(points[p].number)};
+    if (std::filesystem::exists(points[p].directory / "report.html"))
+      row[0].link = points[p].directory.filename().string() + "/report.html";
     for (const std::string& value : points[p].values) row.emplace_back(unquoted(value));
     for (std::size_t q = 0; q < study.collect.size(); ++q)
       row.emplace_back(
-          post::engineering(collected.value(p, q), collected.units[q], ratio_of(study.collect[q])));
+          post::engineering(collected.value(p, q), collected.units[q], ratio_of(study.collect[q])),
+          std::ranges::count(best, std::pair(p, study.collect[q])) ? post::Tone::good : post::Tone::plain);
     if (const auto& result = collected.results[p]) {
       row.emplace_back(std::to_string(result->exit_code),
                        result->exit_code ? post::Tone::bad : post::Tone::plain);

@@ -6,12 +6,13 @@
 
 namespace dielast::cases {
 
-/// study.csv: one row per point in the grid's order: the axes as the user wrote them, the collected
-/// quantities in SI, exit code, kinds of events, message.
+/// study.csv: one row per point in the grid's order: what varies as numbers, with its unit in the header, the
+/// collected quantities in SI, exit code, kinds of events, message.
 std::string study_table(const Study& study, const std::vector<StudyPoint>& points);
 
-/// The study's report: what its targets have found, its plots and one row per point.
+/// The study's report: the answers to its questions, its plots and one row per point, which leads to the
+/// point's own report.
 post::Report study_report(const Study& study, const std::vector<StudyPoint>& points,
-                          const std::vector<std::string>& targets);
+                          const std::vector<std::string>& answers);
 
 } // namespace dielast::cases

@@ -26,15 +26,9 @@ std::size_t collected(const Study& study, const StudyTarget& target) {
   return static_cast<std::size_t>(found - study.collect.begin());
 }
 
-/// Whether the quantities are those of the state that the case asks for.
-bool has_ended(const PointResult& result) {
-  return result.exit_code == static_cast<int>(ExitCode::ok) ||
-         result.exit_code == static_cast<int>(ExitCode::check_failed);
-}
-
 std::optional<double> difference(const Study& study, const StudyTarget& target,
                                  const std::optional<PointResult>& result) {
-  if (!result || !has_ended(*result)) return std::nullopt;
+  if (!result || !result->has_ended()) return std::nullopt;
   const auto value = result->quantities[collected(study, target)];
   return value ? std::optional(*value - target.value) : std::nullopt;
 }
@@ -69,13 +63,10 @@ double root_near(const std::vector<Point>& curve, std::size_t i) {
 }
 
 /// The study's point at another value of its key.
-StudyPoint point_at(const Study& study, const StudyPoint& like, double key,
-                    const std::filesystem::path& directory) {
-  StudyPoint point = like;
-  const std::string unit = written_measure(like.values[0])->unit;
+StudyPoint point_at(const Study& study, double key, const std::filesystem::path& directory) {
+  const std::string unit = written_measure(study.axes[0].values[0])->unit;
   const std::string number = fmt::format("{:.15g}", key);
-  point.values[0] = unit.empty() ? number : fmt::format("\"{} {}\"", number, unit);
-  point.overrides[0] = study.axes[0].key + "=" + point.values[0];
+  StudyPoint point = study_point(study, {unit.empty() ? number : fmt::format("\"{} {}\"", number, unit)});
   point.directory = directory;
   return point;
 }
@@ -90,7 +81,7 @@ class Search {
     tolerance_ = target_.tolerance.value_or(usual_tolerance * std::max(std::abs(target_.value), change));
   }
 
-  TargetSolution run(const StudyPoint& like, const std::filesystem::path& directory, const std::string& name,
+  TargetSolution run(const std::filesystem::path& directory, const std::string& name,
                      const PointRunner& run_point) {
     for (const Point& end : {curve_[i_], curve_[i_ + 1]})
       if (std::abs(end.second) <= tolerance_) return found(end);
@@ -100,7 +91,7 @@ class Search {
       const double key = solution_.runs % 4 == 3 ? (low + high) / 2 : root_near(curve_, i_);
       if (!(key > low && key < high)) break;
       const auto folder = directory / fmt::format("{}-{:02d}", name, ++solution_.runs);
-      const auto result = run_point(point_at(study_, like, key, folder));
+      const auto result = run_point(point_at(study_, key, folder));
       const auto y = difference(study_, target_, result);
       if (!y)
         return failed(fmt::format("the run at {:.6g} {}", key,
@@ -143,9 +134,9 @@ std::vector<TargetSolution> solve_targets(const Study& study, const std::vector<
       const bool passes = curve[i].second * curve[i + 1].second <= 0;
       const bool is_last = i + 2 == curve.size();
       if (!passes || (curve[i + 1].second == 0 && !is_last)) continue; // that point begins the next pair
-      solutions.push_back(Search(study, t, curve, i)
-                              .run(points.front(), directory,
-                                   fmt::format("{}{:02d}", target_folder, solutions.size() + 1), run));
+      solutions.push_back(
+          Search(study, t, curve, i)
+              .run(directory, fmt::format("{}{:02d}", target_folder, solutions.size() + 1), run));
     }
   }
   return solutions;

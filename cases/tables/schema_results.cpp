@@ -253,51 +253,6 @@ Section linearise_section() {
   return section;
 }
 
-Section study_section() {
-  Section vary;
-  vary.name = "vary";
-  vary.meaning =
-      "keys to vary, as \"section.key\" = [values] or { from, to, step }; the study is their full grid";
-  vary.presence = Section::Presence::separate;
-  Section plot = list_section("plot", "a plot in the study's report", each(&Study::plots));
-  plot.keys = {
-      text("x", to(&StudyPlot::x), "a varied key, or a quantity"),
-      text("y", to(&StudyPlot::y), "quantities").values(1, 20),
-      text("group", to(&StudyPlot::group), "a varied key: one curve for each of its values").optional(),
-  };
-  Section target = list_section(
-      "target", "asks at which value of the one varied key a quantity has this value: found by further runs",
-      each(&Study::targets));
-  Binding tolerance = to(&StudyTarget::tolerance);
-  tolerance.set = [](void* object, const Value& value) {
-    StudyTarget& asked = *static_cast<StudyTarget*>(object);
-    const Scalar& scalar = value.at(0);
-    asked.tolerance = scalar.number * (scalar.text == "%" ? std::abs(asked.value) : 1.0);
-  };
-  Key allowance =
-      text("tolerance", tolerance,
-           "difference at which it counts as found: \"0.1 %\" of the value, or in the quantity's "
-           "unit; without it 0.01 % of the value, or of its change between two points of the study");
-  allowance.type = Type::tolerance;
-  target.keys = {
-      text("quantity", to(&StudyTarget::quantity), "name of the quantity"),
-      measure("value", "", to(&StudyTarget::value), "value that it is to have, in the quantity's unit"),
-      std::move(allowance).above(0).optional(),
-  };
-  Section section;
-  section.name = "study";
-  section.meaning = "a sweep over keys of the case, run by `dielast study`";
-  section.presence = Section::Presence::separate;
-  section.access = same_object();
-  section.keys = {
-      text("collect", to(&Study::collect), "quantities in study.csv; without it all")
-          .optional()
-          .values(1, 1000),
-  };
-  section.sections = {vary, plot, target};
-  return section;
-}
-
 } // namespace
 
 std::vector<Section> result_sections() {

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <clocale>
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace dielast::cases {
 namespace {
@@ -163,6 +165,52 @@ std::string format_measure(double value, std::string_view si_unit) {
 std::string in_unit(double value, const std::string& unit, std::string_view si_unit) {
   return fmt::format("{:.6g}{}{}", value / factor_to_si(unit, si_unit),
                      unit.empty() || unit == "%" ? "" : " ", unit);
+}
+
+SiUnit si_unit(const std::string& unit) {
+  SiUnit found;
+  if (unit.empty()) return found;
+  std::string product; // without the number that udunits may write in front
+  {
+    const std::lock_guard lock(parser_mutex);
+    const DecimalPoint decimal_point;
+    const Unit parsed_unit = parsed(unit_system(), unit);
+    if (!parsed_unit) throw UnitError(fmt::format("with the unknown unit \"{}\"", unit), unit);
+    std::array<char, 256> text{};
+    if (ut_format(parsed_unit.get(), text.data(), text.size() - 1, UT_ASCII | UT_DEFINITION) < 0)
+      throw UnitError(fmt::format("whose unit \"{}\" is of another kind", unit));
+    product = text.data();
+  }
+  if (const std::size_t blank = product.find(' '); blank != std::string::npos) product.erase(0, blank + 1);
+  if (product.find_first_not_of("0123456789.e+-") == std::string::npos) product.clear(); // a percentage
+  for (std::string_view rest = product; !rest.empty();) {
+    const std::string_view part = rest.substr(0, rest.find('.'));
+    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+    const std::string_view name = part.substr(0, part.find_first_of("-0123456789"));
+    const auto base = std::ranges::find(base_units, name);
+    if (base == base_units.end()) throw UnitError(fmt::format("whose unit \"{}\" is of another kind", unit));
+    int power = 1;
+    std::from_chars(part.data() + name.size(), part.data() + part.size(), power);
+    found.powers[static_cast<std::size_t>(base - base_units.begin())] += power;
+  }
+  found.factor = scaled(1, factor_to_si(unit, product.empty() ? "1" : product));
+  return found;
+}
+
+std::string name_of_unit(const BasePowers& powers) {
+  if (powers == BasePowers{}) return "";
+  static const auto known = [] {
+    std::vector<std::pair<BasePowers, std::string>> made;
+    for (const Dimension& one : dimensions())
+      made.emplace_back(si_unit(std::string(one.unit)).powers, one.unit);
+    return made;
+  }();
+  for (const auto& [of, name] : known)
+    if (of == powers) return name;
+  std::string name;
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    if (powers[i] != 0) name += fmt::format("{}{}{}", name.empty() ? "" : " ", base_units[i], powers[i]);
+  return name;
 }
 
 std::optional<WrittenMeasure> written_measure(const std::string& toml) {

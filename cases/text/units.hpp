@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -59,6 +60,23 @@ std::string format_measure(double value, std::string_view si_unit);
 
 /// `value` (SI) in the unit that a user wrote, to 6 digits, for messages: "1000 mm".
 std::string in_unit(double value, const std::string& unit, std::string_view si_unit);
+
+/// What units are products of.
+inline constexpr std::array<std::string_view, 5> base_units{"kg", "m", "s", "A", "rad"};
+using BasePowers = std::array<double, base_units.size()>;
+
+/// A unit as a number of base units.
+struct SiUnit {
+  double factor = 1;
+  BasePowers powers{};
+};
+
+/// Of any unit of these, "" is the pure number. Throws UnitError.
+SiUnit si_unit(const std::string& unit);
+
+/// The SI unit that has these powers, as the table of dimensions writes it where it has one; "" of a pure
+/// number.
+std::string name_of_unit(const BasePowers& powers);
 
 /// A value as it stands in TOML as a number in its own unit: "75 deg", quoted, is 75 in "deg". Nothing for
 /// lists and words.

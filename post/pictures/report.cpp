@@ -24,6 +24,7 @@ header { border-bottom: 1px solid var(--line); padding-bottom: 18px; }
 h1 { font-size: 28px; line-height: 1.25; margin: 0 0 4px; letter-spacing: -0.01em; }
 h2 { font-size: 19px; margin: 40px 0 12px; }
 .subtitle { color: var(--soft); margin: 0; }
+a { color: var(--accent); }
 .status { display: inline-block; margin-top: 12px; padding: 3px 12px; border-radius: 14px; font-weight: 600; font-size: 13.5px; background: var(--panel); border: 1px solid currentColor; }
 .good { color: var(--good); } .warning { color: var(--warning); } .bad { color: var(--bad); }
 td.good, td.warning, td.bad { font-weight: 600; }
@@ -87,6 +88,11 @@ std::string html_of(const Paragraph& paragraph) { return "<p>" + escape_markup(p
 
 std::string html_of(const Listing& listing) { return "<pre>" + escape_markup(listing.text) + "</pre>\n"; }
 
+std::string linked(const std::string& text, const std::string& target) {
+  if (target.empty()) return escape_markup(text);
+  return fmt::format("<a href=\"{}\">{}</a>", escape_markup(target), escape_markup(text));
+}
+
 std::string html_of(const Table& table) {
   const std::vector<bool> numeric = number_columns(table);
   const auto is_number = [&](std::size_t column) { return column < numeric.size() && numeric[column]; };
@@ -99,7 +105,7 @@ std::string html_of(const Table& table) {
     html += "<tr>";
     for (std::size_t c = 0; c < row.size(); ++c)
       html += fmt::format("<td class=\"{} {}\">{}</td>", is_number(c) ? "number" : "text",
-                          css_class(row[c].tone), escape_markup(row[c].text));
+                          css_class(row[c].tone), linked(row[c].text, row[c].link));
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
@@ -133,12 +139,14 @@ std::string html_of(const Section& section) {
 } // namespace
 
 std::string Report::html() const {
-  std::string page =
-      fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-                  "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-                  "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>"
-                  "<p class=\"subtitle\">{2}</p>",
-                  escape_markup(title), css, escape_markup(subtitle));
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<header>{3}<h1>{0}</h1>"
+      "<p class=\"subtitle\">{2}</p>",
+      escape_markup(title), css, escape_markup(subtitle),
+      part_of ? fmt::format("<p class=\"subtitle\">part of {}</p>", linked(part_of->text, part_of->target))
+              : "");
   if (!status.text.empty())
     page += fmt::format("<span class=\"status {}\">{}</span>", css_class(status.tone),
                         escape_markup(status.text));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -12,6 +13,12 @@ namespace dielast::post {
 /// How a word or row is meant; shown by colour and never by colour alone.
 enum class Tone { plain, good, warning, bad };
 
+/// A page beside this one.
+struct Link {
+  std::string text;
+  std::string target; ///< relative path
+};
+
 /// A cell of a table; cells that start with a number are aligned to the right.
 struct Cell {
   Cell(std::string words, Tone meant = Tone::plain) : text(std::move(words)), tone(meant) {}
@@ -19,6 +26,7 @@ struct Cell {
 
   std::string text;
   Tone tone;
+  std::string link{}; ///< the page that the text leads to, a relative path; empty: none
 };
 
 struct Paragraph {
@@ -56,7 +64,8 @@ struct Section {
 /// text.
 struct Report {
   std::string title{}, subtitle{};
-  Cell status{""}; ///< how it ended, e.g. {"converged", Tone::good}
+  std::optional<Link> part_of{}; ///< the page that this one belongs to
+  Cell status{""};               ///< how it ended, e.g. {"converged", Tone::good}
   std::vector<Highlight> highlights{};
   std::vector<Section> sections{};
   std::string footer{}; ///< program, version

@@ -32,10 +32,10 @@ TEST_F(StudyCommand, RunsEveryPointOfTheGrid) {
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const auto rows = table_of(directory / "out/study.csv");
   ASSERT_EQ(rows.size(), 7u);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"point", "honeycomb.angle", "drive.voltage", "eps_x[1]",
-                                               "eps_y[1]", "exit_code", "events", "message"}));
-  EXPECT_EQ(rows[1][1], "120 deg");
-  EXPECT_EQ(rows[6][2], "6 kV");
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"point", "honeycomb.angle[deg]", "drive.voltage[kV]",
+                                               "eps_x[1]", "eps_y[1]", "exit_code", "events", "message"}));
+  EXPECT_EQ(rows[1][1], "120");
+  EXPECT_EQ(rows[6][2], "6");
   for (std::size_t p = 1; p < rows.size(); ++p) {
     EXPECT_EQ(rows[p][0], std::to_string(p));
     EXPECT_EQ(rows[p][5], "0");
@@ -44,6 +44,90 @@ TEST_F(StudyCommand, RunsEveryPointOfTheGrid) {
   ASSERT_EQ(dielast({"run", "small.toml", "-o", "one", "-j", "1"}).exit_code, 0);
   EXPECT_EQ(json_of("out/point-0006/summary.json"), json_of("one/summary.json"));
   EXPECT_EQ(ended.out.find('\r'), std::string::npos); // plain lines in a pipe
+}
+
+TEST_F(StudyCommand, NumbersOfTheTableHaveOneUnitInTheHeader) {
+  write("study.toml", R"toml(title = "Numbers"
+case = "small.toml"
+[study]
+collect = ["eps_y"]
+set = { "output.error_estimate" = false }
+[study.vary]
+"honeycomb.angle" = ["120 deg", "2.5 rad"]
+"film.prestretch" = [[4, 2.5], 3]
+"honeycomb.wall_length" = ["8 mm"]
+"film.material" = ["VHB 4910 (honeycomb)"]
+)toml");
+  const Ended ended = dielast(into("out"));
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto rows = table_of(directory / "out/study.csv");
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(std::vector<std::string>(rows[0].begin() + 1, rows[0].begin() + 6),
+            (std::vector<std::string>{"honeycomb.angle[rad]", "film.prestretch.1[1]", "film.prestretch.2[1]",
+                                      "honeycomb.wall_length[mm]", "film.material"}));
+  EXPECT_EQ(rows[1][1], "2.0943951023932");
+  EXPECT_EQ(rows[4][1], "2.5");
+  EXPECT_EQ(rows[1][3], "2.5");
+  EXPECT_EQ(rows[2][2], "3");
+  EXPECT_EQ(rows[2][3], "3");
+  EXPECT_EQ(rows[1][5], "VHB 4910 (honeycomb)");
+}
+
+// The best point under a bound must be what the table says: here the bound leaves out the point that is best
+// without it.
+TEST_F(StudyCommand, TheBestPointHoldsItsBounds) {
+  write("study.toml", R"(title = "Best"
+case = "small.toml"
+[study]
+vary = { l1 = [3, 4], "drive.voltage" = ["2 kV", "4 kV", "6 kV", "30 kV"] }
+derive = { "film.prestretch" = ["l1", "10 / l1"] }
+set = { "output.error_estimate" = false, "output.fields" = false }
+collect = ["eps_y", "max_field"]
+[[study.best]]
+largest = "eps_y"
+[[study.best]]
+largest = "eps_y"
+where = [{ quantity = "max_field", below = "50 MV/m" }]
+[[study.best]]
+smallest = "eps_y"
+where = [{ quantity = "max_field", above = "500 MV/m" }]
+)");
+  const Ended ended = dielast(into("out"));
+  EXPECT_EQ(ended.exit_code, 4);
+  double best = 0, bounded = 0;
+  std::string best_number, bounded_number;
+  for (const auto& row : table_of(directory / "out/study.csv")) {
+    if (row[0] == "point" || row[7] != "0") continue;
+    const double value = std::stod(row[5]);
+    if (value > best) best = value, best_number = row[0];
+    if (std::stod(row[6]) < 50e6 && value > bounded) bounded = value, bounded_number = row[0];
+  }
+  ASSERT_NE(best_number, bounded_number);
+  EXPECT_TRUE(
+      std::regex_search(ended.out, std::regex("largest eps_y: .*\\(point " + best_number +
+                                              "\\); 2 of 8 points have no result and are left out\n")))
+      << ended.out;
+  EXPECT_TRUE(std::regex_search(
+      ended.out,
+      std::regex("largest eps_y with max_field below 50.00 MV/m: .*\\(point " + bounded_number + "\\)")))
+      << ended.out;
+  EXPECT_NE(ended.out.find("smallest eps_y with max_field above 500.0 MV/m: no point of the grid holds this"),
+            std::string::npos)
+      << ended.out;
+  EXPECT_NE(content("out/report.html").find("largest eps_y with max_field"), std::string::npos);
+  EXPECT_FALSE(exists("out/point-0001/small.pvd")); // as `set` says
+  EXPECT_EQ(json_of("out/point-0001/summary.json")["no_error_estimate_because"],
+            "left out: output.error_estimate = false");
+}
+
+TEST_F(StudyCommand, PagesOfStudyAndPointsLeadToEachOther) {
+  write_study(R"({ "drive.voltage" = ["2 kV"] })");
+  ASSERT_EQ(dielast(into("out", {"--set", "output.error_estimate=false"})).exit_code, 0);
+  EXPECT_NE(content("out/report.html").find("<a href=\"point-0001/report.html\">1</a>"), std::string::npos);
+  EXPECT_NE(content("out/point-0001/report.html").find("<a href=\"../report.html\">Small study</a>"),
+            std::string::npos);
+  EXPECT_EQ(json_of("out/point-0001/summary.json")["no_error_estimate_because"],
+            "left out: output.error_estimate = false");
 }
 
 TEST_F(StudyCommand, KilledAndResumedItEndsInTheSameBits) {

@@ -30,6 +30,7 @@ const std::map<std::string, std::vector<std::string>> libraries{
     {"Cairo", {"cairo", "PkgConfig::cairo"}},
     {"toml++", {"toml++/", "PkgConfig::tomlplusplus"}},
     {"udunits", {"udunits2.h", "PkgConfig::udunits"}},
+    {"muparser", {"muParser", "PkgConfig::muparser"}},
     {"CLI11", {"CLI/", "CLI11::"}},
     {"spdlog", {"spdlog/", "spdlog::"}},
     {"Ceres", {"ceres/", "Ceres::"}},

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/study_axes.hpp"
+
+#include "cases/readers/case_tree.hpp"
+#include "cases/text/expression.hpp"
+#include "cases/text/overrides.hpp"
+#include "cases/text/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace dielast::cases {
+namespace {
+
+/// A number of { from, to, step }, with the unit as written.
+std::optional<WrittenMeasure> measured(const Node* node) {
+  if (!node) return std::nullopt;
+  if (node->is(Node::Kind::integer) || node->is(Node::Kind::number)) return WrittenMeasure{node->number, ""};
+  if (!node->is(Node::Kind::text)) return std::nullopt;
+  try {
+    return split_measure(node->text);
+  } catch (const UnitError&) {
+    return std::nullopt;
+  }
+}
+
+constexpr double most_points = 1e5;
+constexpr std::size_t most_axes = 20;
+
+/// { from, to, step } or { from, to, count }, perhaps with spacing = "logarithmic".
+struct WrittenRange {
+  WrittenMeasure from, to;
+  std::optional<WrittenMeasure> step{};
+  std::optional<double> count{};
+  bool logarithmic = false;
+};
+
+std::optional<WrittenRange> written_range(const Node& node) {
+  const auto from = measured(node.find("from")), to = measured(node.find("to"));
+  const Node *count = node.find("count"), *step = node.find("step"), *spacing = node.find("spacing");
+  if (!from || !to || (count != nullptr) == (step != nullptr)) return std::nullopt;
+  if (node.items.size() != (spacing ? 4 : 3) || (spacing && (step || spacing->text != "logarithmic")))
+    return std::nullopt;
+  WrittenRange range{*from, *to, measured(step)};
+  if (count && count->is(Node::Kind::integer)) range.count = count->number;
+  range.logarithmic = spacing != nullptr;
+  return range.step || range.count ? std::optional(range) : std::nullopt;
+}
+
+/// Values of a range, both ends included; every unit must be written alike. Empty after a report.
+std::vector<std::string> range_values(SectionReader& reader, const Node& node, const std::string& path) {
+  constexpr double most = 10000;
+  const auto range = written_range(node);
+  std::vector<std::string> values;
+  if (!range) {
+    reader.report(
+        node.source, path,
+        "a range is { from = ..., to = ..., step = ... } or { from = ..., to = ..., count = ... }, the "
+        "latter perhaps with spacing = \"logarithmic\"; a key with a dot stands in quotes, as in "
+        "\"honeycomb.angle\" = [...]");
+    return values;
+  }
+  const auto& [from, to, step, written_count, logarithmic] = *range;
+  const double count =
+      step ? std::floor((to.number - from.number) / step->number + 1e-9) + 1 : *written_count;
+  const std::string ends =
+      fmt::format("from {} to {}", text_of(*node.find("from")), text_of(*node.find("to")));
+  if (from.unit != to.unit || (step && from.unit != step->unit))
+    reader.report(node.source, path, "from, to and step must have the same unit");
+  else if (step && !(count >= 1 && count <= most))
+    reader.report(node.source, path, fmt::format("step must lead {} in at most {} values", ends, most));
+  else if (!step && !(count >= 2 && count <= most))
+    reader.report(node.source, path, fmt::format("found count = {}, allowed 2 to {}", count, most));
+  else if (logarithmic && !(from.number * to.number > 0))
+    reader.report(node.source, path, fmt::format("no equal ratios lead {}", ends));
+  else
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+      const double part = i / (count - 1);
+      const double value = step          ? from.number + i * step->number
+                           : logarithmic ? from.number * std::pow(to.number / from.number, part)
+                                         : from.number + part * (to.number - from.number);
+      const std::string number = fmt::format("{:.12g}", value);
+      values.push_back(from.unit.empty() ? number : toml_string(fmt::format("{} {}", number, from.unit)));
+    }
+  return values;
+}
+
+/// Tries values on the base case and reports what is wrong with them; `told` holds the messages of this axis
+/// so far.
+void try_values(SectionReader& reader, const Node& base, const Study& study,
+                const std::vector<std::pair<std::string, std::string>>& values, const Source& source,
+                const std::string& axis, std::set<std::string>& told) {
+  try {
+    Node tree = base;
+    for (const auto& [key, value] : values) apply_override(tree, key, value, source);
+    interpret(std::move(tree), study.base);
+  } catch (const CaseError& error) {
+    for (const Diagnostic& wrong : error.diagnostics()) {
+      const bool named = wrong.key.empty() || wrong.key == axis;
+      const std::string message = named ? wrong.message : wrong.key + ": " + wrong.message;
+      if (told.insert(message).second) reader.report(source, fmt::format("study.vary.\"{}\"", axis), message);
+    }
+  }
+}
+
+/// Values of a key and where each is written.
+struct WrittenAxis {
+  StudyAxis axis;
+  std::vector<Source> sources{};
+};
+
+WrittenAxis read_axis(SectionReader& reader, const std::string& key, const Node& node) {
+  WrittenAxis read{{key, {}}};
+  const std::string path = fmt::format("study.vary.\"{}\"", key);
+  if (node.is(Node::Kind::list)) {
+    if (node.items.empty()) reader.report(node.source, path, "is empty; give at least one value");
+    for (const Node& item : node.items) {
+      read.axis.values.push_back(text_of(item));
+      read.sources.push_back(item.source);
+    }
+  } else if (node.is(Node::Kind::table)) {
+    read.axis.values = range_values(reader, node, path);
+    read.sources.assign(read.axis.values.size(), node.source);
+  } else {
+    reader.report(
+        node.source, path,
+        fmt::format("found {}, allowed a list of values or {{ from, to, step }}; is \"{}\" in quotes?",
+                    text_of(node), key));
+  }
+  return read;
+}
+
+/// A key's expressions: texts, or numbers that stand for themselves.
+void read_derived(SectionReader& reader, const Node& section, Study& study) {
+  const Node* derive = section.find("derive");
+  if (!derive) return;
+  if (!derive->is(Node::Kind::table)) {
+    reader.report(derive->source, "study.derive",
+                  "allowed a table, such as derive = { \"film.prestretch\" = [\"l1\", \"10 / l1\"] }");
+    return;
+  }
+  for (std::size_t i = 0; i < derive->items.size(); ++i) {
+    const Node& node = derive->items[i];
+    DerivedKey& one = study.derived.emplace_back(DerivedKey{derive->keys[i], {}, node.is(Node::Kind::list)});
+    const std::string path = fmt::format("study.derive.\"{}\"", one.key);
+    if (std::ranges::find(study.axes, one.key, &StudyAxis::key) != study.axes.end())
+      reader.report(derive->items[i].key_source, path, "is varied already");
+    for (const Node& item : one.is_list ? node.items : std::vector<Node>{node}) {
+      const bool is_number = item.is(Node::Kind::integer) || item.is(Node::Kind::number);
+      if (!is_number && !item.is(Node::Kind::text))
+        reader.report(
+            item.source, path,
+            fmt::format("found {}, allowed an expression in quotes or a list of them; for one value at "
+                        "all points use study.set",
+                        text_of(item)));
+      one.expressions.push_back(is_number ? text_of(item) : item.text);
+    }
+    if (one.expressions.empty()) reader.report(node.source, path, "is empty; give at least one expression");
+  }
+}
+
+/// What varies and is no key of the case must be what an expression needs.
+void find_parameters(SectionReader& reader, const Node& vary, Study& study) {
+  std::set<std::string> used;
+  for (const DerivedKey& one : study.derived)
+    for (const std::string& expression : one.expressions)
+      for (std::string& name : names_in(expression)) used.insert(std::move(name));
+  for (const StudyAxis& axis : study.axes) {
+    const Section& schema = case_schema();
+    const bool is_plain = axis.key.find_first_of(".[\"") == std::string::npos;
+    if (!is_plain || schema.find_key(axis.key, "") || schema.find_section(axis.key)) continue;
+    study.parameters.push_back(axis.key);
+    const Source& source = vary.find(axis.key)->source;
+    const std::string path = fmt::format("study.vary.\"{}\"", axis.key);
+    if (is_reserved_in_expressions(axis.key))
+      reader.report(source, path, "is a unit or function of expressions; give the parameter another name");
+    else if (!used.contains(axis.key))
+      reader.report(source, path, "is no key of the case, and no expression of study.derive has it");
+  }
+}
+
+void read_pair(SectionReader& reader, const Node& section, const Study& study) {
+  const StudyAxis* first = nullptr;
+  for (const std::string& name : study.pair) {
+    const auto axis = std::ranges::find(study.axes, name, &StudyAxis::key);
+    const Source& source = section.find("pair")->source;
+    if (axis == study.axes.end())
+      reader.report(source, "study.pair",
+                    fmt::format("found {}, allowed keys of study.vary", toml_string(name)));
+    else if (!first)
+      first = &*axis;
+    else if (axis->values.size() != first->values.size())
+      reader.report(source, "study.pair",
+                    fmt::format("{} has {} values and {} has {}; keys that go together have equally many",
+                                first->key, first->values.size(), axis->key, axis->values.size()));
+  }
+}
+
+/// Tries every value on the base case: of a pair and of what is derived together, with the first values of
+/// the other axes where an expression needs them.
+void try_axes(SectionReader& reader, const Node& base, const Study& study,
+              const std::vector<WrittenAxis>& written) {
+  std::vector<std::string> firsts;
+  for (const StudyAxis& axis : study.axes) firsts.push_back(axis.values.front());
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    const StudyAxis& axis = study.axes[a];
+    std::set<std::string> told;
+    for (std::size_t v = 0; v < axis.values.size(); ++v) {
+      std::vector<std::string> values = firsts;
+      std::vector<std::pair<std::string, std::string>> tried;
+      for (std::size_t b = 0; b < study.axes.size(); ++b) {
+        const std::string& key = study.axes[b].key;
+        const bool together = b == a || (study.goes_together(axis.key) && study.goes_together(key));
+        if (together) values[b] = study.axes[b].values[v];
+        if (together && !study.is_parameter(key))
+          tried.insert(b == a ? tried.begin() : tried.end(), {key, values[b]});
+      }
+      try {
+        const std::vector<std::string> derived = derived_values(study, values);
+        for (std::size_t d = 0; d < derived.size(); ++d) tried.emplace_back(study.derived[d].key, derived[d]);
+      } catch (const ExpressionError&) {
+        continue; // told before
+      }
+      if (!tried.empty()) try_values(reader, base, study, tried, written[a].sources[v], axis.key, told);
+    }
+  }
+}
+
+} // namespace
+
+void read_axes(SectionReader& reader, const Node& section, const Node& base, Study& study) {
+  const Node* vary = section.find("vary");
+  if (!vary || !vary->is(Node::Kind::table) || vary->items.empty()) {
+    reader.report(
+        vary ? vary->source : section.source, "study.vary",
+        "what varies is missing, such as vary = { \"honeycomb.angle\" = [\"140 deg\", \"150 deg\"] }");
+    return;
+  }
+  const std::size_t errors_before = reader.diagnostics().size();
+  std::vector<WrittenAxis> written;
+  for (std::size_t i = 0; i < vary->items.size(); ++i) {
+    written.push_back(read_axis(reader, vary->keys[i], vary->items[i]));
+    study.axes.push_back(written.back().axis);
+  }
+  read_derived(reader, section, study);
+  find_parameters(reader, *vary, study);
+  read_pair(reader, section, study);
+  double points = 1;
+  bool paired = false;
+  for (const StudyAxis& axis : study.axes)
+    if (!study.goes_together(axis.key) || !std::exchange(paired, true))
+      points *= static_cast<double>(axis.values.size());
+  if (points > most_points || study.axes.size() > most_axes)
+    reader.report(
+        vary->source, "study.vary",
+        fmt::format("makes a grid of {:.6g} points over {} keys, allowed {:.6g} points over {} keys", points,
+                    study.axes.size(), most_points, most_axes));
+  const Node* derive = section.find("derive");
+  if (reader.diagnostics().size() > errors_before) return;
+  try {
+    for (const auto& values : grid_of(study)) derived_values(study, values);
+  } catch (const ExpressionError& error) {
+    reader.report(derive->source, "study.derive", error.what());
+  }
+  try_axes(reader, base, study, written);
+}
+
+} // namespace dielast::cases
