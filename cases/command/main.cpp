@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/command/command_line.hpp"
 #include "cases/console/terminal.hpp"
 #include "cases/devices/device.hpp"
 #include "cases/fits/fit.hpp"
@@ -16,29 +17,16 @@
 #include "meshing/quality.hpp"
 #include "post/files/vtk_series.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <malloc.h>
+#include <map>
 
 using namespace dielast;
+using cases::Arguments;
 using cases::ExitCode;
 
 namespace {
-
-struct Arguments {
-  std::string case_file;
-  std::vector<std::string> overrides;
-  std::string directory;
-  std::string topic = "overview";
-  int threads = 0;
-  bool resume = false, quiet = false, tangent = false;
-
-  /// Where results go unless the user says so: beside where the command was given, named after the case.
-  std::filesystem::path output(const std::string& suffix) const {
-    return directory.empty() ? std::filesystem::path(case_file).stem().string() + suffix : directory;
-  }
-};
 
 ExitCode run(const Arguments& arguments) {
   return run_case(cases::read_case(arguments.case_file, arguments.overrides),
@@ -118,6 +106,16 @@ ExitCode schema(const Arguments& /*none*/) {
   return ExitCode::ok;
 }
 
+ExitCode man(const Arguments& arguments) {
+  cases::say("{}", cases::manual_page(*arguments.app));
+  return ExitCode::ok;
+}
+
+ExitCode completion(const Arguments& arguments) {
+  cases::say("{}", cases::completion_script(*arguments.app, arguments.shell));
+  return ExitCode::ok;
+}
+
 ExitCode fail(ExitCode code, std::string_view message) {
   cases::say(stderr, "error: {}\n", message);
   return code;
@@ -150,98 +148,22 @@ int main(int argc, char** argv) {
   cases::open_standard_streams();
   cases::catch_signals();
 
-  CLI::App app{"dielast: finite elements for dielectric elastomer actuators"};
-  app.footer(
-      "Examples:\n"
-      "  dielast run case.toml                               results in case-results/\n"
-      "  dielast run case.toml --set drive.voltage=\"6 kV\" -o six\n"
-      "  dielast study figure5.toml --resume                 results in figure5-study/\n"
-      "  dielast fit tests.toml                              results in tests-fit/\n"
-      "  dielast linearise step.toml                         A, B, C, D in step-linear/\n"
-      "  dielast info devices                                templates, their keys and places\n"
-      "Exit codes: 0 ok, 1 usage or file, 2 invalid case, 3 mesh, 4 not converged (results kept), 5 a check\n"
-      "failed or works and heat are not resolved to 1 %, 130 interrupted (go on with --resume).");
-  app.set_version_flag("--version", "dielast " DIELAST_VERSION);
-  app.require_subcommand(1);
-
+  CLI::App app;
   Arguments arguments;
-  struct Command {
-    CLI::App* app;
-    ExitCode (*function)(const Arguments&);
-  };
-  std::vector<Command> commands;
-  const auto add = [&](const char* name, const char* meaning, ExitCode (*function)(const Arguments&)) {
-    commands.push_back({app.add_subcommand(name, meaning), function});
-    return commands.back().app;
-  };
-  const auto takes_case = [&](CLI::App* command) {
-    command->add_option("case", arguments.case_file, "the case file (TOML)")->required();
-    return command;
-  };
-  const auto takes_overrides = [&](CLI::App* command) {
-    command
-        ->add_option("--set", arguments.overrides,
-                     "override a key: --set honeycomb.angle=\"140 deg\"; without a value it is removed")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-  };
-  const auto takes_directory = [&](CLI::App* command) {
-    command
-        ->add_option(
-            "-o,--output", arguments.directory,
-            "directory of the results [<case>-results, -study, -fit, -linear, -mesh: one for each command]")
-        ->type_name("DIR");
-  };
-  const auto takes_threads = [&](CLI::App* command, const char* meaning) {
-    command->add_option("-j,--threads", arguments.threads, meaning)->check(CLI::Range(0, 1024));
-  };
-
-  auto* run_command = takes_case(add("run", "run a case: history, ParaView series, summary, report", run));
-  takes_overrides(run_command);
-  takes_directory(run_command);
-  takes_threads(run_command, "threads [every core]; the results do not depend on it");
-  run_command->add_flag("--resume", arguments.resume, "go on where an interrupted run stopped");
-  run_command->add_flag("-q,--quiet", arguments.quiet, "nothing on the terminal but errors");
-
-  auto* check_command = takes_case(add("check", "validate a case and mesh it, without running", check));
-  takes_overrides(check_command);
-  takes_threads(check_command, "threads [every core]");
-  check_command->add_flag("--tangent", arguments.tangent,
-                          "compare residual and tangent with differences of the energy");
-
-  auto* mesh_command =
-      takes_case(add("mesh", "write the mesh for ParaView, list its places and its quality", mesh));
-  takes_overrides(mesh_command);
-  takes_directory(mesh_command);
-
-  auto* study_command = takes_case(add("study", "run a case over grids of its keys, in parallel", study));
-  takes_overrides(study_command);
-  takes_directory(study_command);
-  takes_threads(study_command, "points at a time [every core]");
-  study_command->add_flag("--resume", arguments.resume,
-                          "keep the points that are done, go on with the others");
-
-  auto* linearise_command = takes_case(
-      add("linearise", "make a small linear model about the state at the end of a case's steps", linearise));
-  takes_overrides(linearise_command);
-  takes_directory(linearise_command);
-  takes_threads(linearise_command, "threads [every core]");
-
-  auto* fit_command =
-      takes_case(add("fit", "fit a material to measured tests: parameters, intervals, report", fit));
-  takes_directory(fit_command);
-  fit_command->add_flag("--resume", arguments.resume, "do nothing where the fit has run to its end");
-
-  auto* info_command = add("info", "explain materials, laws, devices, quantities, steps, keys, units", info);
-  info_command->add_option("topic", arguments.topic, "what to explain [overview]");
-  add("schema", "print the JSON Schema of case files, for completion in an editor", schema);
-
+  cases::add_commands(app, arguments);
+  const std::map<std::string, ExitCode (*)(const Arguments&)> functions{
+      {"run", run}, {"check", check}, {"mesh", mesh},     {"study", study}, {"linearise", linearise},
+      {"fit", fit}, {"info", info},   {"schema", schema}, {"man", man},     {"completion", completion}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return static_cast<int>(finish_output(app.exit(error) == 0 ? ExitCode::ok : ExitCode::usage_or_file));
+    if (error.get_exit_code() == 0) { // --help, --version
+      app.exit(error);
+      return static_cast<int>(finish_output(ExitCode::ok));
+    }
+    cases::say(stderr, "{}\n", cases::explanation(app, error, {argv + 1, argv + argc}));
+    return static_cast<int>(ExitCode::usage_or_file);
   }
-  for (const auto& [command, function] : commands)
-    if (command->parsed()) return static_cast<int>(finish_output(guarded(function, arguments)));
-  return static_cast<int>(ExitCode::usage_or_file);
+  const std::string name = app.get_subcommands().front()->get_name();
+  return static_cast<int>(finish_output(guarded(functions.at(name), arguments)));
 }

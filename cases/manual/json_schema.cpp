@@ -115,6 +115,11 @@ std::string json_schema() {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "dielast case"}};
   schema.update(section_schema(case_schema()));
   schema.erase("required"); // a study file has none of the sections
+  // The film of a fit is its material alone.
+  Json& film = schema["properties"]["film"];
+  schema["if"] = {{"required", {"fit"}}};
+  schema["else"] = {{"properties", {{"film", {{"required", film["required"]}}}}}};
+  film.erase("required");
   return schema.dump(2);
 }
 

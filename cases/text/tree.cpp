@@ -141,6 +141,9 @@ Node parse_tree(std::string_view toml, const FileName& file) {
     std::string message(error.description());
     if (message.find("expected a comment or whitespace") != std::string::npos)
       message += "; a quantity with a unit is a text: \"1 mm\"";
+    if (message.find("invalid utf-8") != std::string::npos) message += "; save the file as UTF-8";
+    if (message.find("could not determine value type") != std::string::npos)
+      message += "; a text stands in quotes: \"text\"";
     if (message.find("end-of-file") != std::string::npos) message += "; is the file complete?";
     throw CaseError({{source_of(error.source(), file), "", message}});
   }

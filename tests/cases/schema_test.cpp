@@ -9,9 +9,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <optional>
+#include <regex>
 #include <set>
 
 namespace dielast::cases {
@@ -162,6 +165,140 @@ TEST(Describe, TellsEveryMaterialPlaceAndKey) {
   visit_sections(case_schema(), "", [&](const Section& section, const std::string&) {
     for (const Key& key : section.keys) EXPECT_NE(keys.find("  " + key.name), std::string::npos) << key.name;
   });
+}
+
+using nlohmann::json;
+
+json json_of(const Node& node) {
+  switch (node.kind) {
+  case Node::Kind::flag:
+    return node.flag;
+  case Node::Kind::integer:
+    return node.integer;
+  case Node::Kind::number:
+    return node.number;
+  case Node::Kind::text:
+  case Node::Kind::date:
+    return node.text;
+  case Node::Kind::list: {
+    json list = json::array();
+    for (const Node& item : node.items) list.push_back(json_of(item));
+    return list;
+  }
+  case Node::Kind::table:
+    break;
+  }
+  json table = json::object();
+  for (std::size_t i = 0; i < node.items.size(); ++i) table[node.keys[i]] = json_of(node.items[i]);
+  return table;
+}
+
+bool has_type(const json& value, const std::string& type) {
+  return type == "object"    ? value.is_object()
+         : type == "array"   ? value.is_array()
+         : type == "string"  ? value.is_string()
+         : type == "boolean" ? value.is_boolean()
+         : type == "integer"
+             ? value.is_number_integer() || (value.is_number() && value == std::floor(value.get<double>()))
+             : value.is_number();
+}
+
+/// What is wrong with a value by the words of JSON Schema that ours uses; empty: nothing.
+std::string violation(const json& schema, const json& value, const std::string& path) {
+  static const std::set<std::string> known{"$schema",
+                                           "title",
+                                           "description",
+                                           "default",
+                                           "type",
+                                           "properties",
+                                           "required",
+                                           "additionalProperties",
+                                           "items",
+                                           "minItems",
+                                           "maxItems",
+                                           "minLength",
+                                           "pattern",
+                                           "enum",
+                                           "anyOf",
+                                           "if",
+                                           "else",
+                                           "minimum",
+                                           "maximum",
+                                           "exclusiveMinimum",
+                                           "exclusiveMaximum"};
+  for (const auto& [word, ignored] : schema.items())
+    if (!known.contains(word)) return path + ": the test does not know " + word;
+  if (schema.contains("type") && !has_type(value, schema["type"])) return path + ": type";
+  if (schema.contains("enum") && std::ranges::find(schema["enum"], value) == schema["enum"].end())
+    return path + ": enum";
+  if (schema.contains("anyOf") && std::ranges::none_of(schema["anyOf"], [&](const json& one) {
+        return violation(one, value, path).empty();
+      }))
+    return path + ": anyOf";
+  if (schema.contains("if") && !violation(schema["if"], value, path).empty())
+    if (std::string wrong = violation(schema["else"], value, path); !wrong.empty()) return wrong;
+  if (value.is_number()) {
+    const double number = value;
+    if (number < schema.value("minimum", number) || number > schema.value("maximum", number))
+      return path + ": range";
+    if (number <= schema.value("exclusiveMinimum", -INFINITY) ||
+        number >= schema.value("exclusiveMaximum", INFINITY))
+      return path + ": range";
+  }
+  if (value.is_string() && schema.contains("pattern") &&
+      !std::regex_search(value.get<std::string>(), std::regex(schema["pattern"].get<std::string>())))
+    return path + ": pattern";
+  if (value.is_string() && value.get<std::string>().size() < schema.value("minLength", 0u))
+    return path + ": minLength";
+  if (value.is_array()) {
+    if (value.size() < schema.value("minItems", 0u) || value.size() > schema.value("maxItems", value.size()))
+      return path + ": number of items";
+    if (schema.contains("items"))
+      for (std::size_t i = 0; i < value.size(); ++i)
+        if (std::string wrong = violation(schema["items"], value[i], path + "[" + std::to_string(i) + "]");
+            !wrong.empty())
+          return wrong;
+  }
+  if (!value.is_object()) return "";
+  for (const json& name : schema.value("required", json::array()))
+    if (!value.contains(name)) return path + ": " + name.get<std::string>() + " is missing";
+  const json properties = schema.value("properties", json::object());
+  for (const auto& [name, inner] : value.items()) {
+    const json more = schema.value("additionalProperties", json(true));
+    if (!properties.contains(name) && more == false) return path + "." + name + ": unknown";
+    const json& rule = properties.contains(name) ? properties[name] : more;
+    if (!rule.is_object()) continue;
+    if (std::string wrong = violation(rule, inner, path + "." + name); !wrong.empty()) return wrong;
+  }
+  return "";
+}
+
+TEST(JsonSchema, AcceptsTheGalleryAndWhatIsValid) {
+  const json schema = json::parse(json_schema());
+  int files = 0;
+  for (const char* folder : {"cases/gallery", "tests/cases/valid"})
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(DIELAST_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".toml") continue;
+      ++files;
+      EXPECT_EQ(violation(schema, json_of(read_tree(entry.path())), ""), "") << entry.path();
+    }
+  EXPECT_GT(files, 30);
+}
+
+TEST(JsonSchema, RefusesWhatTheLanguageDoesNotKnow) {
+  const json schema = json::parse(json_schema());
+  const auto wrong = [&](const std::string& toml) {
+    return violation(schema, json_of(parse_tree(toml, "")), "");
+  };
+  const std::string film = "[film]\nmaterial = \"VHB 4910 (honeycomb)\"\n";
+  EXPECT_EQ(wrong(film + "thickness = \"1 mm\"\n"), "");
+  EXPECT_EQ(wrong(film), ".film: thickness is missing");
+  EXPECT_EQ(wrong(film + "[fit]\n"), "");
+  EXPECT_EQ(wrong(film + "thicknes = \"1 mm\"\n[fit]\n"), ".film.thicknes: unknown");
+  EXPECT_EQ(wrong(film + "thickness = -1\n"), ".film.thickness: anyOf");
+  EXPECT_EQ(wrong("model = \"flat\"\n"), ".model: enum");
+  EXPECT_EQ(wrong("[[step]]\nkind = \"voltage\"\nincrements = 2.5\n"), ".step[0].increments: type");
 }
 
 } // namespace

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
+#include <algorithm>
+#include <regex>
+
 namespace dielast::test {
 namespace {
 
@@ -32,6 +35,115 @@ TEST_F(Topics, InfoExplainsWhatACaseMaySay) {
     EXPECT_NE(ended.out.find(word), std::string::npos) << topic;
   }
   EXPECT_EQ(dielast({"info"}).out, dielast({"info", "overview"}).out);
+}
+
+TEST_F(Topics, InfoExplainsAnyName) {
+  const std::vector<std::pair<const char*, std::vector<const char*>>> names{
+      {"disc", {"electrode_radius", "standard quantities", "places"}},
+      {"gent", {"film.material.law", "stretch_limit"}},
+      {"film.thickness", {"[film]", "thickness", "required"}},
+      {"film", {"[film]", "prestretch", "[film.material]"}},
+      {"thickness", {"[film]", "field thickness"}},
+      {"voltage", {"[drive", "step.kind = \"voltage\""}},
+      {"study.best", {"[[study.best]]", "largest", "[[study.best.where]]"}},
+      {"VHB 4910 (honeycomb)", {"from: ", "law"}}};
+  for (const auto& [name, words] : names) {
+    const Ended ended = dielast({"info", name});
+    EXPECT_EQ(ended.exit_code, 0) << name;
+    for (const char* word : words)
+      EXPECT_NE(ended.out.find(word), std::string::npos) << name << ": " << ended.out;
+  }
+  const Ended wrong = dielast({"info", "film.thicknes"});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_NE(wrong.err.find("did you mean \"film.thickness\"?"), std::string::npos) << wrong.err;
+}
+
+TEST_F(Topics, MaterialsAreToldWithoutRoundOff) {
+  const std::string out = dielast({"info", "materials"}).out;
+  EXPECT_FALSE(std::regex_search(out, std::regex("[0-9]{14}"))) << out;
+  EXPECT_FALSE(std::regex_search(out, std::regex("breakdown_exponent[0-9]"))) << out;
+}
+
+std::vector<std::string> commands_of_help(const std::string& help) {
+  std::vector<std::string> names;
+  std::smatch found;
+  const std::string list =
+      help.substr(help.find("Subcommands:"), help.find("Examples:") - help.find("Subcommands:"));
+  for (const std::string& line : lines_of(list))
+    if (std::regex_match(line, found, std::regex("  ([a-z]+) +[^ ].*"))) names.push_back(found[1]);
+  return names;
+}
+
+std::vector<std::string> options_of_help(const std::string& help) {
+  std::vector<std::string> words;
+  for (const std::string& line : lines_of(help)) {
+    std::string head = line.substr(0, 28);
+    if (!head.starts_with("  -")) continue;
+    for (std::smatch found; std::regex_search(head, found, std::regex("--?[a-z]+")); head = found.suffix())
+      words.push_back(found[0]);
+  }
+  return words;
+}
+
+// The manual page and what shells are told know every command and option of the help, and the shells no
+// other.
+TEST_F(Topics, ManualPageAndCompletionAreWhatTheHelpSays) {
+  const std::vector<std::string> commands = commands_of_help(dielast({"--help"}).out);
+  ASSERT_GE(commands.size(), 10u);
+  std::string page = std::regex_replace(dielast({"man"}).out, std::regex(R"(\\-)"), "-");
+  const std::string zsh = dielast({"completion", "zsh"}).out, fish = dielast({"completion", "fish"}).out;
+  write("bash", dielast({"completion", "bash"}).out + R"(
+COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _dielast; printf '%s\n' "${COMPREPLY[@]}" | sort
+)");
+  const auto bash = [&](const std::string& words) {
+    const std::string line = "cd " + directory.string() + " && bash bash dielast " + words + " > completed";
+    EXPECT_EQ(std::system(line.c_str()), 0) << line;
+    return lines_of(content("completed"));
+  };
+  std::vector<std::string> first = commands;
+  first.insert(first.end(), {"--help", "--version"});
+  std::ranges::sort(first);
+  EXPECT_EQ(bash("''"), first);
+  EXPECT_EQ(bash("stu"), std::vector<std::string>{"study"});
+  EXPECT_EQ(bash("info devi"), std::vector<std::string>{"devices"});
+  EXPECT_EQ(bash("run smal"), std::vector<std::string>{"small.toml"});
+  EXPECT_EQ(bash("completion z"), std::vector<std::string>{"zsh"});
+  for (const std::string& command : commands) {
+    EXPECT_NE(page.find(".SS dielast " + command), std::string::npos) << command;
+    EXPECT_NE(zsh.find("  " + command + ") _arguments"), std::string::npos) << command;
+    EXPECT_NE(fish.find(" -a " + command + " "), std::string::npos) << command;
+    std::vector<std::string> options = options_of_help(dielast({command, "--help"}).out);
+    ASSERT_FALSE(options.empty()) << command;
+    std::ranges::sort(options);
+    EXPECT_EQ(bash(command + " -"), options) << command;
+    for (const std::string& option : options) {
+      EXPECT_NE(page.find(option), std::string::npos) << command << " " << option;
+      EXPECT_NE(zsh.find(option + "["), std::string::npos) << command << " " << option;
+      const std::string long_option = "-l " + option.substr(std::min<std::size_t>(2, option.size()));
+      if (option.starts_with("--")) {
+        EXPECT_NE(fish.find(long_option), std::string::npos) << command << " " << option;
+      }
+    }
+  }
+}
+
+TEST_F(Topics, WhatIsNoCommandIsExplained) {
+  const auto error = [&](const std::vector<std::string>& words) {
+    const Ended ended = dielast(words);
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.out, "");
+    return ended.err;
+  };
+  EXPECT_EQ(error({"small.toml"}),
+            "error: \"small.toml\" is no command: did you mean \"dielast run small.toml\"?\n");
+  EXPECT_EQ(error({"runn", "small.toml"}), "error: \"runn\" is no command; did you mean \"run\"?\n");
+  EXPECT_TRUE(error({}).starts_with(
+      "error: there is no command: write dielast COMMAND ..., with one of run, check,"));
+  EXPECT_NE(error({"run", "small.toml", "--set", "drive.voltage=5", "kV"})
+                .find("one with blanks stands in quotes: --set \"drive.voltage=5 kV\""),
+            std::string::npos);
+  EXPECT_EQ(error({"run", "small.toml", "-j", "x"}).find("--set"), std::string::npos);
+  EXPECT_NE(error({"run"}).find("dielast run --help"), std::string::npos);
 }
 
 TEST_F(Topics, TheMaterialsPageIsWhatTheTablesSay) {

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/manual/entries.hpp"
+
+#include "cases/language/convert.hpp"
+#include "cases/text/units.hpp"
+
+#include <fmt/format.h>
+
+namespace dielast::cases {
+namespace {
+
+/// Without the round-off of a product of two parameters, which nobody has written.
+std::string shown_value(const Key& key, Value value) {
+  for (Scalar& one : value) one.number = std::strtod(fmt::format("{:.12g}", one.number).c_str(), nullptr);
+  return toml_text(key, value);
+}
+
+/// The values of a material's keys.
+std::string values_text(const Section& section, const void* object) {
+  const std::string selected = section.selected_in(object);
+  std::string text;
+  for (const Key& key : section.keys)
+    if (key.applies_to(selected))
+      if (const auto value = key.binding.get(object))
+        text += fmt::format("    {:<24}{}\n", key.name, shown_value(key, *value));
+  for (const Section& inner : section.sections)
+    for (const Access::Entry& entry : inner.access.entries(object))
+      text += fmt::format("    {}\n", inner.name) + values_text(inner, entry.object);
+  return text;
+}
+
+} // namespace
+
+std::string key_text(const Key& key) {
+  std::string rules = expectation(key, key.unit);
+  const std::string range = range_text(key, key.unit.empty() ? "" : std::string(dimension(key.unit).shown));
+  if (!range.empty()) rules += ", " + range;
+  if (key.fallback)
+    rules += "; default " + *key.fallback;
+  else if (!key.fallback_key.empty())
+    rules += "; default: its " + key.fallback_key;
+  else
+    rules += key.required ? "; required" : "; optional";
+  if (!key.acts.needs.empty()) rules += "; acts only with " + key.acts.needs;
+  std::string text = fmt::format("  {:<22}{}\n{:24}{}\n", key.name, key.meaning, "", rules);
+  if (key.type == Type::word)
+    for (const Choice& choice : key.choices)
+      if (!choice.meaning.empty()) text += fmt::format("{:26}{}: {}\n", "", choice.word, choice.meaning);
+  return text;
+}
+
+std::string section_text(const Section& section, const std::string& path) {
+  std::string text = path.empty() ? "at the top of the file\n"
+                                  : fmt::format("\n{}  {}\n", section.heading(path), section.meaning);
+  if (!section.acts.needs.empty()) text += fmt::format("  (acts only with {})\n", section.acts.needs);
+  for (const Key& key : section.keys) {
+    if (key.only_for.empty()) {
+      text += key_text(key);
+      continue;
+    }
+    text += fmt::format("  ({} {})\n", section.selector.empty() ? "only in a" : "for " + section.selector,
+                        fmt::join(key.only_for, ", ")) +
+            key_text(key);
+  }
+  for (const Section& inner : section.sections)
+    text += section_text(inner, path.empty() ? inner.name : path + "." + inner.name);
+  return text;
+}
+
+std::string keys_for(const Section& section, const std::string& selected) {
+  std::string text;
+  for (const Key& key : section.keys)
+    if (!key.only_for.empty() && key.applies_to(selected)) text += key_text(key);
+  return text;
+}
+
+std::string material_text(const materials::NamedFilm& named) {
+  Film film;
+  film.material = named.material;
+  return fmt::format("  \"{}\"\n    from: {}\n    for: {}\n{}", named.name, named.source, named.validity,
+                     values_text(*case_schema().find_section("film")->find_section("material"), &film));
+}
+
+std::string material_text(const materials::NamedSolid& named) {
+  Honeycomb honeycomb;
+  honeycomb.wall.material = named.solid;
+  return fmt::format(
+      "  \"{}\"\n    from: {}\n    for: {}\n{}", named.name, named.source, named.validity,
+      values_text(*case_schema().find_section("honeycomb")->find_section("wall_material"), &honeycomb));
+}
+
+std::string device_text(const Template& device) {
+  const Section& mesh = *case_schema().find_section("mesh");
+  std::string text;
+  const std::string name(device.name);
+  const Section* section = case_schema().find_section(name);
+  const std::string with = device.with.empty() ? "" : fmt::format(" with [{}]", device.with);
+  text += fmt::format("{}{}: {}\n", name, with, device.meaning);
+  if (section) text += section_text(*section, name);
+  text += "\n[mesh]\n";
+  for (const Key& key : mesh.keys)
+    if (key.applies_to(name)) text += key_text(key);
+  if (!device.places.empty()) text += "\nplaces\n";
+  for (const PlaceName& place : device.places) text += fmt::format("  {:<22}{}\n", place.name, place.meaning);
+  text += "\nunless the case has its own\n";
+  const Node defaults = parse_tree(device.defaults, "");
+  for (std::size_t i = 0; i < defaults.items.size(); ++i)
+    text += fmt::format("  {} = {}\n", defaults.keys[i], text_of(defaults.items[i]));
+  text += "\nstandard quantities\n";
+  for (const Node& quantity : standard_quantities(defaults, &device))
+    text += fmt::format("  {}\n", text_of(quantity));
+  return text + "\n";
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/language/schema.hpp"
+#include "cases/tables/templates.hpp"
+#include "materials/catalog.hpp"
+
+#include <string>
+
+namespace dielast::cases {
+
+/// Two lines: the name with its meaning, then what may be written, range and default.
+std::string key_text(const Key& key);
+
+/// Heading, meaning and keys of a section and of the sections in it.
+std::string section_text(const Section& section, const std::string& path);
+
+/// The keys that only one value of the selector has.
+std::string keys_for(const Section& section, const std::string& selected);
+
+/// Source, validity and parameters of a named material.
+std::string material_text(const materials::NamedFilm& named);
+std::string material_text(const materials::NamedSolid& named);
+
+/// Keys, places, defaults and standard quantities of a device.
+std::string device_text(const Template& device);
+
+} // namespace dielast::cases

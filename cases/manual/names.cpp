@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/manual/names.hpp"
+
+#include "cases/manual/entries.hpp"
+#include "post/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+namespace dielast::cases {
+namespace {
+
+/// Something with a name, and how to explain it.
+struct Entry {
+  std::string name; ///< of a section or key its path
+  std::function<std::string()> text;
+};
+
+std::string key_entry(const Section& section, const Key& key, const std::string& path) {
+  std::string text = fmt::format("{}  {}\n", path.empty() ? "at the top of the file" : section.heading(path),
+                                 section.meaning);
+  if (!key.only_for.empty())
+    text += fmt::format("  (for {} {})\n", section.selector, fmt::join(key.only_for, ", "));
+  return text + key_text(key);
+}
+
+std::string word_entry(const Section& section, const Key& key, const Choice& choice,
+                       const std::string& path) {
+  std::string text = fmt::format("{}.{} = \"{}\"  {}\n", path, key.name, choice.word, choice.meaning);
+  if (key.name == section.selector) text += keys_for(section, choice.word);
+  return text;
+}
+
+void add_section(std::vector<Entry>& entries, const Section& section, const std::string& path) {
+  if (!path.empty())
+    entries.push_back({path, [&section, path] { return section_text(section, path).substr(1); }});
+  const auto below = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
+  for (const Key& key : section.keys) {
+    entries.push_back({below(key.name), [&section, &key, path] { return key_entry(section, key, path); }});
+    for (const Choice& choice : key.choices)
+      entries.push_back(
+          {choice.word, [&section, &key, &choice, path] { return word_entry(section, key, choice, path); }});
+  }
+  for (const Section& inner : section.sections) add_section(entries, inner, below(inner.name));
+}
+
+const std::vector<Entry>& all_entries() {
+  static const std::vector<Entry> entries = [] {
+    std::vector<Entry> made;
+    for (const Template& device : templates())
+      made.push_back({std::string(device.name), [&device] { return device_text(device); }});
+    for (const auto& named : materials::named_films())
+      made.push_back({std::string(named.name), [&named] { return material_text(named); }});
+    for (const auto& named : materials::named_solids())
+      made.push_back({std::string(named.name), [&named] { return material_text(named); }});
+    for (const post::Scalar& field : post::scalars())
+      made.push_back({std::string(field.name), [field] {
+                        return fmt::format("field {}: {} ({})\n", field.name, field.meaning, field.unit);
+                      }});
+    add_section(made, case_schema(), "");
+    return made;
+  }();
+  return entries;
+}
+
+std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+/// A device that has a section of its name.
+bool has_device(const std::string& name) {
+  return case_schema().find_section(name) &&
+         std::ranges::any_of(templates(), [&](const Template& device) { return device.name == name; });
+}
+
+} // namespace
+
+std::string explain_name(const std::string& name) {
+  std::string text;
+  std::set<std::string> told;
+  const auto add = [&](const Entry& entry) {
+    if (std::string one = entry.text(); told.insert(one).second) text += (text.empty() ? "" : "\n") + one;
+  };
+  if (has_device(name)) { // with its section
+    for (const Entry& entry : all_entries())
+      if (entry.name == name) {
+        add(entry);
+        return text;
+      }
+  }
+  for (const Entry& entry : all_entries())
+    if (entry.name == name) add(entry);
+  if (name.find('.') == std::string::npos)
+    for (const Entry& entry : all_entries())
+      if (entry.name != name && last_part(entry.name) == name) add(entry);
+  return text;
+}
+
+std::vector<std::string> explained_names() {
+  std::set<std::string> names;
+  for (const Entry& entry : all_entries()) {
+    names.insert(entry.name);
+    names.insert(last_part(entry.name));
+  }
+  return {names.begin(), names.end()};
+}
+
+} // namespace dielast::cases
