@@ -16,6 +16,10 @@ struct FitTest {
   std::filesystem::path file; ///< as written
   materials::Mode kind{};
   std::string stretch_column, stress_column, time_column; ///< empty: the usual ones
+  std::string strain_column, displacement_column;         ///< instead of the stretch; empty: not these
+  std::string force_column;                               ///< instead of the stress; empty: not this
+  std::optional<double> length;                           ///< m, of the specimen, for the displacement
+  std::optional<double> area;                             ///< m^2, undeformed cross-section, for the force
   std::optional<double> rate;                             ///< 1/s, of the stretch, where there is no time
   bool equilibrium = false;                               ///< infinitely slow
   bool zero = false;                                      ///< the first row is the origin

@@ -56,6 +56,7 @@ ExitCode run_fit(const Fit& fit, const FitSettings& settings) {
 
   say("{}\n{}", results.ending(), fit_summary(results));
   for (const std::string& warning : results.warnings()) say("warning: {}\n", warning);
+  say("results in {}: report.html, material.toml, fit.csv, fit.json\n", directory.string());
   std::fflush(stdout);
   const FitEnding ending = results.outcome.ending;
   if (ending == FitEnding::interrupted) return ExitCode::interrupted;

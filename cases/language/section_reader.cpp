@@ -56,6 +56,50 @@ std::string home_of(const std::string& key) {
 
 } // namespace
 
+/// The table that stands in another file under the section's path, or at the file's top. Throws FileError and
+/// CaseError.
+Node SectionReader::table_of_file(const Node& name, const std::string& path) const {
+  const auto file = surroundings_.folder / name.text;
+  if (std::error_code failure; !std::filesystem::is_regular_file(file, failure))
+    throw CaseError({{name.source, path,
+                      fmt::format("found {}: no such file; the path starts at the case file's folder",
+                                  toml_string(name.text))}});
+  const Node tree = read_tree(file);
+  const std::size_t last = path.rfind('.'),
+                    outer = last == std::string::npos ? last : path.rfind('.', last - 1);
+  const Node* around =
+      last == std::string::npos ? &tree : tree.find(path.substr(outer + 1, last - outer - 1));
+  const Node* inner = around && around->is(Node::Kind::table) ? around->find(path.substr(last + 1)) : nullptr;
+  return inner && inner->is(Node::Kind::table) ? *inner : tree;
+}
+
+/// A named thing of a file, "material.toml", as the table in it, whose keys give way to those written beside
+/// the name.
+Node SectionReader::with_file(const Section& section, const Node& node, const std::string& path) {
+  const Node* name = node.is(Node::Kind::text) ? &node : node.find("name");
+  if (!section.names || !name || !name->is(Node::Kind::text) || !name->text.ends_with(".toml")) return node;
+  try {
+    Node table = table_of_file(*name, path);
+    for (std::size_t i = 0; node.is(Node::Kind::table) && i < node.items.size(); ++i) {
+      if (node.keys[i] == "name") continue;
+      table.remove(node.keys[i]);
+      for (const Key& key : section.keys) { // the other way to give it
+        if (key.instead_of == node.keys[i]) table.remove(key.name);
+        if (key.name == node.keys[i]) table.remove(key.instead_of);
+      }
+      table.add(node.keys[i], node.items[i]);
+    }
+    table.source = node.source;
+    return table;
+  } catch (const CaseError& error) {
+    for (const Diagnostic& wrong : error.diagnostics()) diagnostics_.push_back(wrong);
+  } catch (const FileError& error) {
+    report(name->source, path, error.what());
+  }
+  ++unread_;
+  return Node{};
+}
+
 void SectionReader::read_table(const Section& section, const Node& node, void* object,
                                const std::string& path) {
   const std::size_t errors_before = diagnostics_.size() + unread_;
@@ -176,12 +220,16 @@ void SectionReader::read_section(const Section& section, const Node& outer, void
     }
     node = &substitute;
   }
+  const std::size_t unread_before = unread_;
+  const Node from_file = with_file(section, *node, full);
+  if (unread_ > unread_before) return;
+  node = &from_file;
   if (node->is(Node::Kind::text) && section.names) {
     const auto names = section.names();
     if (std::find(names.begin(), names.end(), node->text) == names.end()) {
       report(node->source, full,
-             fmt::format("found {}, allowed a table or one of {}{}", toml_string(node->text), listed(names),
-                         did_you_mean(node->text, names)));
+             fmt::format("found {}, allowed a table, a file \"....toml\" or one of {}{}",
+                         toml_string(node->text), listed(names), did_you_mean(node->text, names)));
       return;
     }
     Node table;

@@ -53,6 +53,8 @@ class SectionReader {
  private:
   void read_key(const Section& section, const Key& key, const std::string& selected, const Node& table,
                 void* object, const std::string& path, bool kept);
+  Node table_of_file(const Node& name, const std::string& path) const;
+  Node with_file(const Section& section, const Node& node, const std::string& path);
   void read_section(const Section& section, const Node& outer, void* parent, const std::string& path);
   void read_list(const Section& section, const Node& node, void* parent, const std::string& path);
   void read_by_electrode(const Section& section, const Node& node, void* parent, const std::string& path);

@@ -21,19 +21,16 @@ std::optional<double> stress_unit(const std::string& text) {
   }
 }
 
-/// "P_kPa_raw" -> 1000: the last part of the name that is a unit of stress.
+/// "P_kPa_raw" -> 1000, "stress (MPa)" -> 1e6: the last part of the name that is a unit of stress.
 std::optional<double> unit_in(const std::string& name) {
-  for (std::size_t end = name.size(), begin; end != std::string::npos; end = begin) {
-    begin = end == 0 ? std::string::npos : name.rfind('_', end - 1);
-    if (begin == std::string::npos) break;
-    if (const auto factor = stress_unit(name.substr(begin + 1, end - begin - 1))) return factor;
-  }
+  for (NameWithUnit part = split_unit(name); !part.unit.empty(); part = split_unit(part.name))
+    if (const auto factor = stress_unit(part.unit)) return factor;
   return std::nullopt;
 }
 
 bool ends_in_stress(const std::string& name) {
-  const auto last = name.rfind('_');
-  return last != std::string::npos && stress_unit(name.substr(last + 1));
+  const std::string unit = split_unit(name).unit;
+  return !unit.empty() && stress_unit(unit);
 }
 
 /// Finds the columns of a test, and says what is wrong with them.
@@ -52,6 +49,31 @@ class Columns {
                                                              csv_.file, usual, key, listed(csv_.names))
                                                : missing(named));
     return column;
+  }
+
+  /// The column that `key` names in SI; empty after a report. A column without a unit of this kind is
+  /// refused, unless it is a pure number.
+  std::vector<double> values(const std::string& key, const std::string& named,
+                             std::string_view si_unit) const {
+    const int column = find(key, named, "");
+    if (column < 0) return {};
+    if (si_unit == "1" && split_unit(named).unit == "%") return scaled(column, 0.01);
+    if (const auto factor = factor_to_si(csv_, column, si_unit)) return scaled(column, *factor);
+    report(key, fmt::format("found {}: its name has no unit; allowed one of {}, as in \"{} ({})\"",
+                            toml_string(named), dimension(si_unit).usual, named, dimension(si_unit).shown));
+    return {};
+  }
+
+  /// The column of the time: time_s, or the only one of that name in a unit of time; -1 where there is none.
+  int usual_time() const {
+    if (const int column = csv_.find("time_s"); column >= 0) return column;
+    int found = -1;
+    for (int i = 0; i < static_cast<int>(csv_.names.size()); ++i)
+      if (split_unit(csv_.names[static_cast<std::size_t>(i)]).name == "time" && factor_to_si(csv_, i, "s")) {
+        if (found >= 0) return -1;
+        found = i;
+      }
+    return found;
   }
 
   /// The column of the stress, Pa; empty after a report.
@@ -80,9 +102,7 @@ class Columns {
                                    toml_string(name), toml_string(name + "_kPa")));
       return {};
     }
-    std::vector<double> values = csv_.columns[static_cast<std::size_t>(column)];
-    for (double& value : values) value *= *unit;
-    return values;
+    return scaled(column, *unit);
   }
 
   void report(const std::string& key, std::string message) const {
@@ -91,6 +111,11 @@ class Columns {
   }
 
  private:
+  std::vector<double> scaled(int column, double factor) const {
+    std::vector<double> numbers = csv_.columns[static_cast<std::size_t>(column)];
+    for (double& number : numbers) number *= factor;
+    return numbers;
+  }
   std::string missing(const std::string& name) const {
     return fmt::format("found {}: {} has no such column, allowed {}{}", toml_string(name), csv_.file,
                        listed(csv_.names), did_you_mean(name, csv_.names));
@@ -108,12 +133,12 @@ void move_to_origin(MeasuredTest& measured) {
   for (double& one : measured.stress) one -= stress;
 }
 
-void require_positive(const CsvTable& csv, int column, const std::vector<double>& stretch,
+void require_positive(const CsvTable& csv, const std::string& column, const std::vector<double>& stretch,
                       std::vector<Diagnostic>& wrong) {
   for (std::size_t row = 0; row < stretch.size(); ++row)
     if (!(stretch[row] > 0))
       wrong.push_back({{csv.file, csv.lines[row], 1},
-                       csv.names[static_cast<std::size_t>(column)],
+                       column,
                        fmt::format("found {:.6g}, allowed a stretch above 0", stretch[row])});
 }
 
@@ -133,13 +158,30 @@ void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Column
                std::vector<Diagnostic>& wrong) {
   const std::size_t errors_before = wrong.size();
   constexpr const char* usual_time = "time_s";
-  const int stretch = columns.find("stretch", test.stretch_column, "stretch");
-  test.measured.stress = columns.stress(test.stress_column);
+  std::string stretch_name = test.stretch_column.empty() ? "stretch" : test.stretch_column;
+  std::vector<double>& stretch = test.measured.history.stretch;
+  if (!test.strain_column.empty()) {
+    stretch_name = test.strain_column;
+    stretch = columns.values("strain", test.strain_column, "1");
+    for (double& one : stretch) one += 1;
+  } else if (!test.displacement_column.empty()) {
+    stretch_name = test.displacement_column;
+    stretch = columns.values("displacement", test.displacement_column, "m");
+    for (double& one : stretch) one = 1 + one / *test.length;
+  } else if (const int column = columns.find("stretch", test.stretch_column, "stretch"); column >= 0) {
+    stretch = csv.columns[static_cast<std::size_t>(column)];
+  }
+  if (test.force_column.empty()) {
+    test.measured.stress = columns.stress(test.stress_column);
+  } else {
+    test.measured.stress = columns.values("force", test.force_column, "N");
+    for (double& one : test.measured.stress) one /= *test.area;
+  }
   int time = -1;
   if (!test.time_column.empty())
     time = columns.find("time", test.time_column, "");
   else if (!test.rate && !test.equilibrium)
-    time = csv.find(usual_time);
+    time = columns.usual_time();
   if (wrong.size() > errors_before) return;
   if (needs_time && !test.equilibrium && !test.rate && time < 0) {
     columns.report("file",
@@ -149,12 +191,11 @@ void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Column
     return;
   }
   test.measured.history.mode = test.kind;
-  test.measured.history.stretch = csv.columns[static_cast<std::size_t>(stretch)];
   test.measured.weight = test.weight;
   test.measured.predict = test.predict;
   test.lines = csv.lines;
   if (test.zero) move_to_origin(test.measured);
-  require_positive(csv, stretch, test.measured.history.stretch, wrong);
+  require_positive(csv, stretch_name, stretch, wrong);
   if (time >= 0) {
     require_growing(csv, time, wrong);
     test.measured.history.time = si_column(csv, time, "s");

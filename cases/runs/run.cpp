@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/run.hpp"
 
+#include "cases/case/quantities.hpp"
 #include "cases/console/terminal.hpp"
 #include "cases/readers/resolved.hpp"
 #include "cases/runs/forecast.hpp"
@@ -89,12 +90,16 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
   };
   observer.on_pass = [] { return !interrupted(); };
   observer.on_accept = [&one, &recorder, &log](const Frame& frame) {
-    std::string line =
-        fmt::format("    {:8.6f}  {:>9}  {:2d} iterations", frame.record.load_factor,
-                    post::engineering(frame.record.largest_voltage(), "V"), frame.record.iterations);
+    std::string line = fmt::format("    {:8.6f}  {:>9}  {:2d} iteration{}", frame.record.load_factor,
+                                   post::engineering(frame.record.largest_voltage(), "V"),
+                                   frame.record.iterations, frame.record.iterations == 1 ? " " : "s");
     for (std::size_t q = 0; q < std::min<std::size_t>(frame.values.size(), 2); ++q)
       if (std::isfinite(frame.values[q]))
-        line += fmt::format("   {} {:.5g}", one.quantities[q].name, frame.values[q]);
+        line += fmt::format(
+            "   {} {}", one.quantities[q].name,
+            post::engineering(frame.values[q], unit_of(one.quantities[q], one.quantities),
+                              is_relative(one.quantities[q].kind) ? post::Ratio::percent : post::Ratio::plain,
+                              5));
     log.info(line);
     for (const post::Event& event : frame.record.events)
       if (!is_critical(event.kind)) // told when they were located
@@ -188,6 +193,9 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
   folder.set_complete(static_cast<int>(code));
   std::filesystem::remove(folder / checkpoint_name);
+  if (!settings.quiet)
+    say("results in {}: report.html, history.csv, summary.json{}\n", folder.path().string(),
+        one.fields ? fmt::format(", {}.pvd for ParaView", one.source.stem().string()) : "");
   return code;
 }
 

@@ -97,8 +97,8 @@ Section material_section() {
   Section section;
   section.name = "material";
   section.meaning =
-      "a named material (material = \"...\"), or a table; with `name`, what the table leaves out is "
-      "that of the named material";
+      "a named material (material = \"...\"), one of a file (material = \"material.toml\", as `dielast fit` "
+      "writes it), or a table; with `name`, what the table leaves out is that of the named material";
   section.presence = Section::Presence::required;
   section.access = same_object();
   section.selector = "law";

@@ -46,11 +46,30 @@ Section test_section() {
       text("stretch", to(&FitTest::stretch_column), "column of the stretch; without it \"stretch\"")
           .optional(),
       text("stress", to(&FitTest::stress_column),
-           "column of the nominal stress, with the unit in its name as in \"P_kPa\"; without it the only one "
+           "column of the nominal stress, with the unit in its name as in \"P_kPa\" or \"stress (MPa)\"; "
+           "without it the only "
+           "one "
            "that ends in a unit of stress")
           .optional(),
+      text("strain", to(&FitTest::strain_column),
+           "column of the nominal strain, stretch - 1, in percent where its name says so, instead of the "
+           "stretch")
+          .optional(),
+      text("displacement", to(&FitTest::displacement_column),
+           "column of the specimen's elongation, with a unit of length in its name, instead of the stretch; "
+           "needs "
+           "length")
+          .optional(),
+      measure("length", "m", to(&FitTest::length), "length of the undeformed specimen").above(0).optional(),
+      text("force", to(&FitTest::force_column),
+           "column of the force, with a unit of force in its name, instead of the stress; needs area")
+          .optional(),
+      measure("area", "m^2", to(&FitTest::area), "cross-section of the undeformed specimen")
+          .above(0)
+          .optional(),
       text("time", to(&FitTest::time_column),
-           "column of the time since the film was undeformed; without it \"time_s\" where there is one")
+           "column of the time since the film was undeformed; without it \"time_s\" or "
+           "\"time (min)\" and the like where there is one")
           .optional(),
       measure("rate", "1/s", to(&FitTest::rate),
               "stretch per time between all rows, up and down, of a file without time")
@@ -72,6 +91,16 @@ Section test_section() {
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& test = *static_cast<const FitTest*>(object);
+    const auto given = [](const std::string& column) { return column.empty() ? 0 : 1; };
+    if (given(test.stretch_column) + given(test.strain_column) + given(test.displacement_column) > 1)
+      return Conflict{test.strain_column.empty() ? "displacement" : "strain",
+                      "given twice: write one of stretch, strain and displacement"};
+    if (given(test.stress_column) + given(test.force_column) > 1)
+      return Conflict{"force", "given twice: write either stress or force"};
+    if (given(test.displacement_column) != (test.length ? 1 : 0))
+      return Conflict{"length", "displacement and length need each other"};
+    if (given(test.force_column) != (test.area ? 1 : 0))
+      return Conflict{"area", "force and area need each other"};
     if (test.rate && !test.time_column.empty()) return Conflict{"rate", "the column of the time says it"};
     if (test.equilibrium && test.rate) return Conflict{"rate", "in equilibrium there is no rate"};
     if (test.equilibrium && !test.time_column.empty())

@@ -19,11 +19,11 @@ struct Cell {
   int column = 1; ///< of its first character in the line, from 1
 };
 
-std::vector<Cell> cells_of(std::string_view line) {
-  constexpr std::string_view blanks = " \t\r";
+std::vector<Cell> cells_of(std::string_view line, char separator) {
+  const std::string_view blanks = separator == '\t' ? " \r" : " \t\r";
   std::vector<Cell> cells;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::size_t end = std::min(line.find(separator, begin), line.size());
     std::string_view text = line.substr(begin, end - begin);
     const std::size_t first = std::min(text.find_first_not_of(blanks), text.size());
     const int column = static_cast<int>(begin + (first < text.size() ? first : 0)) + 1;
@@ -36,9 +36,18 @@ std::vector<Cell> cells_of(std::string_view line) {
   return cells;
 }
 
-/// The number in a cell; NaN when it holds none.
-double number_in(const std::string& text) {
+/// What separates the cells of a table with this line of names.
+char separator_of(std::string_view names) {
+  for (const char separator : {';', '\t'})
+    if (names.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+/// The number in a cell; NaN when it holds none. A decimal comma is one where commas separate nothing.
+double number_in(std::string text, char separator) {
   double number = std::nan("");
+  if (separator != ',' && text.find('.') == std::string::npos)
+    if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
   const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
   const char* const end = text.data() + text.size();
   const auto [stop, problem] = std::from_chars(begin, end, number);
@@ -52,6 +61,18 @@ int CsvTable::find(std::string_view name) const {
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
+NameWithUnit split_unit(const std::string& name) {
+  for (const char* brackets : {"()", "[]"})
+    if (const auto open = name.find(brackets[0]); open != std::string::npos && name.back() == brackets[1]) {
+      std::string stem = name.substr(0, open);
+      while (stem.ends_with(' ')) stem.pop_back();
+      return {stem, name.substr(open + 1, name.size() - open - 2)};
+    }
+  const auto last = name.rfind('_');
+  return last == std::string::npos ? NameWithUnit{name, ""}
+                                   : NameWithUnit{name.substr(0, last), name.substr(last + 1)};
+}
+
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong) {
   constexpr std::size_t largest = 64u << 20, enough = 20 * most_diagnostics;
   constexpr int most_rows = 100000;
@@ -59,11 +80,13 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
   CsvTable table;
   table.file = path.string();
   int number = 0;
+  char separator = ',';
   for (std::string line; std::getline(stream, line) && wrong.size() < enough;) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3); // byte order mark of spreadsheets
     if (line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const auto cells = cells_of(line);
+    if (table.names.empty()) separator = separator_of(line);
+    const auto cells = cells_of(line, separator);
     if (table.names.empty()) {
       for (const Cell& cell : cells) table.names.push_back(cell.text);
       table.columns.resize(cells.size());
@@ -74,12 +97,15 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
     if (cells.size() != table.names.size()) {
       wrong.push_back({{table.file, number, 1},
                        "",
-                       fmt::format("found {} cells, allowed {}: one for each name in line {}", cells.size(),
-                                   table.names.size(), table.header_line)});
+                       fmt::format("found {} cells, allowed {}: one for each name in line {}{}", cells.size(),
+                                   table.names.size(), table.header_line,
+                                   separator == ',' && cells.size() == 2 * table.names.size()
+                                       ? "; with decimal commas cells are separated by semicolons"
+                                       : "")});
       continue;
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      const double value = number_in(cells[c].text);
+      const double value = number_in(cells[c].text, separator);
       if (std::isnan(value))
         wrong.push_back({{table.file, number, cells[c].column},
                          table.names[c],
@@ -101,11 +127,9 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
 
 std::optional<double> factor_to_si(const CsvTable& table, int column, std::string_view si_unit) {
   if (si_unit == "1") return 1;
-  const std::string& name = table.names.at(static_cast<std::size_t>(column));
-  const auto unit = name.rfind('_');
-  if (unit == std::string::npos) return std::nullopt;
   try {
-    return parse_measure("1 " + name.substr(unit + 1), si_unit).value;
+    return parse_measure("1 " + split_unit(table.names.at(static_cast<std::size_t>(column))).unit, si_unit)
+        .value;
   } catch (const UnitError&) { // a word, not a unit
     return std::nullopt;
   }

@@ -11,8 +11,10 @@
 
 namespace dielast::cases {
 
-/// Columns of numbers from a CSV file: cells separated by commas, one line of names, lines that begin with #
-/// are comments. The unit of a column is the end of its name: time_s, voltage_kV.
+/// Columns of numbers from a CSV file: one line of names, lines that begin with # are comments. Cells are
+/// separated by semicolons or tabs where the line of names has some, and then numbers may have a decimal
+/// comma; otherwise by commas. The unit of a column is at the end of its name: time_s, "time (s)",
+/// voltage[kV].
 struct CsvTable {
   std::string file; ///< as messages name it
   std::vector<std::string> names;
@@ -24,6 +26,12 @@ struct CsvTable {
   /// Number of the column; -1 when there is none of that name.
   int find(std::string_view name) const;
 };
+
+/// A column's name without its unit, and the unit: "time" and "s" of "time (s)"; no unit: "" and the name.
+struct NameWithUnit {
+  std::string name, unit;
+};
+NameWithUnit split_unit(const std::string& name);
 
 /// Everything that is wrong with the file is added to `wrong`, with line and column: text or nothing in a
 /// cell, a row with more or fewer cells than names, fewer than `least_rows` rows; a thousand errors end it.

@@ -104,6 +104,7 @@ std::span<const Dimension> dimensions() {
       Dimension{"kg", "a mass", "100 g", 1e6, "g", "mg g kg"},
       Dimension{"N s/m", "a damping", "1.6 N.s/m", 1e9, "N s/m", "N.s/m mN.s/m"},
       Dimension{"m/s^2", "an acceleration", "9.81 m/s^2", 1e6, "m/s^2", "m/s^2"},
+      Dimension{"m^2", "an area", "10 mm^2", 1e3, "m^2", "mm^2 cm^2 m^2"},
       Dimension{"m^3", "a volume", "10 ml", 1e3, "m^3", "mm^3 cm^3 ml l m^3"},
       Dimension{"rad/s", "an angular frequency", "40 rad/s", 1e10, "rad/s", "rad/s"},
       Dimension{"Ohm", "a resistance", "2 MOhm", 1e18, "Ohm", "Ohm kOhm MOhm GOhm"},

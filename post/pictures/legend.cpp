@@ -78,8 +78,8 @@ void draw_colour_bar(cairo_t* cr, const std::string& quantity, const std::string
     cairo_move_to(cr, x, y + height);
     cairo_rel_line_to(cr, 0, 6);
     cairo_stroke(cr);
-    draw_text(cr, fmt::format("{:.{}f}", k * step, decimals), x, y + height + 25, 17, faint_ink,
-              Align::centre);
+    draw_text(cr, fmt::format("{:.{}f}", k * step + 0.0, decimals), // no "-0"
+              x, y + height + 25, 17, faint_ink, Align::centre);
   }
 }
 

@@ -37,6 +37,27 @@ TEST(Csv, ReadsColumnsByNameWithTheirUnits) {
   EXPECT_EQ(si_column(table, 2, "V"), (std::vector{7.0, 8.0})); // "taken" is no unit
 }
 
+TEST(Csv, SemicolonsTabsAndDecimalCommas) {
+  std::vector<Diagnostic> wrong;
+  for (const char* text :
+       {"time (s);stress [MPa]\n0,5;1,25\n1.5;-2e-1\n", "time (s)\tstress [MPa]\n0,5\t1,25\n1.5\t-2e-1\n"}) {
+    const CsvTable table = read(text, wrong);
+    EXPECT_TRUE(wrong.empty()) << wrong.front().text();
+    EXPECT_EQ(table.names, (std::vector<std::string>{"time (s)", "stress [MPa]"}));
+    EXPECT_EQ(table.columns, (std::vector<std::vector<double>>{{0.5, 1.5}, {1.25, -0.2}}));
+    EXPECT_EQ(si_column(table, 1, "Pa"), (std::vector{1.25e6, -0.2e6}));
+  }
+  // "1.234,5" and "1,2,3" are no numbers that everybody reads alike
+  read("a;b\n1.234,5;2\n1,2,3;4\n", wrong);
+  EXPECT_EQ(texts(wrong), (std::vector<std::string>{":2:1: error: a: found \"1.234,5\", allowed a number",
+                                                    ":3:1: error: a: found \"1,2,3\", allowed a number"}));
+  wrong.clear();
+  read("a,b\n0,5,1,25\n", wrong);
+  EXPECT_EQ(texts(wrong),
+            (std::vector<std::string>{":2:1: error: found 4 cells, allowed 2: one for each name in line "
+                                      "1; with decimal commas cells are separated by semicolons"}));
+}
+
 TEST(Csv, SaysEverythingThatIsWrongWithLineAndColumn) {
   std::vector<Diagnostic> wrong;
   read("time_s,force_N\n0,abc\n1,\n 2 , 3x,\n3,nan\n4,1e999\n", wrong, 9);

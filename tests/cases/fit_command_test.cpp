@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
+#include <regex>
+
 namespace dielast::test {
 namespace {
 
@@ -123,6 +125,88 @@ TEST_F(FitCommand, WrongInputAndFilesHaveTheirExitCodes) {
   write_fit(law_only);
   EXPECT_EQ(dielast({"fit", "fit.toml", "-o", "pull.csv"}).exit_code, 1);
   EXPECT_EQ(dielast({"run", "fit.toml"}).exit_code, 2);
+}
+
+// What a testing machine writes is the measurement that "pull.csv" is: every way of saying it gives the fit.
+TEST_F(FitCommand, TablesOfTestingMachinesAreRead) {
+  write("plain.csv", "time_s,stretch,P_kPa\n60,1.2,7.5\n120,1.5,16\n180,2,26\n240,3,43\n");
+  write("strain.csv",
+        "time (min);strain (%);stress (MPa)\n1;20;0,0075\n2;50;0,016\n3;100;0,026\n4;200;0,043\n");
+  // 10 mm x 2 mm x 50 mm long
+  write("force.csv", "time (s),travel (mm),F (N)\n60,10,0.15\n120,25,0.32\n180,50,0.52\n240,100,0.86\n");
+  const std::vector<std::pair<std::string, std::string>> ways{
+      {"plain", ""},
+      {"strain", "strain = \"strain (%)\"\n"},
+      {"force",
+       "displacement = \"travel (mm)\"\nlength = \"50 mm\"\nforce = \"F (N)\"\narea = \"20 mm^2\"\n"}};
+  std::vector<double> moduli;
+  for (const auto& [name, keys] : ways) {
+    write(name + ".toml",
+          "[film.material]\nlaw = \"neo-hookean\"\nshear_modulus = \"10 kPa\"\n[[film.material.branch]]\n"
+          "law = \"neo-hookean\"\nshear_modulus = \"5 kPa\"\nrelaxation_time = \"100 s\"\n[fit]\n"
+          "parameters = [\"shear_modulus\"]\n[[test]]\nfile = \"" +
+              name + ".csv\"\nkind = \"uniaxial\"\n" + keys);
+    const Ended ended = dielast({"fit", name + ".toml"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_NE(ended.out.find("results in " + name + "-fit: "), std::string::npos) << ended.out;
+    moduli.push_back(json_of(name + "-fit/fit.json")["parameters"][0]["value"]);
+  }
+  EXPECT_NEAR(moduli[1] / moduli[0], 1, 1e-9);
+  EXPECT_NEAR(moduli[2] / moduli[0], 1, 1e-9);
+  const auto wrong = [&](const std::string& keys) {
+    write("wrong.toml",
+          "[film.material]\nlaw = \"neo-hookean\"\nshear_modulus = \"10 kPa\"\n[fit]\n[[test]]\n"
+          "file = \"force.csv\"\nkind = \"uniaxial\"\n" +
+              keys);
+    const Ended ended = dielast({"fit", "wrong.toml"});
+    EXPECT_EQ(ended.exit_code, 2);
+    return ended.err;
+  };
+  EXPECT_NE(wrong("displacement = \"travel (mm)\"\nforce = \"F (N)\"\narea = \"20 mm^2\"\n")
+                .find("displacement and length need each other"),
+            std::string::npos);
+  EXPECT_NE(wrong("displacement = \"F (N)\"\nlength = \"50 mm\"\nforce = \"F (N)\"\narea = \"20 mm^2\"\n")
+                .find("its name has no unit; allowed one of um mm cm m inch"),
+            std::string::npos);
+  EXPECT_NE(wrong("strain = \"travel (mm)\"\nstress = \"P\"\nforce = \"F (N)\"\narea = \"20 mm^2\"\n")
+                .find("write either stress or force"),
+            std::string::npos);
+}
+
+// A fit's material goes into a case by the name of its file; what the case writes beside it comes first.
+TEST_F(FitCommand, RunsTakeTheMaterialThatAFitHasWritten) {
+  write_fit(law_only);
+  ASSERT_EQ(dielast({"fit", "fit.toml", "-o", "fitted"}).exit_code, 0);
+  std::string disc = small_disc;
+  disc.replace(disc.find("\"VHB 4910 (honeycomb)\""), 22,
+               "{ name = \"fitted/material.toml\", relative_permittivity = 4.5 }");
+  write("disc.toml", disc);
+  const Ended named = dielast({"run", "disc.toml", "-o", "named", "--set", "drive.voltage=1 kV"});
+  ASSERT_EQ(named.exit_code, 0) << named.err;
+  std::string fitted =
+      std::regex_replace(content("fitted/material.toml"), std::regex("\npermittivity[^\n]*"), "");
+  fitted.insert(fitted.find("[film.material]") + 16, "relative_permittivity = 4.5\n");
+  std::string inline_disc = small_disc;
+  inline_disc.replace(inline_disc.find("material = "), 33, "");
+  inline_disc.insert(inline_disc.find("[disc]"), fitted.substr(fitted.find("[film.material]")));
+  write("inline.toml", inline_disc);
+  ASSERT_EQ(dielast({"run", "inline.toml", "-o", "inline", "--set", "drive.voltage=1 kV"}).exit_code, 0)
+      << content("inline.toml");
+  EXPECT_EQ(json_of("named/summary.json")["quantities"], json_of("inline/summary.json")["quantities"]);
+  const Ended varied = dielast({"check", "disc.toml", "--set", "film.material.shear_modulus=1e99"});
+  EXPECT_EQ(varied.exit_code, 2);
+  const Ended missing = dielast({"check", "disc.toml", "--set", "film.material=nowhere.toml"});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_NE(
+      missing.err.find("film.material: found \"nowhere.toml\": no such file; the path starts at the case "
+                       "file's folder"),
+      std::string::npos)
+      << missing.err;
+  write("bad.toml", "[film.material]\nlaw = \"gentt\"\n");
+  const Ended bad = dielast({"check", "disc.toml", "--set", "film.material=bad.toml"});
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_NE(bad.err.find("bad.toml:2:7: error: film.material.law: found \"gentt\""), std::string::npos)
+      << bad.err;
 }
 
 TEST_F(FitCommand, HelpInfoAndSchemaKnowIt) {

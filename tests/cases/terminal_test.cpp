@@ -2,6 +2,7 @@
 #include "tests/cases/command.hpp"
 
 #include <fcntl.h>
+#include <regex>
 
 namespace dielast::test {
 namespace {
@@ -109,6 +110,24 @@ TEST_F(Terminal, TheSecondSignalEndsTheRunAtOnce) {
 
 TEST_F(Terminal, NohupIsHeeded) {
   EXPECT_EQ(send(under_way([] { std::signal(SIGHUP, SIG_IGN); }), {SIGHUP}).exit_code, 0);
+}
+
+// Progress has the units of the results, and the last line says where these are.
+TEST_F(Terminal, ProgressAndResultsSpeakAlike) {
+  const Ended ended = dielast({"run", "small.toml", "-o", "out", "--set", "output.error_estimate=false"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const std::vector<std::string> lines = lines_of(ended.out);
+  std::smatch shown;
+  std::string progress;
+  for (const std::string& line : lines)
+    if (std::regex_search(line, shown, std::regex("   eps_y ([-0-9.]+) %"))) progress = shown[1];
+  const std::string result = content("out/run.log");
+  ASSERT_TRUE(std::regex_search(result, shown, std::regex("\n  eps_y +([-0-9.]+) %")));
+  ASSERT_FALSE(progress.empty()) << ended.out;
+  EXPECT_NEAR(std::stod(progress), std::stod(shown[1]), 0.01);
+  EXPECT_EQ(ended.out.find(" 1 iterations"), std::string::npos) << ended.out;
+  EXPECT_EQ(lines.back(), "results in out: report.html, history.csv, summary.json, small.pvd for ParaView");
+  EXPECT_EQ(dielast({"run", "small.toml", "-o", "out", "-q"}).out, "");
 }
 
 } // namespace
