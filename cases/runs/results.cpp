@@ -3,6 +3,7 @@
 
 #include "cases/analyses/analysis_report.hpp"
 #include "cases/case/quantities.hpp"
+#include "cases/readers/resolved.hpp"
 #include "meshing/quality.hpp"
 #include "post/pictures/picture.hpp"
 #include "post/pictures/plot.hpp"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace dielast::cases {
 
@@ -87,10 +89,50 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   return sections;
 }
 
+/// The largest magnitude that a unit's numbers have in the run.
+std::map<std::string, double> sizes_of_units(const Case& one, const Journal& journal) {
+  std::map<std::string, double> sizes;
+  for (const auto& row : journal.values)
+    for (std::size_t q = 0; q < one.quantities.size(); ++q)
+      if (std::isfinite(row[q])) {
+        double& size = sizes[unit_of(one.quantities[q], one.quantities)];
+        size = std::max(size, std::abs(row[q]));
+      }
+  return sizes;
+}
+
+constexpr double round_off = 1e-9; ///< of the largest number of the same unit in the run
+
+/// Numbers of the quantities: the user's own before the standard ones.
+std::vector<std::size_t> users_first(const Case& one) {
+  std::vector<std::size_t> order(one.quantities.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_partition(order, [&](std::size_t q) { return !one.quantities[q].standard; });
+  return order;
+}
+
+/// Numbers worth seeing first: the user's own before the standard ones; none that is 0, round-off or all
+/// error.
+std::vector<post::Highlight> highlights(const Case& one, const Results& results, const Journal& journal) {
+  constexpr std::size_t most = 6;
+  const auto sizes = sizes_of_units(one, journal);
+  std::vector<post::Highlight> shown;
+  for (const std::size_t q : users_first(one)) {
+    const post::QuantityRow& row = results.quantities[q];
+    const auto size = sizes.find(row.unit);
+    const double least = std::max(row.error.value_or(0), size == sizes.end() ? 0 : round_off * size->second);
+    if (!(std::abs(row.value) > least) || shown.size() == most) continue;
+    shown.push_back({row.name, post::engineering(row.value, row.unit, row.ratio), post::error_note(row)});
+  }
+  return shown;
+}
+
 /// Every quantity against time, where it passes; otherwise against the largest voltage from where it rises,
-/// or against the load factor of the last step in a run without voltage; strains in one plot.
-std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
+/// or against the load factor of the last step in a run without voltage; strains in one plot. Quantities that
+/// have fewer than two values there, or that do not change beyond round-off, are `left_out` by their names.
+std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vector<std::string>& left_out) {
   std::vector<post::Plot> plots;
+  const auto sizes = sizes_of_units(one, journal);
   std::map<std::string, std::size_t> by_label;
   const auto& records = journal.records;
   const auto charged = std::find_if(records.begin(), records.end(), [](const post::StepRecord& record) {
@@ -107,7 +149,7 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
   const std::string x_label = timed      ? "time [s]"
                               : electric ? "voltage [kV]"
                                          : fmt::format("load factor of \"{}\"", begin->step);
-  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+  for (const std::size_t q : users_first(one)) {
     const Quantity& quantity = one.quantities[q];
     if (!quantity.at.empty()) continue;
     double size = 0;
@@ -123,6 +165,15 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal) {
                          : electric ? records[r].largest_voltage() / 1000
                                     : records[r].load_factor);
       series.y.push_back(journal.values[r][q] * scaled.factor);
+    }
+    std::vector<double> values;
+    for (const double value : series.y)
+      if (std::isfinite(value)) values.push_back(value / scaled.factor);
+    const auto ends = std::ranges::minmax_element(values);
+    if (values.size() < 2 ||
+        !(*ends.max - *ends.min > round_off * sizes.at(unit_of(quantity, one.quantities)))) {
+      left_out.push_back(quantity.name);
+      continue;
     }
     const std::string label = strain                ? "strain [%]"
                               : scaled.unit.empty() ? quantity.name
@@ -279,11 +330,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
                                  [](const post::StepRecord& record) { return record.events.empty(); });
   report.status = {std::string(word(results.outcome.ending)) + (quiet ? "" : ", see the events"),
                    converged && quiet && results.checks_passed() ? post::Tone::good : post::Tone::warning};
-  for (const auto& row : results.quantities)
-    if (report.highlights.size() < 6)
-      report.highlights.push_back(
-          {row.name, post::engineering(row.value, row.unit, row.ratio),
-           row.error ? "± " + post::engineering(*row.error, row.unit, row.ratio, 2) : ""});
+  report.highlights = highlights(one, results, journal);
   if (!results.outcome.message.empty())
     report.sections.push_back({"How it ended", {post::Paragraph{results.outcome.message}}});
 
@@ -295,13 +342,20 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   for (post::Section& section : picture_sections(device, journal))
     report.sections.push_back(std::move(section));
 
-  post::Section plots{"Curves", {}};
-  for (std::string& svg : post::render_svg(curves(one, journal)))
-    if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
-  if (plots.blocks.empty()) plots.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
-  report.sections.push_back(std::move(plots));
-
   for (const Analysis& analysis : journal.analyses) report.sections.push_back(analysis_section(analysis));
+
+  post::Section plots{"Curves", {}};
+  std::vector<std::string> left_out;
+  const std::vector<post::Plot> drawn = curves(one, journal, left_out);
+  for (std::string& svg : post::render_svg(drawn))
+    if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
+  if (plots.blocks.empty() && !drawn.empty())
+    plots.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
+  if (!left_out.empty())
+    plots.blocks.push_back(post::Paragraph{
+        fmt::format("Without a curve, as they do not change or have no value along the way: {}.",
+                    fmt::join(left_out, ", "))});
+  report.sections.push_back(std::move(plots));
   report.sections.push_back(
       {"Quantities", {post::quantity_table(results.quantities), post::Paragraph{error_paragraph(results)}}});
   if (!results.checks.empty()) report.sections.push_back({"Checks", {post::check_table(results.checks)}});
@@ -315,6 +369,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   }
   report.sections.push_back({"Increments", {post::increment_table(journal.records)}});
   report.sections.push_back({"Mesh", {post::Listing{meshing_summary(device)}}});
+  report.sections.push_back({"Case, with every default", {post::Listing{resolved_text(one)}}});
   if (!log.empty()) report.sections.push_back({"Log", {post::Listing{log}}});
   return report;
 }

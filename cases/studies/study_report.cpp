@@ -95,6 +95,27 @@ post::Ratio ratio_of(const std::string& quantity) {
   return quantity.starts_with("eps") ? post::Ratio::percent : post::Ratio::plain;
 }
 
+/// A plot for each unit among those of a plot's quantities: an axis has one unit.
+std::vector<StudyPlot> by_unit(const Study& study, const StudyPlot& spec, const Collected& collected) {
+  std::vector<StudyPlot> plots;
+  std::vector<std::pair<std::string, post::Ratio>> units;
+  for (const std::string& y : spec.y) {
+    const auto q = position(study.collect, y);
+    if (!q) continue;
+    const std::pair unit{collected.units[*q], ratio_of(y)};
+    const auto found = std::ranges::find(units, unit);
+    if (found == units.end()) {
+      units.push_back(unit);
+      plots.push_back(spec);
+      plots.back().y.clear();
+      plots.back().y.push_back(y);
+    } else {
+      plots[static_cast<std::size_t>(found - units.begin())].y.push_back(y);
+    }
+  }
+  return plots;
+}
+
 post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vector<StudyPoint>& points,
                      const Collected& collected) {
   const auto axes = study.varied();
@@ -102,6 +123,7 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
   const auto x_quantity = position(study.collect, spec.x);
   post::Plot plot{.x_label = spec.x};
   double size = 0;
+  std::string names;
   for (const std::string& y : spec.y)
     if (const auto q = position(study.collect, y))
       for (std::size_t p = 0; p < points.size(); ++p)
@@ -110,13 +132,15 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
     const auto q = position(study.collect, y);
     if (!q) continue;
     const auto scale = post::scaled_unit(size, collected.units[*q], ratio_of(y));
-    plot.y_label +=
-        fmt::format("{}{} [{}]", plot.y_label.empty() ? "" : ", ", y, scale.unit.empty() ? "1" : scale.unit);
+    names += (names.empty() ? "" : ", ") + y;
+    plot.y_label = fmt::format("{} [{}]", names, scale.unit.empty() ? "1" : scale.unit);
     std::map<std::string, post::Series> curves;
     for (std::size_t p = 0; p < points.size(); ++p) {
       const std::string name = group ? unquoted(points[p].values[*group]) : "";
       post::Series& series = curves[name];
-      series.label = group ? fmt::format("{}, {} = {}", y, spec.group, name) : y;
+      series.label = !group               ? y
+                     : spec.y.size() == 1 ? fmt::format("{} = {}", spec.group, name)
+                                          : fmt::format("{}, {} = {}", y, spec.group, name);
       series.style = post::Series::Style::line_and_points;
       if (x_axis) {
         const auto number = written_measure(points[p].values[*x_axis]);
@@ -182,7 +206,9 @@ post::Report study_report(const Study& study, const std::vector<StudyPoint>& poi
     report.sections.push_back(std::move(found));
   }
   std::vector<post::Plot> plots;
-  for (const StudyPlot& spec : study.plots) plots.push_back(make_plot(study, spec, points, collected));
+  for (const StudyPlot& spec : study.plots)
+    for (const StudyPlot& alike : by_unit(study, spec, collected))
+      plots.push_back(make_plot(study, alike, points, collected));
   post::Section drawn{"Plots", {}};
   for (std::string& svg : post::render_svg(plots))
     if (!svg.empty()) drawn.blocks.push_back(post::Image{std::move(svg), ""});

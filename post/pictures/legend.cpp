@@ -36,6 +36,12 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   cairo_show_text(cr, text.c_str());
 }
 
+std::string tick_label(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text.starts_with('-') ? text.substr(1) : text;
+}
+
 void draw_scale_bar(cairo_t* cr, double scale, double left, double y) {
   const double length = round_down(200 / scale);
   cairo_set_line_width(cr, 3);
@@ -78,8 +84,7 @@ void draw_colour_bar(cairo_t* cr, const std::string& quantity, const std::string
     cairo_move_to(cr, x, y + height);
     cairo_rel_line_to(cr, 0, 6);
     cairo_stroke(cr);
-    draw_text(cr, fmt::format("{:.{}f}", k * step + 0.0, decimals), // no "-0"
-              x, y + height + 25, 17, faint_ink, Align::centre);
+    draw_text(cr, tick_label(k * step, decimals), x, y + height + 25, 17, faint_ink, Align::centre);
   }
 }
 

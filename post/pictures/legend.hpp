@@ -22,6 +22,9 @@ enum class Align { left, centre };
 void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, const Colour& colour,
                Align align = Align::left, cairo_font_weight_t weight = CAIRO_FONT_WEIGHT_NORMAL);
 
+/// A tick's number with so many decimals; what is 0 then has no sign.
+std::string tick_label(double value, int decimals);
+
 /// A bar of a round length of at most 200 px with its length in mm; `scale` in px/m.
 void draw_scale_bar(cairo_t* cr, double scale, double left, double y);
 

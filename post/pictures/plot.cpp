@@ -24,11 +24,10 @@ namespace {
 
 constexpr std::string_view style = R"(
 set encoding utf8
-set terminal svg size 640,420 noenhanced rounded linewidth 1.4 font 'Helvetica,Arial,DejaVu Sans,sans-serif,14' background '#ffffff'
 set border 3 linecolor '#8a94a0'
 set tics nomirror out scale 0.6 textcolor '#3a434d'
 set grid linecolor '#e4e8ec' linetype 1 linewidth 0.7
-set key outside right top vertical Left reverse textcolor '#3a434d' samplen 2
+set key below horizontal Left reverse textcolor '#3a434d' samplen 2
 set autoscale fix
 set offsets graph 0.02, graph 0.02, graph 0.05, graph 0.05
 )";
@@ -82,8 +81,53 @@ std::vector<double> shown(std::vector<double> values, bool logarithmic) {
   return values;
 }
 
+constexpr int width = 640, height = 420;
+constexpr double letter = 0.58; ///< width of a letter by the size of the font, on average
+
+/// The size of a font in which a text has room; long texts are written small.
+int font_size(const std::string& text, int usual, double room) {
+  return static_cast<int>(
+      std::clamp(room / (letter * static_cast<double>(text.size() + 1)), 7.0, 1.0 * usual));
+}
+
+/// Whether the title or the label of the axis says already which curve it is.
+bool names_itself(const Plot& plot, const Series& series) {
+  return plot.series.size() == 1 && (plot.title == series.label || plot.y_label.starts_with(series.label));
+}
+
+/// Room for the key below the axes: the columns that fit in beside each other, and the rows that they make.
+struct Key {
+  std::size_t columns = 1, rows = 0;
+
+  explicit Key(const Plot& plot) {
+    std::size_t longest = 0, entries = 0;
+    for (const Series& series : plot.series) {
+      if (series.label.empty() || names_itself(plot, series) || !has_points(series)) continue;
+      longest = std::max(longest, series.label.size());
+      ++entries;
+    }
+    columns = std::max<std::size_t>(
+        1, static_cast<std::size_t>(width / (14 * letter * static_cast<double>(longest) + 60)));
+    rows = (entries + columns - 1) / columns;
+  }
+};
+
+/// Digits that tell the ticks of an axis apart: more than usual where it shows a small part of a large
+/// number.
+int digits_of(const std::vector<Series>& all, std::vector<double> Series::*values) {
+  double low = INFINITY, high = -INFINITY;
+  for (const Series& series : all)
+    for (const double value : series.*values)
+      if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  constexpr int usual = 6, most = 15;
+  if (!(high > low)) return usual;
+  const double size = std::max(std::abs(low), std::abs(high));
+  return std::clamp(static_cast<int>(std::ceil(std::log10(size / (high - low)))) + 3, usual, most);
+}
+
 std::string script(const Plot& plot) {
   std::string data, curves;
+  std::vector<Series> drawn;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     Series series = plot.series[i];
     series.x = shown(std::move(series.x), plot.log_x);
@@ -96,19 +140,32 @@ std::string script(const Plot& plot) {
     const char* with = series.style == Series::Style::line     ? "lines"
                        : series.style == Series::Style::points ? "points"
                                                                : "linespoints";
-    curves += fmt::format("{}$series{} using 1:2 with {} linecolor '{}' linewidth 1.4 {} {}",
+    const bool untitled = series.label.empty() || names_itself(plot, series);
+    curves += fmt::format("{}$series{} using 1:2 with {} linecolor '{}' linewidth 1.4 {} {} {}",
                           curves.empty() ? "" : ", ", i, with, colours[i % colours.size()],
+                          series.style == Series::Style::points ? "" : fmt::format("dashtype {}", 1 + i % 4),
                           series.style == Series::Style::line ? "" : "pointtype 7 pointsize 0.55",
-                          series.label.empty() ? "notitle" : "title " + gnuplot_string(series.label));
+                          untitled ? "notitle" : "title " + gnuplot_string(series.label));
+    drawn.push_back(std::move(series));
   }
   // With nothing to draw gnuplot would stop: show the empty axes.
   if (curves.empty()) curves = "[1:2] [1:2] NaN notitle";
-  return fmt::format("{}set title {} font ',16' textcolor '#1d242c'\nset xlabel {} textcolor '#3a434d'\nset "
-                     "ylabel {} textcolor "
-                     "'#3a434d'\nunset logscale\n{}{}set size {}\nplot {}\nunset output\n",
-                     data, gnuplot_string(plot.title), gnuplot_string(plot.x_label),
-                     gnuplot_string(plot.y_label), plot.log_x ? "set logscale x\n" : "",
-                     plot.log_y ? "set logscale y\n" : "", plot.equal_axes ? "ratio -1" : "noratio", curves);
+  const Key key(plot);
+  std::string settings =
+      fmt::format("set terminal svg size {},{} noenhanced rounded linewidth 1.4 font 'Helvetica,Arial,DejaVu "
+                  "Sans,sans-serif,14' background '#ffffff'\nset key maxcols {}\n",
+                  width, height + 22 * key.rows, key.columns);
+  settings += fmt::format("set title {} font ',{}' textcolor '#1d242c'\n", gnuplot_string(plot.title),
+                          font_size(plot.title, 16, width - 40));
+  settings += fmt::format("set xlabel {} font ',{}' textcolor '#3a434d' offset 0,0.4\n",
+                          gnuplot_string(plot.x_label), font_size(plot.x_label, 14, width - 120));
+  settings += fmt::format("set ylabel {} font ',{}' textcolor '#3a434d'\n", gnuplot_string(plot.y_label),
+                          font_size(plot.y_label, 14, height - 80));
+  settings += fmt::format("set format x '%.{}g'\nset format y '%.{}g'\n", digits_of(drawn, &Series::x),
+                          digits_of(drawn, &Series::y));
+  settings += fmt::format("unset logscale\n{}{}set size {}\n", plot.log_x ? "set logscale x\n" : "",
+                          plot.log_y ? "set logscale y\n" : "", plot.equal_axes ? "ratio -1" : "noratio");
+  return fmt::format("{}{}plot {}\nunset output\n", data, settings, curves);
 }
 
 /// What gnuplot prints for a script; empty when it cannot be run.

@@ -25,10 +25,11 @@ h1 { font-size: 28px; line-height: 1.25; margin: 0 0 4px; letter-spacing: -0.01e
 h2 { font-size: 19px; margin: 40px 0 12px; }
 .subtitle { color: var(--soft); margin: 0; }
 a { color: var(--accent); }
+summary { cursor: pointer; color: var(--accent); }
 .status { display: inline-block; margin-top: 12px; padding: 3px 12px; border-radius: 14px; font-weight: 600; font-size: 13.5px; background: var(--panel); border: 1px solid currentColor; }
 .good { color: var(--good); } .warning { color: var(--warning); } .bad { color: var(--bad); }
 td.good, td.warning, td.bad { font-weight: 600; }
-.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); gap: 12px; margin: 24px 0 0; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(155px, 1fr)); gap: 12px; margin: 24px 0 0; }
 .card { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; }
 .card .label { color: var(--soft); font-size: 13px; }
 .card .value { font-size: 21px; font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
@@ -86,7 +87,14 @@ std::vector<bool> number_columns(const Table& table) {
 
 std::string html_of(const Paragraph& paragraph) { return "<p>" + escape_markup(paragraph.text) + "</p>\n"; }
 
-std::string html_of(const Listing& listing) { return "<pre>" + escape_markup(listing.text) + "</pre>\n"; }
+/// What is longer than a screen is folded.
+std::string html_of(const Listing& listing) {
+  constexpr std::ptrdiff_t most_lines = 25;
+  const std::string text = "<pre>" + escape_markup(listing.text) + "</pre>";
+  const auto lines = std::ranges::count(listing.text, '\n');
+  if (lines <= most_lines) return text + "\n";
+  return fmt::format("<details><summary>{} lines</summary>{}</details>\n", lines, text);
+}
 
 std::string linked(const std::string& text, const std::string& target) {
   if (target.empty()) return escape_markup(text);

@@ -45,6 +45,12 @@ std::string with_error(const QuantityRow& row) {
                      scaled.unit.empty() ? "" : " ", scaled.unit);
 }
 
+std::string error_note(const QuantityRow& row) {
+  if (!row.error || std::isnan(row.value)) return "";
+  const ScaledUnit scaled = scaled_unit(row.value, row.unit, row.ratio);
+  return fmt::format("± {}{}{}", error_text(row, scaled), scaled.unit.empty() ? "" : " ", scaled.unit);
+}
+
 Table quantity_table(std::span<const QuantityRow> rows) {
   Table table{{"Quantity", "Value", "Error", "Unit", "Meaning"}, {}};
   for (const QuantityRow& row : rows) {

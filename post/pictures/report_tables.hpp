@@ -35,6 +35,9 @@ struct CheckRow {
 /// A value in engineering units, with its error in the same ones: "33.19 ± 0.05 %".
 std::string with_error(const QuantityRow& row);
 
+/// Its error alone, as with_error() says it: "± 0.05 %"; empty where there is none.
+std::string error_note(const QuantityRow& row);
+
 Table quantity_table(std::span<const QuantityRow> rows);
 Table check_table(std::span<const CheckRow> rows);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
+#include <algorithm>
 #include <regex>
 
 namespace dielast::test {
@@ -18,6 +19,26 @@ class Outputs : public CommandTest {
     EXPECT_GE(quantity["error_estimate"], 0) << name;
   }
 };
+
+// The page begins with what the user has asked for, and shows neither zeros nor curves of nothing.
+TEST_F(Outputs, ThePageShowsTheUsersQuantitiesFirst) {
+  write("own.toml", small_honeycomb + "[[quantity]]\nname = \"my_distance\"\nkind = \"distance\"\n"
+                                      "between = [\"left_apex\", \"right_apex\"]\n");
+  ASSERT_EQ(dielast({"run", "own.toml", "-o", "out"}).exit_code, 0);
+  const std::string page = content("out/report.html");
+  std::vector<std::string> cards;
+  const std::regex card("<div class=\"label\">([^<]*)</div>");
+  for (std::sregex_iterator at(page.begin(), page.end(), card), end; at != end; ++at)
+    cards.push_back((*at)[1]);
+  ASSERT_EQ(cards.size(), 6u);
+  EXPECT_EQ(cards[0], "my_distance");
+  EXPECT_EQ(std::ranges::count(cards, "mechanical_work"), 0);
+  EXPECT_NE(
+      page.find("Without a curve, as they do not change or have no value along the way: mechanical_work, "
+                "dissipated_energy"),
+      std::string::npos);
+  EXPECT_NE(page.find("Case, with every default"), std::string::npos);
+}
 
 TEST_F(Outputs, OfAHoneycomb) {
   ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);

@@ -2,6 +2,7 @@
 #include "post/pictures/picture.hpp"
 
 #include "meshing/meridian.hpp"
+#include "post/pictures/legend.hpp"
 #include "tests/post/samples.hpp"
 
 #include <cairo.h>
@@ -103,6 +104,12 @@ TEST(Picture, ColoursSpanTheRangeOfAllPanels) {
   // Each panel is half of the width and square; the colour bar adds a few pixels.
   EXPECT_NEAR(static_cast<double>(pixels.count(lowest)), 736 * 736, 0.03 * 736 * 736);
   EXPECT_NEAR(static_cast<double>(pixels.count(highest)), 736 * 736, 0.03 * 736 * 736);
+}
+
+TEST(Picture, NoTickIsMinusZero) {
+  EXPECT_EQ(tick_label(-0.0, 0), "0");
+  EXPECT_EQ(tick_label(-1e-12, 2), "0.00");
+  EXPECT_EQ(tick_label(-0.5, 1), "-0.5");
 }
 
 TEST(Picture, PanelsShareOneScale) {

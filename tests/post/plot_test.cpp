@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <regex>
+#include <set>
 #include <utility>
 
 namespace dielast::post {
@@ -34,6 +36,79 @@ TEST(Plot, TextIsNeverACommand) {
   EXPECT_NE(svgs[1].find("second"), std::string::npos);
 }
 
+/// Where the marks of a document's curves are, px.
+std::vector<std::pair<double, double>> marks(const std::string& svg) {
+  std::vector<std::pair<double, double>> places;
+  const std::regex mark(R"(<use xlink:href='#gpPt6' transform='translate\(([0-9.]+),([0-9.]+)\))");
+  for (std::sregex_iterator i(svg.begin(), svg.end(), mark), end; i != end; ++i)
+    places.emplace_back(std::stod((*i)[1]), std::stod((*i)[2]));
+  return places;
+}
+
+/// Texts of a document with their sizes.
+std::vector<std::pair<std::string, double>> texts_of(const std::string& svg) {
+  std::vector<std::pair<std::string, double>> texts;
+  double size = 0;
+  const std::regex token("font-size=\"([0-9.]+)\"|<text>([^<]*)</text>");
+  for (std::sregex_iterator i(svg.begin(), svg.end(), token), end; i != end; ++i) {
+    if ((*i)[1].matched)
+      size = std::stod((*i)[1]);
+    else
+      texts.emplace_back((*i)[2], size);
+  }
+  return texts;
+}
+
+TEST(Plot, LongTitlesHaveRoom) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  Plot plot = line("curve");
+  plot.title = "A title of more than one hundred letters, which goes on and on until no page has room for "
+               "it, not even this";
+  const auto texts = texts_of(render_svg({plot})[0]);
+  const auto title = std::ranges::find(texts, plot.title, &std::pair<std::string, double>::first);
+  ASSERT_NE(title, texts.end());
+  EXPECT_LT(title->second * 0.6 * static_cast<double>(plot.title.size()), 660);
+}
+
+// The key stands below, so that axes are as wide with long labels as with none.
+TEST(Plot, KeysTakeNoWidthFromTheAxes) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  Plot plot{"title", "x", "y", {}};
+  for (int i = 0; i < 6; ++i)
+    plot.series.push_back({"quantity, film.prestretch = [4, 2.5], " + std::to_string(i),
+                           {0, 1},
+                           {0, 1.0 * i},
+                           Series::Style::line_and_points});
+  Plot plain = plot;
+  for (Series& series : plain.series) series.label.clear();
+  const auto svgs = render_svg({plot, plain});
+  const auto width = [](const std::string& svg) {
+    const auto places = marks(svg);
+    const auto [left, right] = std::ranges::minmax(places);
+    return right.first - left.first;
+  };
+  EXPECT_NEAR(width(svgs[0]), width(svgs[1]), 80); // marks in the key stand left of the middle
+  EXPECT_GT(width(svgs[0]), 450);
+}
+
+TEST(Plot, ASingleCurveIsNamedOnce) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  const Plot plot{"radius", "time [s]", "size [mm]", {{"radius", {0, 1, 2}, {0, 1, 4}}}};
+  const auto texts = texts_of(render_svg({plot})[0]);
+  EXPECT_EQ(std::ranges::count(texts, plot.title, &std::pair<std::string, double>::first), 1);
+}
+
+TEST(Plot, TicksDiffer) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  const Plot plot{"", "x", "y", {{"", {0, 1, 2}, {2.003680, 2.003684, 2.003690}}}};
+  std::set<std::string> seen;
+  for (const auto& [text, size] : texts_of(render_svg({plot})[0]))
+    if (text.find("2.00368") != std::string::npos) {
+      EXPECT_TRUE(seen.insert(text).second) << text;
+    }
+  EXPECT_GE(seen.size(), 2u);
+}
+
 TEST(Plot, SurvivesMissingData) {
   if (!has_gnuplot()) GTEST_SKIP();
   const auto svgs = render_svg({{"none", "x", "y", {}},
@@ -42,15 +117,6 @@ TEST(Plot, SurvivesMissingData) {
                                 line("last")});
   ASSERT_EQ(svgs.size(), 4u);
   EXPECT_NE(svgs[3].find("last"), std::string::npos);
-}
-
-/// Where the marks of a document's curves are, px.
-std::vector<std::pair<double, double>> marks(const std::string& svg) {
-  std::vector<std::pair<double, double>> places;
-  const std::regex mark(R"(<use xlink:href='#gpPt6' transform='translate\(([0-9.]+),([0-9.]+)\))");
-  for (std::sregex_iterator i(svg.begin(), svg.end(), mark), end; i != end; ++i)
-    places.emplace_back(std::stod((*i)[1]), std::stod((*i)[2]));
-  return places;
 }
 
 TEST(Plot, LogarithmicAxes) {

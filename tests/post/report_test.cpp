@@ -58,6 +58,26 @@ TEST(Report, LeavesOutWhatCouldNotBeDrawn) {
   EXPECT_EQ(sample_report().html().find("not drawn"), std::string::npos);
 }
 
+TEST(Report, LongListingsAreFolded) {
+  Report report{.title = "t"};
+  report.sections = {{"Short", {Listing{"one\ntwo\n"}}}};
+  EXPECT_EQ(report.html().find("<details>"), std::string::npos);
+  std::string log;
+  for (int i = 0; i < 40; ++i) log += "line\n";
+  report.sections = {{"Log", {Listing{log}}}};
+  EXPECT_NE(report.html().find("<details><summary>40 lines</summary><pre>line"), std::string::npos);
+}
+
+TEST(Report, LeadsToOtherPages) {
+  Report report{.title = "t", .part_of = Link{"a <study>", "../report.html"}};
+  Cell cell("7");
+  cell.link = "point-0007/report.html";
+  report.sections = {{"Points", {Table{{"point"}, {{cell}}}}}};
+  const std::string html = report.html();
+  EXPECT_NE(html.find("part of <a href=\"../report.html\">a &lt;study&gt;</a>"), std::string::npos);
+  EXPECT_NE(html.find("<a href=\"point-0007/report.html\">7</a>"), std::string::npos);
+}
+
 TEST(Report, AlignsColumnsOfNumbers) {
   const std::string html = sample_report().html();
   EXPECT_NE(html.find("<th class=\"number\">Value</th>"), std::string::npos);
