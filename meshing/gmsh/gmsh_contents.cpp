@@ -68,9 +68,10 @@ void only_read() {
 GmshContents call_module(const std::string& path) {
   const std::filesystem::path name = "dielast_gmsh.so";
   std::error_code ignored;
-  const auto beside_program = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
-  void* module = dlopen(beside_program.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!module) module = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+  void* module = nullptr; // beside the program as it is built, in a folder of libraries where it is installed
+  for (const auto& folder : {program, program / DIELAST_MODULE_FOLDER})
+    if (!module) module = dlopen((folder / name).c_str(), RTLD_NOW | RTLD_LOCAL);
   void* function = module ? dlsym(module, gmsh_module_function) : nullptr;
   if (!function)
     return failure(std::string("mesh files need the gmsh module, which cannot be loaded: ") + dlerror());
