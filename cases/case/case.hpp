@@ -320,6 +320,7 @@ struct Case {
   Linearise linearise;
   bool error_estimate = true;         ///< [output] error_estimate: solve again with other elements and steps
   bool fields = true;                 ///< [output] fields: write the VTK series
+  bool all_states = true;             ///< [output] states: of every row, not only the last of each step
   std::vector<Mention> places;        ///< every place that the case names, for check_places
   std::map<std::string, Source> keys; ///< where they stand, by path, for what only the device can tell
   std::vector<Diagnostic> warnings{};

@@ -147,6 +147,10 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
                                     text_of(*base_name))}});
   }
   Node base = read_case_file(study.base);
+  if (const Node* output = base.find("output"); !output || !output->find("states")) {
+    study.settings.emplace_back("output.states=\"last\""); // a grid of whole series fills disks
+    apply_override(base, study.settings.back());
+  }
   read_settings(reader, *section, base, study);
   for (const std::string& assignment : overrides) {
     apply_override(base, assignment);

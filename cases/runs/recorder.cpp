@@ -203,9 +203,12 @@ void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
 void Recorder::record(const Frame& frame) {
   const post::StepRecord& record = frame.record;
   history_->append(record.step, history_row(record, frame.values));
-  if (series_)
-    series_->write(series_step(series_time(record), record.step, record.load_factor, record.voltages),
-                   frame.measured.state.displacement, frame.measured.samples);
+  if (series_) {
+    if (waiting_ && waiting_->step.name != record.step) write_waiting();
+    waiting_ = {series_step(series_time(record), record.step, record.load_factor, record.voltages),
+                frame.measured.state.displacement, frame.measured.samples};
+    if (case_.all_states || frame.ends_step) write_waiting();
+  }
 
   Snapshot now = snapshot(simulation_.device(), record.step, frame.measured.state, frame.measured.samples);
   // The last accepted state is replaced until its step has ended.
@@ -218,6 +221,11 @@ void Recorder::record(const Frame& frame) {
   journal_.values.push_back(frame.values);
   steps_ended_ += frame.ends_step;
   if (std::chrono::steady_clock::now() - saved_ > checkpoint_interval) save_checkpoint();
+}
+
+void Recorder::write_waiting() {
+  if (series_ && waiting_) series_->write(waiting_->step, waiting_->displacement, waiting_->samples);
+  waiting_.reset();
 }
 
 void Recorder::save_checkpoint() {

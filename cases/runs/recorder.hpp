@@ -49,10 +49,18 @@ class Recorder {
   void record_analysis(Analysis analysis, const fem::State& state);
   /// Writes the checkpoint now; the run can be resumed from it.
   void save_checkpoint();
+  /// Writes the last state into the series where it has not been: a run that ends within a step keeps it.
+  void write_waiting();
 
   const Journal& journal() const { return journal_; }
 
  private:
+  /// A state of the series that is written where no other of its step follows.
+  struct WaitingState {
+    post::SeriesStep step;
+    std::vector<Eigen::Vector3d> displacement;
+    fem::Samples samples;
+  };
   double series_time(const post::StepRecord& record);
   post::SeriesStep series_step(double time, const std::string& name, double load_factor,
                                std::span<const double> voltages) const;
@@ -71,6 +79,7 @@ class Recorder {
   int steps_ended_ = 0;
   std::optional<double> series_time_; ///< of the last state
   std::optional<post::History> history_;
+  std::optional<WaitingState> waiting_;
   std::optional<post::VtkSeries> series_, modes_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };

@@ -153,6 +153,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
              recorder.journal().records.size(), settings.directory.string());
     return ExitCode::interrupted;
   }
+  recorder.write_waiting();
   Estimates estimates{.reason = "left out: output.error_estimate = false"};
   if (outcome.ending != Ending::complete)
     estimates.reason = "the run did not reach its end";

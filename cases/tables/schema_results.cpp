@@ -213,6 +213,12 @@ Section output_section() {
            "solve again with other elements and time steps to estimate the error")
           .otherwise("true"),
       flag("fields", to(&Case::fields), "write the series of fields for ParaView").otherwise("true"),
+      word("states",
+           {{"all", "every row of the history", true},
+            {"last", "the last of each step, on much less disk", false}},
+           to(&Case::all_states),
+           "what the series has; points of a study have the last ones unless it is written")
+          .otherwise("all"),
   };
   return section;
 }

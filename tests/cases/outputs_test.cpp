@@ -20,6 +20,27 @@ class Outputs : public CommandTest {
   }
 };
 
+// A run that ends within a step keeps the state that it has reached, although it is not the step's last.
+TEST_F(Outputs, SeriesOfTheLastStates) {
+  const auto states = [&](const std::string& voltage, const std::string& which) {
+    const std::string folder = voltage.substr(0, voltage.find(' ')) + which;
+    dielast({"run", "small.toml", "-o", folder, "--set", "drive.voltage=" + voltage, "--set",
+             "output.states=" + which, "--set", "output.error_estimate=false"});
+    std::vector<std::string> times;
+    const std::string list = content(folder + "/small.pvd");
+    const std::regex entry("timestep=\"([^\"]*)\"[^>]*part=\"0\"");
+    for (std::sregex_iterator at(list.begin(), list.end(), entry), end; at != end; ++at)
+      times.push_back((*at)[1]);
+    return times;
+  };
+  const auto all = states("4 kV", "all"), last = states("4 kV", "last");
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(last, (std::vector<std::string>{all[0], all[1], all[4]}));
+  const auto all_ended = states("30 kV", "all"), last_ended = states("30 kV", "last");
+  ASSERT_GT(all_ended.size(), 3u);
+  EXPECT_EQ(last_ended, (std::vector<std::string>{all_ended[0], all_ended[1], all_ended.back()}));
+}
+
 // The page begins with what the user has asked for, and shows neither zeros nor curves of nothing.
 TEST_F(Outputs, ThePageShowsTheUsersQuantitiesFirst) {
   write("own.toml", small_honeycomb + "[[quantity]]\nname = \"my_distance\"\nkind = \"distance\"\n"

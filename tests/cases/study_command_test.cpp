@@ -120,6 +120,20 @@ where = [{ quantity = "max_field", above = "500 MV/m" }]
             "left out: output.error_estimate = false");
 }
 
+// What a point writes is little unless the case or the study wants more.
+TEST_F(StudyCommand, PointsKeepTheLastStateOfEachStep) {
+  write_study(R"({ "drive.voltage" = ["2 kV"] })");
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  ASSERT_EQ(dielast(into("all", {"--set", "output.states=all"})).exit_code, 0);
+  const auto states = [&](const std::string& folder) {
+    return count(content(folder + "/point-0001/small.pvd"), "part=\"0\"");
+  };
+  EXPECT_EQ(states("out"), 3u); // drawn, released, at the voltage
+  EXPECT_EQ(states("all"), 5u);
+  EXPECT_EQ(content("out/study.csv"), content("all/study.csv"));
+  EXPECT_EQ(lines_of(content("out/point-0001/history.csv")), lines_of(content("all/point-0001/history.csv")));
+}
+
 TEST_F(StudyCommand, PagesOfStudyAndPointsLeadToEachOther) {
   write_study(R"({ "drive.voltage" = ["2 kV"] })");
   ASSERT_EQ(dielast(into("out", {"--set", "output.error_estimate=false"})).exit_code, 0);

@@ -35,8 +35,8 @@ TEST(Study, PairsParametersAndDerivedKeys) {
   EXPECT_EQ(grid[17], (std::vector<std::string>{"4", "\"150 deg\"", "\"4 kV\"", "6"}));
   EXPECT_EQ(derived_values(study, grid[17]), (std::vector<std::string>{"[4, 2.5]", "\"0.0005 m\""}));
   EXPECT_EQ(study.parameters, (std::vector<std::string>{"l1"}));
-  EXPECT_EQ(study.settings,
-            (std::vector<std::string>{"output.error_estimate=false", "mesh.wall_elements=3"}));
+  EXPECT_EQ(study.settings, (std::vector<std::string>{"output.states=\"last\"", "output.error_estimate=false",
+                                                      "mesh.wall_elements=3"}));
   // what the best must hold is collected although it is not asked for
   EXPECT_EQ(study.collect, (std::vector<std::string>{"eps_x", "eps_y", "breakdown_ratio"}));
   EXPECT_EQ(study.best.at(0).largest, "eps_y");
