@@ -83,6 +83,9 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   study_command->add_flag("--resume", arguments.resume,
                           "keep the points that are done, go on with the others");
 
+  study_command->add_flag("--dry-run", arguments.dry_run,
+                          "list the points and try one, for an estimate of time and disk");
+
   auto* linearise_command =
       takes_case(add("linearise", "make a small linear model about the state at the end of a case's steps"));
   takes_overrides(linearise_command);

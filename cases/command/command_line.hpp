@@ -18,7 +18,7 @@ struct Arguments {
   int threads = 0;
   std::string shell;
   const CLI::App* app = nullptr; ///< all commands
-  bool resume = false, quiet = false, tangent = false;
+  bool resume = false, quiet = false, tangent = false, dry_run = false;
 
   /// Where results go unless the user says so: beside where the command was given, named after the case.
   std::filesystem::path output(const std::string& suffix) const {

@@ -83,8 +83,9 @@ ExitCode mesh(const Arguments& arguments) {
 }
 
 ExitCode study(const Arguments& arguments) {
-  return run_study(cases::read_study(arguments.case_file, arguments.overrides),
-                   {arguments.output("-study"), arguments.threads, arguments.resume});
+  const cases::Study asked = cases::read_study(arguments.case_file, arguments.overrides);
+  const cases::StudySettings settings{arguments.output("-study"), arguments.threads, arguments.resume};
+  return arguments.dry_run ? plan_study(asked, settings) : run_study(asked, settings);
 }
 
 ExitCode fit(const Arguments& arguments) {

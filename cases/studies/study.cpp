@@ -240,4 +240,76 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   return code;
 }
 
+namespace {
+
+/// What a point took.
+struct Trial {
+  double seconds = 0, megabytes = 0;
+  bool finished = false;
+};
+
+Trial try_point(const Study& study, StudyPoint point, double most_seconds) {
+  using Clock = std::chrono::steady_clock;
+  std::string folder = (std::filesystem::temp_directory_path() / "dielast-XXXXXX").string();
+  if (!::mkdtemp(folder.data())) throw FileError("cannot make a folder for temporary files");
+  point.directory = std::filesystem::path(folder) / "point";
+  const auto begin = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const pid_t child = start(study, point, false);
+  int status = 0;
+  bool ended = false;
+  while (!ended && elapsed() < most_seconds && !interrupted()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ended = waitpid(child, &status, WNOHANG) == child;
+  }
+  Trial trial{.seconds = elapsed(), .finished = ended};
+  if (!ended) {
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+  }
+  std::error_code ignored;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(folder, ignored))
+    if (file.is_regular_file(ignored)) trial.megabytes += static_cast<double>(file.file_size(ignored)) / 1e6;
+  std::filesystem::remove_all(folder, ignored);
+  return trial;
+}
+
+} // namespace
+
+ExitCode plan_study(const Study& study, const StudySettings& settings, double trial_seconds) {
+  const std::vector<StudyPoint> points = study_points(study, settings.directory);
+  const StudyPoint* first = nullptr;
+  std::size_t left = 0, impossible = 0;
+  for (const StudyPoint& point : points) {
+    std::string remark;
+    try {
+      read_case(study.base, point.overrides);
+    } catch (const CaseError& error) {
+      remark = fmt::format("  impossible: {}", error.diagnostics().front().message);
+      ++impossible;
+    }
+    if (remark.empty()) {
+      if (is_current(study, point) && result_of(study, point))
+        remark = "  done";
+      else if (left++ == 0)
+        first = &point;
+    }
+    say("{:>6}  {}{}\n", point.number, label(study, point), remark);
+  }
+  say("{} points in {}: {} to run, {} impossible\n", points.size(), settings.directory.string(), left,
+      impossible);
+  if (!first) return ExitCode::ok;
+  std::fflush(stdout);
+  const Trial trial = try_point(study, *first, trial_seconds);
+  if (interrupted()) return ExitCode::interrupted;
+  const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
+                                                       : std::max(1U, std::thread::hardware_concurrency());
+  const auto rounds = static_cast<double>((left + processes - 1) / processes);
+  const char* about = trial.finished ? "about" : "more than";
+  say("point {} takes {} {:.2g} s and {:.2g} MB: all {} {:.2g} s, {} at a time, and {:.2g} MB\n",
+      first->number, about, trial.seconds, trial.megabytes, about, rounds * trial.seconds, processes,
+      static_cast<double>(left) * trial.megabytes);
+  return ExitCode::ok;
+}
+
 } // namespace dielast::cases

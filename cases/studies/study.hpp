@@ -20,4 +20,9 @@ struct StudySettings {
 /// FileError, on `resume` of another base case, too, CaseError and post::WriteError.
 ExitCode run_study(const Study& study, const StudySettings& settings);
 
+/// Lists the points of a study, which of them are done or impossible, and how long they take on how much
+/// disk, as the first of those that remain does in a folder of its own for at most `trial` seconds. Writes
+/// nothing else. Throws as run_study().
+ExitCode plan_study(const Study& study, const StudySettings& settings, double trial = 20);
+
 } // namespace dielast::cases

@@ -120,6 +120,33 @@ where = [{ quantity = "max_field", above = "500 MV/m" }]
             "left out: output.error_estimate = false");
 }
 
+TEST_F(StudyCommand, ADryRunListsThePointsAndWritesNothing) {
+  write("study.toml", R"(title = "Discs"
+case = "disc.toml"
+[study]
+vary = { "disc.radius" = ["35 mm", "90 mm"], "disc.electrode_radius" = ["50 mm", "30 mm"] }
+set = { "drive.voltage" = "1 kV" }
+)");
+  const Ended plan = dielast(into("out", {"--dry-run", "-j", "2"}));
+  EXPECT_EQ(plan.exit_code, 0) << plan.err;
+  EXPECT_FALSE(exists("out"));
+  const auto lines = lines_of(plan.out);
+  ASSERT_EQ(lines.size(), 6u) << plan.out;
+  EXPECT_TRUE(
+      lines[0].starts_with("     1  disc.radius = 35 mm, disc.electrode_radius = 50 mm  impossible: "))
+      << lines[0];
+  EXPECT_EQ(lines[1], "     2  disc.radius = 35 mm, disc.electrode_radius = 30 mm");
+  EXPECT_EQ(lines[4], "4 points in out: 3 to run, 1 impossible");
+  EXPECT_TRUE(std::regex_match(
+      lines[5], std::regex("point 2 takes about [0-9.e+]+ s and [0-9.]+ MB: all about [0-9.e+]+ s, "
+                           "2 at a time, and [0-9.]+ MB")))
+      << lines[5];
+  ASSERT_EQ(dielast(into("out")).exit_code, 4);
+  const Ended after = dielast(into("out", {"--dry-run"}));
+  EXPECT_NE(after.out.find("disc.electrode_radius = 30 mm  done\n"), std::string::npos) << after.out;
+  EXPECT_NE(after.out.find("4 points in out: 0 to run, 1 impossible\n"), std::string::npos) << after.out;
+}
+
 // What a point writes is little unless the case or the study wants more.
 TEST_F(StudyCommand, PointsKeepTheLastStateOfEachStep) {
   write_study(R"({ "drive.voltage" = ["2 kV"] })");

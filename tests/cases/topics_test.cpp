@@ -79,7 +79,8 @@ std::vector<std::string> options_of_help(const std::string& help) {
   for (const std::string& line : lines_of(help)) {
     std::string head = line.substr(0, 28);
     if (!head.starts_with("  -")) continue;
-    for (std::smatch found; std::regex_search(head, found, std::regex("--?[a-z]+")); head = found.suffix())
+    for (std::smatch found; std::regex_search(head, found, std::regex("--?[a-z]+(-[a-z]+)*"));
+         head = found.suffix())
       words.push_back(found[0]);
   }
   return words;
