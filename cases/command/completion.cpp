@@ -36,6 +36,13 @@ std::string escaped(std::string text, const std::string& special) {
   return text;
 }
 
+/// Within single quotes of zsh, which end where the text has one.
+std::string zsh_quoted(const std::string& text, const std::string& special) {
+  std::string result;
+  for (const char c : escaped(text, special)) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result;
+}
+
 std::string for_bash(const CLI::App& app) {
   std::string commands, cases_of, directories;
   std::string with_case;
@@ -75,13 +82,14 @@ complete -o filenames -F _dielast dielast
 std::string for_zsh(const CLI::App& app) {
   std::string commands, cases_of;
   for (const CLI::App* command : commands_of(app)) {
-    commands += fmt::format("    '{}:{}'\n", command->get_name(), escaped(command->get_description(), ":"));
+    commands +=
+        fmt::format("    '{}:{}'\n", command->get_name(), zsh_quoted(command->get_description(), ":"));
     cases_of += fmt::format("  {}) _arguments", command->get_name());
     for (const CLI::Option* option :
          command->get_options([](const CLI::Option* o) { return o->nonpositional(); }))
       for (const std::string& word : words_of(*option))
         cases_of += fmt::format(" \\\n    '{}{}[{}]{}'", word == "--set" ? "*" : "", word,
-                                escaped(option->get_description(), "[]:\\"),
+                                zsh_quoted(option->get_description(), "[]:\\"),
                                 !takes_value(*option)   ? ""
                                 : is_directory(*option) ? ":directory:_directories"
                                                         : ":value: ");

@@ -118,12 +118,18 @@ std::string matlab_matrix(const char* name, const Eigen::MatrixXd& matrix) {
 std::string matlab_script(const Case& one, const Linearised& found) {
   std::string title = one.title;
   std::ranges::replace(title, '\n', ' ');
-  return fmt::format("% {}\n% x' = A x + B u, y = C x + D u; u: source voltage of {} (V), y: {} (m)\n"
-                     "% largest relative error {:.3g} from {:.6g} to {:.6g} Hz\n{}{}{}{}",
-                     title, fmt::join(found.driven, ", "), found.output, found.error, found.frequency.front(),
-                     found.frequency.back(), matlab_matrix("A", found.model.A),
-                     matlab_matrix("B", found.model.B), matlab_matrix("C", found.model.C),
-                     matlab_matrix("D", found.model.D));
+  std::string point;
+  for (std::size_t e = 0; e < found.driven.size(); ++e)
+    point += fmt::format("{}{:.10g} V at {}", e ? ", " : "", found.voltage[e], found.driven[e]);
+  return fmt::format(
+      "% {}\n% x' = A x + B u, y = C x + D u, time in s\n"
+      "% u: change of the source voltage of {} (V), y: change of {} (m), both from the state at\n"
+      "% the end of the case's steps, with {}\n"
+      "% largest relative error {:.3g} from {:.6g} to {:.6g} Hz\n{}{}{}{}"
+      "% with a control toolbox: model = ss(A, B, C, D);\n",
+      title, fmt::join(found.driven, ", "), found.output, point, found.error, found.frequency.front(),
+      found.frequency.back(), matlab_matrix("A", found.model.A), matlab_matrix("B", found.model.B),
+      matlab_matrix("C", found.model.C), matlab_matrix("D", found.model.D));
 }
 
 post::Report report_of(const Case& one, const Linearised& found) {

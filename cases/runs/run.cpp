@@ -157,8 +157,10 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   Estimates estimates{.reason = "left out: output.error_estimate = false"};
   if (outcome.ending != Ending::complete)
     estimates.reason = "the run did not reach its end";
-  else if (one.error_estimate)
+  else if (one.error_estimate) {
+    log.info("error estimate: the case once more with other elements and time steps");
     estimates = estimate_errors(one, simulation, recorder.journal().records, settings.threads);
+  }
   const Results results = collect_results(one, simulation, outcome, estimates);
 
   log.info("results");

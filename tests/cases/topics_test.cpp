@@ -93,6 +93,8 @@ TEST_F(Topics, ManualPageAndCompletionAreWhatTheHelpSays) {
   ASSERT_GE(commands.size(), 10u);
   std::string page = std::regex_replace(dielast({"man"}).out, std::regex(R"(\\-)"), "-");
   const std::string zsh = dielast({"completion", "zsh"}).out, fish = dielast({"completion", "fish"}).out;
+  for (const std::string& line : lines_of(zsh)) // an apostrophe of a meaning would end what is quoted
+    EXPECT_EQ(count(std::regex_replace(line, std::regex(R"('\\'')"), ""), "'") % 2, 0u) << line;
   write("bash", dielast({"completion", "bash"}).out + R"(
 COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _dielast; printf '%s\n' "${COMPREPLY[@]}" | sort
 )");
