@@ -174,6 +174,7 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
     strip.width = widths.charged;
     add(strip, std::move(over));
     strip.width = widths.passive;
+    strip.sampled = false;
     if (strip.width > 0) add(strip, std::vector<int>(cells.size(), fem::passive));
   }
 }

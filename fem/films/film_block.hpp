@@ -312,22 +312,22 @@ void MembraneBlock<Kinematics, Law>::add_relaxation(const State& state, const Ra
 
 template<class Kinematics, class Law>
 void MembraneBlock<Kinematics, Law>::sample(const State& state, Samples& samples) const {
+  if (!section_.sampled) return;
   samples.film.reserve(samples.film.size() + static_cast<std::size_t>(count_ * points_));
   for_each_point(state, [&](const Visit& at) {
     const materials::TensionField field = film_.resolve(state, at.point, at.C, at.k);
-    const materials::InPlaneC<double>& natural = field.natural;
     MembraneSample s;
     s.cell = numbers_[static_cast<std::size_t>(at.element)];
     s.volume = at.geometry.volume[at.lane];
     s.F = Kinematics::gradient_of(at.deformation, at.lane);
     s.S = materials::tension_field::stress(field.potential);
-    s.widening = std::sqrt(natural.det() / at.C.det());
+    s.widening = std::sqrt(field.natural.det() / at.C.det());
     s.tension = field.tension;
     if constexpr (Kinematics::free_across) Kinematics::relieve(s, at.deformation, at.lane);
     s.thickness = section_.thickness;
     s.voltage = voltage(state, at.element, at.place);
     s.electrode = electrodes_[static_cast<std::size_t>(at.element)];
-    s.breakdown_field = film_.dielectric().breakdown_field_at(natural.det());
+    s.breakdown_field = film_.dielectric().breakdown_field_at(field.natural.det());
     samples.film.push_back(s);
   });
 }

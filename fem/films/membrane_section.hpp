@@ -16,6 +16,7 @@ struct MembraneSection {
   double thickness = 0;                       ///< undeformed H, m
   std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing; of a rod along it
   bool tension_field = false;                 ///< wrinkles carry no compression (materials/tension_field.hpp)
+  bool sampled = true;                        ///< false: another section speaks for its cells
   double width = 0;                           ///< of a rod: unstretched, all layers side by side, m
 };
 

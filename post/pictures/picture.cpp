@@ -73,9 +73,12 @@ Box extent(const meshing::Mesh& mesh, const Panel& panel, double wall_width) {
 /// The film without seams: neighbours share hard edges on a canvas that is finer than the picture by this
 /// factor.
 constexpr int supersampling = 2;
+/// Drawn width of a rod, over the diagonal of all that is drawn: its section is not in the mesh.
+constexpr double rod_width = 0.01;
 
 void fill_film(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range) {
   cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
+  cairo_set_line_width(cr, rod_width * extent(mesh, panel, 0).sizes().norm());
   std::size_t value = 0;
   for (const CellBlock& block : mesh.blocks) {
     if (is_line(block.type)) continue;
@@ -84,7 +87,7 @@ void fill_film(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, std::
       set_colour(cr, panel.values.empty()
                          ? plain_film
                          : viridis((panel.values[value++] - range.first) / (range.second - range.first)));
-      cairo_fill(cr);
+      (is_triangle(block.type) ? cairo_fill : cairo_stroke)(cr);
     }
   }
 }

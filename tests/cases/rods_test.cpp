@@ -84,6 +84,7 @@ of = "end"
 along = "x"
 )toml"));
   EXPECT_NEAR(held.at("force"), force_of(1.05, 1200), 1e-10 * force_of(1.05, 1200));
+  EXPECT_NEAR(held.at("max_field"), 1200 / 0.1e-3 * std::sqrt(1.05), 1e-3);
   const double capacitance = permittivity * electrode / 0.1e-3 * 1.05;
   EXPECT_NEAR(held.at("capacitance"), capacitance, 1e-10 * capacitance);
 }
