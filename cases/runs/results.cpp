@@ -107,7 +107,8 @@ constexpr double round_off = 1e-9; ///< of the largest number of the same unit i
 std::vector<std::size_t> users_first(const Case& one) {
   std::vector<std::size_t> order(one.quantities.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_partition(order, [&](std::size_t q) { return !one.quantities[q].standard; });
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t q) { return !one.quantities[q].standard; });
   return order;
 }
 
