@@ -21,6 +21,7 @@ struct Film {
   double thickness = 0;               ///< undeformed H, m
   std::array<double, 2> prestretch{}; ///< lambda_p along x and y
   bool tension_field = false;         ///< it wrinkles where it would be compressed, and carries tension only
+  bool shell = false;                 ///< it resists bending
 };
 
 /// Bars of rectangular section: the walls of a lattice, or [part.NAME.beam] along lines of a mesh

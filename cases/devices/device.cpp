@@ -80,10 +80,11 @@ void require_loads_that_act(const Case& one, const Device& device) {
       if (c < 3 && moving < std::ssize(nodes))
         reject_load(one, l, "a planar model does not move along z; use model = \"3d\"");
       if (c >= 3 && moving == 0)
-        reject_load(one, l,
-                    fmt::format("nothing turns about {} at \"{}\": film has no rotations, walls and bodies "
-                                "have, in a planar model about z",
-                                "xyz"[c - 3], one.loads[l].place));
+        reject_load(
+            one, l,
+            fmt::format("nothing turns about {} at \"{}\": membranes have no rotations, walls and bodies "
+                        "have, in a planar model about z",
+                        "xyz"[c - 3], one.loads[l].place));
     }
   if (!device.free_body) return;
   for (const double t : telling_times(one)) {
@@ -184,7 +185,8 @@ void hold(const Support& support, const Case& one, const meshing::Mesh& mesh, fe
     throw CaseError(
         {{{one.source.string()},
           "support.fix",
-          fmt::format("nothing turns at \"{}\": film has no rotations, walls have", support.place)}});
+          fmt::format("nothing turns at \"{}\": membranes have no rotations, walls and shells have",
+                      support.place)}});
 }
 
 /// The plate keeps its edge round and level: it moves along z only.
@@ -194,6 +196,7 @@ void carry_plate(const Plate& plate, const meshing::Mesh& mesh, fem::DofMap& dof
     dofs.hold(node, 0);
     dofs.hold(node, 1);
     dofs.share(edge.front(), node, 2);
+    for (int c = 3; c < fem::DofMap::components; ++c) dofs.hold(node, c);
   }
 }
 
@@ -376,6 +379,7 @@ Device build_device(const Case& one) {
   device.film_parts = std::move(parts);
   device.films = films;
   device.tension_field = one.any_film([](const Film& f) { return f.tension_field; });
+  device.shell = !one.any_film([](const Film& f) { return !f.shell; });
   device.bar_widths = bar_widths(one, device.mesh);
   require_one_prestretch(one, device);
   device.warnings = std::move(warnings);

@@ -17,6 +17,7 @@ struct Device {
   int films = 0;                     ///< blocks of film; they stand in front of the model's others
   std::vector<double> bar_widths;    ///< for each line of the mesh, m
   bool tension_field = false;        ///< a film wrinkles where it would be compressed
+  bool shell = false;                ///< every film resists bending: where it is compressed it may buckle
   bool free_body = false;            ///< no support: pinned against rigid motion only, without reactions
   Eigen::VectorXd weight;            ///< dead forces of gravity, per equation, N
   std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each

@@ -3,6 +3,7 @@
 
 #include "fem/elements/beam_block.hpp"
 #include "fem/films/membrane_block.hpp"
+#include "fem/shells/shell_block.hpp"
 #include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>
@@ -164,6 +165,13 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
       model.blocks.push_back(fem::make_membrane_block(mesh, meshing::subset(film, cells), with,
                                                       std::move(under), one.dimension, points, cells));
     };
+    if (part.film->shell) {
+      model.blocks.push_back(fem::make_shell_block(
+          mesh, meshing::subset(film, cells),
+          {.layers = {{part.film->material, part.film->thickness}}, .prestretch = part.film->prestretch},
+          {std::move(over)}, cells));
+      continue;
+    }
     if (!part.rolled()) {
       add(section, std::move(over));
       continue;

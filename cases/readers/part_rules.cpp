@@ -68,6 +68,42 @@ void check_line(SectionReader& reader, const Node& top, const Part& part) {
   if (part.rod && top.find("mesh")) report("mesh", "a rod is one element");
 }
 
+/// What a shell needs of its case and its mesh.
+void check_shell(SectionReader& reader, const Node& top, const Case& one, const Part& part) {
+  if (!part.film || !part.film->shell) return;
+  const Node* film = top.find("film");
+  const Node* written = film->find("section");
+  const auto report = [&](const char* message) {
+    reader.report(written ? written->source : film->source, key_of(part, "film.section"),
+                  fmt::format("found \"shell\": {}", message));
+  };
+  if (one.dimension != fem::Dimension::spatial) report("it bends in space: model = \"3d\"");
+  const Part* meshed = part.has_mesh() ? &part : one.unnamed();
+  if (!meshed) return; // reported elsewhere
+  const MeshOptions& mesh = meshed->mesh;
+  if (mesh.order != 2) report("it is made of 6-node triangles: mesh.order = 2");
+  const Node* options = top.find("mesh"); // templates have a quadrature for membranes
+  const Node* quadrature = options ? options->find("quadrature") : nullptr;
+  if (quadrature && quadrature->source.is_written() && mesh.quadrature != 3)
+    report("it has 3 integration points: leave out mesh.quadrature");
+  if (part.film->tension_field) report("it buckles instead of wrinkling: leave out film.wrinkling");
+  if (part.rolled()) report("a rod pulls along itself only");
+  if (std::holds_alternative<Patch>(part.geometry)) report("a patch stays flat");
+}
+
+/// Electrodes with a resistance along them need triangles or meridians of membrane.
+void check_resistive_electrodes(SectionReader& reader, const Node& tree, const Case& one) {
+  const char* other = nullptr;
+  for (const Part& part : one.parts)
+    if (part.rolled() || (part.film && part.film->shell)) other = part.rolled() ? "rods" : "shells";
+  for (std::size_t e = 0; other && e < one.electrodes.size(); ++e)
+    if (one.electrodes[e].sheet_resistance)
+      reader.report(
+          tree.find("electrode")->items.at(e).find("sheet_resistance")->source,
+          fmt::format("electrode[{}].sheet_resistance", e + 1),
+          fmt::format("the electrodes of {} do not resist; give their circuit a resistance", other));
+}
+
 /// A film that is alike in all directions of its plane may be turned as one likes.
 bool knows_x_from_y(const Part& part) {
   if (std::holds_alternative<Line>(part.geometry)) return false; // it knows its own way
@@ -86,6 +122,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     const Node& top = top_of(tree, part);
     check_patch(reader, tree, part);
     check_line(reader, top, part);
+    check_shell(reader, top, one, part);
     if (part.name.empty()) continue;
     const auto report = [&](const char* key, const std::string& message) {
       const Node* blamed = top.find(key);
@@ -117,12 +154,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     if (knows_x_from_y(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
       report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
   }
-  if (std::ranges::any_of(one.parts, [](const Part& part) { return part.rolled(); }))
-    for (std::size_t e = 0; e < one.electrodes.size(); ++e)
-      if (one.electrodes[e].sheet_resistance)
-        reader.report(tree.find("electrode")->items.at(e).find("sheet_resistance")->source,
-                      fmt::format("electrode[{}].sheet_resistance", e + 1),
-                      "the electrodes of rods do not resist; give their circuit a resistance");
+  check_resistive_electrodes(reader, tree, one);
   const auto wrinkles = [](const Film& film) { return film.tension_field; };
   if (one.any_film(wrinkles) && one.any_film(std::not_fn(wrinkles)))
     reader.report(tree.find("part")->key_source, "part",

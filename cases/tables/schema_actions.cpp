@@ -96,7 +96,7 @@ Section support_section() {
   section.keys = {
       text("place", to(&Support::place), "the place that is held").refers_to(Reference::place),
       word("fix", motions, flags(&Support::fixed),
-           "what its nodes cannot do; walls have rotations, film has none")
+           "what its nodes cannot do; walls and shells have rotations, membranes have none")
           .values(1, 6)
           .optional(),
       text("from", to(&Support::from), "the first step in which it holds, its place being where it is then")

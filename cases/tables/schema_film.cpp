@@ -206,6 +206,11 @@ Section film_section() {
             {"tension field", "it wrinkles and carries tension only", true}},
            to(&Film::tension_field), "what the film does where it would be compressed")
           .otherwise("compression"),
+      word("section",
+           {{"membrane", "it does not resist bending", false},
+            {"shell", "it resists bending, and its nodes turn; in space, of 6-node triangles", true}},
+           to(&Film::shell), "what the film's thickness does")
+          .otherwise("membrane"),
   };
   section.sections.push_back(material_section());
   section.check = prestretch_conflict;

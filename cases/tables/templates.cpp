@@ -219,9 +219,20 @@ void prefix(Node* place, const std::string& part) {
   for (Node& item : place->items) prefix(&item, part);
 }
 
+/// An edge that a template clamps does not turn either where the film is a shell.
+void clamp_shell(Node& defaults, const Node& top) {
+  const Node* film = top.find("film");
+  Node* supports = defaults.find("support");
+  if (!film || !film->is(Node::Kind::table) || text_at(*film, "section") != "shell" || !supports) return;
+  for (Node& support : supports->items)
+    for (const char* turn : {"turn_x", "turn_y", "turn_z"})
+      support.find("fix")->items.push_back(text_node(turn, support.source));
+}
+
 /// Adds a part's electrode or supports to those of the case.
 void add_part_defaults(Node& tree, const std::string& key, const TemplatePart& part) {
-  const Node defaults = parse_default(part.device->defaults, tree);
+  Node defaults = parse_default(part.device->defaults, tree);
+  clamp_shell(defaults, *tree.find("part")->find(part.name));
   const Node* brought = defaults.find(key);
   if (!brought) return;
   for (Node item : brought->items) {
@@ -239,7 +250,8 @@ void add_defaults(Node& tree) {
   std::array<bool, 2> written{};
   for (std::size_t k = 0; k < keys.size(); ++k) written[k] = tree.find(keys[k]);
   if (const Template* device = template_of(tree)) {
-    const Node defaults = parse_default(device->defaults, tree);
+    Node defaults = parse_default(device->defaults, tree);
+    clamp_shell(defaults, tree);
     for (std::size_t i = 0; i < defaults.items.size(); ++i)
       if (!tree.find(defaults.keys[i])) tree.add(defaults.keys[i], defaults.items[i]);
     if (device->name == "patch") add_patch_steps(tree);

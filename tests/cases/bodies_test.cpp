@@ -177,7 +177,7 @@ TEST_F(Bodies, film_has_nothing_that_a_moment_could_turn) {
       message = error.what();
     }
     const std::string told = fmt::format(
-        ": error: load[1].moment: nothing turns about y at \"{}\": film has no rotations, walls and "
+        ": error: load[1].moment: nothing turns about y at \"{}\": membranes have no rotations, walls and "
         "bodies have, in a planar model about z",
         place);
     EXPECT_TRUE(message.ends_with(told)) << message;

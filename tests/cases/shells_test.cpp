@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shells as a user writes them: film.section = "shell".
+#include "tests/cases/path_cases.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+constexpr double radius = 0.1, thickness = 1e-3, modulus = 1e5, density = 1000,
+                 permittivity = 5 * 8.8541878128e-12;
+
+std::string clamped_disc(const std::string& rest) {
+  return fmt::format(R"(
+model = "3d"
+[film]
+thickness = "{} m"
+section = "shell"
+[film.material]
+shear_modulus = "{} Pa"
+relative_permittivity = 5
+density = "{} kg/m^3"
+[disc]
+radius = "{} m"
+[mesh]
+rings = 8
+[output]
+error_estimate = false
+)",
+                     thickness, modulus, density, radius) +
+         rest;
+}
+
+/// eps (Phi/H)^2 H = 14.68 D/a^2, D = mu H^3/3 (Timoshenko & Gere 1961, sec. 9.3: the clamped plate).
+double buckling_voltage() {
+  return thickness *
+         std::sqrt(14.68 * modulus * thickness * thickness / 3 / (radius * radius) / permittivity);
+}
+
+TEST_F(Paths, a_clamped_disc_buckles_at_its_voltage) {
+  for (const int increments : {3, 7}) {
+    const Run stopped =
+        run(clamped_disc(fmt::format("[drive]\nvoltage = \"{} V\"\n[[step]]\nkind = \"voltage\"\nincrements "
+                                     "= {}\non_instability = \"stop\"\n",
+                                     1.5 * buckling_voltage(), increments)),
+            "capacitance");
+    EXPECT_EQ(stopped.outcome.ending, Ending::gave_up) << stopped.outcome.message;
+    EXPECT_NE(stopped.outcome.message.find("bifurcation"), std::string::npos) << stopped.outcome.message;
+    ASSERT_FALSE(stopped.rows.empty());
+    EXPECT_NEAR(stopped.rows.back().voltage, buckling_voltage(), 0.0025 * buckling_voltage());
+  }
+}
+
+// Leissa 1969, Vibration of Plates, table 2.1: lambda^2 = 10.2158.
+TEST_F(Paths, a_clamped_disc_vibrates_as_a_plate) {
+  const Run modes =
+      run(clamped_disc("[drive]\nvoltage = \"1 V\"\n[[step]]\nkind = \"voltage\"\n[[quantity]]\n"
+                       "name = \"frequency\"\nkind = \"natural frequency\"\n"),
+          "frequency");
+  EXPECT_EQ(modes.outcome.ending, Ending::complete) << modes.outcome.message;
+  const double expected =
+      10.2158 / (radius * radius) * std::sqrt(modulus * thickness * thickness / 3 / density);
+  EXPECT_NEAR(modes.rows.back().value, expected, 0.003 * expected);
+}
+
+} // namespace
+} // namespace dielast::cases
