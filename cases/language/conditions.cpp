@@ -160,10 +160,16 @@ Condition volume_applies() {
   });
 }
 
+Condition elements() {
+  return on<Part>("more than a [rod], which is one element",
+                  [](const Case&, const Part& part) { return !part.rod; });
+}
+
 Condition curved_triangles() {
-  return on<Part>("6-node triangles: mesh.order = 2 of a film that is not of revolution",
+  return on<Part>("6-node triangles: mesh.order = 2 of a membrane that is not of revolution",
                   [](const Case& one, const Part& part) {
-                    return part.mesh.order == 2 && one.dimension != fem::Dimension::axisymmetric;
+                    const bool membranes = one.any_film([](const Film& film) { return !film.shell; });
+                    return membranes && part.mesh.order == 2 && one.dimension != fem::Dimension::axisymmetric;
                   });
 }
 

@@ -22,7 +22,8 @@ Condition time_steps_matter(); ///< in a step with a duration something flows or
 Condition voltage_applies();
 Condition chamber_is_open(); ///< a step reaches or follows its pressure
 Condition chamber_is_closed();
-Condition volume_applies();   ///< a step pumps it
+Condition volume_applies(); ///< a step pumps it
+Condition elements();
 Condition curved_triangles(); ///< the film is of 6-node triangles
 Condition moves_along_it();   ///< of a quantity's direction
 

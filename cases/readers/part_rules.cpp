@@ -65,7 +65,6 @@ void check_line(SectionReader& reader, const Node& top, const Part& part) {
         return branch.dashpot == materials::Dashpot::nominal;
       }))
     report("film", "a rod's dashpots flow alike in all directions across it: dashpot = \"log\"");
-  if (part.rod && top.find("mesh")) report("mesh", "a rod is one element");
 }
 
 /// What a shell needs of its case and its mesh.
@@ -82,13 +81,10 @@ void check_shell(SectionReader& reader, const Node& top, const Case& one, const 
   if (!meshed) return; // reported elsewhere
   const MeshOptions& mesh = meshed->mesh;
   if (mesh.order != 2) report("it is made of 6-node triangles: mesh.order = 2");
-  const Node* options = top.find("mesh"); // templates have a quadrature for membranes
-  const Node* quadrature = options ? options->find("quadrature") : nullptr;
-  if (quadrature && quadrature->source.is_written() && mesh.quadrature != 3)
-    report("it has 3 integration points: leave out mesh.quadrature");
   if (part.film->tension_field) report("it buckles instead of wrinkling: leave out film.wrinkling");
   if (part.rolled()) report("a rod pulls along itself only");
   if (std::holds_alternative<Patch>(part.geometry)) report("a patch stays flat");
+  if (one.plate) report("a [plate] leaves its edge free to turn; let a [[body]] carry the place");
 }
 
 /// Electrodes with a resistance along them need triangles or meridians of membrane.

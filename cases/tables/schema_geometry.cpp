@@ -237,13 +237,15 @@ Section mesh_section() {
           .at_least(1)
           .at_most(2)
           .otherwise("2")
-          .only({"honeycomb", "disc", "annulus", "balloon", "line", "antagonistic_rolls"}),
+          .only({"honeycomb", "disc", "annulus", "balloon", "line", "antagonistic_rolls"})
+          .only_with(when::elements()),
       integer("wall_elements", mesh_option(&MeshOptions::wall_elements),
               "beams per wall, along a line, a hinge or a ribbon")
           .at_least(1)
           .at_most(200)
           .otherwise("8")
-          .only({"honeycomb", "line", "antagonistic_rolls"}),
+          .only({"honeycomb", "line", "antagonistic_rolls"})
+          .only_with(when::elements()),
       number("grading", mesh_option(&MeshOptions::grading),
              "largest film element over the wall's; 1 is uniform")
           .at_least(1)
