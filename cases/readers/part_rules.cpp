@@ -84,7 +84,11 @@ void check_shell(SectionReader& reader, const Node& top, const Case& one, const 
   if (part.film->tension_field) report("it buckles instead of wrinkling: leave out film.wrinkling");
   if (part.rolled()) report("a rod pulls along itself only");
   if (std::holds_alternative<Patch>(part.geometry)) report("a patch stays flat");
-  if (one.plate) report("a [plate] leaves its edge free to turn; let a [[body]] carry the place");
+  if (std::ranges::any_of(one.quantities, [](const Quantity& quantity) {
+        return quantity.kind == QuantityKind::value || quantity.kind == QuantityKind::radial_stretch;
+      })) // those of a case with a [plate] are among the standard ones
+    report("quantities of kind \"value\" and \"radial stretch\", of which a [plate] brings some, are of "
+           "membranes");
 }
 
 /// Electrodes with a resistance along them need triangles or meridians of membrane.
