@@ -8,6 +8,7 @@
 #include "meshing/mesh_error.hpp"
 #include "meshing/middle_nodes.hpp"
 #include "tests/cases/scratch.hpp"
+#include "tests/cases/values_at_end.hpp"
 
 #include <boost/math/tools/roots.hpp>
 #include <fmt/format.h>
@@ -26,16 +27,7 @@ class Parts : public test::ScratchTest {
     return read_case(directory / "case.toml");
   }
   /// Values of the quantities at the end of a run that ends well.
-  std::map<std::string, double> run(const std::string& text) const {
-    const Case one = read(text);
-    Simulation simulation(one, 1);
-    const Outcome outcome = simulation.run({});
-    EXPECT_EQ(outcome.ending, Ending::complete) << outcome.message;
-    std::map<std::string, double> values;
-    for (std::size_t q = 0; q < one.quantities.size(); ++q)
-      values[one.quantities[q].name] = simulation.results()[q];
-    return values;
-  }
+  std::map<std::string, double> run(const std::string& text) const { return test::values_at_end(read(text)); }
   std::string mesh_error(const std::string& text) const {
     try {
       build_device(read(text));

@@ -4,6 +4,7 @@
 #include "cases/runs/simulation.hpp"
 #include "meshing/mesh_error.hpp"
 #include "tests/cases/scratch.hpp"
+#include "tests/cases/values_at_end.hpp"
 
 #include <fmt/format.h>
 
@@ -18,14 +19,7 @@ class Rods : public test::ScratchTest {
   /// Values of the quantities at the end of a run that ends well.
   std::map<std::string, double> run(const std::string& text) const {
     write("case.toml", text);
-    const Case one = read_case(directory / "case.toml");
-    Simulation simulation(one, 1);
-    const Outcome outcome = simulation.run({});
-    EXPECT_EQ(outcome.ending, Ending::complete) << outcome.message;
-    std::map<std::string, double> values;
-    for (std::size_t q = 0; q < one.quantities.size(); ++q)
-      values[one.quantities[q].name] = simulation.results()[q];
-    return values;
+    return test::values_at_end(read_case(directory / "case.toml"));
   }
 };
 
