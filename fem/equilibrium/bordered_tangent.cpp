@@ -78,9 +78,10 @@ std::optional<int> BorderedTangent::weakest_equation() const {
   for (Eigen::Index i = 0; i < columns_.cols(); ++i) {
     const Eigen::ArrayXd energy = stiffness_.array() * solved_.col(i).array().square();
     const double stiff = (columns_.col(i).array().square() / stiffness_.array()).sum();
+    if (energy.sum() <= nearly_singular * nearly_singular * stiff) continue;
     Eigen::Index weakest = 0;
     energy.maxCoeff(&weakest);
-    if (!(energy.sum() <= nearly_singular * nearly_singular * stiff)) return static_cast<int>(weakest);
+    return static_cast<int>(weakest);
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/cases/command.hpp"
+#include "tests/sanitized.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -9,14 +10,6 @@
 #include <random>
 
 namespace dielast::test {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool sanitized = true; // nothing may be loaded before a sanitizer
-#elif defined(__has_feature)
-inline constexpr bool sanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-inline constexpr bool sanitized = false;
-#endif
 
 /// The program with faults.cpp loaded before it: killed at a given call that changes a file, or with a disk
 /// that is full after so many bytes.

@@ -174,7 +174,8 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
     const Unknowns thinning = 1.0 / sqrt(a[0][0] * a[1][1] - a[0][1] * a[0][1]);
     double bottom = section.offset - height / 2;
     for (std::size_t l = 0; l < section.layers.size(); ++l) {
-      const auto& [material, H] = section.layers[l];
+      const materials::Material& material = section.layers[l].material;
+      const double H = section.layers[l].thickness;
       const double k = l > 0 ? 0 : material.dielectric.permittivity * voltage * voltage / (H * H);
       for (const auto& [place, weight] :
            {std::pair{-std::sqrt(0.6), 5.0 / 18}, {0.0, 8.0 / 18}, {std::sqrt(0.6), 5.0 / 18}}) {
