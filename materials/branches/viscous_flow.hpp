@@ -185,6 +185,7 @@ Settled settle(const Law& law, const Flow& flow, const InPlaneC<double>& C, Eige
     // Convergence is quadratic: from a relative error of 1e-8 one more step reaches the last digits.
     const double scale = y.dot(curvature * y);
     const bool last = convex && -slope.dot(step) <= 1e-16 * scale;
+    if (last && flow.admits(y + step)) return {true, y + step};
     const double noise = 1e-14 * std::abs(scale);
     for (int halving = 0; halving < 40; ++halving, step /= 2) {
       if (!flow.admits(y + step)) continue;
