@@ -40,7 +40,8 @@ bool is_reached_continuously(Equilibrium& equilibrium, const State& from, const 
   path.apply(state, 0);
   const bool regular = equilibrium.factor(state);
   const int unstable_modes = regular ? equilibrium.tangent().unstable_modes() : 0;
-  PathSlope slope = slope_at(equilibrium, path, state, 0, 1, regular);
+  Eigen::VectorXd slope;
+  if (regular) slope = slope_at(equilibrium, path, state, 0, 1);
   double faded = 0, part = 1;
   while (faded < 1) {
     part = std::min(part, 1 - faded);
@@ -50,8 +51,8 @@ bool is_reached_continuously(Equilibrium& equilibrium, const State& from, const 
     bool joined = newton.outcome == Outcome::converged && newton.unstable_modes <= unstable_modes &&
                   !is_turned_over(model.corners, model.drawn, state, trial);
     if (joined) {
-      PathSlope next = slope_at(equilibrium, path, trial, faded + part, -part);
-      joined = is_joined(equilibrium, state, slope.per(1 / part), trial, next.per(1 / part),
+      Eigen::VectorXd next = slope_at(equilibrium, path, trial, faded + part, -part);
+      joined = is_joined(equilibrium, path, {state, faded, slope}, {trial, faded + part, next},
                          Steadiness::resolved());
       if (joined) slope = std::move(next);
     }

@@ -39,7 +39,7 @@ struct LoadPoint {
   double s = 0;
   State state;
   Mode mode;
-  PathSlope slope; ///< per load factor
+  Eigen::VectorXd slope; ///< of the path
 };
 
 } // namespace
@@ -182,12 +182,12 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     const int unstable = equilibrium.tangent().unstable_modes();
     if (modes >= 0 && unstable > modes) return false;
     const double length = points.empty() ? s - s_beyond : s - points.back().s;
-    PathSlope slope = slope_at(equilibrium, path, trial, s, -length);
+    Eigen::VectorXd slope = slope_at(equilibrium, path, trial, s, -length);
     if (!points.empty()) {
       const LoadPoint& last = points.back();
       const Model& model = equilibrium.model();
       if (is_turned_over(model.corners, model.drawn, last.state, trial) ||
-          !is_joined(equilibrium, last.state, last.slope.per(1 / length), trial, slope.per(1 / length),
+          !is_joined(equilibrium, path, {last.state, last.s, last.slope}, {trial, s, slope},
                      Steadiness::kinked()))
         return false;
     }

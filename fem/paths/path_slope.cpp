@@ -13,6 +13,7 @@ namespace {
 constexpr double difference = 1e-3; ///< of the reach
 constexpr double still = 1e-7;      ///< mean displacement over the extent that tells nothing of a path
 constexpr double rounding = 1e-12;  ///< of potentials
+constexpr double linear = 0.01;     ///< part of the works that a film may miss which answers loads linearly
 
 /// What a closed chamber's filling adds to the energy at the pressure of the state, J. At a fixed pressure it
 /// is linear in the filling, which hardly gives way: where the pressure follows, differences would tell of
@@ -21,9 +22,47 @@ double filling_energy(const Model& model, const State& state, std::size_t chambe
   return model.chamber_of(chamber)->energy(state.charge[chamber], state.voltage[chamber]);
 }
 
+struct WorkOfLoads {
+  double potential =
+      0;           ///< P(u, s) of the state: the energy under the control less the work of dead forces, J
+  double work = 0; ///< what P grows by while the loads go from s0 to s1 and the shape stays, J
+};
+
 /// The energy that forces and, with the opposite sign, changes of the loads derive from.
 double potential(const Balance& balance, const State& state, const DofMap& dofs) {
   return balance.energy - state.dead_force.dot(position(state, dofs));
+}
+
+/// At one end of the path from s0 to s1. What is held and moves does the work of the state's reactions.
+WorkOfLoads work_of_loads(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& end, double s0,
+                          double s1) {
+  const DofMap& dofs = equilibrium.model().dofs;
+  State here = end.state, there = end.state;
+  path.apply(here, end.s);
+  path.apply(there, end.s == s0 ? s1 : s0);
+  Balance evaluated;
+  if (!end.balance) equilibrium.balance(here, evaluated);
+  const Balance& balance = end.balance ? *end.balance : evaluated;
+  const double own = potential(balance, here, dofs);
+  const Eigen::VectorXd moved = Loads::of(there, dofs).held - Loads::of(here, dofs).held;
+  const double of_reactions = balance.force.segment(dofs.free_count(), moved.size()).dot(moved);
+  there.displacement = here.displacement;
+  there.rotation = here.rotation;
+  double change = -own;
+  if (const auto chamber = equilibrium.model().closed_chamber(here)) {
+    const auto at_fixed_pressure = [&](State open) {
+      open.voltage[*chamber] = here.voltage[*chamber];
+      const double filling = filling_energy(equilibrium.model(), open, *chamber);
+      open.supply[*chamber] = Supply::voltage;
+      equilibrium.balance(open, evaluated);
+      return potential(evaluated, open, dofs) + filling;
+    };
+    change = at_fixed_pressure(there) - at_fixed_pressure(here);
+  } else {
+    equilibrium.balance(there, evaluated);
+    change += potential(evaluated, there, dofs);
+  }
+  return {own, (change + of_reactions) * (end.s == s0 ? 1 : -1)};
 }
 
 double norm_by(const Eigen::VectorXd& stiffness, const Eigen::VectorXd& u) {
@@ -36,35 +75,21 @@ double distance(const DofMap& dofs, const Eigen::VectorXd& stiffness, const Stat
 
 } // namespace
 
-PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s, double reach,
-                   bool factored, const Balance* known) {
-  const DofMap& dofs = equilibrium.model().dofs;
-  PathSlope slope;
+Eigen::VectorXd slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
+                         double reach, const Balance* known) {
   Balance evaluated, there;
   State at = state;
-  path.apply(at, s);
-  if (!known) equilibrium.balance(at, evaluated);
+  if (!known) {
+    path.apply(at, s);
+    equilibrium.balance(at, evaluated);
+  }
   const Balance& here = known ? *known : evaluated;
-  slope.potential = potential(here, at, dofs);
   const double ds = difference * reach;
   path.apply(at, s + ds);
   equilibrium.balance(at, there);
-  double change = potential(there, at, dofs) - slope.potential;
-  if (const auto chamber = equilibrium.model().closed_chamber(state)) {
-    const auto at_fixed_pressure = [&](double load_factor) {
-      State open = state;
-      path.apply(open, load_factor);
-      const double filling = filling_energy(equilibrium.model(), open, *chamber);
-      open.supply[*chamber] = Supply::voltage;
-      Balance balance;
-      equilibrium.balance(open, balance);
-      return potential(balance, open, dofs) + filling;
-    };
-    change = at_fixed_pressure(s + ds) - at_fixed_pressure(s);
-  }
-  slope.power = change / ds;
-  if (factored)
-    equilibrium.tangent().solve((here.force - there.force).head(dofs.free_count()) / ds, slope.displacement);
+  Eigen::VectorXd slope;
+  equilibrium.tangent().solve((here.force - there.force).head(equilibrium.model().dofs.free_count()) / ds,
+                              slope);
   return slope;
 }
 
@@ -85,39 +110,52 @@ bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, 
          still * std::sqrt(equilibrium.energy_scale());
 }
 
-bool is_along(const Equilibrium& equilibrium, const State& from, const Eigen::VectorXd& slope_from,
-              const State& to, const Eigen::VectorXd& slope_to, const Steadiness& steadiness) {
-  if (slope_from.size() == 0) return false;
+bool is_along(const Equilibrium& equilibrium, const PathEnd& from, const PathEnd& to,
+              const Steadiness& steadiness) {
+  if (from.slope.size() == 0) return false;
   const auto norm = [&](const Eigen::VectorXd& a) { return norm_by(equilibrium.stiffness(), a); };
-  const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from, to);
-  return norm(chord - (slope_from + slope_to) / 2) <=
-         steadiness.steady * std::max(norm(slope_from), norm(slope_to));
+  const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from.state, to.state);
+  const double length = to.s - from.s;
+  return norm(chord - length / 2 * (from.slope + to.slope)) <=
+         steadiness.steady * std::abs(length) * std::max(norm(from.slope), norm(to.slope));
 }
 
-bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,
-               const State& to, const PathSlope& slope_to, const Steadiness& steadiness) {
-  const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from, to);
+bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& from, const PathEnd& to,
+               const Steadiness& steadiness) {
+  const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from.state, to.state);
   const auto product = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     return a.dot(equilibrium.stiffness().cwiseProduct(b));
   };
   const auto norm = [&](const Eigen::VectorXd& a) { return norm_by(equilibrium.stiffness(), a); };
   const double least = still * std::sqrt(equilibrium.energy_scale());
   if (norm(chord) <= least) return true;
-  const Eigen::VectorXd &v0 = slope_from.displacement, &v1 = slope_to.displacement;
-  const bool singular_start = v0.size() == 0;
+  if (is_along(equilibrium, from, to, steadiness)) return true;
+  const bool singular_start = from.slope.size() == 0;
+  const double length = to.s - from.s;
+  const Eigen::VectorXd v0 = length * from.slope, v1 = length * to.slope;
   const double n0 = singular_start ? 0 : norm(v0), n1 = norm(v1);
-  if (is_along(equilibrium, from, v0, to, v1, steadiness)) return true;
-  const double missing =
-      std::abs(slope_to.potential - slope_from.potential - (slope_from.power + slope_to.power) / 2);
-  const double round_off = rounding * (std::abs(slope_from.potential) + std::abs(slope_to.potential));
+  const WorkOfLoads work0 = work_of_loads(equilibrium, path, from, from.s, to.s),
+                    work1 = work_of_loads(equilibrium, path, to, from.s, to.s);
+  const double missing = std::abs(work1.potential - work0.potential - (work0.work + work1.work) / 2);
+  const double round_off = rounding * (std::abs(work0.potential) + std::abs(work1.potential));
   const double energy = n1 > n0 ? steadiness.energy_of_faster : steadiness.energy;
   // not a number where loads cannot be
-  if (!(missing <= energy * std::abs(slope_to.power - slope_from.power) + round_off)) return false;
+  if (!(missing <= energy * std::abs(work1.work - work0.work) + round_off)) return false;
   if (std::isinf(steadiness.chord)) return true;
   if (singular_start) return product(chord, v1) > 0; // of it only the energy is known
+  if (missing <= linear * std::abs(work1.work - work0.work) && norm(chord) <= std::max(n0, n1)) {
+    // Loads that do not go straight on take the path to other points of the plane of both slopes.
+    const auto without = [&](Eigen::VectorXd a, const Eigen::VectorXd& b) {
+      const double square = product(b, b);
+      if (square > 0) a -= product(a, b) / square * b;
+      return a;
+    };
+    const Eigen::VectorXd off = without(without(chord, v1), without(v0, v1));
+    if (norm(off) <= steadiness.chord * norm(chord)) return true;
+  }
   const Eigen::VectorXd half = (v1 - v0) / 2;
-  const double length = product(half, half);
-  const double part = n1 > n0 && length > 0 ? std::clamp(product(chord - v0, half) / length, 0.0, 1.0) : 1.0;
+  const double square = product(half, half);
+  const double part = n1 > n0 && square > 0 ? std::clamp(product(chord - v0, half) / square, 0.0, 1.0) : 1.0;
   return norm(chord - v0 - part * half) <= steadiness.chord * std::max(n0, n1) + least;
 }
 

@@ -9,21 +9,11 @@
 
 namespace dielast::fem {
 
-/// How an equilibrium path u(s) goes on from a converged state, to first order.
-struct PathSlope {
-  Eigen::VectorXd displacement; ///< du/ds per free equation; empty where the tangent is singular
-  double potential = 0;         ///< P(u, s): the energy under the control less the work of dead forces, J
-  double power = 0;             ///< dP/ds at fixed free displacements, which is that along the path, J
-
-  /// With respect to the parameter length * s.
-  PathSlope per(double length) const { return {displacement / length, potential, power / length}; }
-};
-
-/// Slope at `state`, converged at s. The equilibrium's tangent must be factored there, or one small step
-/// before; `factored` is false where it is singular. The loads are varied from s towards s + `reach`, no
-/// farther: beyond, the path may have a break. `known`: the state's balance, where it has been evaluated.
-PathSlope slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s, double reach,
-                   bool factored = true, const Balance* known = nullptr);
+/// Slope du/ds per free equation at `state`, converged at s. The equilibrium's tangent must be factored
+/// there, or one small step before. The loads are varied from s towards s + `reach`, no farther: beyond, the
+/// path may have a break. `known`: the state's balance, where it has been evaluated.
+Eigen::VectorXd slope_at(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
+                         double reach, const Balance* known = nullptr);
 
 /// Whether a predictor through the `points` of a path has led to `trial`, at `parameter`, closely, in the
 /// norm of `stiffness` (per free equation). As a predictor that runs away may meet another branch, the path
@@ -47,24 +37,34 @@ struct Steadiness {
   static constexpr Steadiness wrinkled() { return {std::numeric_limits<double>::infinity(), 0.5, 0.5}; }
 };
 
-/// Whether the chord between two states agrees with the slopes of the path at both,
+/// A converged state and how an equilibrium path u(s) goes through it.
+struct PathEnd {
+  const State& state;
+  double s;
+  const Eigen::VectorXd& slope;     ///< du/ds, see slope_at(); empty where the tangent is singular
+  const Balance* balance = nullptr; ///< of the state, where it has been evaluated
+};
+
+/// Whether the chord between two states agrees with the slopes of the path at both, times s1 - s0:
 ///   |c - (v0 + v1)/2| <= steady max(|v0|, |v1|),
 /// in the norm of Equilibrium::stiffness(): the tangents alone then tell that the states are joined.
-bool is_along(const Equilibrium& equilibrium, const State& from, const Eigen::VectorXd& slope_from,
-              const State& to, const Eigen::VectorXd& slope_to, const Steadiness& steadiness);
+bool is_along(const Equilibrium& equilibrium, const PathEnd& from, const PathEnd& to,
+              const Steadiness& steadiness);
 
-/// Whether the state `to` lies on the path that goes through `from`, where s is 1 less: Newton's method may
-/// have found a state of another branch beyond a limit point. In the norm of Equilibrium::stiffness(), the
-/// chord c = u1 - u0 is compared with the mean v of the slopes v0, v1 at both ends, and the change of the
-/// potential P with its power p = dP/ds at fixed u:
-///   |c - v| <= chord max(|v0|, |v1|)  and  |P1 - P0 - (p0 + p1)/2| <= energy |p1 - p0|.
+/// Whether the state `to` lies on the path that goes through `from`: Newton's method may have found a state
+/// of another branch beyond a limit point. In the norm of Equilibrium::stiffness(), the chord c = u1 - u0 is
+/// compared with the mean v of the slopes v0, v1 at both ends, and the change of the potential P with the
+/// works w0, w1 that the loads would do on their way from s0 to s1 with the shape of either end:
+///   |c - v| <= chord max(|v0|, |v1|)  and  |P1 - P0 - (w0 + w1)/2| <= energy |w1 - w0|.
+/// In other words: what the film sets free on its way from u0 to u1 under the loads at the end is what this
+/// way would cost it under those at the start; however the loads go from one to the other.
 /// Where the path gets faster, |v1| > |v0|, it may do so up to the square root at a limit point: c may be
 /// near any point between v0 and v, and the energy may miss `energy_of_faster`. Where is_along() the energy
-/// is not asked: while nothing but dashpots move, its powers at both ends differ by the time schemes of their
-/// increments, and by nothing else. What a film has set free on its way to another branch is missing from the
-/// energy; on another branch it is mostly slower. An increment that fails may just be too long. `slope_to`
-/// must not be that of a singular tangent.
-bool is_joined(const Equilibrium& equilibrium, const State& from, const PathSlope& slope_from,
-               const State& to, const PathSlope& slope_to, const Steadiness& steadiness);
+/// is not asked: while nothing but dashpots move, the works differ by the time schemes of their increments,
+/// and by nothing else. What a film has set free on its way to another branch is missing from the energy; on
+/// another branch it is mostly slower. An increment that fails may just be too long. `to.slope` must not be
+/// that of a singular tangent.
+bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& from, const PathEnd& to,
+               const Steadiness& steadiness);
 
 } // namespace dielast::fem

@@ -39,6 +39,8 @@ class Ramp {
 
  private:
   bool timed() const { return options_.duration > 0; }
+  /// The part of an increment at which it is on its way: at its very start dashpots do not flow.
+  double setting_out() const { return timed() ? first_moment : 0; }
   const State& last() const { return progress_.points.back().state; }
   double smallest_off_path() const { return std::min(smallest_, smallest_on_path); }
   double parameter(double s) const { return timed() ? s : path_.parameter(s); }
@@ -48,7 +50,7 @@ class Ramp {
   State solve(State state, double s);
   bool less_stable() const;
   LoadPath within(double s) const;
-  PathSlope slope_of_start(const LoadPath& increment, double length);
+  Eigen::VectorXd slope_of_start(const LoadPath& increment);
   bool follows(const State& predicted, const State& trial, double s) const;
   bool goes_on(const State& predicted, const State& trial, double s);
   bool detour(const LoadPath& path, State start, const RampOptions& options, bool tells);
@@ -65,11 +67,11 @@ class Ramp {
   double largest_, landing_, smallest_;
   Eigen::VectorXd massless_; ///< with inertia, see stiffness_without_mass()
   NewtonResult newton_;
-  std::optional<PathSlope> slope_; ///< at the trial state
-  int unstable_before_ = -1;       ///< unstable modes before the increment that is being accepted
-  bool jumped_ = false;            ///< at the last break
-  double last_part_ = 0;           ///< of that jump
-  double time_error_ = 0;          ///< of the last time step
+  std::optional<Eigen::VectorXd> slope_; ///< at the trial state
+  int unstable_before_ = -1;             ///< unstable modes before the increment that is being accepted
+  bool jumped_ = false;                  ///< at the last break
+  double last_part_ = 0;                 ///< of that jump
+  double time_error_ = 0;                ///< of the last time step
 };
 
 double Ramp::next_break() const {
@@ -133,21 +135,12 @@ LoadPath Ramp::within(double s) const {
 }
 
 /// Of the increment's path at the last accepted state, as the increment sets out from it.
-PathSlope Ramp::slope_of_start(const LoadPath& increment, double length) {
-  const double at = timed() ? first_moment : 0;
-  const auto& known = progress_.slope;
-  if (known && !timed()) return known->per(1 / length);
+Eigen::VectorXd Ramp::slope_of_start(const LoadPath& increment) {
   State start = last();
-  increment.apply(start, at);
-  if (known) {
-    PathSlope slope = slope_at(equilibrium_, increment, start, at, 1, false);
-    slope.displacement = length * known->displacement;
-    return slope;
-  }
-  const bool regular = equilibrium_.factor(start);
-  if (regular && progress_.unstable_modes < 0)
-    progress_.unstable_modes = equilibrium_.tangent().unstable_modes();
-  return slope_at(equilibrium_, increment, start, at, 1, regular);
+  increment.apply(start, setting_out());
+  if (!equilibrium_.factor(start)) return {};
+  if (progress_.unstable_modes < 0) progress_.unstable_modes = equilibrium_.tangent().unstable_modes();
+  return slope_at(equilibrium_, increment, start, setting_out(), 1);
 }
 
 /// Whether what has no mass has followed what has one continuously; the motion itself has no other branch.
@@ -169,7 +162,7 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const double length = s - progress_.load_factor;
   const LoadPath increment = within(s);
   // as long as its tangent is there
-  const PathSlope end = slope_at(equilibrium_, increment, trial, 1, -1, true, equilibrium_.solved());
+  const Eigen::VectorXd end = slope_at(equilibrium_, increment, trial, 1, -1, equilibrium_.solved());
   const auto wrinkles = [&model](const State& state) {
     return std::ranges::any_of(model.sample(state).film,
                                [](auto& sample) { return sample.tension != materials::Tension::taut; });
@@ -178,15 +171,13 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const Steadiness steadiness = wrinkled                  ? Steadiness::wrinkled()
                                 : length > longest_kinked ? Steadiness::resolved()
                                                           : Steadiness::kinked();
-  // The tangents alone often tell, and the energies cost as much as Newton's method.
-  const auto& known = progress_.slope;
-  if (!known ||
-      !is_along(equilibrium_, last(), length * known->displacement, trial, end.displacement, steadiness)) {
-    const PathSlope start = slope_of_start(increment, length);
-    progress_.slope = start.per(length);
-    if (!is_joined(equilibrium_, last(), start, trial, end, steadiness)) return false;
+  const PathEnd to{trial, 1, end, equilibrium_.solved()};
+  const Eigen::VectorXd start = progress_.slope ? length * *progress_.slope : slope_of_start(increment);
+  if (!is_joined(equilibrium_, increment, {last(), setting_out(), start}, to, steadiness)) {
+    progress_.slope = start / length;
+    return false;
   }
-  slope_ = end.per(length);
+  slope_ = end / length;
   return true;
 }
 

@@ -38,14 +38,15 @@ struct Increment {
 /// Where a ramp stands between two increments. A value: stored with the state it lets a run go on bit for
 /// bit.
 struct RampProgress {
-  Loads start;                    ///< at load factor 0
-  double load_factor = 0;         ///< of the last accepted increment
-  double increment = 0;           ///< next to be tried, of the load factor
-  bool at_break = true;           ///< loads may jump now: dashpots stay, the time scheme starts again
-  bool turns = true;              ///< the path has a corner at the last accepted state
-  int unstable_modes = -1;        ///< of the branch being followed; -1 before the first increment
-  std::optional<PathSlope> slope; ///< per load factor, at the last accepted state, where it is known
-  std::vector<PathPoint> points;  ///< last accepted states, oldest first, for the predictor
+  Loads start;             ///< at load factor 0
+  double load_factor = 0;  ///< of the last accepted increment
+  double increment = 0;    ///< next to be tried, of the load factor
+  bool at_break = true;    ///< loads may jump now: dashpots stay, the time scheme starts again
+  bool turns = true;       ///< the path has a corner at the last accepted state
+  int unstable_modes = -1; ///< of the branch being followed; -1 before the first increment
+  /// du/ds of the path at the last accepted state, where it is known; empty where the tangent is singular.
+  std::optional<Eigen::VectorXd> slope;
+  std::vector<PathPoint> points; ///< last accepted states, oldest first, for the predictor
 
   /// Nothing done yet: the ramp starts from the loads that `state` carries.
   static RampProgress begin(const State& state, const DofMap& dofs, const RampOptions& options);

@@ -112,14 +112,6 @@ fem::State restore_state(const json& archived, const StateSizes& sizes) {
   return state;
 }
 
-json archive(const fem::PathSlope& slope) {
-  return {{"displacement", pack(slope.displacement)}, {"potential", slope.potential}, {"power", slope.power}};
-}
-
-fem::PathSlope restore_slope(const json& archived, std::size_t free) {
-  return {optional_vector(archived.at("displacement"), free), archived.at("potential"), archived.at("power")};
-}
-
 json archive(const fem::Conjugates& pair) { return {pack(pair.force), pack(pair.coordinate)}; }
 
 fem::Conjugates restore_conjugates(const json& archived, std::size_t size) {
@@ -201,7 +193,7 @@ json archive(const fem::RampProgress& progress) {
           {"at_break", progress.at_break},
           {"turns", progress.turns},
           {"unstable_modes", progress.unstable_modes},
-          {"slope", progress.slope ? archive(*progress.slope) : json(nullptr)},
+          {"slope", progress.slope ? pack(*progress.slope) : json(nullptr)},
           {"points", std::move(points)}};
 }
 
@@ -220,7 +212,7 @@ fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
     progress.turns = archived.at("turns");
     progress.unstable_modes = archived.at("unstable_modes");
     if (const json& slope = archived.at("slope"); !slope.is_null())
-      progress.slope = restore_slope(slope, sizes.free);
+      progress.slope = optional_vector(slope, sizes.free);
     for (const json& point : archived.at("points"))
       progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), sizes)});
     if (progress.points.empty()) mismatch();
