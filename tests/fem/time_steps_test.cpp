@@ -114,6 +114,14 @@ TEST_F(CreepingFilm, the_tolerance_sets_the_steps) {
   EXPECT_GT(steps[1], 2 * steps[0]);
 }
 
+// Loads that bend within an increment bend the path, too: no reason to halve it.
+TEST_F(CreepingFilm, a_wave_is_followed_in_steps_of_an_eighth_of_its_period) {
+  LoadPath wave;
+  wave.apply = [this](State& state, double s) { state.voltage = {volts * std::sin(10 * M_PI * s)}; };
+  run(wave, {.increments = 80, .duration = 10, .time_tolerance = 1e9});
+  EXPECT_EQ(accepted, 80);
+}
+
 TEST_F(CreepingFilm, a_voltage_that_goes_off_acts_at_once_and_the_rest_recovers) {
   std::map<double, double> found;
   const RampOptions options{
