@@ -150,21 +150,43 @@ double Measurement::displacement(const Quantity& quantity, const fem::State& sta
   return quantity.along == along_gravity ? moved.dot(case_.gravity.down()) : component(moved, quantity.along);
 }
 
-/// The inverse of the mean displacement of a place under a unit force that is spread evenly over it. NaN
-/// where the state is not at rest.
-double Measurement::stiffness(const Quantity& quantity, const Measured& measured) const {
+/// NaN where the state is not at rest.
+Measurement::Flexibility Measurement::flexibility(const std::string& place, int along,
+                                                  const Measured& measured) const {
+  const Eigen::Vector3d axis = along == along_gravity ? case_.gravity.down() : Eigen::Vector3d::Unit(along);
   const fem::DofMap& dofs = device_.model.dofs;
-  const auto& nodes = device_.mesh.node_sets.at(quantity.of);
-  Eigen::VectorXd unit = Eigen::VectorXd::Zero(dofs.count()), flexibility;
+  const auto& nodes = device_.mesh.node_sets.at(place);
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(dofs.count());
   for (const int node : nodes)
-    if (const int e = dofs.equation(node, *quantity.along); e != fem::DofMap::absent)
-      unit[e] += 1 / static_cast<double>(nodes.size());
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
+        unit[e] += axis[c] / static_cast<double>(nodes.size());
   unit = (dofs.jacobian(measured.state).transpose() * unit).eval();
+  Flexibility found{{}, unknown};
   if (unit.isZero() || !measured.may_rest || !unrest(measured.equilibrium, measured.state).empty() ||
       !measured.equilibrium.factor(relaxed(measured.state)))
-    return unknown;
-  measured.equilibrium.tangent().solve(unit, flexibility);
-  return 1 / unit.dot(flexibility);
+    return found;
+  measured.equilibrium.tangent().solve(unit, found.displacement);
+  found.own = unit.dot(found.displacement);
+  return found;
+}
+
+/// With the charge Q = C(u) Phi the electrode pulls with Phi^2/2 dC/du; that moves the place by Phi^2/2 times
+/// the flexibility's product with dC/du, and the force that takes it back is that over its own. Capacitance
+/// and length are those as drawn: a strip free across itself has 1/2, one of held width 1.
+double Measurement::coupling(const Quantity& quantity, const Measured& measured) const {
+  const Flexibility give = flexibility(quantity.place, *quantity.along, measured);
+  if (std::isnan(give.own)) return unknown;
+  const std::size_t e = electrode(quantity.of);
+  fem::State one_volt = measured.state;
+  one_volt.voltage[e] = 1;
+  one_volt.sheet_drop.setZero();
+  fem::Charges charges = device_.model.charges(one_volt, true);
+  device_.model.dofs.gather(one_volt, charges.coupling[e]);
+  const double force =
+      charges.coupling[e].head(give.displacement.size()).dot(give.displacement) / 2 / give.own;
+  const double drawn = device_.model.charges(device_.model.initial_state(), false).capacitance[e];
+  return force * quantity.length / drawn;
 }
 
 /// NaN where nothing has a mass, or the state is unstable or not at rest.
@@ -270,7 +292,9 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
                : unknown;
   }
   case QuantityKind::stiffness:
-    return stiffness(quantity, measured);
+    return 1 / flexibility(quantity.of, *quantity.along, measured).own;
+  case QuantityKind::coupling:
+    return coupling(quantity, measured);
   case QuantityKind::natural_frequency:
     return natural_frequency(quantity, measured);
   case QuantityKind::radial_stretch:

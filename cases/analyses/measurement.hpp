@@ -57,7 +57,14 @@ class Measurement {
   double evaluate(const Quantity& quantity, const Measured& measured) const;
   double length(const Quantity& quantity, const fem::State& state) const;
   double displacement(const Quantity& quantity, const fem::State& state) const;
-  double stiffness(const Quantity& quantity, const Measured& measured) const;
+  /// What a unit force along an axis, spread evenly over a place, moves: per free unknown, and its mean over
+  /// the place, m/N.
+  struct Flexibility {
+    Eigen::VectorXd displacement;
+    double own;
+  };
+  Flexibility flexibility(const std::string& place, int along, const Measured& measured) const;
+  double coupling(const Quantity& quantity, const Measured& measured) const;
   double natural_frequency(const Quantity& quantity, const Measured& measured) const;
   /// Where a value of a field is read; `key`: the quantity's path.
   std::vector<FilmReading> readings_of(const Quantity& quantity, const std::string& key,

@@ -29,6 +29,7 @@ struct Electrode {
   std::string place;
   std::optional<double> sheet_resistance; ///< of both faces together, Ohm per square
   std::string terminal;                   ///< where a resistive one is connected
+  double stray_capacitance = 0;           ///< beside the film's, of what leads to it, F
 };
 
 /// [[support]]
@@ -98,6 +99,11 @@ struct Body {
   std::optional<std::array<double, 3>> centre; ///< of mass, as drawn, m; absent: the mean of its nodes
   std::optional<std::array<double, 3>> pivot;  ///< a point that stays where it is drawn, m
   std::array<bool, 6> fixed{};                 ///< displacements of its own place, rotations about x, y, z
+};
+
+/// [weight]: hangs from a strip; the mass of its body "bar"
+struct HungWeight {
+  double mass = 0; ///< kg
 };
 
 /// [gravity]
@@ -223,6 +229,7 @@ enum class QuantityKind {
   volume,
   pumped_volume,
   stiffness,
+  coupling,
   natural_frequency,
   radial_stretch,
   energy,
@@ -248,8 +255,9 @@ struct Quantity {
                   ///< place; capacitance, charge, current: an electrode; value, extreme: a field; peak:
                   ///< another quantity
   std::optional<int> along;                   ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
-  std::string place;                          ///< value: over which it is the mean
+  std::string place;                          ///< value: over which it is the mean; coupling: where it pulls
   std::optional<std::array<double, 3>> point; ///< value: instead of a place, as drawn, m
+  double length = 0;                          ///< coupling: of the electrode, m
   int mode = 1;                               ///< natural_frequency: its number, from the lowest
   post::Extreme extreme{};
   std::string at; ///< the step at whose end summary.json reads it; empty: the last
@@ -308,6 +316,7 @@ struct Case {
   std::optional<Plate> plate;
   std::vector<PointMass> point_masses;
   std::vector<Body> bodies;
+  std::optional<HungWeight> weight{};
   Gravity gravity;
   std::optional<Chamber> chamber;
   std::vector<Spring> springs;

@@ -5,6 +5,7 @@
 #include "materials/beam_section.hpp"
 #include "materials/material.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -103,14 +104,29 @@ struct AntagonisticRolls {
   RibbonBending ribbons{};
 };
 
+/// [strip]: a rectangle of film, clamped at both ends, that hangs along -y. Of one layer, or a stack of
+/// layers with passive covers. Dimensions as clamped, after the prestretch.
+struct Strip {
+  double length = 0, width = 0; ///< between the clamps (y), from side to side (x), m
+  int layers = 1;               ///< of film, each with the electrode's voltage across it
+  double cover_thickness = 0;   ///< of passive film on each face, undeformed, m
+  std::optional<double>
+      electrode_length{}; ///< m; absent: all; longer than the strip: the rest lies in the clamps
+  std::optional<double> electrode_width{}; ///< m; absent: all
+
+  /// Length of the electrode between the clamps, and in them, m.
+  double free_electrode() const { return std::min(electrode_length.value_or(length), length); }
+  double clamped_electrode() const { return electrode_length.value_or(length) - free_electrode(); }
+};
+
 /// [line]: a straight rod, or a straight row of beams, as drawn
 struct Line {
   std::array<double, 3> from{}, to{}; ///< m
 };
 
 /// What has no mesh of its own is std::monostate.
-using Geometry =
-    std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Line, AntagonisticRolls, MeshFile>;
+using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Strip, Line,
+                              AntagonisticRolls, MeshFile>;
 
 /// [mesh]
 struct MeshOptions {
@@ -120,6 +136,7 @@ struct MeshOptions {
   int wall_elements = 8; ///< beams per wall (honeycomb), or along a line
   double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
   int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
+  int across = 0;        ///< elements from side to side of a strip
   int quadrature = 3;    ///< integration points of a 6-node triangle: 3 or 6
 };
 

@@ -16,6 +16,7 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
   case QuantityKind::growth:
   case QuantityKind::stretch:
   case QuantityKind::radial_stretch:
+  case QuantityKind::coupling:
     return "1";
   case QuantityKind::current:
     return "A";
@@ -95,6 +96,10 @@ std::string meaning_of(const Quantity& q) {
     return fmt::format("volume pumped into the chamber, as it is without pressure{}", at);
   case QuantityKind::stiffness:
     return fmt::format("force on {} per displacement{}{}", q.of, along, at);
+  case QuantityKind::coupling:
+    return fmt::format(
+        "force on {} held{} per squared voltage of {}, over its drawn capacitance per length{}", q.place,
+        along, q.of, at);
   case QuantityKind::natural_frequency:
     return fmt::format("natural frequency number {}{}", q.mode, at);
   case QuantityKind::radial_stretch:

@@ -339,6 +339,7 @@ Device build_device(const Case& one) {
   add_bars(one, mesh, model);
 
   add_springs(one, mesh, model);
+  add_capacitors(one, model);
   add_masses(one, mesh, model);
   for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
   add_chamber(one, mesh, model);

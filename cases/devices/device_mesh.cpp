@@ -93,6 +93,11 @@ meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_orde
             return meshing::patch_mesh(p.length * part.film->prestretch[0],
                                        p.width * part.film->prestretch[1], patch_order);
           },
+          [&](const Strip& s) {
+            return meshing::strip_mesh(
+                {s.length, s.width, s.free_electrode(), s.electrode_width.value_or(s.width)}, options.across,
+                options.order);
+          },
           [&](const Line& line) {
             const Eigen::Vector3d from(line.from.data()), to(line.to.data());
             return part.rod ? meshing::rod_mesh(from, to)

@@ -20,6 +20,7 @@ std::optional<Density> density_of(const Geometry& geometry) {
   if (std::holds_alternative<Honeycomb>(geometry) || std::holds_alternative<Line>(geometry) ||
       std::holds_alternative<AntagonisticRolls>(geometry))
     return Density{&MeshOptions::wall_elements, 1};
+  if (std::holds_alternative<Strip>(geometry)) return Density{&MeshOptions::across, 1};
   if (std::holds_alternative<Balloon>(geometry)) return Density{&MeshOptions::rings, 4};
   if (std::holds_alternative<Disc>(geometry) || std::holds_alternative<Annulus>(geometry))
     return Density{&MeshOptions::rings, 2};

@@ -2,6 +2,7 @@
 #include "cases/devices/sections.hpp"
 
 #include "fem/elements/beam_block.hpp"
+#include "fem/elements/capacitor_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/shells/shell_block.hpp"
 #include "meshing/mesh_error.hpp"
@@ -159,21 +160,40 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
     const int points = film.type == meshing::CellType::triangle6   ? mesh_options(one, part).quadrature
                        : film.type == meshing::CellType::meridian3 ? 2
                                                                    : 1;
-    const fem::MembraneSection section{part.film->material, part.film->thickness, part.film->prestretch,
-                                       part.film->tension_field};
+    const auto* strip_of = std::get_if<Strip>(&part.geometry);
+    const double cover = strip_of ? strip_of->cover_thickness : 0;
+    const fem::MembraneSection section{.material = part.film->material,
+                                       .thickness = part.film->thickness,
+                                       .layers = strip_of ? strip_of->layers : 1,
+                                       .prestretch = part.film->prestretch,
+                                       .tension_field = part.film->tension_field};
     const auto add = [&](const fem::MembraneSection& with, std::vector<int> under) {
       model.blocks.push_back(fem::make_membrane_block(mesh, meshing::subset(film, cells), with,
                                                       std::move(under), one.dimension, points, cells));
     };
     if (part.film->shell) {
-      model.blocks.push_back(fem::make_shell_block(
-          mesh, meshing::subset(film, cells),
-          {.layers = {{part.film->material, part.film->thickness}}, .prestretch = part.film->prestretch},
-          {std::move(over)}, cells));
+      const std::vector<int> none(cells.size(), fem::passive);
+      fem::ShellSection layers{.prestretch = part.film->prestretch};
+      std::vector<std::vector<int>> electrodes_of;
+      const auto stack = [&](double thickness, const std::vector<int>& under) {
+        if (!(thickness > 0)) return;
+        layers.layers.push_back({part.film->material, thickness});
+        electrodes_of.push_back(under);
+      };
+      stack(cover, none);
+      for (int layer = 0; layer < section.layers; ++layer) stack(section.thickness, over);
+      stack(cover, none);
+      model.blocks.push_back(
+          fem::make_shell_block(mesh, meshing::subset(film, cells), layers, std::move(electrodes_of), cells));
       continue;
     }
     if (!part.rolled()) {
       add(section, std::move(over));
+      fem::MembraneSection covers = section;
+      covers.thickness = cover;
+      covers.layers = 2;
+      covers.sampled = false;
+      if (cover > 0) add(covers, std::vector<int>(cells.size(), fem::passive));
       continue;
     }
     // Layers side by side; what lies beside the electrode is stretched with what lies under it.
@@ -184,6 +204,24 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
     strip.width = widths.passive;
     strip.sampled = false;
     if (strip.width > 0) add(strip, std::vector<int>(cells.size(), fem::passive));
+  }
+}
+
+void add_capacitors(const Case& one, fem::Model& model) {
+  const Part* const part = one.unnamed();
+  const auto* strip = one.geometry<Strip>();
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    double beside = one.electrodes[e].stray_capacitance;
+    if (strip && one.electrodes[e].place == "electrode") {
+      const materials::Dielectric& dielectric = part->film->material.dielectric;
+      const auto [along_x, along_y] = part->film->prestretch;
+      const double area = strip->layers * strip->clamped_electrode() *
+                          strip->electrode_width.value_or(strip->width) / (along_x * along_y);
+      beside += dielectric.permittivity * area / part->film->thickness *
+                materials::capacitance_ratio_value(dielectric, along_x * along_x + along_y * along_y,
+                                                   along_x * along_x * along_y * along_y);
+    }
+    if (beside > 0) model.blocks.push_back(fem::make_capacitor_block({e, beside}));
   }
 }
 

@@ -18,6 +18,9 @@ std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh);
 /// film_parts(). Throws MeshError and std::invalid_argument for electrodes and elements that cannot be.
 void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model);
 
+/// Adds what else an electrode charges: its stray capacitance, and what of it lies in a strip's clamps.
+void add_capacitors(const Case& one, fem::Model& model);
+
 /// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws MeshError for a place without
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);

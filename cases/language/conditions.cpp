@@ -177,7 +177,13 @@ Condition moves_along_it() {
   return on<Quantity>("motion along that direction: a planar model has none along z, one of revolution none "
                       "along y",
                       [](const Case& one, const Quantity& quantity) {
-                        return !quantity.along || fem::moves(one.dimension, std::min(*quantity.along, 2));
+                        if (quantity.along != along_gravity)
+                          return !quantity.along || fem::moves(one.dimension, *quantity.along);
+                        for (int c = 0; c < 3; ++c)
+                          if (one.gravity.direction[static_cast<std::size_t>(c)] != 0 &&
+                              fem::moves(one.dimension, c))
+                            return true;
+                        return false;
                       });
 }
 

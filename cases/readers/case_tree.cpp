@@ -67,6 +67,20 @@ void locate_mesh(SectionReader& reader, const Node& tree, const Case& one, Part&
         fmt::format("found {}: no such file; the path starts at the case file's folder", toml_string(name)));
 }
 
+/// The body "bar" has the mass of [weight].
+void hang_weight(SectionReader& reader, const Node& tree, Case& one) {
+  if (!one.weight) return;
+  const Node& written = *tree.find("weight");
+  const auto bar = std::ranges::find(one.bodies, "bar", &Body::name);
+  if (bar == one.bodies.end())
+    reader.report(written.source, "weight",
+                  "there is no body \"bar\" whose mass it would be: it hangs from a [strip]");
+  else if (bar->mass > 0 && bar->mass != one.weight->mass)
+    reader.report(written.source, "weight.mass", "given twice: the [[body]] \"bar\" has another mass");
+  else
+    bar->mass = one.weight->mass;
+}
+
 } // namespace
 
 Case interpret(Node tree, const std::filesystem::path& path) {
@@ -97,6 +111,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   for (int i = 0; i < std::min<int>(standard, static_cast<int>(one.quantities.size())); ++i)
     one.quantities[static_cast<std::size_t>(i)].standard = true;
   add_patch_sides(one);
+  hang_weight(reader, tree, one);
   for (Part& part : one.parts)
     if (part.mesh.rings == 0) part.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
 

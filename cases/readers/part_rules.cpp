@@ -33,6 +33,18 @@ void check_patch(SectionReader& reader, const Node& tree, const Part& part) {
       fmt::format("found {}: in equal-biaxial tension x and y are stretched alike", text_of(*written)));
 }
 
+/// What lies in a strip's clamps is a capacitance of its electrode.
+void check_strip(SectionReader& reader, const Node& top, const Case& one, const Part& part) {
+  const auto* strip = std::get_if<Strip>(&part.geometry);
+  if (!strip || !(strip->clamped_electrode() > 0)) return;
+  const auto electrode = std::ranges::find(one.electrodes, "electrode", &Electrode::place);
+  if (electrode != one.electrodes.end() && !electrode->sheet_resistance) return;
+  reader.report(top.find("strip")->find("electrode_length")->source, "strip.electrode_length",
+                electrode == one.electrodes.end()
+                    ? "longer than the strip, and no [[electrode]] has the place \"electrode\""
+                    : "longer than the strip, which an electrode with a sheet_resistance cannot be");
+}
+
 /// What a line and a rod need of one another.
 void check_line(SectionReader& reader, const Node& top, const Part& part) {
   const auto report = [&](const char* key, const std::string& message) {
@@ -43,6 +55,8 @@ void check_line(SectionReader& reader, const Node& top, const Part& part) {
   const bool rolls = std::holds_alternative<AntagonisticRolls>(part.geometry);
   if (rolls && !part.name.empty())
     return report("antagonistic_rolls", "antagonistic rolls are a case of their own, not a part");
+  if (std::holds_alternative<Strip>(part.geometry) && !part.name.empty())
+    return report("strip", "a strip is a case of its own, not a part");
   for (const char* leaf : {"hinge", "ribbon"})
     if (rolls && !top.find(leaf))
       reader.report(top.find("antagonistic_rolls")->key_source, leaf,
@@ -122,6 +136,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     const Node& top = top_of(tree, part);
     check_patch(reader, tree, part);
     check_line(reader, top, part);
+    check_strip(reader, top, one, part);
     check_shell(reader, top, one, part);
     if (part.name.empty()) continue;
     const auto report = [&](const char* key, const std::string& message) {

@@ -52,6 +52,11 @@ Section electrode_section() {
            "place where an electrode with a sheet_resistance is connected")
           .optional()
           .refers_to(Reference::place),
+      measure("stray_capacitance", "F", to(&Electrode::stray_capacitance),
+              "beside the film's, of leads and of what measures it")
+          .at_least(0)
+          .at_most(1)
+          .otherwise("0 F"),
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& electrode = *static_cast<const Electrode*>(object);
@@ -59,6 +64,8 @@ Section electrode_section() {
       if (one.shape == Section::Shape::by_electrode && one.find_key(electrode.name, ""))
         return Conflict{"name", fmt::format("a key of [{0}], from which [{0}.{1}] could not be told",
                                             one.name, electrode.name)};
+    if (electrode.sheet_resistance && electrode.stray_capacitance > 0)
+      return Conflict{"stray_capacitance", "none beside a sheet_resistance"};
     if (electrode.sheet_resistance.has_value() == !electrode.terminal.empty()) return std::nullopt;
     return electrode.terminal.empty()
                ? Conflict{"terminal", "missing; say where the resistive electrode is connected"}
@@ -358,9 +365,9 @@ Section drive_section() {
 } // namespace
 
 std::vector<Section> action_sections() {
-  return {electrode_section(),  support_section(), load_section(),    spring_section(),
-          linkage_section(),    drive_section(),   circuit_section(), plate_section(),
-          point_mass_section(), body_section(),    gravity_section(), chamber_section()};
+  return {electrode_section(), support_section(), load_section(),   spring_section(),     linkage_section(),
+          drive_section(),     circuit_section(), plate_section(),  point_mass_section(), body_section(),
+          weight_section(),    gravity_section(), chamber_section()};
 }
 
 } // namespace dielast::cases

@@ -194,8 +194,8 @@ Binding mesh_option(M MeshOptions::*option) {
 } // namespace
 
 std::vector<Section> geometry_sections() {
-  return {honeycomb_section(), disc_section(), annulus_section(), balloon_section(),
-          patch_section(),     line_section(), rolls_section()};
+  return {honeycomb_section(), disc_section(),  annulus_section(), balloon_section(),
+          patch_section(),     strip_section(), line_section(),    rolls_section()};
 }
 
 Section mesh_section() {
@@ -237,7 +237,7 @@ Section mesh_section() {
           .at_least(1)
           .at_most(2)
           .otherwise("2")
-          .only({"honeycomb", "disc", "annulus", "balloon", "line", "antagonistic_rolls"})
+          .only({"honeycomb", "disc", "annulus", "balloon", "strip", "line", "antagonistic_rolls"})
           .only_with(when::elements()),
       integer("wall_elements", mesh_option(&MeshOptions::wall_elements),
               "beams per wall, along a line, a hinge or a ribbon")
@@ -265,7 +265,12 @@ Section mesh_section() {
           .at_most(2000)
           .optional()
           .only({"disc", "annulus", "balloon"}),
-      points().otherwise("3").only({"honeycomb", "annulus", "file"}),
+      integer("across", mesh_option(&MeshOptions::across), "elements from side to side of a strip")
+          .at_least(1)
+          .at_most(1000)
+          .otherwise("16")
+          .only({"strip"}),
+      points().otherwise("3").only({"honeycomb", "annulus", "strip", "file"}),
       points().otherwise("6").only({"disc", "balloon"}),
   };
   return section;

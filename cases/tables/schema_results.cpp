@@ -52,6 +52,11 @@ Section quantity_section() {
             "force on a place per displacement along an axis, branches relaxed; none where the "
             "state is not at rest (N/m)",
             QuantityKind::stiffness},
+           {"coupling",
+            "force on a held place per squared voltage, over the electrode's capacitance per length as "
+            "drawn, "
+            "branches relaxed; none where the state is not at rest (-)",
+            QuantityKind::coupling},
            {"natural frequency",
             "of small vibrations about the state, branches relaxed; none where it is "
             "not at rest (rad/s)",
@@ -74,7 +79,9 @@ Section quantity_section() {
           .only({"force"})
           .refers_to(Reference::supported_place),
       of("the body").only({"angle", "moment"}).refers_to(Reference::body),
-      of("the electrode").only({"capacitance", "charge", "current"}).refers_to(Reference::electrode),
+      of("the electrode")
+          .only({"capacitance", "charge", "current", "coupling"})
+          .refers_to(Reference::electrode),
       word("of", fields, to(&Quantity::of), "the field").only({"extreme"}),
       word("of", of_film, to(&Quantity::of), "the field").only({"value"}),
       text("place", to(&Quantity::place),
@@ -82,6 +89,12 @@ Section quantity_section() {
            "them)")
           .only({"value"})
           .refers_to(Reference::place),
+      text("place", to(&Quantity::place), "the place that would be held")
+          .only({"coupling"})
+          .refers_to(Reference::place),
+      measure("length", "m", to(&Quantity::length), "length of the electrode along the axis, as drawn")
+          .above(0)
+          .only({"coupling"}),
       measure("point", "m", to(&Quantity::point), "the point of the film, as drawn")
           .values(3, 3)
           .only({"value"})
@@ -121,6 +134,10 @@ Section quantity_section() {
           .optional()
           .only_with(when::moves_along_it())
           .only({"displacement"}),
+      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}, {"gravity", "as it pulls", along_gravity}},
+           to(&Quantity::along), "direction")
+          .only_with(when::moves_along_it())
+          .only({"coupling"}),
       word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along), "direction")
           .only_with(when::moves_along_it())
           .only({"stiffness"}),

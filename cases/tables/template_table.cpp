@@ -146,6 +146,46 @@ of = "tip"
 along = "z"
 )";
 
+constexpr std::string_view strip_defaults = R"(
+electrode = [{ name = "film", place = "electrode" }]
+support = [{ place = "upper_end", fix = ["x", "y", "z"] }]
+body = [{ name = "bar", places = ["lower_end"], fix = ["x", "z", "turn_x", "turn_y", "turn_z"] }]
+step = [{ kind = "weight" }, { kind = "voltage" }]
+)";
+
+constexpr std::string_view strip_quantities = R"(
+[[quantity]]
+name = "extension"
+kind = "displacement"
+of = "lower_end"
+along = "gravity"
+[[quantity]]
+name = "stroke"
+kind = "displacement"
+of = "lower_end"
+along = "gravity"
+since = "weight"
+[[quantity]]
+name = "strain"
+kind = "elongation"
+between = ["lower_end", "upper_end"]
+along = "y"
+since = "weight"
+[[quantity]]
+name = "stiffness"
+kind = "stiffness"
+of = "lower_end"
+along = "y"
+[[quantity]]
+name = "coupling"
+kind = "coupling"
+place = "lower_end"
+along = "gravity"
+[[quantity]]
+name = "natural_frequency"
+kind = "natural frequency"
+)";
+
 constexpr std::string_view file_defaults = R"(
 electrode = [{ name = "film", place = "film" }]
 step = [{ kind = "voltage" }]
@@ -216,6 +256,21 @@ std::span<const Template> templates() {
            {"centre", "the middle"}},
           patch_defaults,
           patch_quantities},
+      Template{
+          "strip",
+          "a strip of film, or a stack of layers, that hangs from a clamp, with a [weight] at its lower end",
+          {{"film", "the film"},
+           {"electrode", "the film under the electrode"},
+           {"passive", "the film beside it, if there is any"},
+           {"upper_end", "the clamped end, y = 0"},
+           {"lower_end", "the end in the clamp that hangs, the body \"bar\""},
+           {"left", "the side x < 0"},
+           {"right", "the side x > 0"},
+           {"bar", "the body at the lower end"}},
+          strip_defaults,
+          strip_quantities,
+          "",
+          true},
       Template{
           "antagonistic_rolls",
           "two rolls of film beside a hinge that turn a tip by ribbons: the one that is charged lengthens",

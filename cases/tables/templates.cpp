@@ -194,6 +194,36 @@ void add_motion_defaults(Node& tree) {
       step.add("inertia", parse_value("true", source));
 }
 
+/// A strip hangs along -y, and so does its own weight.
+void add_gravity_of_strip(Node& tree) {
+  if (!tree.find("strip")) return;
+  const Node hangs = parse_default("direction = [0, -1, 0]\nfilm = true", tree);
+  Node* gravity = tree.find("gravity");
+  if (!gravity) gravity = &tree.add("gravity", Node{.kind = Node::Kind::table, .source = hangs.source});
+  for (std::size_t i = 0; gravity->is(Node::Kind::table) && i < hangs.items.size(); ++i)
+    if (!gravity->find(hangs.keys[i])) gravity->add(hangs.keys[i], hangs.items[i]);
+}
+
+/// The coupling of a strip is that of its electrode, if there is one.
+void complete_coupling(std::vector<Node>& standard, const Node& tree) {
+  const Node* strip = tree.find("strip");
+  const Node* length = strip ? strip->find("electrode_length") : nullptr;
+  if (strip && !length) length = strip->find("length");
+  std::string electrode;
+  for (const Node& candidate : items_of(tree, "electrode"))
+    if (text_at(candidate, "place") == "electrode") electrode = text_at(candidate, "name");
+  std::erase_if(standard, [&](const Node& quantity) {
+    return text_at(quantity, "kind") == "coupling" && (!length || electrode.empty());
+  });
+  for (Node& quantity : standard)
+    if (text_at(quantity, "kind") == "coupling") {
+      quantity.add("of", text_node(electrode, quantity.source));
+      Node copy = *length;
+      copy.relocate(quantity.source);
+      quantity.add("length", std::move(copy));
+    }
+}
+
 /// A part with a geometry of its own.
 struct TemplatePart {
   std::string name;
@@ -261,6 +291,7 @@ void add_defaults(Node& tree) {
     for (std::size_t k = 0; k < keys.size(); ++k)
       if (!written[k]) add_part_defaults(tree, keys[k], part);
   if (!parts.empty() && !tree.find("step")) tree.add("step", parse_value("[{ kind = \"voltage\" }]", source));
+  add_gravity_of_strip(tree);
   add_motion_defaults(tree);
 }
 
@@ -302,6 +333,7 @@ std::vector<Node> standard_quantities(const Node& tree, const Template* device) 
   std::erase_if(standard, [&](const Node& quantity) {
     return quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty();
   });
+  complete_coupling(standard, tree);
   for (Node& quantity : standard) {
     for (const char* key : {"at", "since"})
       if (Node* step = quantity.find(key)) step->text = name_of_step(tree, step->text);

@@ -28,7 +28,8 @@ template<int Nodes, int Corners>
 struct FilmPlace {
   Eigen::Matrix<double, Nodes, 1> shape;    ///< values of the shape functions
   Eigen::Matrix<double, Nodes, 2> gradient; ///< 1/m
-  double area = 0;                          ///< undeformed, m^2; not positive where the element is degenerate
+  double area =
+      0; ///< undeformed, of all layers side by side, m^2; not positive where the element is degenerate
   Eigen::Matrix<double, Corners, 1> corner_shape;    ///< of functions linear between the corners
   Eigen::Matrix<double, Corners, 2> corner_gradient; ///< 1/m
 };
@@ -77,8 +78,9 @@ struct TriangleKinematics {
       const Eigen::Matrix2d jacobian = X.template topRows<2>() * dN;
       const double det = jacobian.determinant();
       const Eigen::Matrix2d per_metre = jacobian.inverse() * prestretch.asDiagonal();
-      all.push_back({shape_values<Nodes>(at.xi, at.eta), dN * per_metre, at.weight * det / prestretch.prod(),
-                     shape_values<3>(at.xi, at.eta), shape_gradients<3>(at.xi, at.eta) * per_metre});
+      all.push_back({shape_values<Nodes>(at.xi, at.eta), dN * per_metre,
+                     section.layers * at.weight * det / prestretch.prod(), shape_values<3>(at.xi, at.eta),
+                     shape_gradients<3>(at.xi, at.eta) * per_metre});
     }
     return all;
   }
@@ -183,7 +185,7 @@ struct MeridianKinematics {
       const double radius = X.row(0).dot(place.shape) / section.prestretch[1];
       place.gradient.col(0) = slope / length;
       place.gradient.col(1) = place.shape / radius;
-      place.area = at.weight * length * 2 * std::numbers::pi * radius;
+      place.area = section.layers * at.weight * length * 2 * std::numbers::pi * radius;
       place.corner_gradient << meridian_slope<2>(at.xi) / length, Eigen::Vector2d::Zero(); // none around
       all.push_back(place);
     }

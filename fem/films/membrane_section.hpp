@@ -13,7 +13,8 @@ namespace dielast::fem {
 /// RodKinematics.
 struct MembraneSection {
   materials::Material material;
-  double thickness = 0;                       ///< undeformed H, m
+  double thickness = 0;                       ///< undeformed H of a layer, m
+  int layers = 1;                             ///< one on another, each with the electrode's voltage across it
   std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing; of a rod along it
   bool tension_field = false;                 ///< wrinkles carry no compression (materials/tension_field.hpp)
   bool sampled = true;                        ///< false: another section speaks for its cells

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace dielast::meshing {
 namespace {
 
@@ -23,6 +25,33 @@ TEST(Patch, IsARectangleWithNamedSides) {
   side("top", 1, 0.01);
   EXPECT_EQ(mesh.cell_sets.at("film").cells, (std::vector{0, 1}));
   EXPECT_THROW(patch_mesh(0, 1), std::invalid_argument);
+}
+
+TEST(Strip, HasNodesAlongItsElectrodeAndIsItsOwnMirrorImage) {
+  const Mesh mesh =
+      strip_mesh({.length = 0.012, .width = 0.013, .electrode_length = 0.008, .electrode_width = 0.01}, 6, 2);
+  EXPECT_EQ(quality(mesh).inverted, 0);
+  const auto box = [&](const char* place) {
+    Eigen::AlignedBox3d found;
+    for (const int n : mesh.node_sets.at(place)) found.extend(mesh.nodes[static_cast<std::size_t>(n)]);
+    return found;
+  };
+  EXPECT_NEAR((box("electrode").min() - Eigen::Vector3d(-0.005, -0.010, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((box("electrode").max() - Eigen::Vector3d(0.005, -0.002, 0)).norm(), 0, 1e-15);
+  EXPECT_EQ(box("upper_end").min().y(), 0);
+  EXPECT_EQ(box("lower_end").max().y(), -0.012);
+  EXPECT_EQ(box("left").max().x(), -0.0065);
+  EXPECT_EQ(box("right").min().x(), 0.0065);
+  EXPECT_EQ(mesh.cell_sets.at("film").cells.size(),
+            mesh.cell_sets.at("electrode").cells.size() + mesh.cell_sets.at("passive").cells.size());
+  for (const Eigen::Vector3d& x : mesh.nodes) {
+    const Eigen::Vector3d mirror(-x.x(), x.y(), 0);
+    EXPECT_TRUE(std::ranges::any_of(
+        mesh.nodes, [&](const Eigen::Vector3d& other) { return (other - mirror).norm() < 1e-12; }));
+  }
+  EXPECT_FALSE(strip_mesh({0.012, 0.013, 0.012, 0.013}, 6, 1).cell_sets.contains("passive"));
+  EXPECT_THROW(strip_mesh({0.012, 0.013, 0.012, 0.014}, 6, 1), std::invalid_argument);
+  EXPECT_THROW(strip_mesh({0.012, 0.013, 0.012, 0.013}, 0, 1), std::invalid_argument);
 }
 
 } // namespace
