@@ -67,7 +67,8 @@ Snapshot restore_snapshot(const json& archived, const meshing::Mesh& mesh) {
   return snapshot;
 }
 
-constexpr double mode_drawn = 0.1; ///< of the device's extent: how far its largest displacement goes
+constexpr double mode_drawn = 0.1;     ///< of the device's extent: how far its largest displacement goes
+constexpr std::size_t most_shapes = 6; ///< of vibrations in the report
 
 Snapshot snapshot(const Device& device, const std::string& title, const fem::State& state,
                   const fem::Samples& samples) {
@@ -77,6 +78,18 @@ Snapshot snapshot(const Device& device, const std::string& title, const fem::Sta
   const int cells = device.mesh.film()->size();
   return {title, voltage, state.displacement, post::average(samples, "thickness", cells),
           post::average(samples, "electric_field", cells)};
+}
+
+/// A state displaced along a mode so far that the mode is seen.
+Snapshot displaced(Snapshot at, const std::string& title, const std::vector<Eigen::Vector3d>& mode,
+                   double extent) {
+  at.title = title;
+  double largest = 0;
+  for (const Eigen::Vector3d& u : mode) largest = std::max(largest, u.norm());
+  if (largest > 0)
+    for (std::size_t n = 0; n < at.displacement.size() && n < mode.size(); ++n)
+      at.displacement[n] += mode_drawn * extent / largest * mode[n];
+  return at;
 }
 
 json archive(const Analysis& analysis) {
@@ -170,13 +183,7 @@ void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event
   const std::vector<Eigen::Vector3d> mode =
       fem::displacements(device.model.dofs, critical.state, critical.mode.direction);
   Snapshot at = snapshot(device, event.message, critical.state, samples);
-  Snapshot along = at;
-  along.title = "displaced along its mode";
-  double largest = 0;
-  for (const Eigen::Vector3d& u : mode) largest = std::max(largest, u.norm());
-  if (largest > 0)
-    for (std::size_t n = 0; n < along.displacement.size() && n < mode.size(); ++n)
-      along.displacement[n] += mode_drawn * device.model.extent / largest * mode[n];
+  Snapshot along = displaced(at, "displaced along its mode", mode, device.model.extent);
   journal_.critical = {std::move(at), std::move(along)};
   if (!case_.fields) return;
   if (!modes_) open_series(modes_, critical_name);
@@ -188,10 +195,17 @@ void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
   std::string table = fmt::format("{}\n", fmt::join(analysis.columns, ","));
   for (const auto& row : analysis.rows) table += fmt::format("{}\n", fmt::join(row, ","));
   folder_.write(table_name(analysis.step), table);
+  const Device& device = simulation_.device();
+  const fem::Samples samples = device.model.sample(state);
+  if (analysis.kind == StepKind::modes) {
+    const Snapshot at = snapshot(device, "", state, samples);
+    journal_.shapes.clear();
+    for (std::size_t i = 0; i < std::min(analysis.shapes.size(), most_shapes); ++i)
+      journal_.shapes.push_back(displaced(at, fmt::format("{}: {}", analysis.step, analysis.shapes[i].name),
+                                          analysis.shapes[i].displacement, device.model.extent));
+  }
   if (case_.fields) {
-    const Device& device = simulation_.device();
     post::VtkSeries series(folder_, series_name(analysis.step), device.mesh);
-    const fem::Samples samples = device.model.sample(state);
     for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
       series.write(series_step(static_cast<double>(i), analysis.shapes[i].name, 1, state.voltage),
                    state.displacement, samples, analysis.shapes[i].displacement);
@@ -237,6 +251,8 @@ void Recorder::save_checkpoint() {
   for (const auto& one : journal_.snapshots) snapshots.push_back(archive(one));
   json critical = json::array();
   for (const auto& one : journal_.critical) critical.push_back(archive(one));
+  json shapes = json::array();
+  for (const auto& one : journal_.shapes) shapes.push_back(archive(one));
   const auto entries = [](const auto& series) { return series ? json(series->entries()) : json::array(); };
   post::write_checkpoint(
       folder_ / checkpoint_name,
@@ -263,6 +279,7 @@ void Recorder::save_checkpoint() {
          {"snapshots", snapshots},
          {"modes", journal_.modes},
          {"critical", critical},
+         {"shapes", shapes},
          {"analyses", analyses}}}});
   saved_ = std::chrono::steady_clock::now();
 }
@@ -305,6 +322,7 @@ void Recorder::restore_checkpoint() try {
     journal_.snapshots.push_back(restore_snapshot(one, device.mesh));
   for (const json& one : journal.at("critical"))
     journal_.critical.push_back(restore_snapshot(one, device.mesh));
+  for (const json& one : journal.at("shapes")) journal_.shapes.push_back(restore_snapshot(one, device.mesh));
   folder_.begin(std::move(kept));
   if (!case_.fields) return;
   open_series(series_, "", saved.at("series"));

@@ -30,6 +30,8 @@ struct Journal {
   std::vector<Snapshot> snapshots;         ///< drawn, the end of each step, and the last accepted state
   int modes = 0;                           ///< of critical points, written so far
   std::vector<Snapshot> critical; ///< the last critical point, and it displaced along its mode; or none
+  std::vector<Snapshot>
+      shapes; ///< of the vibrations that the last step of kind "modes" has found, the lowest
   std::vector<Analysis> analyses;
 };
 

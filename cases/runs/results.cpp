@@ -5,9 +5,7 @@
 #include "cases/case/quantities.hpp"
 #include "cases/readers/resolved.hpp"
 #include "meshing/quality.hpp"
-#include "post/pictures/picture.hpp"
 #include "post/pictures/plot.hpp"
-#include "post/pictures/profile.hpp"
 
 #include <fmt/format.h>
 
@@ -42,51 +40,6 @@ std::string meshing_summary(const Device& device) {
   return meshing::format(meshing::quality(device.mesh)) + fmt::format("unknowns: {} free, {} held\n",
                                                                       device.model.dofs.free_count(),
                                                                       device.model.dofs.held_count());
-}
-
-post::Panel panel(const Device& device, const Snapshot& snapshot, const std::vector<double>& values) {
-  post::Panel panel{.title = fmt::format("{}, {}", snapshot.title, post::engineering(snapshot.voltage, "V")),
-                    .positions = device.mesh.nodes,
-                    .values = values};
-  for (std::size_t n = 0; n < panel.positions.size(); ++n) panel.positions[n] += snapshot.displacement[n];
-  return panel;
-}
-
-/// The shape before and after the last step, and the field that drives it.
-std::vector<post::Section> picture_sections(const Device& device, const Journal& journal) {
-  const auto& all = journal.snapshots;
-  const Snapshot& last = all.back();
-  post::Picture shapes{.quantity = "Film thickness",
-                       .unit = "m",
-                       .wall_width = device.bar_widths.empty() ? 0 : std::ranges::max(device.bar_widths)};
-  if (all.size() > 1)
-    shapes.panels.push_back(panel(device, all[all.size() - 2], all[all.size() - 2].thickness));
-  shapes.panels.push_back(panel(device, last, last.thickness));
-  post::Picture mode{.quantity = shapes.quantity, .unit = shapes.unit, .wall_width = shapes.wall_width};
-  for (const Snapshot& one : journal.critical) mode.panels.push_back(panel(device, one, one.thickness));
-  constexpr const char* of_mode = "The last critical point, and displaced along its mode, much exaggerated.";
-  if (meshing::is_meridian(device.mesh.film()->type)) {
-    post::Section profile{"Shape", {}};
-    const auto draw = [&](const char* title, const post::Picture& states, const char* caption) {
-      for (std::string& svg : post::render_svg({post::profile_plot(device.mesh, title, states.panels)}))
-        if (!svg.empty()) profile.blocks.push_back(post::Image{std::move(svg), caption});
-    };
-    draw("Meridian", shapes, "Before and after the last step.");
-    if (!mode.panels.empty()) draw("Critical mode", mode, of_mode);
-    return {std::move(profile)};
-  }
-  std::vector<post::Section> sections{{"Shape",
-                                       {post::Image{post::render_png(device.mesh, shapes),
-                                                    "Before and after the last step, to one scale."}}}};
-  if (!mode.panels.empty())
-    sections.push_back({"Critical mode", {post::Image{post::render_png(device.mesh, mode), of_mode}}});
-  if (last.voltage != 0) {
-    post::Picture field{.quantity = "True electric field", .unit = "V/m", .wall_width = shapes.wall_width};
-    field.panels.push_back(panel(device, last, last.field));
-    sections.push_back(
-        {"Electric field", {post::Image{post::render_png(device.mesh, field), "What the film must bear."}}});
-  }
-  return sections;
 }
 
 /// The largest magnitude that a unit's numbers have in the run.

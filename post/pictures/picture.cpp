@@ -2,6 +2,7 @@
 #include "post/pictures/picture.hpp"
 
 #include "post/pictures/legend.hpp"
+#include "post/pictures/raster.hpp"
 
 #include <Eigen/Geometry>
 
@@ -34,31 +35,13 @@ struct Canvas {
   Context context;
 };
 
-/// A cell's nodes in the order in which its outline, or the line itself, passes them.
-std::array<int, 6> outline(CellType type, std::span<const int> n) {
-  switch (type) {
-  case CellType::line2:
-  case CellType::rod2:
-    return {n[0], n[1]};
-  case CellType::line3:
-    return {n[0], n[2], n[1]};
-  case CellType::triangle3:
-    return {n[0], n[1], n[2]};
-  case CellType::triangle6:
-    return {n[0], n[3], n[1], n[4], n[2], n[5]};
-  case CellType::meridian2:
-  case CellType::meridian3:
-    break;
-  }
-  return {};
-}
-
+/// Of a line of two nodes, or of three, the last in its middle.
 void add_path(cairo_t* cr, const CellBlock& block, int cell, const std::vector<Eigen::Vector3d>& positions) {
-  const auto nodes = outline(block.type, block.cell(cell));
-  for (int i = 0; i < meshing::nodes_per_cell(block.type); ++i) {
-    const Eigen::Vector3d& p = positions[static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)])];
-    (i == 0 ? cairo_move_to : cairo_line_to)(cr, p.x(), p.y());
-  }
+  const auto n = block.cell(cell);
+  const auto at = [&](int node) { return positions[static_cast<std::size_t>(node)]; };
+  cairo_move_to(cr, at(n[0]).x(), at(n[0]).y());
+  if (n.size() > 2) cairo_line_to(cr, at(n[2]).x(), at(n[2]).y());
+  cairo_line_to(cr, at(n[1]).x(), at(n[1]).y());
 }
 
 Box extent(const meshing::Mesh& mesh, const Panel& panel, double wall_width) {
@@ -76,18 +59,133 @@ constexpr int supersampling = 2;
 /// Drawn width of a rod, over the diagonal of all that is drawn: its section is not in the mesh.
 constexpr double rod_width = 0.01;
 
-void fill_film(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range) {
-  cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
-  cairo_set_line_width(cr, rod_width * extent(mesh, panel, 0).sizes().norm());
-  std::size_t value = 0;
+/// Values at the nodes of triangles: means over the triangles of one region that share a node.
+class NodeValues {
+ public:
+  NodeValues(const meshing::Mesh& mesh, const Panel& panel) : panel_(panel), nodes_(mesh.nodes.size()) {
+    if (panel.values.empty()) return;
+    const int regions = panel.regions.empty() ? 1 : std::ranges::max(panel.regions) + 1;
+    sums_.resize(static_cast<std::size_t>(regions) * nodes_);
+    std::size_t number = 0;
+    for (const CellBlock& block : mesh.blocks) {
+      if (is_line(block.type)) continue;
+      for (int cell = 0; cell < block.size(); ++cell, ++number)
+        if (const double value = panel.values[number]; std::isfinite(value))
+          for (const int node : block.cell(cell)) {
+            auto& [sum, count] = sums_[place(number, node)];
+            sum += value;
+            ++count;
+          }
+    }
+  }
+  /// Of a node of triangle `number`; not a number where the triangle has no value.
+  double at(std::size_t number, int node) const {
+    if (panel_.values.empty() || !std::isfinite(panel_.values[number])) return NAN;
+    const auto& [sum, count] = sums_[place(number, node)];
+    return sum / count;
+  }
+
+ private:
+  std::size_t place(std::size_t number, int node) const {
+    const auto region = static_cast<std::size_t>(panel_.regions.empty() ? 0 : panel_.regions[number]);
+    return region * nodes_ + static_cast<std::size_t>(node);
+  }
+
+  const Panel& panel_;
+  std::size_t nodes_;
+  std::vector<std::pair<double, int>> sums_; ///< by region and node
+};
+
+/// Light comes along z, so that flat film has its full colours.
+constexpr double darkest = 0.55;
+
+/// Of px, y downwards.
+double light_on(const std::array<Eigen::Vector3d, 6>& x, const Eigen::Vector3d& towards) {
+  const Eigen::Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  const Eigen::Vector3d light(towards.x(), -towards.y(), towards.z());
+  return darkest + (1 - darkest) * std::abs(normal.dot(light)) / std::max(normal.norm(), 1e-300);
+}
+
+constexpr int parts_of_side = 3;
+
+/// A triangle of six nodes, perhaps with curved sides, as `parts`^2 flat ones.
+void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
+                   const std::array<double, 6>& value, int parts, const Palette& palette, double light) {
+  const auto corner = [&](int i, int j) {
+    const double r = static_cast<double>(i) / parts, s = static_cast<double>(j) / parts, t = 1 - r - s;
+    const std::array<double, 6> N{t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1),
+                                  4 * r * t,       4 * r * s,       4 * s * t};
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    double v = 0;
+    for (std::size_t a = 0; a < 6; ++a) {
+      p += N[a] * x[a];
+      v += N[a] * value[a];
+    }
+    return Corner{p.head<2>(), p.z(), v};
+  };
+  for (int j = 0; j < parts; ++j)
+    for (int i = 0; i < parts - j; ++i) {
+      raster.draw({corner(i, j), corner(i + 1, j), corner(i, j + 1)}, palette, light);
+      if (i + j + 1 < parts)
+        raster.draw({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}, palette, light);
+    }
+}
+
+/// From a state's positions to px of a canvas, y downwards, z towards the viewer.
+struct Placement {
+  double scale;
+  Eigen::Vector3d centre; ///< in the middle of the canvas
+  Eigen::Vector2d size;   ///< of the canvas
+  Eigen::Vector3d light;  ///< unit vector towards it
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d p = scale * (x - centre);
+    return {size.x() / 2 + p.x(), size.y() / 2 - p.y(), p.z()};
+  }
+};
+
+Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range,
+                   const Placement& place) {
+  Raster raster(static_cast<int>(place.size.x()), static_cast<int>(place.size.y()));
+  const NodeValues values(mesh, panel);
+  const Palette palette = panel.values.empty() ? Palette(plain_film) : Palette(range);
+  std::size_t number = 0;
   for (const CellBlock& block : mesh.blocks) {
     if (is_line(block.type)) continue;
-    for (int cell = 0; cell < block.size(); ++cell) {
+    for (int cell = 0; cell < block.size(); ++cell, ++number) {
+      if (!is_triangle(block.type)) continue;
+      const auto nodes = block.cell(cell);
+      std::array<Eigen::Vector3d, 6> x;
+      std::array<double, 6> value{};
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        x[a] = place(panel.positions[static_cast<std::size_t>(nodes[a])]);
+        value[a] = values.at(number, nodes[a]);
+      }
+      if (nodes.size() == 3)
+        raster.draw({Corner{x[0].head<2>(), x[0].z(), value[0]}, Corner{x[1].head<2>(), x[1].z(), value[1]},
+                     Corner{x[2].head<2>(), x[2].z(), value[2]}},
+                    palette, light_on(x, place.light));
+      else
+        draw_triangle(raster, x, value, parts_of_side, palette, light_on(x, place.light));
+    }
+  }
+  return raster;
+}
+
+/// Rods have no section in the mesh.
+void stroke_rods(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel,
+                 std::pair<double, double> range) {
+  cairo_set_line_width(cr, rod_width * extent(mesh, panel, 0).sizes().norm());
+  std::size_t number = 0;
+  for (const CellBlock& block : mesh.blocks) {
+    if (is_line(block.type)) continue;
+    for (int cell = 0; cell < block.size(); ++cell, ++number) {
+      if (is_triangle(block.type)) continue;
       add_path(cr, block, cell, panel.positions);
       set_colour(cr, panel.values.empty()
                          ? plain_film
-                         : viridis((panel.values[value++] - range.first) / (range.second - range.first)));
-      (is_triangle(block.type) ? cairo_fill : cairo_stroke)(cr);
+                         : viridis((panel.values[number] - range.first) / (range.second - range.first)));
+      cairo_stroke(cr);
     }
   }
 }
@@ -109,28 +207,27 @@ void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, do
 
 /// Draws a panel with its box centred in the rectangle at (left, top), y upwards.
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
-                std::pair<double, double> range, double scale, double left, double top, double width,
-                double height) {
+                std::pair<double, double> range, const Eigen::Vector3d& light, double scale, double left,
+                double top, double width, double height) {
   const Box box = extent(mesh, panel, picture.wall_width);
-  const auto place = [&](cairo_t* target) {
-    cairo_translate(target, width / 2, height / 2);
-    cairo_scale(target, scale, -scale);
-    cairo_translate(target, -box.center().x(), -box.center().y());
-  };
-  const Canvas film(static_cast<int>(std::ceil(width)) * supersampling,
-                    static_cast<int>(std::ceil(height)) * supersampling);
-  cairo_scale(film.context.get(), supersampling, supersampling);
-  place(film.context.get());
-  fill_film(film.context.get(), mesh, panel, range);
-
+  const Eigen::Vector2d size(std::ceil(width) * supersampling, std::ceil(height) * supersampling);
+  const Placement place{scale * supersampling, {box.center().x(), box.center().y(), 0}, size, light};
+  Raster film = film_raster(mesh, panel, range, place);
+  const Surface surface(cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(film.pixels()),
+                                                            CAIRO_FORMAT_ARGB32, film.width(), film.height(),
+                                                            4 * film.width()),
+                        cairo_surface_destroy);
   cairo_save(cr);
   cairo_translate(cr, left, top);
   cairo_save(cr);
   cairo_scale(cr, 1.0 / supersampling, 1.0 / supersampling);
-  cairo_set_source_surface(cr, film.surface.get(), 0, 0);
+  cairo_set_source_surface(cr, surface.get(), 0, 0);
   cairo_paint(cr);
   cairo_restore(cr);
-  place(cr);
+  cairo_translate(cr, std::ceil(width) / 2, std::ceil(height) / 2);
+  cairo_scale(cr, scale, -scale);
+  cairo_translate(cr, -box.center().x(), -box.center().y());
+  stroke_rods(cr, mesh, panel, range);
   stroke_walls(cr, mesh, panel, std::max(picture.wall_width, 1 / scale));
   cairo_restore(cr);
 }
@@ -150,6 +247,22 @@ std::pair<double, double> value_range(const Picture& picture) {
   return range;
 }
 
+/// A device that is not flat is seen from aside and above, along z otherwise: rows are right, up and towards
+/// the viewer.
+Eigen::Matrix3d view_of(const Picture& picture) {
+  constexpr double flat = 0.02; ///< height over width
+  constexpr double turned = 0.45, raised = 0.5;
+  Eigen::AlignedBox3d box;
+  for (const Panel& panel : picture.panels)
+    for (const Eigen::Vector3d& x : panel.positions) box.extend(x);
+  if (box.isEmpty() || box.sizes().z() <= flat * box.sizes().head<2>().norm())
+    return Eigen::Matrix3d::Identity();
+  const double c = std::cos(turned), s = std::sin(turned), up = std::sin(raised), aside = std::cos(raised);
+  Eigen::Matrix3d axes;
+  axes << c, s, 0, -s * up, c * up, aside, s * aside, -c * aside, up;
+  return axes;
+}
+
 void check(const meshing::Mesh& mesh, const Picture& picture) {
   std::size_t triangles = 0;
   for (const CellBlock& block : mesh.blocks)
@@ -160,8 +273,9 @@ void check(const meshing::Mesh& mesh, const Picture& picture) {
   if (picture.panels.empty()) throw std::invalid_argument("nothing to draw");
   for (const Panel& panel : picture.panels)
     if (panel.positions.size() != mesh.nodes.size() ||
-        (!panel.values.empty() && panel.values.size() != triangles))
-      throw std::invalid_argument("a panel needs a position per node and a value per triangle");
+        (!panel.values.empty() && panel.values.size() != triangles) ||
+        (!panel.regions.empty() && panel.regions.size() != triangles))
+      throw std::invalid_argument("a panel needs a position per node, a value and a region per triangle");
 }
 
 std::string png_bytes(cairo_surface_t* surface) {
@@ -178,8 +292,11 @@ std::string png_bytes(cairo_surface_t* surface) {
 
 } // namespace
 
-std::string render_png(const meshing::Mesh& mesh, const Picture& picture) {
+std::string render_png(const meshing::Mesh& mesh, Picture picture) {
   check(mesh, picture);
+  const Eigen::Matrix3d view = view_of(picture);
+  for (Panel& panel : picture.panels)
+    for (Eigen::Vector3d& x : panel.positions) x = view * x;
   const auto panels = static_cast<double>(picture.panels.size());
   const double panel_width = (picture.width - 2 * margin - gap * (panels - 1)) / panels;
   Eigen::Vector2d largest(1e-12, 1e-12);
@@ -205,7 +322,8 @@ std::string render_png(const meshing::Mesh& mesh, const Picture& picture) {
   double left = margin;
   for (const Panel& panel : picture.panels) {
     draw_text(cr, panel.title, left + panel_width / 2, panel_title, 20, faint_ink, Align::centre);
-    draw_panel(cr, mesh, picture, panel, range, scale, left, panel_top, panel_width, panel_height);
+    draw_panel(cr, mesh, picture, panel, range, view.col(2), scale, left, panel_top, panel_width,
+               panel_height);
     left += panel_width + gap;
   }
   draw_scale_bar(cr, scale, margin, legend_top + 8);

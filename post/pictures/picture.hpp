@@ -10,11 +10,14 @@
 
 namespace dielast::post {
 
-/// One state of the actuator, seen along z.
+/// One state of the actuator: seen along z, or from aside and above where it is not flat.
 struct Panel {
   std::string title{};
   std::vector<Eigen::Vector3d> positions; ///< of every mesh node in this state, m
-  std::vector<double> values;             ///< one per triangle, blocks one after another; empty: a plain film
+  /// One per triangle, blocks one after another; empty: a plain film. Not a number: grey.
+  std::vector<double> values;
+  std::vector<int>
+      regions{}; ///< one per triangle, from 0: values are smoothed within them; empty: one region
 };
 
 /// Panels side by side, with one scale of length and one of colour, so that they can be compared.
@@ -30,6 +33,6 @@ struct Picture {
 /// The picture as the bytes of a PNG file. Needs no display. Throws std::invalid_argument when a panel does
 /// not fit the mesh and for a mesh of meridians (post/pictures/profile.hpp draws those), std::runtime_error
 /// when it cannot be drawn.
-std::string render_png(const meshing::Mesh& mesh, const Picture& picture);
+std::string render_png(const meshing::Mesh& mesh, Picture picture);
 
 } // namespace dielast::post

@@ -32,18 +32,19 @@ td.good, td.warning, td.bad { font-weight: 600; }
 .cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(155px, 1fr)); gap: 12px; margin: 24px 0 0; }
 .card { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; }
 .card .label { color: var(--soft); font-size: 13px; }
-.card .value { font-size: 21px; font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
+.card .value { overflow-wrap: anywhere; font-size: 21px; font-weight: 600; font-variant-numeric: tabular-nums; }
 .card .note { color: var(--soft); font-size: 12.5px; }
 .scroll { overflow-x: auto; margin: 0 0 14px; }
 table { border-collapse: collapse; min-width: 55%; font-size: 14px; font-variant-numeric: tabular-nums; }
-td:first-child { white-space: nowrap; }
+td:first-child { }
 th { text-align: left; color: var(--soft); font-weight: 600; font-size: 13px; border-bottom: 2px solid var(--line); }
 th, td { padding: 6px 24px 6px 0; vertical-align: top; }
 td { border-bottom: 1px solid var(--line); }
-.number { text-align: right; white-space: nowrap; }
+.number { text-align: right; }
 pre { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; overflow-x: auto; font: 12.5px/1.5 ui-monospace, "SF Mono", Consolas, "DejaVu Sans Mono", monospace; }
 .images { display: grid; grid-template-columns: repeat(auto-fit, minmax(440px, 1fr)); gap: 20px; }
 figure { margin: 0 0 12px; break-inside: avoid; }
+figure.wide { grid-column: 1 / -1; }
 figure img { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 8px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
 footer { margin-top: 44px; padding-top: 14px; border-top: 1px solid var(--line); color: var(--soft); font-size: 13px; }
@@ -127,8 +128,9 @@ std::string html_of(const Image& image) {
       vtksysBase64_Encode(bytes, image.data.size(), reinterpret_cast<unsigned char*>(base64.data()), 0));
   const bool png = image.data.starts_with("\x89PNG");
   return fmt::format(
-      "<figure><img alt=\"{}\" src=\"data:image/{};base64,{}\"/><figcaption>{}</figcaption></figure>\n",
-      escape_markup(image.caption), png ? "png" : "svg+xml", base64, escape_markup(image.caption));
+      "<figure{}><img alt=\"{}\" src=\"data:image/{};base64,{}\"/><figcaption>{}</figcaption></figure>\n",
+      image.wide ? " class=\"wide\"" : "", escape_markup(image.caption), png ? "png" : "svg+xml", base64,
+      escape_markup(image.caption));
 }
 
 std::string html_of(const Section& section) {

@@ -44,6 +44,7 @@ struct Listing {
 struct Image {
   std::string data;
   std::string caption;
+  bool wide = false; ///< as wide as the page
 };
 using Block = std::variant<Paragraph, Table, Listing, Image>;
 

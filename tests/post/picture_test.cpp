@@ -3,6 +3,7 @@
 
 #include "meshing/meridian.hpp"
 #include "post/pictures/legend.hpp"
+#include "post/pictures/raster.hpp"
 #include "tests/post/samples.hpp"
 
 #include <cairo.h>
@@ -138,6 +139,55 @@ TEST(Picture, SurvivesUniformAndMissingValues) {
     EXPECT_FALSE(
         render_png(mesh, {.quantity = "x", .unit = "1", .panels = {{"", mesh.nodes, {value, value}}}})
             .empty());
+}
+
+TEST(Picture, ValuesAreSmoothWithinARegionAndJumpBetweenRegions) {
+  const meshing::Mesh mesh = grid_mesh(1);
+  const auto drawn = [&](std::vector<int> regions) {
+    return Pixels(render_png(mesh, {.panels = {{"", mesh.nodes, {0, 1}, std::move(regions)}}, .width = 400}));
+  };
+  constexpr double half = 312 * 312 / 2.0;
+  EXPECT_LT(static_cast<double>(drawn({}).count(lowest)), 0.05 * half);
+  EXPECT_NEAR(static_cast<double>(drawn({0, 1}).count(lowest)), half, 0.03 * half);
+  EXPECT_NEAR(static_cast<double>(drawn({0, 1}).count(highest)), half, 0.03 * half);
+}
+
+TEST(Picture, FilmWithoutAValueIsGrey) {
+  const meshing::Mesh mesh = grid_mesh(1);
+  const Pixels pixels(render_png(mesh, {.panels = {{"", mesh.nodes, {NAN, 1}}}, .width = 400}));
+  EXPECT_NEAR(static_cast<double>(pixels.count(0xffbfbfbf)), 312 * 312 / 2.0, 0.03 * 312 * 312 / 2.0);
+}
+
+// A square on its edge is a line from above, and an area from aside.
+TEST(Picture, WhatIsNotFlatIsSeenFromAside) {
+  const meshing::Mesh mesh = grid_mesh(1);
+  std::vector<Eigen::Vector3d> upright = mesh.nodes;
+  for (auto& x : upright) x = {x.x(), 0, x.y()};
+  const Pixels pixels(render_png(mesh, {.panels = {{"", upright, {1, 1}}}, .width = 400}));
+  const auto film =
+      std::ranges::count_if(pixels.colours, [](std::uint32_t c) { return !alike(c, 0xffffffff); });
+  EXPECT_GT(film, 30000);
+}
+
+TEST(Raster, TheNearerHidesTheFarther) {
+  for (const bool first : {true, false}) {
+    Raster raster(10, 10);
+    const auto draw = [&](double depth, double value) {
+      raster.draw(
+          {Corner{{0, 0}, depth, value}, Corner{{30, 0}, depth, value}, Corner{{0, 30}, depth, value}},
+          Palette(std::pair(0.0, 1.0)));
+    };
+    draw(first ? 2 : 1, first ? 1 : 0);
+    draw(first ? 1 : 2, first ? 0 : 1);
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(raster.pixels()[i], highest);
+  }
+}
+
+TEST(Raster, WhatIsTurnedFromTheLightIsDarker) {
+  Raster raster(1, 1);
+  raster.draw({Corner{{0, 0}, 0, 1}, Corner{{3, 0}, 0, 1}, Corner{{0, 3}, 0, 1}},
+              Palette(std::pair(0.0, 1.0)), 0.5);
+  EXPECT_TRUE(alike(raster.pixels()[0], 0xff7e7412)) << std::hex << raster.pixels()[0];
 }
 
 TEST(Picture, RefusesPanelsThatDoNotFit) {

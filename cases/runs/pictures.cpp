@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/results.hpp"
+#include "post/pictures/picture.hpp"
+#include "post/pictures/plot.hpp"
+#include "post/pictures/profile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::cases {
+
+namespace {
+
+/// What pictures of one device share.
+class Pictures {
+ public:
+  Pictures(const Device& device, const Snapshot& last)
+      : device_(device), meridian_(meshing::is_meridian(device.mesh.film()->type)),
+        wall_width_(device.bar_widths.empty() ? 0 : std::ranges::max(device.bar_widths)) {
+    // Thickness and field jump at the electrode's edge: they are not smoothed across it.
+    for (const double field : last.field) regions_.push_back(field != 0);
+  }
+
+  post::Panel panel(const Snapshot& snapshot, const std::vector<double>& values) const {
+    post::Panel panel{.title = snapshot.title, .positions = device_.mesh.nodes, .values = values};
+    if (snapshot.voltage != 0) panel.title += ", " + post::engineering(snapshot.voltage, "V");
+    if (values.size() == regions_.size()) panel.regions = regions_;
+    for (std::size_t n = 0; n < panel.positions.size(); ++n) panel.positions[n] += snapshot.displacement[n];
+    return panel;
+  }
+
+  /// Side by side, as wide as the page. `values`: a member of the snapshots, whose colours mean `quantity` in
+  /// `unit`. Films of revolution are drawn by their profiles, without colours.
+  post::Image image(const std::vector<const Snapshot*>& states, std::vector<double> Snapshot::*values,
+                    const std::string& quantity, const std::string& unit, const std::string& caption) const {
+    post::Picture picture{.quantity = quantity, .unit = unit, .wall_width = wall_width_};
+    for (const Snapshot* state : states) picture.panels.push_back(panel(*state, state->*values));
+    return image(std::move(picture), caption, true);
+  }
+  /// A small picture without colours.
+  post::Image shape(const Snapshot& state, const std::string& caption) const {
+    return image({.wall_width = wall_width_, .panels = {panel(state, {})}, .width = 800}, caption, false);
+  }
+  bool are_profiles() const { return meridian_; }
+
+ private:
+  post::Image image(post::Picture picture, const std::string& caption, bool wide) const {
+    if (!meridian_) return {post::render_png(device_.mesh, std::move(picture)), caption, wide};
+    const auto svg = post::render_svg({post::profile_plot(device_.mesh, "Meridian", picture.panels)});
+    return {svg.empty() ? "" : svg.front(), caption};
+  }
+
+  const Device& device_;
+  bool meridian_;
+  double wall_width_;
+  std::vector<int> regions_;
+};
+
+/// Largest less smallest.
+double spread(const std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto ends = std::ranges::minmax_element(values);
+  return *ends.max - *ends.min;
+}
+
+/// Film without a field is grey in pictures of the field.
+Snapshot without_passive(Snapshot snapshot) {
+  for (double& field : snapshot.field)
+    if (field == 0) field = NAN;
+  return snapshot;
+}
+
+} // namespace
+
+std::vector<post::Section> picture_sections(const Device& device, const Journal& journal) {
+  const auto& all = journal.snapshots;
+  const Snapshot& last = all.back();
+  const Pictures pictures(device, last);
+  const std::string thickness = "Film thickness";
+  std::vector<const Snapshot*> ends{&last};
+  if (all.size() > 1) ends.insert(ends.begin(), &all[all.size() - 2]);
+  std::vector<post::Section> sections{{"Shape",
+                                       {pictures.image(ends, &Snapshot::thickness, thickness, "m",
+                                                       "Before and after the last step, to one scale.")}}};
+  std::vector<double> both = ends.front()->thickness;
+  both.insert(both.end(), last.thickness.begin(), last.thickness.end());
+  if (!pictures.are_profiles() && spread(last.thickness) < 0.5 * spread(both))
+    sections.back().blocks.push_back(pictures.image({&last}, &Snapshot::thickness, thickness, "m",
+                                                    "After the last step, in colours of its own."));
+  if (!journal.critical.empty())
+    sections.push_back(
+        {"Critical mode",
+         {pictures.image({&journal.critical[0], &journal.critical[1]}, &Snapshot::thickness, thickness, "m",
+                         "The last critical point, and displaced along its mode, much "
+                         "exaggerated.")}});
+  if (!journal.shapes.empty()) {
+    post::Section modes{"Mode shapes", {}};
+    for (const Snapshot& shape : journal.shapes)
+      modes.blocks.push_back(pictures.shape(shape, "Much exaggerated."));
+    sections.push_back(std::move(modes));
+  }
+  if (last.voltage != 0 && !pictures.are_profiles()) {
+    const Snapshot charged = without_passive(last);
+    sections.push_back({"Electric field",
+                        {pictures.image({&charged}, &Snapshot::field, "True electric field", "V/m",
+                                        "What the film must bear; film without a field is grey.")}});
+  }
+  return sections;
+}
+
+} // namespace dielast::cases

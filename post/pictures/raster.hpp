@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "post/pictures/colour_map.hpp"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace dielast::post {
+
+/// A corner of what is drawn: place in px, y downwards; the larger its depth, the nearer to the viewer.
+struct Corner {
+  Eigen::Vector2d place;
+  double depth = 0;
+  double value = 0; ///< what is coloured
+};
+
+/// Colours 0xAARRGGBB of values, looked up.
+class Palette {
+ public:
+  /// viridis from range.first to range.second.
+  explicit Palette(std::pair<double, double> range);
+  /// One for all values.
+  explicit Palette(const Colour& colour);
+
+  std::uint32_t operator()(double value) const {
+    const double part = (value - low_) * steps_; // not a number: missing
+    if (!(part == part)) return missing_;
+    return colours_[static_cast<std::size_t>(part <= 0 ? 0 : part >= last ? last : part)];
+  }
+
+ private:
+  static constexpr int last = 511;
+  double low_ = 0, steps_ = 0;
+  std::array<std::uint32_t, last + 1> colours_{};
+  std::uint32_t missing_ = 0;
+};
+
+/// Pixels that triangles are drawn into, each with the values of its corners between them. What is nearer
+/// hides what is farther; neighbours leave no seam.
+class Raster {
+ public:
+  Raster(int width, int height);
+
+  /// `light`: by which the colours are multiplied, 0..1.
+  void draw(const std::array<Corner, 3>& corners, const Palette& palette, double light = 1);
+
+  /// Rows of width() pixels 0xAARRGGBB; what is not drawn is transparent.
+  std::uint32_t* pixels() { return pixels_.data(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  int width_, height_;
+  std::vector<std::uint32_t> pixels_;
+  std::vector<float> depth_;
+};
+
+} // namespace dielast::post
