@@ -4,6 +4,7 @@
 #include "cases/case/quantities.hpp"
 #include "cases/language/convert.hpp"
 #include "cases/manual/entries.hpp"
+#include "cases/manual/manual_page.hpp"
 #include "cases/manual/materials_page.hpp"
 #include "cases/manual/names.hpp"
 #include "cases/tables/templates.hpp"
@@ -113,10 +114,18 @@ struct Topic {
 };
 
 constexpr std::array all_topics{
-    Topic{"overview", overview}, Topic{"materials", materials_text}, Topic{"materials.md", materials_page},
-    Topic{"laws", laws_text},    Topic{"devices", devices_text},     Topic{"quantities", quantities_text},
-    Topic{"steps", steps_text},  Topic{"waves", waves_text},         Topic{"fit", fit_text},
-    Topic{"keys", keys_text},    Topic{"units", units_text},
+    Topic{"overview", overview},
+    Topic{"manual.md", manual_page},
+    Topic{"materials", materials_text},
+    Topic{"materials.md", materials_page},
+    Topic{"laws", laws_text},
+    Topic{"devices", devices_text},
+    Topic{"quantities", quantities_text},
+    Topic{"steps", steps_text},
+    Topic{"waves", waves_text},
+    Topic{"fit", fit_text},
+    Topic{"keys", keys_text},
+    Topic{"units", units_text},
 };
 
 } // namespace

@@ -31,7 +31,7 @@ std::string values_text(const Section& section, const void* object) {
 
 } // namespace
 
-std::string key_text(const Key& key) {
+std::string rules_text(const Key& key) {
   std::string rules = expectation(key, key.unit);
   const std::string range = range_text(key, key.unit.empty() ? "" : std::string(dimension(key.unit).shown));
   if (!range.empty()) rules += ", " + range;
@@ -42,7 +42,11 @@ std::string key_text(const Key& key) {
   else
     rules += key.required ? "; required" : "; optional";
   if (!key.acts.needs.empty()) rules += "; acts only with " + key.acts.needs;
-  std::string text = fmt::format("  {:<22}{}\n{:24}{}\n", key.name, key.meaning, "", rules);
+  return rules;
+}
+
+std::string key_text(const Key& key) {
+  std::string text = fmt::format("  {:<22}{}\n{:24}{}\n", key.name, key.meaning, "", rules_text(key));
   if (key.type == Type::word)
     for (const Choice& choice : key.choices)
       if (!choice.meaning.empty()) text += fmt::format("{:26}{}: {}\n", "", choice.word, choice.meaning);

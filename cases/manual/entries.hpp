@@ -9,6 +9,9 @@
 
 namespace dielast::cases {
 
+/// What may be written for a key, its range, its default and what it acts with.
+std::string rules_text(const Key& key);
+
 /// Two lines: the name with its meaning, then what may be written, range and default.
 std::string key_text(const Key& key);
 

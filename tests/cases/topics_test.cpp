@@ -149,9 +149,10 @@ TEST_F(Topics, WhatIsNoCommandIsExplained) {
   EXPECT_NE(error({"run"}).find("dielast run --help"), std::string::npos);
 }
 
-TEST_F(Topics, TheMaterialsPageIsWhatTheTablesSay) {
-  EXPECT_EQ(dielast({"info", "materials.md"}).out, text_of(source_folder / "docs/materials.md"))
-      << "make it again: dielast info materials.md > docs/materials.md";
+TEST_F(Topics, ThePagesAreWhatTheTablesSay) {
+  for (const std::string page : {"manual.md", "materials.md"})
+    EXPECT_EQ(dielast({"info", page}).out, text_of(source_folder / "docs" / page))
+        << "make it again: dielast info " << page << " > docs/" << page;
 }
 
 TEST_F(Topics, SchemaIsJson) {
