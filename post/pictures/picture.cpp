@@ -238,10 +238,11 @@ std::pair<double, double> value_range(const Picture& picture) {
     for (const double value : panel.values)
       if (std::isfinite(value)) range = {std::min(range.first, value), std::max(range.second, value)};
   if (range.first > range.second) return {0, 1};
-  // A uniform field differs by rounding only: show it as one colour.
-  const double spread = 1e-6 * std::max(std::abs(range.first), std::abs(range.second));
-  if (range.second - range.first <= spread) {
-    const double half = spread > 0 ? 1e5 * spread : 0.5;
+  // A uniform field differs by what elements and rounding leave: show it as one colour.
+  constexpr double uniform = 2e-4;
+  const double largest = std::max(std::abs(range.first), std::abs(range.second));
+  if (range.second - range.first <= uniform * largest) {
+    const double half = largest > 0 ? 0.1 * largest : 0.5;
     return {range.first - half, range.second + half};
   }
   return range;
