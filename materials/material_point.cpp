@@ -14,7 +14,8 @@ constexpr double close = 1e-5; ///< logarithmic stretch
 } // namespace
 
 MaterialPoint::MaterialPoint(const Material& material, Mode mode)
-    : material_(material), mode_(mode), now_(material.branches.size(), undeformed()), before_(now_) {}
+    : material_(with_dashpot(material)), mode_(mode), now_(material_.branches.size(), undeformed()),
+      before_(now_) {}
 
 AxisymmetricPotential MaterialPoint::potential(double l, double across, const TimeScheme& scheme) const {
   AxisymmetricPotential sum =

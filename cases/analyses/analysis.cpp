@@ -92,6 +92,15 @@ void append_polar(std::vector<double>& row, std::complex<double> value) {
   row.push_back(std::arg(value) / degree);
 }
 
+/// The voltage about which the sources of the driven electrodes swing; 0 where they differ.
+double common_bias(const Device& device, const fem::State& at_rest, const std::vector<std::size_t>& driven) {
+  const auto source = [&](std::size_t port) {
+    return device.model.circuit_of(port) ? at_rest.source[port] : at_rest.voltage[port];
+  };
+  const double bias = source(driven.front());
+  return std::ranges::all_of(driven, [&](std::size_t port) { return source(port) == bias; }) ? bias : 0;
+}
+
 Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
                   const fem::State& state, const Step& step) {
   const Quantity& quantity = *response_quantity(one, step.response_of);
@@ -110,11 +119,13 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   for (const char* of_all :
        {"admittance[S]", "admittance_phase[deg]", "impedance[Ohm]", "impedance_phase[deg]"})
     analysis.columns.emplace_back(of_all);
+  const fem::State at_rest = operating_point(device, state);
+  const double bias = common_bias(device, at_rest, driven);
+  if (bias != 0) analysis.columns.push_back(quantity.name + "_per_squared_volt[m/V^2]");
   const std::vector<double> hertz = frequencies(step.sweep);
   std::vector<double> omega = hertz;
   for (double& w : omega) w *= 2 * std::numbers::pi;
   const Eigen::VectorXd output = response_row(one, device, state, quantity);
-  const fem::State at_rest = operating_point(device, state);
   const fem::Linearisation linear(equilibrium, at_rest);
   const auto responses = fem::harmonic_response(linear, common_drive(device, at_rest, driven), omega);
   std::size_t strongest = 0;
@@ -127,6 +138,7 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
     for (const std::size_t port : driven) append_polar(row, at.voltage[static_cast<Eigen::Index>(port)]);
     append_polar(row, current);
     append_polar(row, 1.0 / current);
+    if (bias != 0) row.push_back(row[1] / (2 * std::abs(bias)));
     analysis.rows.push_back(std::move(row));
     if (analysis.rows.back()[1] > analysis.rows[strongest][1]) strongest = i;
   }
@@ -154,6 +166,7 @@ std::vector<std::complex<double>> Analysis::values(std::size_t magnitude) const 
 }
 
 std::vector<double> frequencies(const Sweep& sweep) {
+  if (!sweep.at.empty()) return sweep.at;
   std::vector<double> all;
   for (int i = 0; i < sweep.points; ++i)
     all.push_back(sweep.from * std::pow(sweep.to / sweep.from, static_cast<double>(i) / (sweep.points - 1)));

@@ -181,6 +181,7 @@ enum class OnBifurcation { follow, switch_branch };
 struct Sweep {
   double from = 0, to = 0; ///< Hz
   int points = 0;
+  std::vector<double> at{}; ///< Hz, instead
 };
 
 /// A run's table, and behind "<case>-" its series of critical points: no analysis may take these names.

@@ -92,8 +92,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   takes_directory(linearise_command);
   takes_threads(linearise_command, "threads [every core]");
 
-  auto* fit_command =
-      takes_case(add("fit", "fit a material to measured tests: parameters, intervals, report"));
+  auto* fit_command = takes_case(
+      add("fit", "fit a material to measured tests, or keys of a case to what was measured on the device"));
   takes_directory(fit_command);
   fit_command->add_flag("--resume", arguments.resume, "do nothing where the fit has run to its end");
 

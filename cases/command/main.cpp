@@ -3,9 +3,11 @@
 #include "cases/console/terminal.hpp"
 #include "cases/devices/device.hpp"
 #include "cases/fits/fit.hpp"
+#include "cases/fits/identify.hpp"
 #include "cases/manual/describe.hpp"
 #include "cases/manual/json_schema.hpp"
 #include "cases/readers/fit_reader.hpp"
+#include "cases/readers/identify_reader.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/readers/study_reader.hpp"
 #include "cases/runs/linearise.hpp"
@@ -89,6 +91,9 @@ ExitCode study(const Arguments& arguments) {
 }
 
 ExitCode fit(const Arguments& arguments) {
+  if (cases::is_identification(arguments.case_file))
+    return run_identification(cases::read_identification(arguments.case_file),
+                              {arguments.output("-fit"), arguments.resume}, arguments.threads);
   return run_fit(cases::read_fit(arguments.case_file), {arguments.output("-fit"), arguments.resume});
 }
 

@@ -39,7 +39,7 @@ std::string keys_text(const Section& section, const void* object) {
   const std::string selected = section.selected_in(object);
   std::string text;
   for (const Key& key : section.keys) {
-    if (!key.applies_to(selected) || key.name == "viscosity") continue;
+    if (!key.applies_to(selected) || key.instead_of == "relaxation_time") continue;
     const auto value = key.binding.get(object);
     if (value && !(key.name == "permittivity" && value->at(0).number == 0))
       text += fmt::format("{} = {}\n", key.name, toml_text(key, *value));

@@ -22,7 +22,8 @@ bool is_linearised(const Case& one) { return one.linearise.written || has_step(o
 namespace {
 
 bool has_branches(const Case& one) {
-  return one.any_film([](const Film& film) { return !film.material.branches.empty(); });
+  return one.any_film(
+      [](const Film& film) { return !film.material.branches.empty() || film.material.viscosity > 0; });
 }
 
 bool is_timed(const Case& one) {
@@ -73,7 +74,8 @@ Condition electrodes() {
 }
 
 Condition branches() {
-  return on_case("a [[film.material.branch]]", [](const Case& one) { return has_branches(one); });
+  return on_case("a [[film.material.branch]] or a viscosity",
+                 [](const Case& one) { return has_branches(one); });
 }
 
 Condition time_passes() { return on_case("a step with a duration", is_timed); }
@@ -104,6 +106,12 @@ Condition dampers_matter() {
 Condition has_mass() {
   return on_case("a mass: of the film (its density), a [plate], a [[point_mass]] or a [[body]]",
                  [](const Case& one) { return cases::has_mass(one); });
+}
+
+Condition film_flows() {
+  return on_case(
+      "a step with a duration, of kind \"harmonic\", or with response = \"instantaneous\"",
+      [](const Case& one) { return is_timed(one) || is_linearised(one) || has_instantaneous_step(one); });
 }
 
 Condition branches_flow() {

@@ -16,6 +16,7 @@ Condition weight();            ///< gravity acts in a step
 Condition masses_matter();     ///< something has inertia, vibrates, or weighs
 Condition dampers_matter();    ///< something moves with inertia, or is linearised
 Condition has_mass();          ///< something has one
+Condition film_flows();        ///< a dashpot beside the law is felt
 Condition branches_flow();     ///< some of the branch's springs are felt
 Condition circuits_matter();   ///< time passes, something is linearised, or the circuit leaks
 Condition time_steps_matter(); ///< in a step with a duration something flows or has inertia

@@ -213,6 +213,7 @@ const Section& case_schema() {
     root.sections.push_back(step_section());
     for (Section& section : result_sections()) root.sections.push_back(std::move(section));
     for (Section& section : fit_sections()) root.sections.push_back(std::move(section));
+    root.sections.push_back(identify_section());
     return root;
   }();
   return schema;

@@ -190,7 +190,8 @@ struct Section {
 Section wave_section(std::string_view unit);
 
 /// THE table: reading, validation, defaults, `info`, the JSON schema and resolved.toml are made from it.
-/// Its objects are Case; those of the section "study" are Study, those of "fit" and "test" are Fit.
+/// Its objects are Case; those of the section "study" are Study, those of "fit" and "test" are Fit,
+/// that of "identify" an Identification.
 const Section& case_schema();
 
 // --- bindings
@@ -318,5 +319,6 @@ Section step_section();
 std::vector<Section> result_sections(); ///< quantity, check, solver, output, linearise, study
 Section study_section();
 std::vector<Section> fit_sections(); ///< fit, test
+Section identify_section();          ///< what fits a whole device
 
 } // namespace dielast::cases

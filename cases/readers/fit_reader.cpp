@@ -106,11 +106,12 @@ Section fit_schema() {
 }
 
 void refuse_fit(const Node& tree) {
-  for (const char* name : own_sections)
+  const auto refuse = [&](const char* name, const char* message) {
     for (std::size_t i = 0; i < tree.keys.size(); ++i)
-      if (tree.keys[i] == name)
-        throw CaseError(
-            {{tree.items[i].key_source, name, "this file is a fit of a material: use `dielast fit`"}});
+      if (tree.keys[i] == name) throw CaseError({{tree.items[i].key_source, name, message}});
+  };
+  for (const char* name : own_sections) refuse(name, "this file is a fit of a material: use `dielast fit`");
+  refuse("identify", "this file identifies a device: use `dielast fit`");
 }
 
 Fit read_fit(const std::filesystem::path& path) {
@@ -131,8 +132,8 @@ Fit read_fit(const std::filesystem::path& path) {
 
   std::vector<Diagnostic> wrong;
   for (std::size_t i = 0; i < fit.tests.size(); ++i)
-    load_test(fit.tests[i], path.parent_path(), !fit.film.material.branches.empty(), tests->items[i],
-              fmt::format("test[{}]", i + 1), wrong);
+    load_test(fit.tests[i], path.parent_path(), !materials::with_dashpot(fit.film.material).branches.empty(),
+              tests->items[i], fmt::format("test[{}]", i + 1), wrong);
   complete_parameters(reader, *section, fit);
   if (wrong.empty() && reader.diagnostics().empty()) {
     require_enough_rows(reader, *section, fit);

@@ -21,6 +21,8 @@ double shortest_relaxation(const materials::Material& material, const fem::Model
   double shortest = std::numeric_limits<double>::infinity();
   for (const materials::Branch& branch : material.branches)
     shortest = std::min(shortest, branch.viscosity / materials::initial_shear_modulus(branch.law));
+  if (material.viscosity > 0)
+    shortest = std::min(shortest, material.viscosity / materials::initial_shear_modulus(material.law));
   const fem::Charges drawn = model.charges(model.initial_state(), false);
   for (const fem::Circuit& circuit : model.circuits)
     shortest = std::min(shortest,

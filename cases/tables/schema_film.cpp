@@ -139,6 +139,13 @@ Section material_section() {
                              .at_least(0)
                              .otherwise("960 kg/m^3")
                              .only_with(when::masses_matter()));
+  section.keys.push_back(
+      measure("viscosity", "Pa s", to_part<Film>([](auto& film) -> auto& { return film.material.viscosity; }),
+              "of a dashpot beside the law (Kelvin & Voigt), per rate of the strain's deviator; "
+              "above 1e4 times the law's modulus over it the film is stiff")
+          .at_least(0)
+          .otherwise("0 Pa.s")
+          .only_with(when::film_flows()));
   section.sections.push_back(branch_section());
   section.check = [](const void* object) {
     return law_conflict(static_cast<const Film*>(object)->material.law);

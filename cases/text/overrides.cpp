@@ -118,6 +118,13 @@ void apply_override(Node& tree, std::string_view key, std::string_view value, co
   *node = parse_value(value, source);
 }
 
+Node value_at(Node tree, std::string_view key) {
+  const Source source{std::string(key)};
+  Node* node = &tree;
+  for (const Part& part : parts_of(key, source)) node = &descend(*node, part, key, source);
+  return *node;
+}
+
 void apply_override(Node& tree, std::string_view assignment) {
   const Source source{fmt::format("--set {}", assignment)};
   const std::size_t equals = assignment.find('=');

@@ -15,6 +15,9 @@ namespace dielast::cases {
 /// behind the "=" removes the key, or the item. The new nodes' source is `source`. Throws CaseError.
 void apply_override(Node& tree, std::string_view key, std::string_view value, const Source& source);
 
+/// What stands at the path of a key; an empty table where nothing does. Throws CaseError as apply_override.
+Node value_at(Node tree, std::string_view key);
+
 /// Splits "key=value" and applies it; its source is "--set key=value".
 void apply_override(Node& tree, std::string_view assignment);
 

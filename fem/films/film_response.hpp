@@ -25,7 +25,8 @@ class FilmResponse {
   using Potential = materials::MembranePotential<double>;
 
   FilmResponse(Law law, const MembraneSection& section)
-      : law_(std::move(law)), material_(section.material), tension_field_(section.tension_field) {}
+      : law_(std::move(law)), material_(materials::with_dashpot(section.material)),
+        tension_field_(section.tension_field) {}
 
   /// True when Psi depends on C and k alone, through the law and the field: several points may then be
   /// computed at once by simple().

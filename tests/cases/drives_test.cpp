@@ -189,7 +189,8 @@ TEST_F(Drives, AHarmonicStepSaysWhoseSourcesSwingAndByDefaultAllDo) {
   EXPECT_EQ(analyses[0].columns[3], "voltage_a_per_volt[V/V]");
   const double b = per_volt("driven = [\"b\"]\n"), both = per_volt("");
   EXPECT_EQ(analyses[0].driven, (std::vector<std::string>{"a", "b"}));
-  EXPECT_EQ(analyses[0].columns.size(), 11u);
+  ASSERT_EQ(analyses[0].columns.size(), 12u);
+  EXPECT_EQ(analyses[0].columns.back(), "u_per_squared_volt[m/V^2]"); // both sources are at one voltage
   EXPECT_NEAR(a, 2.4149e-8, 1e-12);
   EXPECT_NEAR(b, 2.4241e-8, 1e-12);
   EXPECT_NEAR(both, a + b, 1e-6 * both);

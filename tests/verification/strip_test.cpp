@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace dielast::cases {
 namespace {
@@ -69,6 +70,54 @@ TEST(Strip, GivesTheTableOfItsSource) {
       EXPECT_GT(clamped.at("strain"), 1.05 * free.at("strain"));
       EXPECT_LT(clamped.at("strain"), 2 * free.at("strain"));
     }
+}
+
+/// Rows of the harmonic step.
+std::vector<std::vector<double>> response(const std::vector<std::string>& overrides) {
+  const Case one = gallery_case("hung_stack/response.toml", overrides);
+  Simulation simulation(one, 1);
+  std::vector<std::vector<double>> rows;
+  SimulationObserver observer;
+  observer.on_analysis = [&](const Analysis& analysis, const fem::State&) { rows = analysis.rows; };
+  EXPECT_EQ(simulation.run(observer).ending, Ending::complete);
+  return rows;
+}
+
+// G = B/(M s^2 + C1 s + K) of the identified table: its value at rest and its peak.
+TEST(HungStack, AnswersAsItsIdentifiedModel) {
+  const std::vector<std::string> sweep{"step[3].from=1 Hz", "step[3].to=60 Hz", "step[3].points=300"};
+  std::vector<std::string> light{"weight.mass=34.9 g",
+                                 "film.material.shear_modulus=0.7164 MPa",
+                                 "film.material.viscosity=222.1 Pa.s",
+                                 "film.material.relative_permittivity=1.579",
+                                 "strip.electrode_length=16.19 mm",
+                                 "circuit.resistance=82.5 kOhm",
+                                 "circuit.leakage_resistance=17.6 GOhm"};
+  light.insert(light.end(), sweep.begin(), sweep.end());
+  for (const auto& [overrides, rest, peak] :
+       {std::tuple{sweep, 2.2793e-11, 3.2333e-10}, std::tuple{light, 1.2483e-11, 1.9743e-10}}) {
+    const auto rows = response(overrides);
+    double largest = 0;
+    for (const auto& row : rows) largest = std::max(largest, row.back());
+    const double ratio =
+        rows[0][0] / (largest > 2.5e-10 ? 23.08 : 32.44); // G at 1 Hz is a little more than at rest
+    EXPECT_NEAR(rows[0].back() * (1 - ratio * ratio), rest, 0.01 * rest);
+    EXPECT_NEAR(largest, peak, 0.01 * peak);
+  }
+}
+
+// A slow branch is felt above its corner: below it the stack answers with K1, above with K1 + K2.
+TEST(HungStack, CreepsBelowTheCornerOfASlowBranch) {
+  const std::vector<std::string> creeps{
+      "film.material.branch=[{ shear_modulus = \"0.17061 MPa\", relaxation_time = \"1 s\" }]",
+      "step[3].from=0.002 Hz", "step[3].to=2 Hz", "step[3].points=60", "circuit="};
+  const auto rows = response(creeps);
+  const double below = rows.front().back(), above = rows.back().back() * (1 - std::pow(2 / 25.5, 2));
+  EXPECT_NEAR(below / above, 1.3, 0.01 * 1.3);
+  double turn = 0;
+  for (const auto& row : rows)
+    if (row[2] < -5) turn = row[0];
+  EXPECT_GT(turn, 0.1); // lags about 1/(2 pi tau) = 0.16 Hz
 }
 
 } // namespace

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/fits/identify.hpp"
+
+#include "cases/console/terminal.hpp"
+#include "cases/fits/device_model.hpp"
+#include "cases/fits/processes.hpp"
+#include "cases/fitting/fit_statistics.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/readers/resolved.hpp"
+#include "post/files/results_folder.hpp"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+namespace dielast::cases {
+namespace {
+
+using Model = std::vector<std::vector<std::complex<double>>>; ///< for each test
+
+/// Models and residuals as functions of the coordinates q = ln(value/start).
+class DeviceMisfit : public ceres::CostFunction {
+ public:
+  DeviceMisfit(const Identification& asked, int threads) : asked_(asked), device_(asked), threads_(threads) {
+    set_num_residuals(static_cast<int>(asked.fitted_numbers()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(asked.unknowns.size()));
+  }
+
+  std::vector<double> values(const Eigen::VectorXd& q) const {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < asked_.unknowns.size(); ++i)
+      all.push_back(asked_.unknowns[i].start * std::exp(q[static_cast<Eigen::Index>(i)]));
+    return all;
+  }
+
+  /// At several points at once; nothing where a run has none, and `failure` says why.
+  std::vector<std::optional<Model>> models(const std::vector<Eigen::VectorXd>& points,
+                                           std::string* failure = nullptr) const {
+    const std::size_t runs = device_.run_count();
+    const auto computed = in_processes(points.size() * runs, threads_, [&](std::size_t i) {
+      return device_.run(i % runs, values(points[i / runs]));
+    });
+    std::vector<std::optional<Model>> all;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      auto& model = all.emplace_back(Model(asked_.tests.size()));
+      for (std::size_t r = 0; r < runs; ++r) {
+        const Computed& run = computed[p * runs + r];
+        if (!run.failure.empty()) {
+          if (failure) *failure = run.failure;
+          model.reset();
+          break;
+        }
+        std::size_t at = 0;
+        for (const std::size_t t : device_.tests_of(r))
+          for (std::size_t i = 0; i < asked_.tests[t].x.size(); ++i) {
+            const double real = run.values.at(at++);
+            (*model)[t].emplace_back(real, asked_.tests[t].is_response() ? run.values.at(at++) : 0.0);
+          }
+      }
+    }
+    return all;
+  }
+
+  /// Relative errors of a test's rows.
+  std::vector<std::complex<double>> errors(std::size_t t, const Model& model) const {
+    const DeviceTest& test = asked_.tests[t];
+    double largest = 0;
+    for (const auto& value : test.measured) largest = std::max(largest, std::abs(value));
+    std::vector<std::complex<double>> all;
+    for (std::size_t i = 0; i < test.x.size(); ++i)
+      all.push_back((model[t][i] - test.measured[i]) /
+                    (test.is_response() ? std::abs(test.measured[i]) : largest));
+    return all;
+  }
+
+  std::optional<Eigen::VectorXd> residuals(const std::optional<Model>& model) const {
+    if (!model) return std::nullopt;
+    Eigen::VectorXd r(num_residuals());
+    Eigen::Index row = 0;
+    for (std::size_t t = 0; t < asked_.tests.size(); ++t) {
+      const DeviceTest& test = asked_.tests[t];
+      if (test.predict) continue;
+      for (const std::complex<double>& error : errors(t, *model)) {
+        r[row++] = test.weight * error.real();
+        if (test.is_response()) r[row++] = test.weight * error.imag();
+      }
+    }
+    return r.allFinite() ? std::optional(r) : std::nullopt;
+  }
+
+  /// By central differences, one-sided where only one side has a model. False where none has.
+  bool jacobian(const Eigen::VectorXd& q, const Eigen::VectorXd& r, Eigen::MatrixXd& J) const {
+    constexpr double h = 2e-3;
+    std::vector<Eigen::VectorXd> points;
+    for (Eigen::Index i = 0; i < q.size(); ++i)
+      for (const double step : {h, -h}) {
+        points.push_back(q);
+        points.back()[i] += step;
+      }
+    const auto all = models(points);
+    J.resize(r.size(), q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      const auto ahead = residuals(all[static_cast<std::size_t>(2 * i)]),
+                 behind = residuals(all[static_cast<std::size_t>(2 * i + 1)]);
+      if (!ahead && !behind) return false;
+      J.col(i) = (ahead.value_or(r) - behind.value_or(r)) / (h * (ahead.has_value() + behind.has_value()));
+    }
+    return true;
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals_out, double** jacobians) const override {
+    const Eigen::VectorXd q =
+        Eigen::Map<const Eigen::VectorXd>(parameters[0], static_cast<Eigen::Index>(asked_.unknowns.size()));
+    if (!known_ || q != known_at_) {
+      known_ = residuals(models({q})[0]);
+      known_at_ = q;
+    }
+    if (!known_) return false;
+    std::copy(known_->begin(), known_->end(), residuals_out);
+    if (!jacobians || !jacobians[0]) return true;
+    Eigen::MatrixXd J;
+    if (!jacobian(q, *known_, J)) return false;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<RowMajor>(jacobians[0], J.rows(), J.cols()) = J;
+    return true;
+  }
+
+ private:
+  const Identification& asked_;
+  DeviceModel device_;
+  int threads_;
+  mutable Eigen::VectorXd known_at_; ///< Ceres asks for residuals, and then for them and the Jacobian
+  mutable std::optional<Eigen::VectorXd> known_;
+};
+
+class Follower : public ceres::IterationCallback {
+ public:
+  Follower(const std::function<bool(int, double)>& tell, int rows) : tell_(tell), rows_(rows) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
+    if (now.iteration > 0) ++iterations;
+    if (tell_ && !tell_(iterations, std::sqrt(2 * now.cost / rows_))) {
+      stopped = true;
+      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    }
+    return ceres::SOLVER_CONTINUE;
+  }
+
+  int iterations = 0;
+  bool stopped = false;
+
+ private:
+  const std::function<bool(int, double)>& tell_;
+  int rows_;
+};
+
+[[noreturn]] void reject(const Identification& asked, const std::string& message) {
+  throw CaseError({{{asked.source.string()}, "identify.unknowns", message}});
+}
+
+/// The start must have a model, which every unknown changes.
+void require_start(const Identification& asked, const DeviceMisfit& misfit) {
+  const Eigen::VectorXd q = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(asked.unknowns.size()));
+  std::string failure;
+  const auto start = misfit.residuals(misfit.models({q}, &failure)[0]);
+  if (!start)
+    reject(asked, fmt::format("the case does not run with its start values: {}",
+                              failure.empty() ? "a value is not finite" : failure));
+  constexpr double nothing = 1e-9; // relative, of a change by a factor e
+  Eigen::MatrixXd J;
+  if (!misfit.jacobian(q, *start, J)) reject(asked, "the case does not run beside its start values");
+  for (Eigen::Index i = 0; i < q.size(); ++i)
+    if (J.col(i).lpNorm<Eigen::Infinity>() < nothing)
+      reject(asked, fmt::format("found \"{}\": it changes nothing that was measured",
+                                asked.unknowns[static_cast<std::size_t>(i)].key));
+}
+
+} // namespace
+
+IdentifyOutcome solve_identification(const Identification& asked, int threads,
+                                     const std::function<bool(int, double)>& on_iteration) {
+  const DeviceMisfit misfit(asked,
+                            threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+  require_start(asked, misfit);
+  const auto count = static_cast<Eigen::Index>(asked.unknowns.size());
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(count);
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(const_cast<DeviceMisfit*>(&misfit), nullptr, q.data());
+  const double bound = std::log(asked.range);
+  for (int i = 0; i < static_cast<int>(count); ++i) {
+    problem.SetParameterLowerBound(q.data(), i, -bound);
+    problem.SetParameterUpperBound(q.data(), i, bound);
+  }
+  Follower follower(on_iteration, misfit.num_residuals());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  options.max_num_iterations = asked.max_iterations;
+  options.max_num_consecutive_invalid_steps = 30;
+  options.function_tolerance = options.parameter_tolerance = 1e-8; // runs are good to 1e-9
+  options.gradient_tolerance = 1e-12;
+  options.update_state_every_iteration = true;
+  options.callbacks.push_back(&follower);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+
+  IdentifyOutcome outcome{.ending = follower.stopped                                 ? FitEnding::interrupted
+                                    : summary.termination_type == ceres::CONVERGENCE ? FitEnding::converged
+                                                                                     : FitEnding::gave_up,
+                          .iterations = follower.iterations};
+  const auto at_bound = [&](double one) { return std::abs(one) >= bound * (1 - 1e-6); };
+  outcome.model = misfit.models({q})[0].value_or(Model(asked.tests.size()));
+  const auto r = misfit.residuals(outcome.model);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(misfit.num_residuals(), count);
+  if (r && outcome.ending != FitEnding::interrupted && !misfit.jacobian(q, *r, J)) J.setZero();
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (at_bound(q[i])) J.col(i).setZero();
+  const FitStatistics statistics =
+      fit_statistics(J, r.value_or(Eigen::VectorXd::Zero(misfit.num_residuals())));
+  outcome.deviation = statistics.deviation;
+  outcome.correlation = statistics.correlation;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double start = asked.unknowns[static_cast<std::size_t>(i)].start, half = statistics.half_widths[i];
+    const double one = start * std::exp(q[i] - half), other = start * std::exp(q[i] + half);
+    outcome.unknowns.push_back({.start = start,
+                                .value = start * std::exp(q[i]),
+                                .low = std::min(one, other),
+                                .high = std::max(one, other),
+                                .at_bound = at_bound(q[i])});
+  }
+  for (std::size_t t = 0; t < asked.tests.size(); ++t) {
+    double squares = 0;
+    for (const auto& error : misfit.errors(t, outcome.model)) squares += std::norm(error);
+    outcome.errors.push_back(std::sqrt(squares / static_cast<double>(asked.tests[t].x.size())));
+  }
+  return outcome;
+}
+
+ExitCode run_identification(const Identification& asked, const FitSettings& settings, int threads) {
+  post::ResultsFolder folder(settings.directory, "fit");
+  folder.begin();
+  say("{}: {} unknowns, {} tests, in {}\n", asked.title, asked.unknowns.size(), asked.tests.size(),
+      settings.directory.string());
+  const auto tell = [](int iteration, double misfit) {
+    say("  iteration {:3d}   rms of the weighted residuals {:.6g}\n", iteration, misfit);
+    std::fflush(stdout);
+    return !interrupted();
+  };
+  const IdentifyOutcome outcome = solve_identification(asked, threads, tell);
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < outcome.unknowns.size(); ++i)
+    found.push_back(asked.unknowns[i].assignment(outcome.unknowns[i].value));
+  folder.write("identified.toml", resolved_text(read_case(asked.base, found)));
+  folder.write("identify.csv", identify_table(asked, outcome));
+  folder.write("report.html", identify_report(asked, outcome));
+  folder.write("identify.json", identify_json(asked, outcome));
+  say("{}", identify_summary(asked, outcome));
+  for (const std::string& warning : identify_warnings(asked, outcome)) say("warning: {}\n", warning);
+  say("results in {}: report.html, identified.toml, identify.csv, identify.json\n",
+      settings.directory.string());
+  if (outcome.ending == FitEnding::interrupted) return ExitCode::interrupted;
+  const ExitCode code = outcome.ending == FitEnding::converged ? ExitCode::ok : ExitCode::not_converged;
+  if (code != ExitCode::ok)
+    say(stderr, "error: not converged after {} iterations: the best values so far\n", outcome.iterations);
+  folder.set_complete(static_cast<int>(code));
+  return code;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/fits/identify.hpp"
+
+#include "post/engineering.hpp"
+#include "post/files/history.hpp"
+#include "post/pictures/bode.hpp"
+#include "post/pictures/report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using post::Cell, post::Tone;
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+std::string ending(const IdentifyOutcome& outcome) {
+  const char* how = outcome.ending == FitEnding::converged ? "converged"
+                    : outcome.ending == FitEnding::gave_up ? "not converged"
+                                                           : "interrupted";
+  return fmt::format("{} after {} iterations", how, outcome.iterations);
+}
+
+std::string in_unit(double value, const Unknown& unknown) {
+  return fmt::format("{:.6g}{}{}", value, unknown.unit.empty() ? "" : " ", unknown.unit);
+}
+
+std::string interval(const FittedParameter& one, const Unknown& unknown) {
+  if (one.at_bound) return "at its bound";
+  if (!one.determined()) return "not identifiable";
+  return fmt::format("{:.6g} to {}", one.low, in_unit(one.high, unknown));
+}
+
+post::Table unknown_table(const Identification& asked, const IdentifyOutcome& outcome) {
+  post::Table table{{"unknown", "value", "95 % interval", "start"}, {}};
+  for (std::size_t i = 0; i < asked.unknowns.size(); ++i) {
+    const FittedParameter& one = outcome.unknowns[i];
+    table.rows.push_back(
+        {Cell{asked.unknowns[i].key}, Cell{in_unit(one.value, asked.unknowns[i])},
+         Cell{interval(one, asked.unknowns[i]), one.determined() ? Tone::plain : Tone::warning},
+         Cell{in_unit(one.start, asked.unknowns[i])}});
+  }
+  return table;
+}
+
+post::Table test_table(const Identification& asked, const IdentifyOutcome& outcome) {
+  post::Table table{{"test", "use", "rows", "rms error"}, {}};
+  for (std::size_t t = 0; t < asked.tests.size(); ++t)
+    table.rows.push_back({Cell{asked.tests[t].name()}, Cell{asked.tests[t].predict ? "prediction" : "fit"},
+                          Cell{std::to_string(asked.tests[t].x.size())},
+                          Cell{post::engineering(outcome.errors[t], "1", post::Ratio::percent, 3)}});
+  return table;
+}
+
+void append_plots(std::vector<post::Plot>& plots, const DeviceTest& test,
+                  const std::vector<std::complex<double>>& model) {
+  using Style = post::Series::Style;
+  if (test.is_response()) {
+    const std::array both{post::FrequencyResponse{"measured", test.x, test.measured, Style::points},
+                          post::FrequencyResponse{"model", test.x, model, Style::line}};
+    for (post::Plot& plot : post::bode(test.name(), "magnitude", both)) plots.push_back(std::move(plot));
+    return;
+  }
+  const auto real = [](const std::vector<std::complex<double>>& values) {
+    std::vector<double> all;
+    for (const auto& value : values) all.push_back(value.real());
+    return all;
+  };
+  plots.push_back({test.name(),
+                   test.against,
+                   test.quantity,
+                   {{"measured", test.x, real(test.measured), Style::points},
+                    {"model", test.x, real(model), Style::line}}});
+}
+
+} // namespace
+
+std::vector<std::string> identify_warnings(const Identification& asked, const IdentifyOutcome& outcome) {
+  constexpr double dependent = 0.95;
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < outcome.unknowns.size(); ++i) {
+    const std::string& key = asked.unknowns[i].key;
+    if (outcome.unknowns[i].at_bound)
+      all.push_back(fmt::format("{} is at its bound: the tests do not tell it", key));
+    else if (!outcome.unknowns[i].determined())
+      all.push_back(
+          fmt::format("{} is not identifiable: the fitted tests tell only its combination with others", key));
+    for (std::size_t j = 0; j < i; ++j)
+      if (const double r = outcome.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+          std::abs(r) > dependent)
+        all.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
+                                  asked.unknowns[j].key, key, r));
+  }
+  return all;
+}
+
+std::string identify_json(const Identification& asked, const IdentifyOutcome& outcome) {
+  Json json{{"title", asked.title},
+            {"status", ending(outcome)},
+            {"converged", outcome.ending == FitEnding::converged},
+            {"deviation", finite(outcome.deviation)},
+            {"unknowns", Json::array()},
+            {"correlation", Json::array()},
+            {"tests", Json::array()}};
+  for (std::size_t i = 0; i < asked.unknowns.size(); ++i) {
+    const FittedParameter& one = outcome.unknowns[i];
+    const bool known = one.determined();
+    json["unknowns"].push_back({{"key", asked.unknowns[i].key},
+                                {"unit", asked.unknowns[i].unit},
+                                {"value", one.value},
+                                {"low_95", known ? Json(one.low) : Json()},
+                                {"high_95", known ? Json(one.high) : Json()},
+                                {"start", one.start},
+                                {"at_bound", one.at_bound}});
+    Json row = Json::array();
+    for (const double r : outcome.correlation.row(static_cast<Eigen::Index>(i))) row.push_back(finite(r));
+    json["correlation"].push_back(std::move(row));
+  }
+  for (std::size_t t = 0; t < asked.tests.size(); ++t)
+    json["tests"].push_back({{"file", asked.tests[t].file.string()},
+                             {"use", asked.tests[t].predict ? "predict" : "fit"},
+                             {"rows", asked.tests[t].x.size()},
+                             {"rms_error", finite(outcome.errors[t])}});
+  json["warnings"] = identify_warnings(asked, outcome);
+  json["version"] = DIELAST_VERSION;
+  return json.dump(2) + "\n";
+}
+
+std::string identify_table(const Identification& asked, const IdentifyOutcome& outcome) {
+  std::string table = "test,use,x,measured_real,measured_imaginary,model_real,model_imaginary\n";
+  for (std::size_t t = 0; t < asked.tests.size(); ++t)
+    for (std::size_t i = 0; i < outcome.model[t].size(); ++i) {
+      const DeviceTest& test = asked.tests[t];
+      table += post::csv_cell(test.name()) +
+               fmt::format(",{},{},{},{},{},{}\n", test.predict ? "predict" : "fit", test.x[i],
+                           test.measured[i].real(), test.measured[i].imag(), outcome.model[t][i].real(),
+                           outcome.model[t][i].imag());
+    }
+  return table;
+}
+
+std::string identify_summary(const Identification& asked, const IdentifyOutcome& outcome) {
+  std::string text = ending(outcome) + "\n";
+  for (const post::Table& table : {unknown_table(asked, outcome), test_table(asked, outcome)})
+    for (const auto& row : table.rows) {
+      for (const Cell& cell : row) text += fmt::format("  {:<38}", cell.text);
+      text.erase(text.find_last_not_of(' ') + 1).push_back('\n');
+    }
+  return text;
+}
+
+std::string identify_report(const Identification& asked, const IdentifyOutcome& outcome) {
+  post::Report report{
+      .title = asked.title,
+      .subtitle =
+          fmt::format("{} unknowns of {} identified", asked.unknowns.size(), asked.base.filename().string()),
+      .status = {ending(outcome), outcome.ending == FitEnding::converged ? Tone::good : Tone::warning},
+      .footer = "dielast " DIELAST_VERSION};
+  if (const auto warnings = identify_warnings(asked, outcome); !warnings.empty()) {
+    post::Table table{{"warning"}, {}};
+    for (const std::string& warning : warnings) table.rows.push_back({Cell{warning, Tone::warning}});
+    report.sections.push_back({"Warnings", {std::move(table)}});
+  }
+  std::vector<post::Plot> plots;
+  for (std::size_t t = 0; t < asked.tests.size(); ++t)
+    if (!outcome.model[t].empty()) append_plots(plots, asked.tests[t], outcome.model[t]);
+  post::Section drawn{"Measured and modelled", {}};
+  for (std::string& svg : post::render_svg(plots))
+    if (!svg.empty()) drawn.blocks.push_back(post::Image{std::move(svg), ""});
+  if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
+  report.sections.push_back({"Unknowns", {unknown_table(asked, outcome)}});
+  report.sections.push_back({"Tests", {test_table(asked, outcome)}});
+  return report.html();
+}
+
+} // namespace dielast::cases

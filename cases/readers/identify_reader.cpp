@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/identify_reader.hpp"
+
+#include "cases/case/quantities.hpp"
+#include "cases/language/conditions.hpp"
+#include "cases/language/section_reader.hpp"
+#include "cases/readers/case_tree.hpp"
+#include "cases/text/csv.hpp"
+#include "cases/text/overrides.hpp"
+#include "cases/text/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+/// A test as it is written: where its keys stand, and how messages call it.
+struct Written {
+  const Node& table;
+  std::string path;
+};
+
+/// The columns of a test's file, in SI. What is missing is added to `wrong`.
+class Columns {
+ public:
+  Columns(const CsvTable& csv, const Written& test, std::vector<Diagnostic>& wrong)
+      : csv_(csv), test_(test), wrong_(wrong) {}
+
+  /// Number of the column of that name, with any unit; -1 where there is none.
+  int find(const std::string& name) const {
+    for (std::size_t i = 0; i < csv_.names.size(); ++i)
+      if (csv_.names[i] == name || split_unit(csv_.names[i]).name == name) return static_cast<int>(i);
+    return -1;
+  }
+  std::vector<double> values(const std::string& name, std::string_view si_unit) const {
+    const int column = find(name);
+    if (column >= 0) return si_column(csv_, column, si_unit);
+    wrong_.push_back({test_.table.find("file")->source, test_.path + ".file",
+                      fmt::format("{} has no column {}, only {}", csv_.file, name, listed(csv_.names))});
+    return {};
+  }
+
+ private:
+  const CsvTable& csv_;
+  const Written& test_;
+  std::vector<Diagnostic>& wrong_;
+};
+
+void read_response(DeviceTest& test, const CsvTable& csv, const Columns& columns,
+                   std::vector<Diagnostic>& wrong) {
+  constexpr double degree = std::numbers::pi / 180;
+  const std::size_t before = wrong.size();
+  const char* unit = test.response == MeasuredResponse::displacement ? "m/V^2"
+                     : test.response == MeasuredResponse::impedance  ? "Ohm"
+                                                                     : "S";
+  test.against = "frequency";
+  test.x = columns.values("frequency", "1/s");
+  const bool polar = columns.find("real") < 0;
+  const std::vector<double> first = columns.values(polar ? "magnitude" : "real", unit);
+  const std::vector<double> second =
+      columns.values(polar ? "phase" : "imaginary", polar ? std::string_view("rad") : std::string_view(unit));
+  if (wrong.size() > before) return;
+  const bool degrees =
+      polar && split_unit(csv.names[static_cast<std::size_t>(columns.find("phase"))]).unit.empty();
+  for (std::size_t i = 0; i < test.x.size(); ++i) {
+    test.measured.push_back(polar ? std::polar(first[i], degrees ? second[i] * degree : second[i])
+                                  : std::complex(first[i], second[i]));
+    if (!(test.x[i] > 0) || test.measured.back() == 0.0)
+      wrong.push_back({{csv.file, csv.lines[i], 1}, "", "a response is above 0, at a frequency above 0"});
+  }
+}
+
+void read_quantity(DeviceTest& test, const CsvTable& csv, const Columns& columns, const Case& one,
+                   std::vector<Diagnostic>& wrong) {
+  test.against = split_unit(csv.names.at(0)).name;
+  const std::vector<post::Column> history = history_columns(one);
+  const auto column = std::ranges::find(history, test.against, &post::Column::name);
+  if (column == history.end()) {
+    std::vector<std::string> known;
+    for (const post::Column& each : history) known.push_back(each.name);
+    wrong.push_back({{csv.file, csv.header_line, 1},
+                     "",
+                     fmt::format("found {}: its first column is none of the run's history, allowed {}",
+                                 toml_string(csv.names[0]), listed(known))});
+    return;
+  }
+  const auto quantity = std::ranges::find(history, test.quantity, &post::Column::name);
+  test.x = si_column(csv, 0, column->unit);
+  for (const double value : columns.values(test.quantity, quantity->unit)) test.measured.emplace_back(value);
+  require_growing(csv, 0, wrong);
+  if (std::ranges::all_of(test.measured, [](const auto& value) { return value == 0.0; }))
+    wrong.push_back({{csv.file, csv.header_line, 1}, "", "nothing other than 0 was measured"});
+}
+
+void load(DeviceTest& test, const std::filesystem::path& folder, const Written& written, const Case& one,
+          std::vector<Diagnostic>& wrong) {
+  const std::size_t before = wrong.size();
+  try {
+    const CsvTable csv = read_csv(folder / test.file, 1, wrong);
+    if (wrong.size() > before) return;
+    const Columns columns(csv, written, wrong);
+    if (test.is_response())
+      read_response(test, csv, columns, wrong);
+    else
+      read_quantity(test, csv, columns, one, wrong);
+  } catch (const FileError& error) {
+    wrong.push_back({written.table.find("file")->source, written.path + ".file",
+                     fmt::format("found {}: {}", toml_string(test.file.string()),
+                                 std::filesystem::exists(folder / test.file)
+                                     ? error.what()
+                                     : "no such file; the path starts at this file's folder")});
+  }
+}
+
+/// A test's own settings are keys of the case, which no schema of this file knows.
+void read_settings(const Node& table, DeviceTest& test) {
+  const Node* set = table.find("set");
+  if (!set) return;
+  for (std::size_t i = 0; set->is(Node::Kind::table) && i < set->items.size(); ++i)
+    test.settings.push_back(set->keys[i] + "=" + text_of(set->items[i]));
+}
+
+/// The unknowns with their start values: the case's, or those of identify.start.
+void find_unknowns(SectionReader& reader, const Node& section, Node base, Identification& asked) {
+  const Node* start = section.find("start");
+  for (std::size_t i = 0; start && start->is(Node::Kind::table) && i < start->items.size(); ++i) {
+    if (std::ranges::count(asked.keys, start->keys[i]) == 0)
+      reader.report(start->items[i].key_source, "identify.start",
+                    fmt::format("found {}: none of the unknowns", toml_string(start->keys[i])));
+    else
+      apply_override(base, start->keys[i], text_of(start->items[i]), start->items[i].source);
+  }
+  const Node& written = *section.find("unknowns");
+  for (std::size_t i = 0; i < asked.keys.size(); ++i) {
+    const Source& source = written.items.empty() ? written.source : written.items[i].source;
+    const auto report = [&](const std::string& message) {
+      reader.report(source, "identify.unknowns",
+                    fmt::format("found {}: {}", toml_string(asked.keys[i]), message));
+    };
+    if (std::ranges::count(asked.keys, asked.keys[i]) > 1) return report("given twice");
+    try {
+      const auto value = written_measure(text_of(value_at(base, asked.keys[i])));
+      if (!value)
+        report("the case has no such key with a number; write its start value there, or in identify.start");
+      else if (value->number == 0)
+        report("the case starts it at 0; write a start value other than 0");
+      else
+        asked.unknowns.push_back({asked.keys[i], value->number, value->unit});
+    } catch (const CaseError& error) {
+      report(error.diagnostics().front().message);
+    }
+  }
+}
+
+/// What the tests ask of the case.
+void check_tests(SectionReader& reader, const Node& section, const Case& one, const Identification& asked) {
+  for (std::size_t t = 0; t < asked.tests.size(); ++t) {
+    const DeviceTest& test = asked.tests[t];
+    const Node& table = section.find("test")->items[t];
+    const std::string path = fmt::format("identify.test[{}]", t + 1);
+    if (test.is_response() && !has_step(one, {StepKind::harmonic}))
+      reader.report(table.source, path + ".response",
+                    "the case has no step of kind \"harmonic\", whose response it would be");
+    if (!test.is_response() && std::ranges::count(one.quantities, test.quantity, &Quantity::name) == 0) {
+      std::vector<std::string> known;
+      for (const Quantity& quantity : one.quantities) known.push_back(quantity.name);
+      reader.report(table.find("quantity")->source, path + ".quantity",
+                    fmt::format("found {}: the case has no such quantity, allowed {}{}",
+                                toml_string(test.quantity), listed(known),
+                                did_you_mean(test.quantity, known)));
+    }
+  }
+}
+
+} // namespace
+
+bool is_identification(const std::filesystem::path& path) { return read_tree(path).find("identify"); }
+
+Identification read_identification(const std::filesystem::path& path) {
+  const Node tree = read_tree(path);
+  Identification asked;
+  asked.source = path;
+  asked.title = path.stem().string();
+  if (const Node* title = tree.find("title"); title && title->is(Node::Kind::text)) asked.title = title->text;
+  SectionReader reader({.folder = path.parent_path()});
+  for (std::size_t i = 0; i < tree.items.size(); ++i)
+    if (const std::string& key = tree.keys[i]; key != "title" && key != "case" && key != "identify")
+      reader.report(
+          tree.items[i].key_source, key,
+          "an identification has only \"title\", \"case\" and [identify]; this belongs in that case");
+  const Node* base_name = tree.find("case");
+  if (!base_name || !base_name->is(Node::Kind::text))
+    throw CaseError({{base_name ? base_name->source : tree.source, "case",
+                      "missing; write the name of the case file whose keys are to be found"}});
+  asked.base = path.parent_path() / base_name->text;
+  if (std::error_code failure; !std::filesystem::is_regular_file(asked.base, failure))
+    throw CaseError({{base_name->source, "case",
+                      fmt::format("found {}: no such file; the path starts at this file's folder",
+                                  text_of(*base_name))}});
+  const Node base = read_case_file(asked.base);
+  const Case one = interpret(base, asked.base); // its own errors come first
+
+  const Node& section = *tree.find("identify");
+  if (!section.is(Node::Kind::table))
+    throw CaseError({{section.source, "identify", "is a section, [identify]"}});
+  reader.read_table(identify_section(), section, &asked, "identify");
+  const Node tests = section.find("test") ? *section.find("test") : Node{};
+  if (!tests.is(Node::Kind::list) || tests.items.empty())
+    reader.report(section.source, "identify.test",
+                  "missing; add an [[identify.test]] with the file of a table");
+  if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
+  find_unknowns(reader, section, base, asked);
+  check_tests(reader, section, one, asked);
+  std::vector<Diagnostic> wrong;
+  for (std::size_t t = 0; t < asked.tests.size() && reader.diagnostics().empty(); ++t) {
+    read_settings(tests.items[t], asked.tests[t]);
+    Node with = base;
+    for (const std::string& setting : asked.tests[t].settings) apply_override(with, setting);
+    load(asked.tests[t], path.parent_path(), {tests.items[t], fmt::format("identify.test[{}]", t + 1)},
+         interpret(with, asked.base), wrong);
+  }
+  if (wrong.empty() && reader.diagnostics().empty() && asked.fitted_numbers() <= asked.unknowns.size())
+    reader.report(section.find("unknowns")->source, "identify.unknowns",
+                  fmt::format("there are {} unknowns, and the fitted tests have {} numbers; more are needed",
+                              asked.unknowns.size(), asked.fitted_numbers()));
+  wrong.insert(wrong.end(), reader.diagnostics().begin(), reader.diagnostics().end());
+  if (!wrong.empty()) throw CaseError(wrong);
+  return asked;
+}
+
+} // namespace dielast::cases

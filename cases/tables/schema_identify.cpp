@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/identify_spec.hpp"
+#include "cases/language/schema.hpp"
+
+namespace dielast::cases {
+
+Section identify_section() {
+  Section test =
+      list_section("test", "what was measured on the device, a CSV file", each(&Identification::tests));
+  test.keys = {
+      text("file", to(&DeviceTest::file), "CSV file; its path starts at this file's folder"),
+      text("quantity", to(&DeviceTest::quantity),
+           "quantity of the case whose column the file has, against its first column: \"time\" or another "
+           "column of the run's history, in which the run goes on only"),
+      word("response",
+           {{"displacement", "of the harmonic step's quantity per squared volt of the source (m/V^2)",
+             MeasuredResponse::displacement},
+            {"impedance", "that the source sees (Ohm)", MeasuredResponse::impedance},
+            {"admittance", "that the source sees (S)", MeasuredResponse::admittance}},
+           to(&DeviceTest::response),
+           "of the case's step of kind \"harmonic\", instead of a quantity: columns \"frequency\", and "
+           "\"real\" and \"imaginary\" or \"magnitude\" and \"phase\"")
+          .replacing("quantity"),
+      word("use",
+           {{"fit", "the unknowns are fitted to it", false},
+            {"predict", "kept out of the fit; how well it is predicted is reported", true}},
+           to(&DeviceTest::predict), "what it is for")
+          .otherwise("fit"),
+      number("weight", to(&DeviceTest::weight),
+             "of its errors, which are relative: to the largest value, of a response to each")
+          .above(0)
+          .otherwise("1"),
+  };
+  Section set;
+  set.name = "set";
+  set.meaning = "keys that have another value than in the case in this test, as \"weight.mass\" = \"35 g\"";
+  set.presence = Section::Presence::separate;
+  test.sections = {set};
+  Section section;
+  section.name = "identify";
+  section.meaning = "keys of a case are fitted to what was measured on the device, by `dielast fit`";
+  section.presence = Section::Presence::separate;
+  section.access = same_object();
+  section.keys = {
+      text("unknowns", to(&Identification::keys),
+           "keys of the case, which has their start values, such as \"film.material.shear_modulus\"")
+          .values(1, 100),
+      number(
+          "range", to(&Identification::range),
+          "largest factor between start value and result; where a result lies at it, the tests do not tell")
+          .above(1)
+          .at_most(1e6)
+          .otherwise("1e3"),
+      integer("max_iterations", to(&Identification::max_iterations), "iterations before the fit gives up")
+          .at_least(1)
+          .at_most(1000)
+          .otherwise("50"),
+  };
+  Section start;
+  start.name = "start";
+  start.meaning = "start values of unknowns other than the case's";
+  start.presence = Section::Presence::separate;
+  section.sections = {start, test};
+  return section;
+}
+
+} // namespace dielast::cases
