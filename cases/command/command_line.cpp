@@ -85,6 +85,15 @@ void add_commands(CLI::App& app, Arguments& arguments) {
 
   study_command->add_flag("--dry-run", arguments.dry_run,
                           "list the points and try one, for an estimate of time and disk");
+  study_command->add_option("--slurm", arguments.slurm,
+                            "run the points as a job array, with these options of sbatch: "
+                            "--slurm=\"--partition=main --time=1:00:00\"");
+  study_command->add_option("--batch", arguments.batch, "points of one task of the job array [1]")
+      ->check(CLI::Range(1, 1000000))
+      ->needs("--slurm");
+  study_command->add_option(
+      "--points", arguments.points,
+      "run these points only, such as 1-20,25, and make no table: what one job of a cluster does");
 
   auto* linearise_command =
       takes_case(add("linearise", "make a small linear model about the state at the end of a case's steps"));

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct Arguments {
   std::string topic = "overview";
   int threads = 0;
   std::string shell;
+  std::optional<std::string> slurm, points;
+  int batch = 1;
   const CLI::App* app = nullptr; ///< all commands
   bool resume = false, quiet = false, tangent = false, dry_run = false;
 

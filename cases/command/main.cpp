@@ -84,9 +84,22 @@ ExitCode mesh(const Arguments& arguments) {
   return ExitCode::ok;
 }
 
+/// Jobs find program, case and folder from wherever they start.
+cases::Cluster cluster(const Arguments& arguments, const std::filesystem::path& directory) {
+  cases::Cluster cluster{*arguments.slurm, arguments.batch, {}};
+  cluster.command = {std::filesystem::read_symlink("/proc/self/exe"), "study",
+                     std::filesystem::absolute(arguments.case_file)};
+  for (const std::string& setting : arguments.overrides)
+    cluster.command.insert(cluster.command.end(), {"--set", setting});
+  cluster.command.insert(cluster.command.end(), {"-o", std::filesystem::absolute(directory)});
+  return cluster;
+}
+
 ExitCode study(const Arguments& arguments) {
   const cases::Study asked = cases::read_study(arguments.case_file, arguments.overrides);
-  const cases::StudySettings settings{arguments.output("-study"), arguments.threads, arguments.resume};
+  cases::StudySettings settings{arguments.output("-study"), arguments.threads, arguments.resume};
+  if (arguments.points) return run_points(asked, settings, cases::list_of(*arguments.points));
+  if (arguments.slurm) settings.cluster = cluster(arguments, settings.directory);
   return arguments.dry_run ? plan_study(asked, settings) : run_study(asked, settings);
 }
 

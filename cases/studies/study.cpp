@@ -4,11 +4,11 @@
 #include "cases/console/terminal.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/readers/resolved.hpp"
-#include "cases/runs/run.hpp"
 #include "cases/studies/study_best.hpp"
+#include "cases/studies/study_cluster.hpp"
+#include "cases/studies/study_process.hpp"
 #include "cases/studies/study_report.hpp"
 #include "cases/studies/study_targets.hpp"
-#include "meshing/mesh_error.hpp"
 #include "post/files/results_folder.hpp"
 
 #include <fmt/format.h>
@@ -17,10 +17,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <map>
-#include <sstream>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -28,78 +25,6 @@
 namespace dielast::cases {
 
 namespace {
-
-/// In the child: runs one point and ends the process. Why it failed is left in the point's mark.
-[[noreturn]] void run_point(const Study& study, const StudyPoint& point, bool resume) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  int code = static_cast<int>(ExitCode::usage_or_file);
-  std::string message;
-  try {
-    code = static_cast<int>(run_case(read_case(study.base, point.overrides),
-                                     {.directory = point.directory,
-                                      .threads = 1,
-                                      .resume = resume,
-                                      .quiet = true,
-                                      .part_of = post::Link{study.title, "../report.html"}}));
-  } catch (const CaseError& error) {
-    code = static_cast<int>(ExitCode::invalid_case);
-    message = error.what();
-  } catch (const meshing::MeshError& error) {
-    code = static_cast<int>(ExitCode::mesh);
-    message = error.what();
-  } catch (const std::exception& error) {
-    message = error.what();
-  }
-  try {
-    if (code != static_cast<int>(ExitCode::interrupted)) mark_done(point, code, message);
-  } catch (const std::exception&) {
-    code = static_cast<int>(ExitCode::usage_or_file);
-  }
-  std::fflush(nullptr);
-  _exit(code);
-}
-
-/// The point's directory, as far as it goes, is of the case as it is now.
-bool is_current(const Study& study, const StudyPoint& point) {
-  std::ostringstream resolved;
-  resolved << std::ifstream(point.directory / resolved_name).rdbuf();
-  try {
-    return resolved.str() == resolved_text(read_case(study.base, point.overrides));
-  } catch (const CaseError&) {
-    return false; // it fails again as quickly
-  }
-}
-
-/// Takes up how the process of a point ended; returns its exit code, -signal when it crashed.
-int exit_code_of(const StudyPoint& point, int status) {
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  if (code < 0 && !interrupted()) mark_done(point, code, fmt::format("crashed (signal {})", -code));
-  return code;
-}
-
-pid_t start(const Study& study, const StudyPoint& point, bool resume) {
-  std::fflush(nullptr); // or every child would print it again
-  const pid_t child = fork();
-  if (child == 0) run_point(study, point, resume);
-  if (child < 0) throw FileError("cannot start another process for the study's points");
-  return child;
-}
-
-/// What is there of a point before it runs.
-struct Kept {
-  std::optional<PointResult> result; ///< it need not run
-  bool resume = false;               ///< otherwise: it goes on where it was stopped
-};
-
-/// A point that has crashed or could not write its files is run again.
-Kept kept_of(const Study& study, const StudyPoint& point, bool resume) {
-  const bool current = resume && is_current(study, point);
-  auto result = current ? result_of(study, point) : std::nullopt;
-  if (result && result->exit_code >= 0 && result->exit_code != static_cast<int>(ExitCode::usage_or_file))
-    return {std::move(result)};
-  if (!current) std::filesystem::remove(point.directory / "point.json");
-  return {std::nullopt, current && !std::filesystem::exists(point.directory / "summary.json")};
-}
 
 /// One line that says how far the study is: rewritten in place on a terminal, one per point in a pipe.
 class ProgressLine {
@@ -143,6 +68,42 @@ class ProgressLine {
 
 } // namespace
 
+namespace {
+
+/// Every point in a process of its own, so many at a time.
+void run_here(const Study& study, std::span<const WaitingPoint> waiting, std::size_t processes,
+              const PointEnded& ended) {
+  std::map<pid_t, const StudyPoint*> running;
+  for (std::size_t next = 0; next < waiting.size() || !running.empty();) {
+    while (next < waiting.size() && running.size() < processes && !interrupted()) {
+      const auto& [point, resume] = waiting[next++];
+      running[start(study, *point, resume)] = point;
+    }
+    if (running.empty()) break; // interrupted
+    int status = 0;
+    const auto found = running.find(waitpid(-1, &status, 0));
+    if (found == running.end()) continue;
+    const StudyPoint& point = *found->second;
+    running.erase(found);
+    const int code = exit_code_of(point, status);
+    if (code != static_cast<int>(ExitCode::interrupted)) ended(point, code);
+  }
+}
+
+} // namespace
+
+ExitCode run_points(const Study& study, const StudySettings& settings, std::span<const int> numbers) {
+  for (const StudyPoint& point : study_points(study, settings.directory)) {
+    if (interrupted()) return ExitCode::interrupted;
+    if (std::ranges::find(numbers, point.number) == numbers.end()) continue;
+    const Kept kept = kept_of(study, point, true);
+    if (!kept.result)
+      say("{}: {}  exit {}\n", point.number, label(study, point), run_and_wait(study, point, kept.resume));
+    std::fflush(stdout);
+  }
+  return interrupted() ? ExitCode::interrupted : ExitCode::ok;
+}
+
 ExitCode run_study(const Study& study, const StudySettings& settings) {
   post::ResultsFolder folder(settings.directory, "study");
   const Case base = read_case(study.base, study.settings);
@@ -164,11 +125,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       settings.directory.string());
   for (const Diagnostic& warning : base.warnings) say(stderr, "{}\n", warning.text());
   ProgressLine progress(study, points.size());
-  struct Waiting {
-    const StudyPoint* point;
-    bool resume;
-  };
-  std::vector<Waiting> waiting;
+  std::vector<WaitingPoint> waiting;
   for (const StudyPoint& point : points) {
     const Kept kept = kept_of(study, point, settings.resume);
     if (kept.result)
@@ -177,23 +134,15 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       waiting.push_back({&point, kept.resume});
   }
   progress.show();
-
-  std::map<pid_t, const StudyPoint*> running;
-  for (std::size_t next = 0; next < waiting.size() || !running.empty();) {
-    while (next < waiting.size() && running.size() < processes && !interrupted()) {
-      const auto& [point, resume] = waiting[next++];
-      running[start(study, *point, resume)] = point;
-    }
-    if (running.empty()) break; // interrupted
-    int status = 0;
-    const pid_t ended = waitpid(-1, &status, 0);
-    const auto found = running.find(ended);
-    if (found == running.end()) continue;
-    const StudyPoint& point = *found->second;
-    running.erase(found);
-    const int code = exit_code_of(point, status);
-    if (code != static_cast<int>(ExitCode::interrupted)) progress.done(point, code);
+  const auto ended = [&](const StudyPoint& point, int code) {
+    progress.done(point, code);
     folder.write("study.csv", study_table(study, points));
+  };
+  if (settings.cluster) {
+    folder.add(cluster_folder);
+    run_on_cluster(study, waiting, settings.directory, *settings.cluster, ended);
+  } else {
+    run_here(study, waiting, processes, ended);
   }
   progress.end();
   if (interrupted()) {
@@ -205,11 +154,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     folder.add(point.directory.filename());
     const Kept kept = kept_of(study, point, settings.resume);
     if (kept.result || interrupted()) return kept.result;
-    int status = 0;
-    const pid_t child = start(study, point, kept.resume);
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    const int code = exit_code_of(point, status);
+    const int code = run_and_wait(study, point, kept.resume);
     if (code == static_cast<int>(ExitCode::interrupted)) return std::nullopt;
     say("target: {}  exit {}\n", label(study, point), code);
     return result_of(study, point);

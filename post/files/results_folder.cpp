@@ -69,7 +69,7 @@ int open_locked(const fs::path& folder) {
     ::close(descriptor);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  throw std::runtime_error(
+  throw FolderInUse(
       fmt::format("{}: in use by another run; wait until it has ended or {}", folder.string(), choose));
 }
 

@@ -4,11 +4,17 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace dielast::post {
+
+/// Another process writes to a folder of results.
+struct FolderInUse : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// A folder of results, which no other process can own while this lives, and its manifest: the list of what
 /// belongs to the results. What the manifest does not list is foreign and is never removed.
@@ -19,8 +25,8 @@ namespace dielast::post {
 class ResultsFolder {
  public:
   /// Makes the folder with its parents. `command` is the one that writes ("run"). Throws std::runtime_error
-  /// when the folder cannot be made or written to, when another process owns it, when it holds results of
-  /// another command, or a manifest that cannot be read.
+  /// when the folder cannot be made or written to, when it holds results of another command, or a manifest
+  /// that cannot be read; FolderInUse when another process owns it.
   ResultsFolder(std::filesystem::path path, std::string_view command);
   ~ResultsFolder();
   ResultsFolder(const ResultsFolder&) = delete;
