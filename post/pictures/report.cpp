@@ -34,6 +34,7 @@ td.good, td.warning, td.bad { font-weight: 600; }
 .card .label { color: var(--soft); font-size: 13px; }
 .card .value { overflow-wrap: anywhere; font-size: 21px; font-weight: 600; font-variant-numeric: tabular-nums; }
 .card .note { color: var(--soft); font-size: 12.5px; }
+th.sorts { cursor: pointer; }
 .scroll { overflow-x: auto; margin: 0 0 14px; }
 table { border-collapse: collapse; min-width: 55%; font-size: 14px; font-variant-numeric: tabular-nums; }
 td:first-child { }
@@ -44,6 +45,7 @@ td { border-bottom: 1px solid var(--line); }
 pre { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; overflow-x: auto; font: 12.5px/1.5 ui-monospace, "SF Mono", Consolas, "DejaVu Sans Mono", monospace; }
 .images { display: grid; grid-template-columns: repeat(auto-fit, minmax(440px, 1fr)); gap: 20px; }
 figure { margin: 0 0 12px; break-inside: avoid; }
+figure:not(.wide) { max-width: 620px; }
 figure.wide { grid-column: 1 / -1; }
 figure img { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 8px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
@@ -51,6 +53,41 @@ footer { margin-top: 44px; padding-top: 14px; border-top: 1px solid var(--line);
 @media print { main { max-width: none; padding: 0; } h2 { break-after: avoid; } tr { break-inside: avoid; }
   pre { white-space: pre-wrap; } .card, pre, .status { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 @media (max-width: 560px) { .images { grid-template-columns: 1fr; } }
+)";
+
+/// Tables of more than two rows are sorted by a click on the head of a column, up, then down; not by columns
+/// whose numbers have different units.
+constexpr std::string_view script = R"(
+for (const table of document.querySelectorAll("table")) {
+  const body = table.tBodies[0], rows = [...body.rows];
+  if (rows.length < 3) continue;
+  [...table.tHead.rows[0].cells].forEach((head, column) => {
+    const text = row => row.cells[column] ? row.cells[column].textContent.trim() : "";
+    const number = words => words.match(/^([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)(.*)$/i);
+    const filled = rows.map(text).filter(words => words !== "" && words !== "-");
+    const numbers = filled.map(number).filter(found => found);
+    const numeric = numbers.length === filled.length && new Set(numbers.map(found => found[2].trim())).size === 1;
+    if (!numeric && numbers.length > 0) return;
+    const key = row => {
+      const words = text(row);
+      return words === "" || words === "-" ? null : numeric ? Number(number(words)[1]) : words;
+    };
+    let sign = -1;
+    const sort = () => {
+      sign = -sign;
+      rows.sort((one, other) => {
+        const a = key(one), b = key(other);
+        if (a === null || b === null) return (a === null) - (b === null);
+        return sign * (a < b ? -1 : a > b ? 1 : 0);
+      });
+      body.append(...rows);
+    };
+    head.classList.add("sorts");
+    head.tabIndex = 0;
+    head.addEventListener("click", sort);
+    head.addEventListener("keydown", event => { if (event.key === "Enter") sort(); });
+  });
+}
 )";
 
 std::string_view css_class(Tone tone) {
@@ -169,7 +206,8 @@ std::string Report::html() const {
                         escape_markup(highlight.note));
   if (!highlights.empty()) page += "</div>\n";
   for (const Section& section : sections) page += html_of(section);
-  return page + "<footer>" + escape_markup(footer) + "</footer>\n</main>\n</body>\n</html>\n";
+  return page + "<footer>" + escape_markup(footer) + "</footer>\n</main>\n<script>" + std::string(script) +
+         "</script>\n</body>\n</html>\n";
 }
 
 } // namespace dielast::post
