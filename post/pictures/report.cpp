@@ -206,8 +206,8 @@ std::string Report::html() const {
                         escape_markup(highlight.note));
   if (!highlights.empty()) page += "</div>\n";
   for (const Section& section : sections) page += html_of(section);
-  return page + "<footer>" + escape_markup(footer) + "</footer>\n</main>\n<script>" + std::string(script) +
-         "</script>\n</body>\n</html>\n";
+  return page + "<footer>" + escape_markup(footer) + "</footer>\n</main>\n<script>//<![CDATA[" +
+         std::string(script) + "//]]></script>\n</body>\n</html>\n";
 }
 
 } // namespace dielast::post
