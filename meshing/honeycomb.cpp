@@ -56,6 +56,18 @@ void validate(const HoneycombShape& shape) {
 
 } // namespace
 
+std::array<Eigen::Vector2d, 6> cell_corners(const HoneycombShape& shape, double inwards) {
+  const double L = shape.wall_length,
+               apex = L / 2 - L * std::cos(shape.angle) - inwards / std::sin(shape.angle);
+  const double half_top = L / 2 - inwards / std::tan(shape.angle / 2);
+  const double height = L * std::sin(shape.angle) - inwards;
+  if (!(std::min({apex, half_top, height}) > 1e-6 * L))
+    throw std::invalid_argument(
+        fmt::format("{:.6g} mm beside each wall leave nothing of a cell", 1e3 * inwards));
+  return {Eigen::Vector2d(apex, 0),  {half_top, height},   {-half_top, height},
+          Eigen::Vector2d(-apex, 0), {-half_top, -height}, {half_top, -height}};
+}
+
 Honeycomb honeycomb(const HoneycombShape& shape) {
   validate(shape);
   Honeycomb lattice;

@@ -50,4 +50,8 @@ struct Honeycomb {
 /// Throws std::invalid_argument when the shape is impossible.
 Honeycomb honeycomb(const HoneycombShape& shape);
 
+/// Corners of a cell about its centre, counter-clockwise from the right apex, after all of its sides have
+/// moved inwards by a distance, m. Throws std::invalid_argument where this leaves nothing of the cell.
+std::array<Eigen::Vector2d, 6> cell_corners(const HoneycombShape& shape, double inwards);
+
 } // namespace dielast::meshing

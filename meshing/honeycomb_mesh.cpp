@@ -34,7 +34,12 @@ void validate(const MeshDensity& density) {
 /// Builds the mesh of order 1: joints, then the nodes inside the walls, then those inside the cells.
 class Builder {
  public:
-  Builder(const Honeycomb& lattice, const MeshDensity& density) : lattice_(lattice), density_(density) {
+  Builder(const HoneycombShape& shape, const Honeycomb& lattice, const MeshDensity& density,
+          const WallSurroundings& surroundings)
+      : shape_(shape), lattice_(lattice), density_(density) {
+    if (surroundings.width > 0) distances_.push_back(surroundings.width / 2);
+    if (surroundings.gap > 0) distances_.push_back(surroundings.width / 2 + surroundings.gap);
+    bonded_ = surroundings.width > 0;
     mesh_.blocks = {{CellType::triangle3, {}}, {CellType::line2, {}}};
     for (const Vector2d& joint : lattice.joints) add_node(joint);
     for (std::size_t k = 0; k < lattice.walls.size(); ++k) add_wall(static_cast<int>(k));
@@ -46,6 +51,7 @@ class Builder {
     };
     mesh_.cell_sets["film"] = all(0);
     mesh_.cell_sets["walls"] = all(1);
+    if (distances_.empty()) mesh_.cell_sets["electrode"] = all(0);
   }
 
   Mesh take() { return std::move(mesh_); }
@@ -89,6 +95,14 @@ class Builder {
     CellSet triangles;
     for (const auto& triangle : shape.triangles) {
       triangles.cells.push_back(mesh_.blocks[0].size());
+      if (!distances_.empty()) {
+        Vector2d middle = Vector2d::Zero();
+        for (const int corner : triangle) middle += shape.points[corner] / 3;
+        if (is_within(middle, distances_.back()))
+          mesh_.cell_sets["electrode"].cells.push_back(mesh_.blocks[0].size());
+        else if (bonded_ && !is_within(middle, distances_.front()))
+          mesh_.cell_sets["under_walls"].cells.push_back(mesh_.blocks[0].size());
+      }
       for (const int corner : triangle) mesh_.blocks[0].nodes.push_back(nodes[corner]);
     }
     mesh_.cell_sets[fmt::format("cell[{},{}]", cell.column, cell.row)] = std::move(triangles);
@@ -117,12 +131,59 @@ class Builder {
       for (const double x : corners.back()) key.push_back(std::lround(x / resolution));
     }
     const auto [entry, added] = shapes_.try_emplace(std::move(key));
-    if (added) entry->second = triangulate(corners, density_.grading);
+    if (added)
+      entry->second = distances_.empty() ? triangulate(corners, density_.grading) : strips_beside(corners);
     return entry->second;
   }
 
+  /// Whether a point, about the centre of its cell, is beyond that distance from all of the cell's walls.
+  bool is_within(const Vector2d& point, double distance) const {
+    const auto corners = cell_corners(shape_, distance);
+    bool inside = false;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Vector2d &a = corners.at(k), &b = corners.at((k + 1) % 6);
+      const double turn = (b - a).x() * (point - a).y() - (b - a).y() * (point - a).x();
+      if ((a.y() > point.y()) != (b.y() > point.y()) && (turn > 0) == (b.y() > a.y())) inside = !inside;
+    }
+    return inside;
+  }
+
+  /// A cell with sides along its walls at each of the distances from them. Nodes of these sides are opposite
+  /// to those of the wall, but for those next to its ends.
+  Triangulation strips_beside(const std::vector<Vector2d>& outline) const {
+    constexpr double nearest_to_end = 0.35; // of an element
+    const int n = density_.wall_elements;
+    PlanarGraph graph{outline, {}};
+    const auto close = [&graph](int first, std::vector<std::array<int, 2>>& sides) {
+      const int last = static_cast<int>(graph.points.size()) - 1;
+      for (int i = first; i <= last; ++i) sides.push_back({i, i == last ? first : i + 1});
+    };
+    close(0, graph.outline);
+    const double element = (outline[1] - outline[0]).norm();
+    for (const double distance : distances_) {
+      const auto corners = cell_corners(shape_, distance);
+      const int first = static_cast<int>(graph.points.size());
+      for (std::size_t side = 0; side < 6; ++side) {
+        const Vector2d &from = corners.at(side), &to = corners.at((side + 1) % 6);
+        const Vector2d along = (to - from).normalized();
+        graph.points.push_back(from);
+        for (int k = 1; k < n; ++k) {
+          const double station =
+              (outline[side * static_cast<std::size_t>(n) + static_cast<std::size_t>(k)] - from).dot(along);
+          if (station > nearest_to_end * element && (to - from).norm() - station > nearest_to_end * element)
+            graph.points.push_back(from + station * along);
+        }
+      }
+      close(first, graph.inner);
+    }
+    return triangulate(graph, [size = density_.grading * element](const Vector2d&) { return size; });
+  }
+
+  const HoneycombShape& shape_;
   const Honeycomb& lattice_;
   const MeshDensity& density_;
+  std::vector<double> distances_; ///< from the walls, of sides that triangles follow
+  bool bonded_ = false;           ///< the first is the face of a wall
   Mesh mesh_;
   std::vector<std::vector<int>> wall_nodes_;
   std::map<std::vector<long>, Triangulation> shapes_;
@@ -164,10 +225,11 @@ int node_nearest_centroid(const Mesh& mesh) {
 
 } // namespace
 
-Mesh honeycomb_mesh(const HoneycombShape& shape, const MeshDensity& density) {
+Mesh honeycomb_mesh(const HoneycombShape& shape, const MeshDensity& density,
+                    const WallSurroundings& surroundings) {
   validate(density);
   const Honeycomb lattice = honeycomb(shape);
-  Mesh mesh = Builder(lattice, density).take();
+  Mesh mesh = Builder(shape, lattice, density, surroundings).take();
   if (density.order == 2) add_middle_nodes(mesh);
 
   const int columns = static_cast<int>(shape.columns.size());

@@ -25,8 +25,9 @@ using Triangle = std::array<int, 3>;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
 struct FaceMark {
-  bool outside = false;
+  int piece = 0; // unknown; from 1 on those of the region
 };
+constexpr int outside = -1;
 using FaceBase =
     CGAL::Constrained_triangulation_face_base_2<Kernel,
                                                 CGAL::Triangulation_face_base_with_info_2<FaceMark, Kernel>>;
@@ -63,16 +64,17 @@ double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d&
 }
 
 /// Works about the middle of the outline's bounding box, so that mirror images are exact.
-class PolygonMesher {
+class GraphMesher {
  public:
-  PolygonMesher(std::span<const Vector2d> outline, double grading)
-      : sides_(static_cast<int>(outline.size())) {
+  GraphMesher(const PlanarGraph& graph, const std::function<double(const Vector2d&)>& largest_size)
+      : outline_(static_cast<int>(graph.outline.size())), sides_(graph.outline), largest_size_(largest_size) {
+    sides_.insert(sides_.end(), graph.inner.begin(), graph.inner.end());
     Eigen::AlignedBox2d box;
-    for (const Vector2d& p : outline) box.extend(p);
+    for (const Vector2d& p : graph.points) box.extend(p);
     middle_ = box.center();
-    for (const Vector2d& p : outline) points_.push_back(p - middle_);
-    for (int i = 0; i < sides_; ++i) longest_side_ = std::max(longest_side_, (end(i) - points_[i]).norm());
-    largest_size_ = grading * longest_side_;
+    for (const Vector2d& p : graph.points) points_.push_back(p - middle_);
+    for (int i = 0; i < side_count(); ++i)
+      longest_side_ = std::max(longest_side_, (end(i) - start(i)).norm());
     mirror_x_ = is_symmetric({-1, 1});
     mirror_y_ = is_symmetric({1, -1});
   }
@@ -85,7 +87,7 @@ class PolygonMesher {
       triangulate();
     }
     for (Vector2d& p : points_) p += middle_;
-    return {std::move(points_), std::move(triangles_)};
+    return {std::move(points_), std::move(triangles_), std::move(pieces_)};
   }
 
  private:
@@ -94,7 +96,9 @@ class PolygonMesher {
     int first, images;
   };
 
-  const Vector2d& end(int side) const { return points_[(side + 1) % sides_]; }
+  int side_count() const { return static_cast<int>(sides_.size()); }
+  const Vector2d& start(int side) const { return points_[sides_[side][0]]; }
+  const Vector2d& end(int side) const { return points_[sides_[side][1]]; }
 
   bool is_symmetric(const Vector2d& mirror) const {
     const double tolerance = 1e-6 * longest_side_;
@@ -116,8 +120,8 @@ class PolygonMesher {
 
   bool is_inside(const Vector2d& p) const {
     bool inside = false;
-    for (int i = 0; i < sides_; ++i) {
-      const Vector2d &a = points_[i], &b = end(i);
+    for (int i = 0; i < outline_; ++i) {
+      const Vector2d &a = start(i), &b = end(i);
       if ((a.y() > p.y()) != (b.y() > p.y()) && (cross(b - a, p - a) > 0) == (b.y() > a.y()))
         inside = !inside;
     }
@@ -125,10 +129,10 @@ class PolygonMesher {
   }
 
   double target_size(const Vector2d& p) const {
-    double size = largest_size_;
-    for (int i = 0; i < sides_; ++i)
-      size = std::min(size, (end(i) - points_[i]).norm() +
-                                size_growth * distance_to_segment(p, points_[i], end(i)));
+    double size = largest_size_(p + middle_);
+    for (int i = 0; i < side_count(); ++i)
+      size =
+          std::min(size, (end(i) - start(i)).norm() + size_growth * distance_to_segment(p, start(i), end(i)));
     return size;
   }
 
@@ -136,8 +140,8 @@ class PolygonMesher {
   double room(const Vector2d& p) const {
     if (!p.allFinite() || !is_inside(p)) return 0;
     const double size = target_size(p);
-    for (int i = 0; i < sides_; ++i)
-      if (distance_to_segment(p, points_[i], end(i)) < outline_spacing * size) return 0;
+    for (int i = 0; i < side_count(); ++i)
+      if (distance_to_segment(p, start(i), end(i)) < outline_spacing * size) return 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (const Vector2d& q : points_) nearest = std::min(nearest, (p - q).squaredNorm());
     return std::sqrt(nearest) / size;
@@ -214,47 +218,84 @@ class PolygonMesher {
       vertices.back()->info() = static_cast<int>(vertices.size()) - 1;
     }
     try {
-      for (int i = 0; i < sides_; ++i) delaunay.insert_constraint(vertices[i], vertices[(i + 1) % sides_]);
+      for (const auto& [from, to] : sides_) delaunay.insert_constraint(vertices[from], vertices[to]);
     } catch (const Delaunay::Intersection_of_constraints_exception&) {
       throw MeshError("the outline of a region crosses itself");
     }
-    mark_outside(delaunay);
+    number_pieces(delaunay);
     triangles_.clear();
+    pieces_.clear();
     for (const auto face : delaunay.finite_face_handles())
-      if (!face->info().outside)
+      if (face->info().piece != outside) {
         triangles_.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+        pieces_.push_back(face->info().piece - 1);
+      }
   }
 
-  /// What can be reached from infinity without crossing the outline. (The position of a face does not tell:
-  /// nearly straight chains of sides leave slivers outside whose centroids round to either side.)
-  static void mark_outside(Delaunay& delaunay) {
-    std::vector<Delaunay::Face_handle> front{delaunay.infinite_face()};
-    front.back()->info().outside = true;
-    while (!front.empty()) {
-      const Delaunay::Face_handle face = front.back();
-      front.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const Delaunay::Face_handle neighbour = face->neighbor(k);
-        if (face->is_constrained(k) || neighbour->info().outside) continue;
-        neighbour->info().outside = true;
-        front.push_back(neighbour);
-      }
+  /// A piece is what can be reached without crossing a side; its largest triangle tells whether it is in the
+  /// region. (Others do not: nearly straight chains of sides leave slivers outside whose centroids round to
+  /// either side.)
+  void number_pieces(Delaunay& delaunay) const {
+    fill(delaunay.infinite_face(), outside);
+    int count = 0;
+    for (const auto face : delaunay.finite_face_handles()) {
+      if (face->info().piece != 0) continue;
+      const std::vector<Delaunay::Face_handle> piece = fill(face, ++count);
+      const auto corner = [this](const Delaunay::Face_handle& f, int k) -> const Vector2d& {
+        return points_[f->vertex(k)->info()];
+      };
+      const auto area = [&](const Delaunay::Face_handle& f) {
+        return cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0));
+      };
+      const auto largest = *std::ranges::max_element(piece, {}, area);
+      if (is_inside((corner(largest, 0) + corner(largest, 1) + corner(largest, 2)) / 3)) continue;
+      for (const auto& hole : piece) hole->info().piece = outside;
+      --count;
     }
   }
 
-  int sides_;
+  /// Marks the piece around a face, and returns its faces.
+  static std::vector<Delaunay::Face_handle> fill(Delaunay::Face_handle start, int piece) {
+    std::vector<Delaunay::Face_handle> found{start};
+    start->info().piece = piece;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Delaunay::Face_handle face = found[i], neighbour = face->neighbor(k);
+        if (face->is_constrained(k) || neighbour->info().piece != 0) continue;
+        neighbour->info().piece = piece;
+        found.push_back(neighbour);
+      }
+    return found;
+  }
+
+  int outline_; ///< how many of the sides are the outline's: they come first
+  std::vector<std::array<int, 2>> sides_;
+  const std::function<double(const Vector2d&)>& largest_size_;
   Vector2d middle_;
-  double longest_side_ = 0, largest_size_ = 0;
+  double longest_side_ = 0;
   bool mirror_x_ = false, mirror_y_ = false;
   std::vector<Vector2d> points_;
   std::vector<Orbit> orbits_;
   std::vector<Triangle> triangles_;
+  std::vector<int> pieces_;
 };
 
 } // namespace
 
+Triangulation triangulate(const PlanarGraph& graph,
+                          const std::function<double(const Vector2d&)>& largest_size) {
+  return GraphMesher(graph, largest_size).run();
+}
+
 Triangulation triangulate(std::span<const Vector2d> outline, double grading) {
-  return PolygonMesher(outline, grading).run();
+  PlanarGraph graph{{outline.begin(), outline.end()}, {}};
+  const int sides = static_cast<int>(outline.size());
+  double longest = 0;
+  for (int i = 0; i < sides; ++i) {
+    graph.outline.push_back({i, (i + 1) % sides});
+    longest = std::max(longest, (graph.points[(i + 1) % sides] - graph.points[i]).norm());
+  }
+  return triangulate(graph, [size = grading * longest](const Vector2d&) { return size; });
 }
 
 } // namespace dielast::meshing
