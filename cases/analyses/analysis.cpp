@@ -108,7 +108,9 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
       .kind = step.kind,
       .step = step.name,
       .of = quantity.name,
-      .columns = {"frequency[Hz]", quantity.name + "_per_volt[m/V]", quantity.name + "_phase[deg]"}};
+      .columns = {"frequency[Hz]",
+                  fmt::format("{}_per_volt[{}/V]", quantity.name, unit_of(quantity, one.quantities)),
+                  quantity.name + "_phase[deg]"}};
   const std::vector<std::size_t> driven = driven_ports(one, step.driven);
   for (const std::size_t port : driven) {
     const std::string& name = analysis.driven.emplace_back(one.electrodes[port].name);
@@ -216,10 +218,33 @@ fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
   return drive;
 }
 
+namespace {
+
+/// How a rotation vector goes with a small rotation that follows it, about axes that stay.
+Eigen::Matrix3d spin_per_turn(const Eigen::Vector3d& spin) {
+  const double angle = spin.norm();
+  Eigen::Matrix3d cross;
+  cross << 0, -spin.z(), spin.y(), spin.z(), 0, -spin.x(), -spin.y(), spin.x(), 0;
+  const double factor =
+      angle < 1e-3 ? 1.0 / 12 : 1 / (angle * angle) - (1 + std::cos(angle)) / (2 * angle * std::sin(angle));
+  return Eigen::Matrix3d::Identity() - cross / 2 + factor * cross * cross;
+}
+
+} // namespace
+
 Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::State& state,
                              const Quantity& quantity) {
   const fem::DofMap& dofs = device.model.dofs;
   Eigen::VectorXd row = Eigen::VectorXd::Zero(dofs.count());
+  if (quantity.kind == QuantityKind::angle) {
+    const int master = device.mesh.node_sets.at(quantity.of).front();
+    const Eigen::Matrix3d turns =
+        spin_per_turn(fem::spin_of(state.rotation[static_cast<std::size_t>(master)]));
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(master, 3 + c); e != fem::DofMap::absent)
+        row[e] = turns(*quantity.along, c);
+    return row;
+  }
   const Eigen::Vector3d along =
       quantity.along == along_gravity ? one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along);
   const auto& nodes = device.mesh.node_sets.at(quantity.of);

@@ -29,7 +29,7 @@ post::Section analysis_section(const Analysis& analysis) {
     std::size_t column;
   };
   std::vector<post::Plot> plots;
-  std::vector<Curve> curves{{analysis.of, analysis.of + " [m/V]", 1}};
+  std::vector<Curve> curves{{analysis.of, analysis.columns[1], 1}};
   const std::size_t count = analysis.driven.size();
   for (std::size_t d = 0; d < count; ++d)
     curves.push_back({count > 1 ? "Voltage at electrode " + analysis.driven[d] : "Voltage at the electrode",

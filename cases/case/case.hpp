@@ -99,6 +99,13 @@ struct Body {
   std::optional<std::array<double, 3>> centre; ///< of mass, as drawn, m; absent: the mean of its nodes
   std::optional<std::array<double, 3>> pivot;  ///< a point that stays where it is drawn, m
   std::array<bool, 6> fixed{};                 ///< displacements of its own place, rotations about x, y, z
+  double damping_rate = 0; ///< c / m of dampers between all of its mass and the ground, 1/s
+};
+
+/// [pivot]: a pin under a body's own place, which it pushes along z and lets turn
+struct Pivot {
+  std::string body;
+  double height = 0; ///< from where the body is drawn, m
 };
 
 /// [weight]: hangs from a strip; the mass of its body "bar"
@@ -319,6 +326,7 @@ struct Case {
   std::vector<Body> bodies;
   std::optional<HungWeight> weight{};
   Gravity gravity;
+  std::optional<Pivot> pivot;
   std::optional<Chamber> chamber;
   std::vector<Spring> springs;
   std::vector<Linkage> linkages;

@@ -40,12 +40,19 @@ struct Rod {
   std::optional<double> electrode_length{}; ///< likewise, along the rod
 };
 
+enum class WallBond {
+  line,  ///< the film moves with the wall's centreline
+  width, ///< the film under a wall is clamped to it over its width
+};
+
 /// [honeycomb]: the geometry template of the unidirectional actuator
 struct Honeycomb {
   double angle = 0;         ///< interior angle at a cell's four equal vertices, rad
   std::vector<int> columns; ///< cells in each column, left to right
   double wall_length = 0;   ///< m
   Beam wall;
+  WallBond wall_bond{};
+  double electrode_gap = 0; ///< from the wall, or its face where it is bonded over its width, m
 };
 
 /// [disc]: clamped at its rim; dimensions as clamped, after the prestretch
@@ -57,6 +64,29 @@ struct Disc {
 /// [annulus]: dimensions as clamped, after the prestretch
 struct Annulus {
   double inner_radius = 0, outer_radius = 0; ///< m
+};
+
+enum class RegionKind { sector, ring, rectangle, polygon };
+
+/// [[region]]: a part of a disc or an annulus, drawn in its plane as clamped; dimensions in m, angles in rad
+struct DrawnRegion {
+  std::string name;
+  RegionKind kind{};
+  std::optional<double> inner_radius{}, outer_radius{}; ///< of sectors and rings; absent: the film's
+  double from = 0, to = 0;                              ///< directions between which a sector is
+  std::array<double, 2> centre{};                       ///< of a rectangle
+  double length = 0, width = 0;                         ///< of a rectangle, along x and y before it is turned
+  double turned = 0;                                    ///< of a rectangle, about its centre
+  std::vector<double> x, y;                             ///< corners of a polygon
+  double gap = 0;                                       ///< by which all of its edges are moved inwards
+};
+
+/// [sectors]: regions of one size around the middle, called a, b, c, ... counter-clockwise
+struct Sectors {
+  int count = 0;
+  double gap = 0;      ///< width of the strip between two of them, m
+  double edge_gap = 0; ///< between them and the film's edges, m
+  double first = 0;    ///< direction of the middle of the first, rad from x
 };
 
 enum class PatchMode {
@@ -151,6 +181,8 @@ struct Part {
   std::optional<Beam> beam;
   std::optional<Leaf> hinge{}, ribbon{}; ///< of antagonistic rolls
   Geometry geometry;
+  std::vector<DrawnRegion> regions{};
+  std::optional<Sectors> sectors{};
   MeshOptions mesh;
   std::array<double, 3> at{}; ///< where the origin of its mesh is, m
   double turned = 0;          ///< of its mesh about z, rad

@@ -131,10 +131,10 @@ bool reads_film(QuantityKind kind) {
 }
 
 const Quantity* response_quantity(const Case& one, const std::string& name) {
-  for (const Quantity& quantity : one.quantities)
-    if (quantity.kind == QuantityKind::displacement && quantity.along &&
-        (name.empty() || quantity.name == name))
-      return &quantity;
+  for (const QuantityKind kind : {QuantityKind::displacement, QuantityKind::angle})
+    for (const Quantity& quantity : one.quantities)
+      if (quantity.kind == kind && quantity.along && (name.empty() || quantity.name == name))
+        return &quantity;
   return nullptr;
 }
 

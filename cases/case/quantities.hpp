@@ -18,8 +18,8 @@ std::string meaning_of(const Quantity& quantity);
 /// Whether it is read from the film's integration points at a place.
 bool reads_film(QuantityKind kind);
 
-/// Quantity of kind displacement by which a linear model responds: the named one, or the first with a
-/// direction; null when there is none.
+/// Quantity of kind displacement or angle by which a linear model responds: the named one, or the first
+/// displacement with a direction, or the first angle; null when there is none.
 const Quantity* response_quantity(const Case& one, const std::string& name);
 
 /// Column of an electrode's voltage; of its number.

@@ -63,7 +63,7 @@ std::vector<BodyNodes> add_body_nodes(const Case& one, meshing::Mesh& mesh) {
   };
   for (const Body& body : one.bodies) {
     const Eigen::Vector3d centre = centre_of(body, mesh);
-    BodyNodes nodes{add(body.pivot ? point(*body.pivot) : centre), {}};
+    BodyNodes nodes{add(body.pivot ? point(*body.pivot) : centre), {}, body.damping_rate};
     for (const auto& [from_centre, mass] : equivalent_masses(body, one.dimension == fem::Dimension::planar))
       nodes.masses.emplace_back(add(centre + from_centre), mass);
     mesh.node_sets[body.name] = {nodes.master};
@@ -79,7 +79,8 @@ std::vector<std::unique_ptr<fem::ElementBlock>> body_masses(const std::vector<Bo
     for (const auto& [node, mass] : body.masses)
       for (int c = 0; c < 3; ++c)
         if (fem::moves(dimension, c))
-          blocks.push_back(fem::make_point_mass_block({.node = node, .axis = c, .mass = mass}));
+          blocks.push_back(fem::make_point_mass_block(
+              {.node = node, .axis = c, .mass = mass, .damping = body.damping_rate * mass}));
   return blocks;
 }
 

@@ -17,6 +17,7 @@ namespace dielast::cases {
 struct BodyNodes {
   int master = 0;
   std::vector<std::pair<int, double>> masses; ///< node, kg
+  double damping_rate = 0;                    ///< of all masses, 1/s
 };
 
 /// Adds the nodes of all bodies to the mesh, behind those of the film, and their places.

@@ -119,10 +119,13 @@ void keep_homogeneous(const Part& part, const Patch& patch, const meshing::Mesh&
 void pin(const meshing::Mesh& mesh, fem::DofMap& dofs) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& x : mesh.nodes) middle += x / static_cast<double>(mesh.nodes.size());
+  std::vector<char> tied(mesh.nodes.size());
+  for (const fem::Tie& tie : dofs.ties()) tied[static_cast<std::size_t>(tie.node)] = 1;
   const auto best = [&](auto&& cost) {
-    int found = 0;
-    for (int n = 1; n < mesh.node_count(); ++n)
-      if (cost(mesh.nodes[static_cast<std::size_t>(n)]) < cost(mesh.nodes[static_cast<std::size_t>(found)]))
+    int found = static_cast<int>(std::ranges::find(tied, 0) - tied.begin());
+    for (int n = found + 1; n < mesh.node_count(); ++n)
+      if (!tied[static_cast<std::size_t>(n)] &&
+          cost(mesh.nodes[static_cast<std::size_t>(n)]) < cost(mesh.nodes[static_cast<std::size_t>(found)]))
         found = n;
     return found;
   };
@@ -345,6 +348,7 @@ Device build_device(const Case& one) {
   add_chamber(one, mesh, model);
   for (const auto& block : model.blocks) block->claim_dofs(model.dofs, dimension);
   tie_bodies(one, bodies, mesh, model.dofs);
+  clamp_under_walls(one, mesh, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty();
   if (free_body) pin(mesh, model.dofs);
@@ -361,8 +365,10 @@ Device build_device(const Case& one) {
     throw CaseError(
         {{{one.source.string()},
           "body.places",
-          fmt::format("{}: what a [[body]] carries no [[support]], [plate] or side of a patch can hold",
-                      error.what())}});
+          fmt::format(
+              "{}: what a [[body]], or a wall over its width, carries no [[support]], [plate] or side of "
+              "a patch can hold",
+              error.what())}});
   }
   model.inertia = fem::Inertia::of(model.blocks, model.dofs);
   add_circuits(one, model);

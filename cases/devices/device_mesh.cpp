@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/device.hpp"
 
+#include "cases/tables/regions.hpp"
 #include "meshing/assembly.hpp"
 #include "meshing/bars.hpp"
 #include "meshing/gmsh/gmsh_reader.hpp"
@@ -9,6 +10,7 @@
 #include "meshing/mesh_error.hpp"
 #include "meshing/patch.hpp"
 #include "meshing/refine.hpp"
+#include "meshing/regions/region_mesh.hpp"
 #include "meshing/rings.hpp"
 
 #include <algorithm>
@@ -63,17 +65,32 @@ meshing::Mesh film_and_bars(meshing::Mesh mesh, double unit, const std::vector<s
   return mesh;
 }
 
+/// A disc or an annulus in which regions are drawn.
+meshing::Mesh mesh_of_regions(const Part& part, const std::vector<meshing::Region>& regions) {
+  const meshing::RoundFilm film = *round_film(part);
+  meshing::Mesh mesh =
+      meshing::region_mesh(film, regions, part.mesh.rings, std::max(1.0, part.mesh.grading), part.mesh.order);
+  if (film.inner_radius == 0) { // the places of a disc that is all electrode
+    mesh.cell_sets["electrode"] = mesh.cell_sets.at("film");
+    mesh.node_sets["electrode"] = mesh.node_sets.at("film");
+    mesh.node_sets["electrode_edge"] = mesh.node_sets.at("rim");
+  }
+  return mesh;
+}
+
 /// The mesh of a part, as it is drawn by itself.
 meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_order,
                       const std::vector<std::string>& bars) {
   const MeshOptions& options = part.mesh;
   const bool of_revolution = dimension == fem::Dimension::axisymmetric;
+  if (const auto regions = regions_of(part); !regions.empty()) return mesh_of_regions(part, regions);
   return std::visit(
       Overloaded{
           [](std::monostate) { return meshing::Mesh{}; },
           [&](const Honeycomb& h) {
-            return meshing::honeycomb_mesh({h.angle, h.columns, h.wall_length},
-                                           {options.order, options.wall_elements, options.grading});
+            return meshing::honeycomb_mesh(
+                {h.angle, h.columns, h.wall_length}, {options.order, options.wall_elements, options.grading},
+                {h.wall_bond == WallBond::width ? h.wall.width : 0, h.electrode_gap});
           },
           [&](const Disc& d) {
             const double electrode = d.electrode_radius.value_or(d.radius);

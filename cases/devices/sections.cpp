@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -231,6 +233,64 @@ void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
         model.blocks.push_back(fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), lines), section,
                                                     Eigen::Vector3d::UnitZ(), lines));
       });
+}
+
+namespace {
+
+/// A wall as drawn: straight, between joints.
+struct DrawnWall {
+  const std::vector<int>* nodes;
+  Eigen::Vector3d from, to;
+
+  DrawnWall(const std::vector<int>& own, const meshing::Mesh& mesh) : nodes(&own) {
+    const auto at = [&](int node) -> const Eigen::Vector3d& {
+      return mesh.nodes[static_cast<std::size_t>(node)];
+    };
+    const auto farthest = [&](const Eigen::Vector3d& x) {
+      return at(*std::ranges::max_element(own, {}, [&](int node) { return (at(node) - x).norm(); }));
+    };
+    from = farthest(at(own.front()));
+    to = farthest(from);
+  }
+  double distance(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d along = to - from;
+    return (x - from - std::clamp((x - from).dot(along) / along.squaredNorm(), 0.0, 1.0) * along).norm();
+  }
+};
+
+} // namespace
+
+void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  for (const Part& part : one.parts) {
+    const auto* lattice = std::get_if<Honeycomb>(&part.geometry);
+    if (!lattice || lattice->wall_bond != WallBond::width) continue;
+    const double tolerance = 1e-6 * lattice->wall_length;
+    const auto at = [&](int node) -> const Eigen::Vector3d& {
+      return mesh.nodes[static_cast<std::size_t>(node)];
+    };
+    std::vector<DrawnWall> walls;
+    for (const auto& [name, nodes] : mesh.node_sets)
+      if (name.starts_with(part.called("wall["))) walls.emplace_back(nodes, mesh);
+    const auto& of_walls = mesh.node_sets.at(part.called("walls"));
+    for (const int node : mesh.node_sets.at(part.called("under_walls"))) {
+      if (std::ranges::binary_search(of_walls, node)) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const DrawnWall& wall : walls) nearest = std::min(nearest, wall.distance(at(node)));
+      std::vector<int> masters; // of all walls that are that near: between two of them their joint
+      for (const DrawnWall& wall : walls) {
+        if (wall.distance(at(node)) > nearest + tolerance) continue;
+        std::vector<int> common;
+        if (masters.empty())
+          common = *wall.nodes;
+        else
+          std::ranges::set_intersection(masters, *wall.nodes, std::back_inserter(common));
+        masters = std::move(common);
+      }
+      const int master =
+          *std::ranges::min_element(masters, {}, [&](int m) { return (at(m) - at(node)).norm(); });
+      dofs.tie({node, master, at(node) - at(master)});
+    }
+  }
 }
 
 std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh) {

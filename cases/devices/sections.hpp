@@ -28,6 +28,10 @@ void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 /// Width of the bar along each line of the mesh, m.
 std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh);
 
+/// Ties the nodes of film under walls that hold it over their width to the wall's nodes opposite to them,
+/// near a joint to the joint's: they move with the wall's sections.
+void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs);
+
 /// Throws MeshError where a film does not lie in a plane of constant z. `extent`: of the mesh, m.
 void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent);
 

@@ -181,6 +181,13 @@ Condition curved_triangles() {
                   });
 }
 
+Condition an_electrode_keeps_off_walls() {
+  return on_case("an [[electrode]] at the place \"electrode\"", [](const Case& one) {
+    return std::ranges::any_of(one.electrodes,
+                               [](const Electrode& e) { return e.place.ends_with("electrode"); });
+  });
+}
+
 Condition moves_along_it() {
   return on<Quantity>("motion along that direction: a planar model has none along z, one of revolution none "
                       "along y",

@@ -27,6 +27,7 @@ Condition volume_applies(); ///< a step pumps it
 Condition elements();
 Condition curved_triangles(); ///< the film is of 6-node triangles
 Condition moves_along_it();   ///< of a quantity's direction
+Condition an_electrode_keeps_off_walls();
 
 } // namespace when
 

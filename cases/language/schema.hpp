@@ -313,8 +313,11 @@ Section strip_section();                      ///< likewise
 Section weight_section();                     ///< what hangs from a strip
 std::vector<Section> leaf_sections();         ///< of a Part with antagonistic rolls
 std::vector<Section> unnamed_part_sections(); ///< film, the geometries, mesh
+std::vector<Section> region_sections();       ///< region, sectors, of a Part
 std::vector<Section> part_sections();         ///< part, tie
-std::vector<Section> action_sections();       ///< electrode, support, load, spring, linkage, drive
+Section body_section();
+Section pivot_section();
+std::vector<Section> action_sections(); ///< electrode, support, load, spring, linkage, drive
 Section step_section();
 std::vector<Section> result_sections(); ///< quantity, check, solver, output, linearise, study
 Section study_section();

@@ -328,6 +328,8 @@ void SectionReader::read_by_electrode(const Section& section, const Node& node, 
   for (const std::string& electrode : electrodes) {
     const Node* own = node.find(electrode);
     const bool named = own && own->is(Node::Kind::table);
+    if (!named && !node.items.empty() && !direct && section.presence == Section::Presence::optional)
+      continue; // others have one
     if (direct && named)
       report(own->source, joined(path, electrode), fmt::format("given twice: here and in [{}]", path));
     read_table(section, named ? *own : rest, section.access.enter(parent, electrode),

@@ -72,7 +72,10 @@ Json shaped_schema(const Section& section) {
   if (section.shape == Section::Shape::list) return {{"type", "array"}, {"minItems", 1}, {"items", schema}};
   if (section.shape == Section::Shape::named)
     return {{"type", "object"}, {"description", section.meaning}, {"additionalProperties", schema}};
-  if (section.shape == Section::Shape::by_electrode) schema["additionalProperties"] = section_schema(section);
+  if (section.shape == Section::Shape::by_electrode) {
+    schema.erase("required"); // here or in what follows it, for each electrode
+    schema["additionalProperties"] = section_schema(section);
+  }
   if (section.names)
     return {{"anyOf", {{{"enum", section.names()}}, schema}}, {"description", section.meaning}};
   return schema;

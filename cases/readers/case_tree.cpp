@@ -7,6 +7,7 @@
 #include "cases/readers/idle_keys.hpp"
 #include "cases/readers/rules.hpp"
 #include "cases/tables/patch.hpp"
+#include "cases/tables/regions.hpp"
 #include "cases/tables/templates.hpp"
 
 #include <fmt/format.h>
@@ -112,6 +113,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
     one.quantities[static_cast<std::size_t>(i)].standard = true;
   add_patch_sides(one);
   hang_weight(reader, tree, one);
+  add_pivot_support(one);
   for (Part& part : one.parts)
     if (part.mesh.rings == 0) part.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
 

@@ -52,7 +52,10 @@ void check_motions(SectionReader& reader, const Node& tree, const Case& one) {
       report_at(reader, tree, "step",
                 "a step of kind \"move\" has nothing to move; give a [[support]] a displacement");
   } else if (!has_step(one, {StepKind::move, StepKind::transient})) {
-    report_at(reader, tree, moved->standard ? "patch" : "support",
+    report_at(reader, tree,
+              !moved->standard ? "support"
+              : one.pivot      ? "pivot"
+                               : "patch",
               "no step moves it; add a [[step]] with kind = \"move\"");
   }
 }
@@ -181,7 +184,7 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
       reader.report(at.source, at.key, "there is no electrode whose source could swing");
     if (!response_quantity(one, step.response_of))
       reader.report(at.source, at.key + ".response_of",
-                    "needs a quantity of kind \"displacement\" with a direction (along)");
+                    "needs a quantity of kind \"displacement\" with a direction (along), or \"angle\"");
   }
 }
 
@@ -367,6 +370,9 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_axes(reader, tree, one);
   check_dimension(reader, tree, one);
   check_parts(reader, tree, one);
+  check_regions(reader, tree, one);
+  check_surroundings_of_walls(reader, tree, one);
+  check_pivot(reader, tree, one);
 }
 
 } // namespace dielast::cases

@@ -12,4 +12,12 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one);
 /// What a part must have, and what goes with what in it. Of the rules above, too.
 void check_parts(SectionReader& reader, const Node& tree, const Case& one);
 
+/// Regions must be parts of the film that have an area and do not overlap.
+void check_regions(SectionReader& reader, const Node& tree, const Case& one);
+
+/// Walls and the gap beside them must leave something of a honeycomb's cells.
+void check_surroundings_of_walls(SectionReader& reader, const Node& tree, const Case& one);
+
+void check_pivot(SectionReader& reader, const Node& tree, const Case& one);
+
 } // namespace dielast::cases

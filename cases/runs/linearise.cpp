@@ -26,7 +26,7 @@ using Complex = std::complex<double>;
 /// The models over the same frequencies: everything that the outputs tell.
 struct Linearised {
   fem::StateSpace model;
-  std::string output;
+  std::string output, unit;        ///< m or rad
   std::vector<std::string> driven; ///< electrodes whose sources are the input together
   std::vector<double> voltage;     ///< of these at the operating point, V
   double error = 0;                ///< largest, relative to the full response
@@ -49,7 +49,9 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   const std::vector<std::size_t> driven = driven_ports(one, one.linearise.driven);
   const fem::HarmonicDrive drive = common_drive(device, state, driven);
   const fem::Channels channels{driven, response_row(one, device, state, output).transpose(), {}};
-  Linearised result{.output = output.name, .frequency = frequencies(one.linearise.sweep)};
+  Linearised result{.output = output.name,
+                    .unit = unit_of(output, one.quantities),
+                    .frequency = frequencies(one.linearise.sweep)};
   for (const std::size_t port : driven) {
     result.driven.push_back(device.model.electrodes[port]);
     result.voltage.push_back(state.voltage[port]);
@@ -93,7 +95,7 @@ nlohmann::ordered_json model_json(const Case& one, const Linearised& found) {
   return {{"program", "dielast " DIELAST_VERSION},
           {"title", one.title},
           {"input", {{"name", "source voltage"}, {"unit", "V"}, {"electrodes", found.driven}}},
-          {"output", {{"name", found.output}, {"unit", "m"}}},
+          {"output", {{"name", found.output}, {"unit", found.unit}}},
           {"operating_voltage_V", found.voltage.size() == 1 ? nlohmann::ordered_json(found.voltage.front())
                                                             : nlohmann::ordered_json(found.voltage)},
           {"order", found.model.order()},
@@ -123,13 +125,14 @@ std::string matlab_script(const Case& one, const Linearised& found) {
     point += fmt::format("{}{:.10g} V at {}", e ? ", " : "", found.voltage[e], found.driven[e]);
   return fmt::format(
       "% {}\n% x' = A x + B u, y = C x + D u, time in s\n"
-      "% u: change of the source voltage of {} (V), y: change of {} (m), both from the state at\n"
+      "% u: change of the source voltage of {} (V), y: change of {} ({}), both from the state at\n"
       "% the end of the case's steps, with {}\n"
       "% largest relative error {:.3g} from {:.6g} to {:.6g} Hz\n{}{}{}{}"
       "% with a control toolbox: model = ss(A, B, C, D);\n",
-      title, fmt::join(found.driven, ", "), found.output, point, found.error, found.frequency.front(),
-      found.frequency.back(), matlab_matrix("A", found.model.A), matlab_matrix("B", found.model.B),
-      matlab_matrix("C", found.model.C), matlab_matrix("D", found.model.D));
+      title, fmt::join(found.driven, ", "), found.output, found.unit, point, found.error,
+      found.frequency.front(), found.frequency.back(), matlab_matrix("A", found.model.A),
+      matlab_matrix("B", found.model.B), matlab_matrix("C", found.model.C),
+      matlab_matrix("D", found.model.D));
 }
 
 post::Report report_of(const Case& one, const Linearised& found) {
@@ -139,9 +142,10 @@ post::Report report_of(const Case& one, const Linearised& found) {
   for (std::size_t c = 0; c < found.compared.size(); ++c)
     curves.push_back({one.linearise.compare[c].name, found.frequency, found.compared[c]});
   post::Section plots{"Response", {}};
-  for (std::string& svg : post::render_svg(post::bode(found.output, found.output + " [m/V]", curves)))
+  for (std::string& svg :
+       post::render_svg(post::bode(found.output, fmt::format("{} [{}/V]", found.output, found.unit), curves)))
     if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
-  post::Table gains{{"model", "static gain [m/V]"}, {}};
+  post::Table gains{{"model", fmt::format("static gain [{}/V]", found.unit)}, {}};
   for (const post::FrequencyResponse& curve : curves)
     gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::abs(curve.value.front()))});
   plots.blocks.push_back(std::move(gains));
@@ -153,28 +157,29 @@ post::Report report_of(const Case& one, const Linearised& found) {
   std::string voltages;
   for (const double voltage : found.voltage)
     voltages += (voltages.empty() ? "" : ", ") + post::engineering(voltage, "V");
-  return {
-      .title = one.title,
-      .subtitle = one.source.filename().string(),
-      .status = {"linear model", post::Tone::good},
-      .highlights = {{"order", std::to_string(found.model.order()), ""},
-                     {"largest error", fmt::format("{:.3g} %", 100 * found.error),
-                      fmt::format("of the full response, {:.4g} to {:.4g} Hz", found.frequency.front(),
-                                  found.frequency.back())},
-                     {"operating point", voltages,
-                      "source of " + fmt::format("{}", fmt::join(found.driven, ", "))},
-                     {"static gain", fmt::format("{:.4g} m/V", found.model.transfer(0)(0, 0).real()), ""}},
-      .sections = {std::move(plots), {"Poles", {std::move(poles)}}},
-      .footer = "dielast " DIELAST_VERSION};
+  return {.title = one.title,
+          .subtitle = one.source.filename().string(),
+          .status = {"linear model", post::Tone::good},
+          .highlights = {{"order", std::to_string(found.model.order()), ""},
+                         {"largest error", fmt::format("{:.3g} %", 100 * found.error),
+                          fmt::format("of the full response, {:.4g} to {:.4g} Hz", found.frequency.front(),
+                                      found.frequency.back())},
+                         {"operating point", voltages,
+                          "source of " + fmt::format("{}", fmt::join(found.driven, ", "))},
+                         {"static gain",
+                          fmt::format("{:.4g} {}/V", found.model.transfer(0)(0, 0).real(), found.unit), ""}},
+          .sections = {std::move(plots), {"Poles", {std::move(poles)}}},
+          .footer = "dielast " DIELAST_VERSION};
 }
 
 } // namespace
 
 ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
   if (one.electrodes.empty() || !response_quantity(one, one.linearise.output))
-    throw CaseError({{{one.source.string()},
-                      "linearise",
-                      "needs an electrode and a quantity of kind \"displacement\" with a direction"}});
+    throw CaseError(
+        {{{one.source.string()},
+          "linearise",
+          "needs an electrode and a quantity of kind \"displacement\" with a direction, or \"angle\""}});
   post::ResultsFolder folder(settings.directory, "linearise");
   folder.begin();
   Simulation simulation(one, settings.threads);
@@ -190,8 +195,8 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
     folder.write("report.html", report_of(one, found).html());
     folder.write("linear_model.json", model_json(one, found).dump(2) + "\n");
     folder.set_complete(static_cast<int>(ExitCode::ok));
-    say("order {}, largest error {:.3g} of the full response, static gain {:.6g} m/V of the source of {}\n",
-        found.model.order(), found.error, found.model.transfer(0)(0, 0).real(),
+    say("order {}, largest error {:.3g} of the full response, static gain {:.6g} {}/V of the source of {}\n",
+        found.model.order(), found.error, found.model.transfer(0)(0, 0).real(), found.unit,
         fmt::format("{}", fmt::join(found.driven, ", ")));
     say("written to {}\n", settings.directory.string());
     return ExitCode::ok;

@@ -39,7 +39,11 @@ Simulation::Simulation(const Case& one, int threads)
   for (int b = 0; b < device_.films; ++b)
     film_force =
         std::max(film_force, equilibrium_->assembler().block_residuals()[static_cast<std::size_t>(b)].norm());
-  const bool at_rest = frame_.norm() <= std::max(balanced * film_force, equilibrium_->round_off());
+  const double rest = std::max(balanced * film_force, equilibrium_->round_off());
+  const bool at_rest = frame_.norm() <= rest;
+  Eigen::VectorXd unbalanced = frame_; // where the film pulls at bodies only, these may hold it
+  device_.model.dofs.gather(device_.model.initial_state(), unbalanced);
+  const bool held = unbalanced.head(device_.model.dofs.free_count()).norm() <= rest;
   // A film drawn in tension with free edges must find its equilibrium before it can be driven.
   const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
   if (settles) steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
@@ -49,7 +53,7 @@ Simulation::Simulation(const Case& one, int threads)
   }
   for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
   for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
-  if (settles && !one.any_geometry<Patch>())
+  if (settles && !held && !one.any_geometry<Patch>())
     warnings_.push_back(
         fmt::format("the film is not held in its prestretch{}: a step \"settle\" before the first cuts it "
                     "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",

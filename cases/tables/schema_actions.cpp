@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/language/conditions.hpp"
+#include "cases/tables/motion_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -12,30 +13,6 @@ constexpr double smallest_resistance = 1e-3; ///< Ohm: below, charging is quicke
 
 const std::vector<Choice> axes{
     {"x", "along x", 0}, {"y", "along y", 1}, {"z", "normal to the undeformed film", 2}};
-
-/// A key whose words are the indices at which an array of flags is set.
-template<class T, class Flags>
-Binding flags(Flags T::*member) {
-  return {[member](void* object, const Value& value) {
-            auto& set = static_cast<T*>(object)->*member;
-            set = {};
-            for (const Scalar& word : value) set.at(static_cast<std::size_t>(word.number)) = true;
-          },
-          [member](const void* object) -> std::optional<Value> {
-            Value value;
-            const auto& set = static_cast<const T*>(object)->*member;
-            for (std::size_t i = 0; i < set.size(); ++i)
-              if (set[i]) value.push_back({static_cast<double>(i), ""});
-            return value.empty() ? std::nullopt : std::optional(value);
-          }};
-}
-
-const std::vector<Choice> motions{{"x", "along x", 0},
-                                  {"y", "along y", 1},
-                                  {"z", "normal to the undeformed film", 2},
-                                  {"turn_x", "about x", 3},
-                                  {"turn_y", "about y", 4},
-                                  {"turn_z", "about z, the normal of the undeformed film", 5}};
 
 Section electrode_section() {
   Section section = list_section("electrode", "a charged part of the film", each(&Case::electrodes));
@@ -254,44 +231,6 @@ Section point_mass_section() {
   return section;
 }
 
-Section body_section() {
-  Section section = list_section(
-      "body",
-      "a rigid body that carries places of the film; its name is a place, too: its pivot or its centre",
-      each(&Case::bodies));
-  section.keys = {
-      text("name", to(&Body::name), "its name").distinct(),
-      text("places", to(&Body::places), "the places whose nodes move with it")
-          .values(1, 100)
-          .refers_to(Reference::place),
-      measure("mass", "kg", to(&Body::mass), "its mass").at_least(0).otherwise("0 kg"),
-      measure("inertia", "kg m^2", to(&Body::inertia),
-              "moments of inertia about axes along x, y and z through its centre; in the plane only the last "
-              "acts")
-          .values(3, 3)
-          .at_least(0)
-          .otherwise("0 kg.m^2")
-          .or_one_for_all()
-          .only_with(when::masses_matter()),
-      measure("centre", "m", to(&Body::centre), "of its mass, as drawn; without it the mean of its nodes")
-          .values(3, 3)
-          .optional(),
-      measure("pivot", "m", to(&Body::pivot), "a point of the body, as drawn, that stays where it is")
-          .values(3, 3)
-          .optional(),
-      word("fix", motions, flags(&Body::fixed), "what its own place cannot do").values(1, 6).optional(),
-  };
-  section.check = [](const void* object) -> std::optional<Conflict> {
-    const auto& body = *static_cast<const Body*>(object);
-    const auto& [x, y, z] = body.inertia;
-    if (body.mass == 0 && x + y + z > 0) return Conflict{"inertia", "a body without a mass has none"};
-    if (x > y + z || y > z + x || z > x + y)
-      return Conflict{"inertia", "no body has it: each moment is at most the sum of the two others"};
-    return std::nullopt;
-  };
-  return section;
-}
-
 Section gravity_section() {
   Section section;
   section.name = "gravity";
@@ -367,7 +306,7 @@ Section drive_section() {
 std::vector<Section> action_sections() {
   return {electrode_section(), support_section(), load_section(),   spring_section(),     linkage_section(),
           drive_section(),     circuit_section(), plate_section(),  point_mass_section(), body_section(),
-          weight_section(),    gravity_section(), chamber_section()};
+          weight_section(),    pivot_section(),    gravity_section(), chamber_section()};
 }
 
 } // namespace dielast::cases

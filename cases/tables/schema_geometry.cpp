@@ -50,6 +50,19 @@ Section honeycomb_section() {
               "height of a wall normal to the film")
           .above(0)
           .at_most(1),
+      word("wall_bond",
+           {{"line", "the film moves with a wall's centreline", WallBond::line},
+            {"width", "the film under a wall is clamped to it over its width, and is not charged",
+             WallBond::width}},
+           to(&Honeycomb::wall_bond), "how walls hold the film")
+          .otherwise("line"),
+      measure(
+          "electrode_gap", "m", to(&Honeycomb::electrode_gap),
+          "what the place \"electrode\" leaves free beside each wall: from its centreline, or from its face "
+          "with wall_bond = \"width\"")
+          .at_least(0)
+          .otherwise("0 mm")
+          .only_with(when::an_electrode_keeps_off_walls()),
   };
   section.sections.push_back(bar_material_section<Honeycomb>(
       "wall_material", [](auto& honeycomb) -> auto& { return honeycomb.wall; }));

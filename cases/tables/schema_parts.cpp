@@ -40,6 +40,7 @@ std::vector<Section> unnamed_part_sections() {
   sections.front().needless = [](const Node& outer) { return outer.find("part") != nullptr; };
   for (Section& section : geometry_sections()) sections.push_back(std::move(section));
   for (Section& section : leaf_sections()) sections.push_back(std::move(section));
+  for (Section& section : region_sections()) sections.push_back(std::move(section));
   sections.push_back(mesh_section());
   sections.back().needless = is_without_mesh;
   for (Section& section : sections) section = of_unnamed_part(std::move(section));

@@ -258,7 +258,9 @@ Section linearise_section() {
   section.keys = {
       integer("order", to(&Linearise::order), "number of its states").at_least(1).at_most(100).otherwise("3"),
       text("output", to(&Linearise::output),
-           "quantity of kind \"displacement\"; without it the first that has a direction")
+           "quantity of kind \"displacement\" or \"angle\"; without it the first displacement that has a "
+           "direction, "
+           "or the first angle")
           .optional()
           .refers_to(Reference::quantity),
       text("driven", to(&Linearise::driven), driven_meaning)

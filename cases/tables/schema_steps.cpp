@@ -117,7 +117,9 @@ Section step_section() {
           .otherwise("6")
           .only({"modes"}),
       text("response_of", to(&Step::response_of),
-           "quantity of kind \"displacement\"; without it the first that has a direction")
+           "quantity of kind \"displacement\" or \"angle\"; without it the first displacement that has a "
+           "direction, "
+           "or the first angle")
           .optional()
           .refers_to(Reference::quantity)
           .only({"harmonic"}),

@@ -31,6 +31,11 @@ kind = "distance"
 between = ["corner_bottom", "corner_top"]
 along = "y"
 at = "release"
+[[quantity]]
+name = "yield_ratio"
+kind = "extreme"
+of = "yield_ratio"
+extreme = "maximum"
 )";
 
 constexpr std::string_view disc_quantities = R"(
@@ -38,6 +43,24 @@ constexpr std::string_view disc_quantities = R"(
 name = "electrode_radius"
 kind = "radius"
 of = "electrode_edge"
+)";
+
+constexpr std::string_view pivoted_quantities = R"(
+[[quantity]]
+name = "tilt_x"
+kind = "angle"
+of = "plate"
+along = "x"
+[[quantity]]
+name = "tilt_y"
+kind = "angle"
+of = "plate"
+along = "y"
+[[quantity]]
+name = "pivot_force"
+kind = "force"
+of = "plate"
+along = "z"
 )";
 
 constexpr std::string_view diaphragm_quantities = R"(
@@ -99,7 +122,7 @@ extreme = "maximum"
 )";
 
 constexpr std::string_view honeycomb_defaults = R"(
-electrode = [{ name = "film", place = "film" }]
+electrode = [{ name = "film", place = "electrode" }]
 step = [{ kind = "release" }, { kind = "voltage" }]
 )";
 
@@ -113,6 +136,13 @@ constexpr std::string_view annulus_defaults = R"(
 electrode = [{ name = "film", place = "film" }]
 support = [{ place = "inner", fix = ["x", "y", "z"] }, { place = "outer", fix = ["x", "y", "z"] }]
 step = [{ kind = "voltage" }]
+)";
+
+constexpr std::string_view pivoted_defaults = R"(
+electrode = [{ name = "film", place = "film" }]
+support = [{ place = "outer", fix = ["x", "y", "z"] }]
+body = [{ name = "plate", places = ["inner"] }]
+step = [{ kind = "move" }, { kind = "voltage" }]
 )";
 
 constexpr std::string_view diaphragm_defaults = R"(
@@ -199,6 +229,8 @@ std::span<const Template> templates() {
                "unidirectional actuator: a film with a printed honeycomb, cut free",
                {{"film", "the film"},
                 {"walls", "all walls"},
+                {"electrode",
+                 "the film that an electrode covers: all of it, or what electrode_gap and walls leave"},
                 {"cell[i,j]", "the film in cell j of column i, from 0"},
                 {"left_apex", "leftmost vertex at mid height"},
                 {"right_apex", "rightmost vertex at mid height"},
@@ -230,6 +262,15 @@ std::span<const Template> templates() {
                diaphragm_defaults,
                diaphragm_quantities,
                "plate"},
+      Template{"annulus",
+               "a manipulator: a ring of film whose plate tilts on a pivot that pushes it up",
+               {{"film", "the film"},
+                {"inner", "the plate's edge"},
+                {"outer", "the clamped edge"},
+                {"a, b, c, ...", "its sectors"}},
+               pivoted_defaults,
+               pivoted_quantities,
+               "pivot"},
       Template{"annulus",
                "a ring of film clamped at both edges",
                {{"film", "the film"}, {"inner", "the inner edge"}, {"outer", "the outer edge"}},

@@ -153,6 +153,31 @@ void add_patch_steps(Node& tree) {
   }
 }
 
+/// Each region is an electrode of its name where the user has written none.
+void add_region_electrodes(Node& tree) {
+  std::vector<std::string> names;
+  if (const Node* sectors = tree.find("sectors")) {
+    const Node* count = sectors->find("count");
+    const double many = count && count->is(Node::Kind::integer) ? count->number : 4;
+    for (int k = 0; k < std::clamp(many, 0.0, 26.0); ++k) names.emplace_back(1, static_cast<char>('a' + k));
+  }
+  for (const Node& region : items_of(tree, "region")) // a second one of the name is reported elsewhere
+    if (const std::string name = text_at(region, "name"); !name.empty() && !std::ranges::count(names, name))
+      names.push_back(name);
+  if (names.empty()) return;
+  const Source source{tree.source.file, 0, 0};
+  Node& electrodes = list_at(tree, "electrode");
+  if (electrodes.source.is_written()) return;
+  electrodes.items.clear();
+  for (const std::string& name : names) {
+    Node electrode;
+    electrode.source = source;
+    electrode.add("name", text_node(name, source));
+    electrode.add("place", text_node(name, source));
+    electrodes.items.push_back(std::move(electrode));
+  }
+}
+
 } // namespace
 
 std::vector<const Node*> geometries_of(const Node& table) {
@@ -182,6 +207,7 @@ namespace {
 /// A film of revolution is what a plate, a chamber or a balloon asks for, and inertia what a mass does.
 void add_motion_defaults(Node& tree) {
   const Source source{tree.source.file, 0, 0};
+  if (!tree.find("model") && tree.find("pivot")) tree.add("model", text_node("3d", source));
   if (!tree.find("model") && (tree.find("plate") || tree.find("chamber") || tree.find("balloon")))
     tree.add("model", text_node("axisymmetric", source));
   Node* steps = tree.find("step");
@@ -285,6 +311,7 @@ void add_defaults(Node& tree) {
     for (std::size_t i = 0; i < defaults.items.size(); ++i)
       if (!tree.find(defaults.keys[i])) tree.add(defaults.keys[i], defaults.items[i]);
     if (device->name == "patch") add_patch_steps(tree);
+    add_region_electrodes(tree);
   }
   const std::vector<TemplatePart> parts = parts_with_geometry(tree);
   for (const TemplatePart& part : parts)
@@ -308,6 +335,8 @@ std::vector<Node> template_quantities(const Node& tree, const Template& device, 
       prefix(quantity.find("between"), part);
       prefix(quantity.find("of"), part);
     }
+    if (const Node* pivot = tree.find("pivot"); pivot && device.with == "pivot")
+      if (const std::string body = text_at(*pivot, "body"); !body.empty()) quantity.find("of")->text = body;
     quantities.push_back(std::move(quantity));
   }
   return quantities;

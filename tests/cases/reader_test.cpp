@@ -53,7 +53,7 @@ TEST(Reader, HoneycombDefaults) {
   EXPECT_EQ(one.parts.front().mesh.grading, 3);
   EXPECT_EQ(one.parts.front().mesh.quadrature, 3);
   ASSERT_EQ(one.electrodes.size(), 1u);
-  EXPECT_EQ(one.electrodes[0].place, "film");
+  EXPECT_EQ(one.electrodes[0].place, "electrode");
   EXPECT_TRUE(one.supports.empty());
   ASSERT_EQ(one.steps.size(), 2u);
   EXPECT_EQ(one.steps[0].kind, StepKind::release);
@@ -64,15 +64,15 @@ TEST(Reader, HoneycombDefaults) {
   EXPECT_EQ(one.solver.max_iterations, 25);
   EXPECT_TRUE(one.error_estimate && one.fields);
   EXPECT_EQ(quantity_names(one),
-            (std::vector<std::string>{"eps_x", "eps_y", "released_length_x", "released_length_y", "max_field",
-                                      "breakdown_ratio", "min_principal_stress", "electrical_work",
-                                      "mechanical_work", "stored_energy", "dissipated_energy", "energy_error",
-                                      "capacitance"}));
+            (std::vector<std::string>{"eps_x", "eps_y", "released_length_x", "released_length_y",
+                                      "yield_ratio", "max_field", "breakdown_ratio", "min_principal_stress",
+                                      "electrical_work", "mechanical_work", "stored_energy",
+                                      "dissipated_energy", "energy_error", "capacitance"}));
   EXPECT_EQ(one.quantities[0].since, "release");
   EXPECT_EQ(one.quantities[0].along, 0);
   EXPECT_TRUE(one.quantities[0].standard);
   EXPECT_EQ(one.quantities[2].at, "release");
-  EXPECT_EQ(unit_of(one.quantities[4], one.quantities), "V/m");
+  EXPECT_EQ(unit_of(one.quantities[5], one.quantities), "V/m");
 }
 
 TEST(Reader, DiscDefaults) {
