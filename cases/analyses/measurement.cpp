@@ -307,7 +307,8 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
                 [&](const fem::MembraneSample& sample, const auto&) {
                   return post::film_value(sample, quantity.of);
                 });
-  case QuantityKind::peak: // of the others, see all()
+  case QuantityKind::margin: // told at the end of a run
+  case QuantityKind::peak:   // of the others, see all()
     return unknown;
   case QuantityKind::extreme: {
     const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);

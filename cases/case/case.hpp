@@ -243,7 +243,8 @@ enum class QuantityKind {
   energy,
   value,
   extreme,
-  peak
+  peak,
+  margin
 };
 
 /// Where gravity pulls, as a direction of a quantity.
@@ -325,8 +326,8 @@ struct Case {
   std::vector<PointMass> point_masses;
   std::vector<Body> bodies;
   std::optional<HungWeight> weight{};
-  Gravity gravity;
   std::optional<Pivot> pivot;
+  Gravity gravity;
   std::optional<Chamber> chamber;
   std::vector<Spring> springs;
   std::vector<Linkage> linkages;
@@ -336,10 +337,11 @@ struct Case {
   int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
   SolverOptions solver;
   Linearise linearise;
-  bool error_estimate = true;         ///< [output] error_estimate: solve again with other elements and steps
-  bool fields = true;                 ///< [output] fields: write the VTK series
-  bool all_states = true;             ///< [output] states: of every row, not only the last of each step
-  std::vector<Mention> places;        ///< every place that the case names, for check_places
+  bool error_estimate = true;  ///< [output] error_estimate: solve again with other elements and steps
+  bool fields = true;          ///< [output] fields: write the VTK series
+  double margins_up_to = 1;    ///< [output] margins_up_to: factor on the voltages, 1: what the run knows
+  bool all_states = true;      ///< [output] states: of every row, not only the last of each step
+  std::vector<Mention> places; ///< every place that the case names, for check_places
   std::map<std::string, Source> keys; ///< where they stand, by path, for what only the device can tell
   std::vector<Diagnostic> warnings{};
 

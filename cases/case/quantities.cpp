@@ -17,6 +17,7 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
   case QuantityKind::stretch:
   case QuantityKind::radial_stretch:
   case QuantityKind::coupling:
+  case QuantityKind::margin:
     return "1";
   case QuantityKind::current:
     return "A";
@@ -107,6 +108,8 @@ std::string meaning_of(const Quantity& q) {
   case QuantityKind::peak:
     return fmt::format("{} {} so far{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
                        at);
+  case QuantityKind::margin:
+    return fmt::format("factor on the voltages at the end that leads to {}", q.of);
   case QuantityKind::stretch:
     return fmt::format("stretch between {} and {}{}{}", q.between[0], q.between[1], along, at);
   case QuantityKind::nominal_stress:

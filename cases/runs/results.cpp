@@ -152,6 +152,14 @@ std::vector<post::StepRecord> with_remarks(std::vector<post::StepRecord> records
   return records;
 }
 
+post::Section margin_section(const std::vector<Margin>& margins) {
+  post::Table table{{"limit", "factor on the voltage", ""}, {}};
+  for (const Margin& margin : margins)
+    table.rows.push_back(
+        {margin.limit, margin.factor ? fmt::format("{:.4g}", *margin.factor) : "-", margin.remark});
+  return {"Margins", {std::move(table)}};
+}
+
 std::string error_paragraph(const Results& results) {
   if (!results.no_errors_because.empty())
     return fmt::format("No estimate of the errors: {}.", results.no_errors_because);
@@ -167,12 +175,13 @@ bool Results::checks_passed() const {
 }
 
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
-                        const Estimates& estimates) {
+                        const Estimates& estimates, std::vector<Margin> margins) {
   Results results{.outcome = outcome,
                   .warnings = simulation.warnings(),
                   .no_errors_because = estimates.reason,
                   .event_remarks = estimates.events,
-                  .time_error = simulation.time_error()};
+                  .time_error = simulation.time_error(),
+                  .margins = std::move(margins)};
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,
@@ -180,7 +189,13 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                           .unit = unit_of(quantity, one.quantities),
                           .ratio = ratio_of(quantity),
                           .meaning = meaning_of(quantity)};
-    if (q < estimates.quantities.size()) {
+    if (quantity.kind == QuantityKind::margin) {
+      const auto margin = std::ranges::find(results.margins, quantity.of, &Margin::limit);
+      if (margin != results.margins.end()) {
+        row.value = margin->factor.value_or(std::numeric_limits<double>::quiet_NaN());
+        row.error_remark = margin->remark;
+      }
+    } else if (q < estimates.quantities.size()) {
       row.error = estimates.quantities[q].error;
       row.error_remark = estimates.quantities[q].remark;
     }
@@ -226,6 +241,12 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                       {"passed", check.passed},
                       {"source", check.source}});
   summary["checks"] = checks;
+  nlohmann::ordered_json margins = nlohmann::ordered_json::object();
+  for (const Margin& margin : results.margins)
+    margins[margin.limit] = {{"factor", margin.factor ? number(*margin.factor) : json(nullptr)},
+                             {"up_to", margin.up_to},
+                             {"remark", margin.remark}};
+  summary["margins"] = margins;
   if (results.time_error > 0) summary["time_error"] = results.time_error;
   json events = json::array();
   for (const auto& record : journal.records)
@@ -312,6 +333,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   report.sections.push_back(std::move(plots));
   report.sections.push_back(
       {"Quantities", {post::quantity_table(results.quantities), post::Paragraph{error_paragraph(results)}}});
+  report.sections.push_back(margin_section(results.margins));
   if (!results.checks.empty()) report.sections.push_back({"Checks", {post::check_table(results.checks)}});
   if (post::Table events = post::event_table(with_remarks(journal.records, results)); !events.rows.empty())
     report.sections.push_back({"Events", {std::move(events)}});

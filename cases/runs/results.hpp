@@ -9,6 +9,19 @@
 
 namespace dielast::cases {
 
+/// How far a limit is from the state at the end of a run, as a factor on all of its voltages.
+struct Margin {
+  std::string limit;            ///< "breakdown", "loss of tension", "pull-in", "buckling", "wall yield"
+  std::optional<double> factor; ///< below 1: it was passed on the way; absent: see the remark
+  double up_to = 1;             ///< factor up to which the run, or what was looked at beyond it, tells
+  std::string remark;           ///< why there is no factor, or what it does not tell
+};
+
+/// What the states of a run tell of its limits, and with [output] margins_up_to those beyond its end, which
+/// are solved for here. Voltages rise together, in proportion.
+std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, const Journal& journal,
+                               const Outcome& outcome, int threads);
+
 /// Everything that a finished run says of itself.
 struct Results {
   Outcome outcome;
@@ -18,13 +31,14 @@ struct Results {
   std::string no_errors_because;       ///< why no quantity has an error estimate; empty otherwise
   std::vector<EventRemark> event_remarks;
   double time_error = 0; ///< see Simulation::time_error()
+  std::vector<Margin> margins;
 
   bool checks_passed() const;
 };
 
 /// Values and checks of a run.
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
-                        const Estimates& estimates);
+                        const Estimates& estimates, std::vector<Margin> margins = {});
 
 /// summary.json: status, quantities.<name>.{value, unit, error_estimate, error_remark}, checks, events,
 /// warnings, mesh.

@@ -2,9 +2,9 @@
 #include "cases/runs/run.hpp"
 
 #include "cases/case/quantities.hpp"
+#include "cases/console/forecast.hpp"
 #include "cases/console/terminal.hpp"
 #include "cases/readers/resolved.hpp"
-#include "cases/runs/forecast.hpp"
 #include "cases/runs/results.hpp"
 #include "meshing/quality.hpp"
 #include "post/files/results_folder.hpp"
@@ -83,8 +83,8 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
         log.info("    mode {:.0f}  {:>10.6g} Hz  {:>10.6g} rad/s{}", row[0], row[1], row[2],
                  row[3] < 0 ? "  unstable" : "");
     else
-      log.info("    {} frequencies, source of {}: {} per volt {:.5g} to {:.5g} m/V", analysis.rows.size(),
-               fmt::join(analysis.driven, ", "), analysis.of, analysis.rows.front()[1],
+      log.info("    {} frequencies, source of {}: {} {:.5g} to {:.5g}", analysis.rows.size(),
+               fmt::join(analysis.driven, ", "), analysis.columns[1], analysis.rows.front()[1],
                analysis.rows.back()[1]);
     recorder.record_analysis(analysis, state);
   };
@@ -161,7 +161,9 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.info("error estimate: the case once more with other elements and time steps");
     estimates = estimate_errors(one, simulation, recorder.journal().records, settings.threads);
   }
-  const Results results = collect_results(one, simulation, outcome, estimates);
+  const Results results =
+      collect_results(one, simulation, outcome, estimates,
+                      margins_of(one, simulation, recorder.journal(), outcome, settings.threads));
 
   log.info("results");
   for (const post::QuantityRow& row : results.quantities)

@@ -66,7 +66,12 @@ Section quantity_section() {
            {"energy", "part of the energy balance (J)", QuantityKind::energy},
            {"value", "of a field of the film: at a point, or its mean over a place", QuantityKind::value},
            {"extreme", "smallest or largest value of a field", QuantityKind::extreme},
-           {"peak", "smallest or largest value of another quantity so far", QuantityKind::peak}},
+           {"peak", "smallest or largest value of another quantity so far", QuantityKind::peak},
+           {"margin",
+            "factor on all voltages at the end of the run that leads to a limit, below 1 where it was "
+            "passed; "
+            "none where the run does not tell (-)",
+            QuantityKind::margin}},
           to(&Quantity::kind), "what is measured"),
       text("between", to(&Quantity::between), "the two places")
           .values(2, 2)
@@ -123,6 +128,14 @@ Section quantity_section() {
             {"maximum", "largest value", post::Extreme::maximum}},
            to(&Quantity::extreme), "which extreme")
           .only({"extreme", "peak"}),
+      word("of",
+           {{"breakdown", "somewhere the field is the breakdown field"},
+            {"loss of tension", "somewhere the film has lost its tension"},
+            {"pull-in", "a limit point, beyond which no voltage is larger"},
+            {"buckling", "a bifurcation, from which the device leaves its way"},
+            {"wall yield", "somewhere a wall yields"}},
+           to(&Quantity::of), "the limit")
+          .only({"margin"}),
       of("the quantity").only({"peak"}).refers_to(Reference::quantity),
       word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along),
            "component; without it the magnitude")
@@ -229,6 +242,13 @@ Section output_section() {
       flag("error_estimate", to(&Case::error_estimate),
            "solve again with other elements and time steps to estimate the error")
           .otherwise("true"),
+      number(
+          "margins_up_to", to(&Case::margins_up_to),
+          "factor on the voltages up to which limits are looked for beyond the end, by solving on; 1: what "
+          "the run itself tells")
+          .at_least(1)
+          .at_most(100)
+          .otherwise("1"),
       flag("fields", to(&Case::fields), "write the series of fields for ParaView").otherwise("true"),
       word("states",
            {{"all", "every row of the history", true},

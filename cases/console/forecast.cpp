@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/forecast.hpp"
+#include "cases/console/forecast.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace dielast::cases {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A state on the way of all voltages from zero, in proportion.
+struct Passed {
+  double factor = 0; ///< its voltages over those at the end of the run
+  double breakdown = unknown, least_stress = unknown, yield = unknown;
+  double slack = unknown;         ///< of film that may wrinkle: its tension_state
+  std::vector<std::string> kinds; ///< of its events
+};
+
+/// The value of a standard or written quantity of that kind; NaN where the case has none.
+double extreme_of(const Case& one, const std::vector<double>& values, const char* field,
+                  post::Extreme which) {
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = one.quantities[q];
+    if (quantity.kind == QuantityKind::extreme && quantity.of == field && quantity.extreme == which &&
+        quantity.at.empty())
+      return values[q];
+  }
+  return unknown;
+}
+
+/// The factor of a state's voltages; nothing where they are not in proportion to those at the end.
+std::optional<double> factor_of(const post::StepRecord& record, const post::StepRecord& end) {
+  const double largest = end.largest_voltage();
+  const auto lead = static_cast<std::size_t>(std::ranges::find(end.voltages, largest) - end.voltages.begin());
+  const double factor = record.voltages[lead] / largest;
+  for (std::size_t e = 0; e < end.voltages.size(); ++e)
+    if (std::abs(record.voltages[e] - factor * end.voltages[e]) > 1e-6 * std::abs(largest))
+      return std::nullopt;
+  return factor;
+}
+
+/// What a run has passed on its way to its end: its last states with rising voltages, and nothing else that
+/// changes but where they are zero.
+std::vector<Passed> way_of(const Case& one, const Journal& journal) {
+  std::vector<Passed> way;
+  const post::StepRecord& end = journal.records.back();
+  for (std::size_t r = journal.records.size(); r-- > 0;) {
+    const post::StepRecord& record = journal.records[r];
+    const auto factor = factor_of(record, end);
+    if (!factor || *factor < 0 || (!way.empty() && *factor >= way.back().factor)) break;
+    const auto& values = journal.values[r];
+    Passed& passed = way.emplace_back(
+        Passed{.factor = *factor,
+               .breakdown = extreme_of(one, values, "breakdown_ratio", post::Extreme::maximum),
+               .least_stress = extreme_of(one, values, "min_principal_stress", post::Extreme::minimum),
+               .yield = extreme_of(one, values, "yield_ratio", post::Extreme::maximum),
+               .slack = extreme_of(one, values, "tension_state", post::Extreme::maximum)});
+    for (const post::Event& event : record.events) passed.kinds.push_back(event.kind);
+    const auto step = std::ranges::find(one.steps, record.step, &Step::name);
+    const bool voltage = step != one.steps.end() && step->kind == StepKind::voltage;
+    if (*factor == 0 || !voltage) break;
+  }
+  std::ranges::reverse(way);
+  return way;
+}
+
+/// What comes after the end of the run when its voltages rise on.
+std::vector<Passed> way_beyond(const Case& one, const Simulation& own, const post::StepRecord& end,
+                               int threads, std::string& stopped) {
+  constexpr int increments_per_voltage = 20;
+  Case further = one;
+  further.steps = own.steps();
+  Step step{.kind = StepKind::voltage, .name = "margins"};
+  step.increments =
+      std::max(1, static_cast<int>(std::ceil(increments_per_voltage * (one.margins_up_to - 1))));
+  further.steps.push_back(step);
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+    further.drives[one.electrodes[e].name].voltage =
+        Waveform::constant_at(one.margins_up_to * end.voltages[e]);
+  std::vector<Passed> way;
+  try {
+    Simulation simulation(further, threads);
+    SimulationProgress progress = own.progress();
+    progress.step = static_cast<int>(one.steps.size()) - 1;
+    simulation.enter(progress.step);
+    simulation.resume(progress);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      const auto value = [&](const char* field, post::Extreme which) {
+        const auto found = frame.measured.extremes.find(field, which);
+        return found ? found->value : unknown;
+      };
+      Passed& passed =
+          way.emplace_back(Passed{.factor = factor_of(frame.record, end).value_or(unknown),
+                                  .breakdown = value("breakdown_ratio", post::Extreme::maximum),
+                                  .least_stress = value("min_principal_stress", post::Extreme::minimum),
+                                  .yield = value("yield_ratio", post::Extreme::maximum),
+                                  .slack = value("tension_state", post::Extreme::maximum)});
+      for (const post::Event& event : frame.record.events) passed.kinds.push_back(event.kind);
+      return true;
+    };
+    std::vector<std::string> located; // at the state that comes next, or after the last
+    observer.on_critical = [&](const fem::CriticalPoint&, const post::Event& event) {
+      located.push_back(event.kind);
+    };
+    const Outcome outcome = simulation.run(observer);
+    if (outcome.ending == Ending::gave_up) stopped = outcome.kind;
+    if (!way.empty() && !located.empty()) {
+      way.back().kinds.push_back(located.back());
+      stopped = located.back();
+    }
+  } catch (const std::exception& error) {
+    stopped = error.what();
+  }
+  return way;
+}
+
+/// Where a value, linear between the states, passes zero from below.
+Margin crossing(const std::vector<Passed>& way, const std::function<double(const Passed&)>& value) {
+  if (std::ranges::all_of(way, [&](const Passed& passed) { return std::isnan(value(passed)); }))
+    return {.remark = "not known: the case has no quantity of kind \"extreme\" that tells"};
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const double now = value(way[i]);
+    if (!(now >= 0)) continue;
+    if (i == 0 || std::isnan(value(way[i - 1])))
+      return {.factor = way[i].factor,
+              .remark = way[i].factor == 0 ? "passed without voltage" : "passed earlier"};
+    const double before = value(way[i - 1]);
+    const double t = before / (before - now);
+    return {.factor = std::lerp(way[i - 1].factor, way[i].factor, t)};
+  }
+  return {};
+}
+
+/// At the state to which an event belongs.
+Margin event(const std::vector<Passed>& way, const std::string& kind) {
+  for (const Passed& passed : way)
+    if (std::ranges::count(passed.kinds, kind) > 0) return {.factor = passed.factor};
+  return {};
+}
+
+/// Why nothing is known of a limit in this model; empty where something is.
+std::string unknown_limit(const Case& one, const Simulation& run, const std::string& limit) {
+  const bool walls = run.device().mesh.walls() != nullptr;
+  if (limit == "wall yield" && !walls) return "there are no walls";
+  if (limit == "buckling" && one.dimension != fem::Dimension::spatial && !walls)
+    return "film does not leave its plane, or its meridian's, in this model";
+  return "";
+}
+
+} // namespace
+
+std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, const Journal& journal,
+                               const Outcome& outcome, int threads) {
+  std::vector<Margin> margins;
+  std::string unknown_because;
+  const fem::State& state = simulation.state();
+  if (one.electrodes.empty() || journal.records.empty() || journal.records.back().largest_voltage() == 0)
+    unknown_because = "no voltage is applied at the end";
+  else if (std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); }))
+    unknown_because = "time passes: a run tells of its own course of the voltage only";
+  else if (std::ranges::any_of(state.supply,
+                               [](fem::Supply supply) { return supply == fem::Supply::charge; }))
+    unknown_because = "an electrode is isolated: its voltage follows";
+  std::vector<Passed> way;
+  std::string stopped = outcome.kind;
+  double up_to = 1;
+  if (unknown_because.empty()) {
+    way = way_of(one, journal);
+    if (one.margins_up_to > 1 && outcome.ending == Ending::complete) {
+      for (Passed& passed : way_beyond(one, simulation, journal.records.back(), threads, stopped))
+        way.push_back(std::move(passed));
+      up_to = way.back().factor;
+    }
+  }
+  const auto add = [&](const std::string& limit, const auto& find) {
+    const std::string why_not =
+        unknown_because.empty() ? unknown_limit(one, simulation, limit) : unknown_because;
+    Margin margin;
+    if (why_not.empty()) {
+      margin = find();
+      if (!margin.factor && margin.remark.empty())
+        margin.remark =
+            fmt::format("not reached up to {:.6g} times the voltage of the end{}", up_to,
+                        stopped.empty() ? "" : fmt::format(", where the path ends ({})", stopped));
+      if (limit == "buckling" && one.dimension == fem::Dimension::planar)
+        margin.remark += fmt::format("{}in its plane: a planar model does not leave it",
+                                     margin.remark.empty() ? "" : ", ");
+    } else {
+      margin.remark = "not known: " + why_not;
+    }
+    margin.limit = limit;
+    margin.up_to = up_to;
+    margins.push_back(std::move(margin));
+  };
+  add("breakdown", [&] { return crossing(way, [](const Passed& p) { return p.breakdown - 1; }); });
+  add("loss of tension", [&] {
+    if (simulation.device().tension_field)
+      return crossing(way, [](const Passed& p) { return p.slack > 0 ? 1.0 : -1e-9; });
+    return crossing(way, [](const Passed& p) { return -smallest_stress - p.least_stress; });
+  });
+  const auto critical = [&](const char* kind) {
+    Margin found = event(way, kind);
+    const bool told = std::ranges::any_of(way.back().kinds, is_critical); // by the event that located it
+    if (!found.factor && !told && stopped == kind) found.factor = way.back().factor;
+    return found;
+  };
+  add("pull-in", [&] { return critical("limit point"); });
+  add("buckling", [&] { return critical("bifurcation"); });
+  add("wall yield", [&] { return crossing(way, [](const Passed& p) { return p.yield - 1; }); });
+  return margins;
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far limits are from the end of a run, against closed forms of homogeneous film.
+#include "cases/readers/reader.hpp"
+#include "cases/runs/results.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+class Margins : public test::ScratchTest {
+ protected:
+  std::map<std::string, Margin> margins(const std::string& text,
+                                        const std::vector<std::string>& overrides = {}) {
+    write("case.toml", text);
+    const Case one = read_case(directory / "case.toml", overrides);
+    Simulation simulation(one, 1);
+    Journal journal;
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      journal.records.push_back(frame.record);
+      journal.values.push_back(frame.values);
+      return true;
+    };
+    const Outcome outcome = simulation.run(observer);
+    std::map<std::string, Margin> found;
+    for (Margin& margin : margins_of(one, simulation, journal, outcome, 1)) found[margin.limit] = margin;
+    return found;
+  }
+};
+
+// Neo-Hookean film without loads, stretched l in all directions by a voltage: the field E_0 = V / H obeys
+// eps E_0^2 = mu (l^-2 - l^-8), largest at l = 4^(1/6); the true field is l^2 E_0.
+constexpr double modulus = 40e3, permittivity = 4e-11, thickness = 1e-3;
+double voltage_at(double stretch) {
+  return thickness * std::sqrt(modulus / permittivity * (std::pow(stretch, -2) - std::pow(stretch, -8)));
+}
+const double pull_in = voltage_at(std::pow(4, 1.0 / 6));
+
+std::string patch(double voltage, double breakdown, const char* more = "") {
+  return fmt::format(
+      "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\npermittivity = "
+      "\"4e-11 F/m\"\nbreakdown_field = \"{} V/m\"\n[patch]\nmode = \"equal-biaxial\"\n"
+      "[drive]\nvoltage = \"{} V\"\n[[step]]\nkind = \"voltage\"\nincrements = 40\n{}",
+      breakdown, voltage, more);
+}
+
+TEST_F(Margins, BreakdownThatWasPassedIsWhereTheFieldWasReached) {
+  const double stretch = 1.1, field = stretch * stretch * voltage_at(stretch) / thickness;
+  const double end = 0.98 * pull_in;
+  const Margin found = margins(patch(end, field)).at("breakdown");
+  ASSERT_TRUE(found.factor);
+  EXPECT_NEAR(*found.factor, voltage_at(stretch) / end, 2e-3);
+}
+
+TEST_F(Margins, WhatWasNotReachedIsNotGuessed) {
+  const auto found = margins(patch(0.5 * pull_in, 1e9));
+  for (const char* limit : {"breakdown", "pull-in"}) {
+    EXPECT_FALSE(found.at(limit).factor) << limit;
+    EXPECT_EQ(found.at(limit).remark, "not reached up to 1 times the voltage of the end") << limit;
+  }
+  EXPECT_EQ(found.at("wall yield").remark, "not known: there are no walls");
+  EXPECT_EQ(found.at("buckling").remark,
+            "not known: film does not leave its plane, or its meridian's, in this model");
+}
+
+TEST_F(Margins, LookingFurtherFindsPullInAndBreakdown) {
+  const double stretch = 1.15, field = stretch * stretch * voltage_at(stretch) / thickness;
+  const double end = 0.6 * pull_in;
+  const auto found = margins(patch(end, field), {"output.margins_up_to=3"});
+  ASSERT_TRUE(found.at("breakdown").factor);
+  EXPECT_NEAR(*found.at("breakdown").factor, voltage_at(stretch) / end, 2e-3);
+  ASSERT_TRUE(found.at("pull-in").factor);
+  EXPECT_NEAR(*found.at("pull-in").factor, pull_in / end, 1e-3);
+}
+
+TEST_F(Margins, ARunThatEndsAtItsLimitPointIsThere) {
+  const Margin found = margins(patch(1.2 * pull_in, 1e9)).at("pull-in");
+  ASSERT_TRUE(found.factor);
+  EXPECT_NEAR(*found.factor, 1, 1e-12);
+}
+
+// Film held at the stretch l loses its tension where eps E_0^2 l^4 = mu (l^2 - l^-4) ... of true stresses.
+TEST_F(Margins, HeldFilmLosesItsTensionWhereTheFieldBalancesIt) {
+  const double stretch = 1.5;
+  const double lost = thickness / (stretch * stretch) *
+                      std::sqrt(modulus / permittivity * (stretch * stretch - std::pow(stretch, -4)));
+  const std::string held = "[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = "
+                           "\"40 kPa\"\npermittivity "
+                           "= \"4e-11 F/m\"\n[patch]\nstretch_x = 1.5\nstretch_y = 1.5\n[[step]]\nkind = "
+                           "\"move\"\n[[step]]\nkind = "
+                           "\"voltage\"\nincrements = 20\n";
+  const auto passed = margins(held, {fmt::format("drive.voltage={} V", 1.2 * lost)});
+  ASSERT_TRUE(passed.at("loss of tension").factor);
+  EXPECT_NEAR(*passed.at("loss of tension").factor, 1 / 1.2, 2e-3);
+  const auto ahead = margins(held, {fmt::format("drive.voltage={} V", 0.5 * lost), "output.margins_up_to=3"});
+  ASSERT_TRUE(ahead.at("loss of tension").factor);
+  EXPECT_NEAR(*ahead.at("loss of tension").factor, 2, 5e-3);
+}
+
+TEST_F(Margins, WithoutAVoltageOrInTimeNothingIsKnown) {
+  EXPECT_EQ(margins(patch(0, 1e9)).at("pull-in").remark, "not known: no voltage is applied at the end");
+  const auto timed = margins(patch(500, 1e9, "duration = \"1 s\"\n"));
+  EXPECT_EQ(timed.at("pull-in").remark,
+            "not known: time passes: a run tells of its own course of the voltage only");
+}
+
+} // namespace
+} // namespace dielast::cases
