@@ -123,7 +123,9 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
     analysis.columns.emplace_back(of_all);
   const fem::State at_rest = operating_point(device, state);
   const double bias = common_bias(device, at_rest, driven);
-  if (bias != 0) analysis.columns.push_back(quantity.name + "_per_squared_volt[m/V^2]");
+  if (bias != 0)
+    analysis.columns.push_back(
+        fmt::format("{}_per_squared_volt[{}/V^2]", quantity.name, unit_of(quantity, one.quantities)));
   const std::vector<double> hertz = frequencies(step.sweep);
   std::vector<double> omega = hertz;
   for (double& w : omega) w *= 2 * std::numbers::pi;
