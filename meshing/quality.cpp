@@ -14,17 +14,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-double cross(const Vector3d& a, const Vector3d& b) { return a.x() * b.y() - a.y() * b.x(); }
+/// In the plane in which the triangles are drawn: along x and y, of a solid of revolution x and z.
+struct Plane {
+  int up;
+  explicit Plane(const Mesh& mesh) : up(mesh.nodes.empty() || mesh.bounds().sizes().y() > 0 ? 1 : 2) {}
+  double cross(const Vector3d& a, const Vector3d& b) const { return a.x() * b[up] - a[up] * b.x(); }
+};
 
 struct Measure {
   double area;
   bool inverted;
 };
 
-Measure measure(const Mesh& mesh, std::span<const int> nodes) {
+Measure measure(const Mesh& mesh, const Plane& plane, std::span<const int> nodes) {
   const auto x = [&](int k) -> const Vector3d& { return mesh.nodes[nodes[k]]; };
   if (nodes.size() == 3) {
-    const double area = cross(x(1) - x(0), x(2) - x(0)) / 2;
+    const double area = plane.cross(x(1) - x(0), x(2) - x(0)) / 2;
     return {area, !(area > 0)};
   }
   // Points and weights of degree 4 (Dunavant 1985): barycentric (s, s, 1 - 2 s) and its permutations.
@@ -39,7 +44,7 @@ Measure measure(const Mesh& mesh, std::span<const int> nodes) {
       const Vector3d from_0 = (4 * l[0] - 1) * x(0) + 4 * l[1] * x(3) + 4 * l[2] * x(5);
       const Vector3d along_1 = (4 * l[1] - 1) * x(1) + 4 * l[0] * x(3) + 4 * l[2] * x(4) - from_0;
       const Vector3d along_2 = (4 * l[2] - 1) * x(2) + 4 * l[1] * x(4) + 4 * l[0] * x(5) - from_0;
-      const double jacobian = cross(along_1, along_2);
+      const double jacobian = plane.cross(along_1, along_2);
       result.area += weight * jacobian / 2;
       result.inverted |= !(jacobian > 0);
     }
@@ -54,6 +59,7 @@ QualityReport quality(const Mesh& mesh) {
                        .smallest_angle = infinity,
                        .smallest_area = infinity,
                        .largest_area = -infinity};
+  const Plane plane(mesh);
   for (const CellBlock& block : mesh.blocks) {
     if (!is_triangle(block.type)) {
       (is_line(block.type)       ? report.lines
@@ -67,12 +73,13 @@ QualityReport quality(const Mesh& mesh) {
       double smallest = infinity, longest = 0, perimeter = 0;
       for (int k = 0; k < 3; ++k) {
         const Vector3d u = x(k + 1) - x(k), v = x(k + 2) - x(k);
-        smallest = std::min(smallest, std::atan2(std::abs(cross(u, v)), u.dot(v)) * 180 / std::numbers::pi);
+        smallest =
+            std::min(smallest, std::atan2(std::abs(plane.cross(u, v)), u.dot(v)) * 180 / std::numbers::pi);
         longest = std::max(longest, u.norm());
         perimeter += u.norm();
       }
-      const double inradius = std::abs(cross(x(1) - x(0), x(2) - x(0))) / perimeter;
-      const auto [area, inverted] = measure(mesh, nodes);
+      const double inradius = std::abs(plane.cross(x(1) - x(0), x(2) - x(0))) / perimeter;
+      const auto [area, inverted] = measure(mesh, plane, nodes);
       if (smallest < report.smallest_angle) {
         report.smallest_angle = smallest;
         report.worst_cell = c;
