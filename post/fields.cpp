@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/fields.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -8,6 +9,19 @@
 namespace dielast::post {
 
 FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
+  if (sample.solid) {
+    const fem::SolidSample& solid = *sample.solid;
+    const Eigen::Matrix3d green = solid.F.transpose() * solid.F;
+    C = green.topLeftCorner<2, 2>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> strain(green), stress(solid.cauchy);
+    stretch = strain.eigenvalues().reverse().cwiseSqrt();
+    direction = (solid.F * strain.eigenvectors().rowwise().reverse()).colwise().normalized();
+    cauchy = solid.cauchy;
+    principal_stress = {stress.eigenvalues()[2], stress.eigenvalues()[0]};
+    thickness = solid.thickness;
+    electric_field = solid.field.norm();
+    return;
+  }
   const auto& F = sample.F;
   C.noalias() = F.transpose() * F;
   const Eigen::Vector3d area = F.col(0).cross(F.col(1));
@@ -59,7 +73,9 @@ const std::vector<FilmField> film_table{
     {"principal_stretches",
      "1",
      {"lambda1", "lambda2", "lambda3"},
-     "stretches from the unstretched film: the two in its plane, larger first, and through the thickness",
+     "stretches from the unstretched film: the two in its plane, larger first, and through the thickness; of "
+     "a "
+     "solid largest first",
      [](const FilmPoint& p, double* v) { Eigen::Map<Eigen::Vector3d>{v} = p.stretch; }},
     {"log_strain",
      "1",
@@ -84,23 +100,29 @@ const std::vector<FilmField> film_table{
     {"min_principal_stress",
      "Pa",
      {},
-     "smaller principal true stress in the film's plane; negative: the film has lost its tension",
+     "smaller principal true stress in the film's plane; negative: the film has lost its tension; of a solid "
+     "the smallest",
      [](const FilmPoint& p, double* v) { *v = p.principal_stress(1); }},
     {"max_principal_stress",
      "Pa",
      {},
-     "larger principal true stress in the film's plane",
+     "larger principal true stress in the film's plane; of a solid the largest",
      [](const FilmPoint& p, double* v) { *v = p.principal_stress(0); }},
     {"thickness",
      "m",
      {},
-     "thickness of the deformed film",
+     "thickness of the deformed film, or of a solid's layers",
      [](const FilmPoint& p, double* v) { *v = p.thickness; }},
     {"slope",
      "rad",
      {},
-     "angle between the film and the plane across z, in which flat films are drawn; at most pi/2",
+     "angle between the film and the plane across z, in which flat films are drawn; at most pi/2; of solids "
+     "0",
      [](const FilmPoint& p, double* v) {
+       if (p.sample.solid) {
+         *v = 0; // it has no middle surface
+         return;
+       }
        const Eigen::Vector3d normal = p.direction.col(2);
        *v = std::atan2(normal.head<2>().norm(), std::abs(normal.z()));
      }},
@@ -122,7 +144,7 @@ const std::vector<FilmField> film_table{
     {"voltage",
      "V",
      {},
-     "voltage across the film",
+     "voltage across the film; in a solid with a potential the potential",
      [](const FilmPoint& p, double* v) { *v = p.sample.voltage; }},
 };
 

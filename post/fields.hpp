@@ -14,7 +14,8 @@ namespace dielast::post {
 /// The film at one integration point, with what several fields share worked out once.
 ///
 /// Incompressible membrane: \f$ C = F^T F, \lambda_3 = 1/\sqrt{\det C}, h = \lambda_3 H, E = |\Phi|/h \f$,
-/// \f$ \sigma = F S F^T \f$ (J = 1, plane stress).
+/// \f$ \sigma = F S F^T \f$ (J = 1, plane stress). A solid's sample says F, sigma and E itself; its stretches
+/// are sorted.
 struct FilmPoint {
   explicit FilmPoint(const fem::MembraneSample& sample);
 
@@ -23,7 +24,7 @@ struct FilmPoint {
   Eigen::Vector3d stretch;   ///< lambda1 >= lambda2 in the plane, lambda3 through the thickness
   Eigen::Matrix3d direction; ///< columns: unit vectors of these stretches in space; the third is the normal
   Eigen::Matrix3d cauchy;    ///< sigma in space, Pa
-  Eigen::Vector2d principal_stress; ///< in the plane, larger first, Pa
+  Eigen::Vector2d principal_stress; ///< in the plane, larger first, of a solid largest and smallest, Pa
   double thickness = 0;             ///< h, m
   double electric_field = 0;        ///< true field E, V/m
 };

@@ -204,19 +204,20 @@ struct SymmetricSolver::Indefinite {
   std::vector<int> rows, columns;
 };
 
-SymmetricSolver::SymmetricSolver(const SparseSymmetric& matrix)
-    : matrix_(matrix), cholesky_(matrix.size > 0 ? std::make_unique<Cholesky>(matrix) : nullptr) {}
+SymmetricSolver::SymmetricSolver(const SparseSymmetric& matrix, bool indefinite)
+    : matrix_(matrix),
+      cholesky_(matrix.size > 0 && !indefinite ? std::make_unique<Cholesky>(matrix) : nullptr) {}
 SymmetricSolver::~SymmetricSolver() = default;
 
 bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
-  if (!cholesky_) return true; // no unknowns
+  if (matrix_.size == 0) return true;
   if (added) {
     shifted_ = matrix_.values;
     for (int c = 0; c < matrix_.size; ++c)
       shifted_[static_cast<std::size_t>(matrix_.column_start[static_cast<std::size_t>(c)])] += (*added)[c];
   }
   const std::vector<double>& values = added ? shifted_ : matrix_.values;
-  definite_ = cholesky_->factor(values);
+  definite_ = cholesky_ && cholesky_->factor(values);
   if (definite_) {
     const auto [relative, equation] = cholesky_->smallest_pivot(values);
     singular_equation_ = equation;
@@ -231,7 +232,7 @@ bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
 int SymmetricSolver::negative_pivots() const { return definite_ ? 0 : indefinite_->negative_pivots(); }
 
 void SymmetricSolver::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  if (!cholesky_)
+  if (matrix_.size == 0)
     x.resize(0);
   else if (definite_)
     cholesky_->solve(b, x);

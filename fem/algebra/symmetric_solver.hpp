@@ -16,8 +16,9 @@ namespace dielast::fem {
 /// negative_pivots().
 class SymmetricSolver {
  public:
-  /// Analyses the pattern of `matrix` once; its values may change afterwards.
-  explicit SymmetricSolver(const SparseSymmetric& matrix);
+  /// Analyses the pattern of `matrix` once; its values may change afterwards. `indefinite`: it is known never
+  /// to be positive definite.
+  explicit SymmetricSolver(const SparseSymmetric& matrix, bool indefinite = false);
   ~SymmetricSolver();
   SymmetricSolver(const SymmetricSolver&) = delete;
   SymmetricSolver& operator=(const SymmetricSolver&) = delete;

@@ -17,12 +17,17 @@ struct WallContact {
 
 /// Finds walls that touch. Walls are chains of beams between joints (nodes where not two beams meet in line);
 /// walls that share a joint always meet there and are left out. Distances are taken between the beams'
-/// chords. Contact is reported, not resisted.
+/// chords.
 class WallContactSearch {
  public:
   /// `widths`: of the wall at each line, m; walls touch where their centrelines are the mean of theirs apart.
   WallContactSearch(const meshing::Mesh& mesh, const meshing::CellBlock& lines, std::vector<double> widths);
 
+  /// Whether the walls of two lines have no joint in common.
+  bool may_touch(int line, int other) const {
+    return !share_joint(lines_[static_cast<std::size_t>(line)].wall,
+                        lines_[static_cast<std::size_t>(other)].wall);
+  }
   /// The nearest pair of beams of every two walls in contact, by ascending distance.
   std::vector<WallContact> find(const State& state) const;
 

@@ -28,7 +28,8 @@ bool any_follows(const State& state) {
 
 BorderedTangent::BorderedTangent(const Model& model, const Assembler& assembler,
                                  const Eigen::VectorXd& stiffness)
-    : model_(model), matrix_(assembler.matrix()), stiffness_(stiffness), solver_(matrix_) {}
+    : model_(model), matrix_(assembler.matrix()), stiffness_(stiffness),
+      solver_(matrix_, model.dofs.scalar_count() > 0) {}
 
 void BorderedTangent::append_border(const Eigen::VectorXd& column, const Eigen::VectorXd& row,
                                     double corner) {
@@ -99,7 +100,7 @@ bool BorderedTangent::shift(int equation, const Eigen::VectorXd* added) {
 
 void BorderedTangent::count_modes(bool shifted) {
   const Eigen::Index symmetric = columns_.cols() - paths_;
-  negative_pivots_ = solver_.negative_pivots();
+  negative_pivots_ = solver_.negative_pivots() - model_.dofs.scalar_count();
   unstable_modes_ = negative_pivots_ + negative_eigenvalues(schur_.bottomRightCorner(symmetric, symmetric)) -
                     static_cast<int>(following_.size());
   if (shifted) negative_pivots_ += negative_eigenvalues(schur_.bottomRightCorner(1, 1));
@@ -109,7 +110,7 @@ bool BorderedTangent::factor(const State& state, const PathBorder* path, const E
   set_borders(state, path);
   const bool regular = solver_.factor(added);
   if (columns_.cols() == 0) {
-    if (regular) negative_pivots_ = unstable_modes_ = solver_.negative_pivots();
+    if (regular) negative_pivots_ = unstable_modes_ = solver_.negative_pivots() - model_.dofs.scalar_count();
     return regular;
   }
   if (!columns_.allFinite()) return false;

@@ -40,9 +40,10 @@ class BorderedTangent {
   /// singular under this control.
   [[nodiscard]] bool factor(const State& state, const PathBorder* path = nullptr,
                             const Eigen::VectorXd* added = nullptr);
-  /// Negative eigenvalues of K: unstable directions at fixed voltages.
+  /// Negative eigenvalues of K less those that the scalars of the model bring (see DofMap): unstable
+  /// directions at fixed voltages.
   int negative_pivots() const { return negative_pivots_; }
-  /// Negative eigenvalues of K + B C^-1 B^T: unstable directions under the control of the state.
+  /// Those of K + B C^-1 B^T, likewise: unstable directions under the control of the state.
   int unstable_modes() const { return unstable_modes_; }
 
   /// du for forces f; returns ds (0 without a path). Requires a successful factor().

@@ -59,6 +59,8 @@ Equilibrium::Equilibrium(const Model& model, int threads)
   for (int n = 0; n < model.dofs.node_count(); ++n)
     for (int c = 3; c < DofMap::components; ++c)
       if (const int e = model.dofs.equation(n, c); e != DofMap::absent) weight_[e] = 1 / model.length_scale;
+  for (int s = 0; s < model.dofs.scalar_count(); ++s)
+    weight_[model.dofs.scalar_equation(s)] = 1 / model.length_scale; // residuals are energies
   assembler_.tangent(model.initial_state());
   const SparseSymmetric& K = assembler_.matrix();
   const auto squared = weight_.head(K.size).array().square();
@@ -161,7 +163,8 @@ bool Equilibrium::factor(const State& state, const PathBorder* path, const Eigen
 /// do.
 double Equilibrium::backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings) {
   const Eigen::Index free = model_.dofs.free_count();
-  const bool definite = tangent_.unstable_modes() == 0;
+  // With scalars an equilibrium is a saddle of the energy: only the residual tells.
+  const bool definite = tangent_.unstable_modes() == 0 && model_.dofs.scalar_count() == 0;
   const double slope = current.force.head(free).dot(step);
   const double dead_work = state.dead_force.head(free).dot(step);
   const auto chamber = model_.closed_chamber(state);
@@ -259,6 +262,7 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     return regular;
   };
   Eigen::VectorXd step;
+  model_.balance_fields(state);
   if (!fill(state)) return end(Outcome::infeasible);
   balance(state, current, Pressure::is_unknown);
   const double first_norm = current.norm;

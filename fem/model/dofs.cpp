@@ -39,6 +39,11 @@ void DofMap::tie(const Tie& tie) {
   ties_.push_back(root);
 }
 
+int DofMap::add_scalar(double unit) {
+  scalars_.push_back({unit, absent});
+  return scalar_count() - 1;
+}
+
 void DofMap::number() {
   for (const Tie& tie : ties_)
     for (int c = 0; c < components; ++c) {
@@ -77,6 +82,10 @@ void DofMap::number() {
       held_count_ += mark(i) == held_mark;
       ++count_;
     }
+  int scalar = free_count_;
+  for (Scalar& one : scalars_) one.equation = scalar++;
+  free_count_ += scalar_count();
+  count_ += scalar_count();
   int free = 0, held = free_count_, tied = free_count_ + held_count_;
   for (std::size_t i = 0; i < leader.size(); ++i) {
     if (mark(i) == absent) continue;
@@ -105,6 +114,8 @@ void DofMap::advance(State& state, const Eigen::VectorXd& increment, double scal
     }
     if (turns) state.rotation[n] = rotation_of(spin) * state.rotation[n];
   }
+  for (std::size_t s = 0; s < scalars_.size(); ++s)
+    state.scalar[s] += scale * scalars_[s].unit * increment[scalars_[s].equation];
   carry(state);
 }
 
@@ -171,6 +182,8 @@ Eigen::VectorXd DofMap::increment(const State& from, const State& to) const {
     for (int c = 3; c < components; ++c)
       if (const int e = equation[static_cast<std::size_t>(c)]; is_free(e)) increment[e] = spin[c - 3];
   }
+  for (std::size_t s = 0; s < scalars_.size(); ++s)
+    increment[scalars_[s].equation] = (to.scalar[s] - from.scalar[s]) / scalars_[s].unit;
   return increment;
 }
 

@@ -41,6 +41,10 @@ struct Tie {
 /// then the displacements of tied nodes, which are functions of their masters' unknowns: a residual of
 /// count() entries carries the reactions behind the free equations, and what acts on tied nodes until
 /// gather() moves it.
+///
+/// Behind the nodes' unknowns come scalars, numbers of State::scalar that move nothing: pressures that keep a
+/// volume, potentials of a field. They are multipliers: the energy is stationary in them, and largest, so
+/// that each brings the tangent one negative eigenvalue at a stable state, too.
 class DofMap {
  public:
   static constexpr int components = 6;
@@ -59,11 +63,17 @@ class DofMap {
   /// Makes the node a part of the rigid body of `master`, which may itself be tied. Throws
   /// std::invalid_argument for a node that is tied already, to itself, or to one of its own.
   void tie(const Tie& tie);
+  /// Adds a free scalar and returns its place in State::scalar. Its equation's unknown is the scalar over
+  /// `unit` (in the scalar's own unit, positive), such that residuals are energies as those of spins are.
+  int add_scalar(double unit);
   /// Numbers everything; to be called once, after the last of the calls above. Throws std::invalid_argument
   /// where a displacement of a tied node is held or shared.
   void number();
 
   int equation(int node, int component) const { return equation_[static_cast<std::size_t>(node)][component]; }
+  int scalar_equation(int scalar) const { return scalars_[static_cast<std::size_t>(scalar)].equation; }
+  double scalar_unit(int scalar) const { return scalars_[static_cast<std::size_t>(scalar)].unit; }
+  int scalar_count() const { return static_cast<int>(scalars_.size()); }
   int node_count() const { return static_cast<int>(equation_.size()); }
   int free_count() const { return free_count_; }
   int held_count() const { return held_count_; }
@@ -97,7 +107,13 @@ class DofMap {
     return {absent, absent, absent, absent, absent, absent};
   }
 
+  struct Scalar {
+    double unit;
+    int equation;
+  };
+
   std::vector<std::array<int, components>> equation_;
+  std::vector<Scalar> scalars_;
   std::vector<std::array<int, 4>> shared_; ///< node, component, other node, its component
   std::vector<Tie> ties_;
   int free_count_ = 0, held_count_ = 0, count_ = 0;

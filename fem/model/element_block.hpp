@@ -80,6 +80,8 @@ class ElementBlock {
   virtual int dofs_per_element() const = 0;
   /// Elements are evaluated in multiples of this many.
   virtual int granularity() const { return 1; }
+  /// Adds this block's scalars and remembers their places; to be called before the unknowns are numbered.
+  virtual void place_scalars(DofMap& /*dofs*/) {}
   /// Adds the unknowns of this block's nodes, as far as the model can move.
   virtual void claim_dofs(DofMap& dofs, Dimension dimension) const = 0;
   /// Equations of one element, DofMap::absent where an unknown does not exist.
@@ -91,6 +93,10 @@ class ElementBlock {
 
   /// Adds this block's share of the electrodes' charges; `dofs` asks for dQ/du as well.
   virtual void add_charges(const State& /*state*/, const DofMap* /*dofs*/, Charges& /*charges*/) const {}
+  /// Puts the potentials among this block's scalars in equilibrium at fixed displacements and voltages.
+  virtual void balance_field(State& /*state*/) const {}
+  /// By how much dQ/dPhi of an electrode is smaller where this block's potentials follow, F.
+  virtual double screened_capacitance(const State& /*state*/, std::size_t /*electrode*/) const { return 0; }
   /// Claims the points of the sheets that this block's elements lie under.
   virtual void place_sheets(SheetMap& /*sheets*/) {}
   /// Adds its share of the sheets' matrices; conductances of 1/Ohm per square.

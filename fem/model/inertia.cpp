@@ -58,6 +58,8 @@ Eigen::VectorXd position(const State& state, const DofMap& dofs) {
         position[e] = spin[c];
       }
   }
+  for (int s = 0; s < dofs.scalar_count(); ++s)
+    position[dofs.scalar_equation(s)] = state.scalar[static_cast<std::size_t>(s)] / dofs.scalar_unit(s);
   return position;
 }
 

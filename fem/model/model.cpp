@@ -49,6 +49,7 @@ State Model::initial_state() const {
   State state;
   state.displacement.assign(nodes, Eigen::Vector3d::Zero());
   state.rotation.assign(nodes, Eigen::Quaterniond::Identity());
+  state.scalar.assign(static_cast<std::size_t>(dofs.scalar_count()), 0.0);
   state.voltage.assign(port_count(), 0.0);
   state.dead_force = Eigen::VectorXd::Zero(dofs.count());
   state.supply.assign(port_count(), Supply::voltage);
@@ -98,6 +99,16 @@ double Model::given_charge(const State& state, std::size_t port) const {
         static_cast<std::size_t>(point.electrode) == port)
       given += state.scheme.dt / state.scheme.a0 * point.leakage * state.sheet_drop[a];
   return given;
+}
+
+double Model::capacitance(const State& state, std::size_t electrode) const {
+  double capacitance = charges(state, false).capacitance[electrode];
+  for (const auto& block : blocks) capacitance -= block->screened_capacitance(state, electrode);
+  return capacitance;
+}
+
+void Model::balance_fields(State& state) const {
+  for (const auto& block : blocks) block->balance_field(state);
 }
 
 std::optional<std::size_t> Model::closed_chamber(const State& state) const {

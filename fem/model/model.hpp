@@ -42,6 +42,11 @@ struct Model {
   Samples sample(const State& state) const;
   /// Of the electrodes, C, and the volumes of the chambers, m^3.
   Charges charges(const State& state, bool with_coupling) const;
+  /// dQ/dPhi of an electrode at fixed displacements, the potentials of solids in equilibrium, F; without such
+  /// it is Charges::capacitance.
+  double capacitance(const State& state, std::size_t electrode) const;
+  /// Puts the potentials of solids in equilibrium with the state's voltages and displacements.
+  void balance_fields(State& state) const;
   /// The same with what the circuits draw added, and less what there is given: `charge` is 0 in balance.
   Charges surplus(const State& state, bool with_coupling) const;
   /// Energy that goes with it: the sum of the integrals of given minus drawn charge over voltage, J.

@@ -5,9 +5,19 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace dielast::fem {
+
+/// What a point of a solid says instead of a film's F and S. Axes: x, y, z; of a solid of revolution those at
+/// y = 0, so that y is the hoop's direction.
+struct SolidSample {
+  Eigen::Matrix3d F;      ///< dx/dX
+  Eigen::Matrix3d cauchy; ///< true stress, elastic + electrostatic, Pa
+  Eigen::Vector3d field;  ///< true electric field, V/m
+  double thickness = 0;   ///< of one of its layers, deformed, m; NaN where it has none
+};
 
 /// The film at one integration point.
 struct MembraneSample {
@@ -22,6 +32,7 @@ struct MembraneSample {
   double voltage = 0;           ///< Phi across the film here, V; 0 outside every electrode
   int electrode = -1;           ///< number of the electrode that covers it; -1: none
   double breakdown_field = 0;   ///< true field at which this film breaks down, V/m
+  std::optional<SolidSample> solid{}; ///< of a solid: F and S above are NaN
 };
 
 /// A wall at one integration point. Components: 1 along the wall, 2 across it in the film's plane, 3 normal

@@ -36,6 +36,10 @@ State extrapolate(std::span<const PathPoint> points, double parameter) {
       spin += weight[i] * spin_of(points[i].state.rotation[n] * last.rotation[n].conjugate());
     result.rotation[n] = rotation_of(spin) * last.rotation[n];
   }
+  for (std::size_t s = 0; s < last.scalar.size(); ++s) {
+    result.scalar[s] = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) result.scalar[s] += weight[i] * points[i].state.scalar[s];
+  }
   return result;
 }
 

@@ -40,11 +40,12 @@ enum class Supply : std::uint8_t {
 struct State {
   std::vector<Eigen::Vector3d> displacement; ///< per node, m, from the mesh as drawn
   std::vector<Eigen::Quaterniond> rotation; ///< per node, from the mesh as drawn; the sign is kept continuous
-  std::vector<double> voltage;              ///< per electrode, V; then per chamber, its pressure, Pa
-  Eigen::VectorXd dead_force;               ///< per equation (see DofMap): N, or N m for rotations
-  std::vector<Supply> supply;               ///< likewise: what is given
-  std::vector<double> charge;               ///< likewise: the given charge, C, or pumped volume, m^3
-  std::vector<double> source;               ///< likewise: voltage of the circuit's source, V
+  std::vector<double> scalar;  ///< pressures (Pa) and potentials (V) of solids: see DofMap::add_scalar
+  std::vector<double> voltage; ///< per electrode, V; then per chamber, its pressure, Pa
+  Eigen::VectorXd dead_force;  ///< per equation (see DofMap): N, or N m for rotations
+  std::vector<Supply> supply;  ///< likewise: what is given
+  std::vector<double> charge;  ///< likewise: the given charge, C, or pumped volume, m^3
+  std::vector<double> source;  ///< likewise: voltage of the circuit's source, V
   Eigen::VectorXd sheet_drop; ///< per Model::sheet_points, the electrode's voltage less the sheet's there, V;
                               ///< empty: none
   double time = 0;            ///< s

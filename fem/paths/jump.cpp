@@ -146,6 +146,7 @@ JumpResult Descent::fall() {
 
 JumpResult jump(Equilibrium& equilibrium, State& state, const Eigen::VectorXd& direction,
                 const JumpOptions& options) {
+  if (equilibrium.model().dofs.scalar_count() > 0) return {.end = JumpEnd::stuck}; // no way down on a saddle
   Descent descent(equilibrium, state, options);
   if (!descent.push(direction)) return {.end = JumpEnd::stuck};
   return descent.fall();

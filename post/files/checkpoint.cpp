@@ -56,6 +56,7 @@ json archive(const fem::State& state) {
   const auto& scheme = state.scheme;
   return {{"displacement", post::pack({state.displacement.front().data(), 3 * state.displacement.size()})},
           {"rotation", post::pack(rotations)},
+          {"scalar", post::pack(state.scalar)},
           {"voltage", post::pack(state.voltage)},
           {"supply", state.supply},
           {"charge", post::pack(state.charge)},
@@ -95,6 +96,7 @@ fem::State restore_state(const json& archived, const StateSizes& sizes) {
     state.displacement.emplace_back(&displacement[3 * n]);
     state.rotation.emplace_back(&rotation[4 * n]);
   }
+  state.scalar = unpack(archived.at("scalar"), sizes.scalars);
   state.voltage = unpack(archived.at("voltage"), ports);
   for (const json& supply : archived.at("supply"))
     if (const int number = supply; number < 0 || number > static_cast<int>(fem::Supply::circuit)) mismatch();
@@ -178,7 +180,8 @@ StateSizes StateSizes::of(const fem::Model& model) {
           model.electrodes.size(),
           model.chambers.size(),
           drawn.history ? drawn.history->now.size() : 0,
-          model.sheet_points.size()};
+          model.sheet_points.size(),
+          drawn.scalar.size()};
 }
 
 json archive(const fem::RampProgress& progress) {

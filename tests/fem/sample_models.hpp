@@ -46,7 +46,10 @@ std::unique_ptr<Model> unnumbered_model(int nodes, Dimension dimension, Blocks&&
   auto model =
       std::make_unique<Model>(Model{.dofs = DofMap(nodes), .blocks = {}, .electrodes = {"electrode"}});
   (model->blocks.push_back(std::forward<Blocks>(blocks)), ...);
-  for (const auto& block : model->blocks) block->claim_dofs(model->dofs, dimension);
+  for (const auto& block : model->blocks) {
+    block->place_scalars(model->dofs);
+    block->claim_dofs(model->dofs, dimension);
+  }
   model->place_histories();
   return model;
 }

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/solids/solid_response.hpp"
+
+#include "materials/laws/solid_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::fem {
+
+namespace {
+
+materials::SolidInternal read(const std::vector<double>& all, std::size_t place) {
+  materials::SolidInternal values{};
+  if (!all.empty())
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(place), values.size(), values.begin());
+  return values;
+}
+
+void write(std::vector<double>& all, std::size_t place, const materials::SolidInternal& values) {
+  std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(place));
+}
+
+} // namespace
+
+SolidResponse::SolidResponse(const SolidSection& section)
+    : material_(materials::with_dashpot(section.material)),
+      has_pressure_(!std::holds_alternative<materials::StVenantKirchhoff>(section.material.law)),
+      compliance_(1 / section.bulk_modulus) {}
+
+SolidDensity SolidResponse::electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0) const {
+  const double half = -material_.dielectric.permittivity / 2;
+  const materials::SolidField field = materials::solid_field(C, E0);
+  return {.value = half * field.value,
+          .in_C = half * field.in_C,
+          .in_E = half * field.in_E,
+          .in_CC = half * field.in_CC,
+          .in_Cp = Eigen::Vector<double, 6>::Zero(),
+          .in_CE = half * field.in_CE,
+          .in_EE = half * field.in_EE};
+}
+
+SolidDensity SolidResponse::potential(const State& state, int point, const Eigen::Matrix3d& C, double p,
+                                      const Eigen::Vector3d& E0) const {
+  const materials::SolidPotential W = materials::solid_potential(material_.law, C, 0);
+  SolidDensity density = electric(C, E0);
+  density.value += W.value;
+  density.in_C += W.first;
+  density.in_CC += W.second;
+  for (int b = 0; b < branches(); ++b) {
+    const std::size_t i = place(point, b);
+    const materials::SolidPotential branch =
+        materials::solid_branch_potential(material_.branches[static_cast<std::size_t>(b)], C, state.scheme,
+                                          read(state.history->now, i), read(state.history->before, i));
+    density.value += branch.value;
+    density.in_C += branch.first;
+    density.in_CC += branch.second;
+  }
+  if (has_pressure_) {
+    const materials::SolidPotential J = materials::volume_ratio(C);
+    density.value -= p * (J.value - 1) + compliance_ * p * p / 2;
+    density.in_C -= p * J.first;
+    density.in_CC -= p * J.second;
+    density.in_p = 1 - J.value - compliance_ * p;
+    density.in_Cp = -J.first;
+    density.in_pp = -compliance_;
+  }
+  return density;
+}
+
+EnergyParts SolidResponse::energies(const State& state, int point, const Eigen::Matrix3d& C, double p) const {
+  EnergyParts parts;
+  parts.elastic = materials::solid_potential(material_.law, C, 0).value;
+  if (has_pressure_) parts.elastic += compliance_ * p * p / 2;
+  for (int b = 0; b < branches(); ++b) {
+    const materials::BranchPower power = materials::solid_branch_power(
+        material_.branches[static_cast<std::size_t>(b)], C, read(state.history->now, place(point, b)));
+    parts.branches += power.stored;
+    parts.dissipation += power.dissipation;
+  }
+  return parts;
+}
+
+void SolidResponse::start_history(int points, std::vector<double>& all) const {
+  for (int p = 0; p < points; ++p)
+    for (int b = 0; b < branches(); ++b) write(all, place(p, b), materials::undeformed_solid());
+}
+
+void SolidResponse::advance_history(const State& state, int point, const Eigen::Matrix3d& C,
+                                    std::vector<double>& all) const {
+  for (int b = 0; b < branches(); ++b) {
+    const std::size_t i = place(point, b);
+    write(all, i,
+          materials::solid_branch_advance(material_.branches[static_cast<std::size_t>(b)], C, state.scheme,
+                                          read(state.history->now, i), read(state.history->before, i)));
+  }
+}
+
+} // namespace dielast::fem
