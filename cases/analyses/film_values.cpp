@@ -113,14 +113,12 @@ std::vector<FilmReading> readings_at(const std::string& place, const meshing::Me
   return readings;
 }
 
-std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,
-                                     const fem::Samples& samples) {
+std::vector<ElementPoint> elements_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh) {
   const meshing::CellBlock& film = *mesh.film();
   const bool of_revolution = meshing::is_meridian(film.type);
   const Eigen::Vector3d wanted =
       of_revolution ? Eigen::Vector3d(point.head<2>().norm(), 0, point.z()) : point;
-  const std::vector<Points> points = points_of_cells(film, samples);
-  std::vector<FilmReading> readings;
+  std::vector<ElementPoint> found;
   for (int cell = 0; cell < film.size(); ++cell) {
     const auto nodes = film.cell(cell);
     Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(nodes.size()));
@@ -139,9 +137,21 @@ std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing
       away = wanted - x * at.value;
       local += (tangent.transpose() * tangent).inverse() * (tangent.transpose() * away);
     }
-    if (!is_inside(film.type, local) || !(away.norm() <= close_by * size)) continue;
-    const auto [first, count] = points[static_cast<std::size_t>(cell)];
-    readings.push_back({cell, first, wanted, continued(film.type, count, local.transpose()).transpose()});
+    if (is_inside(film.type, local) && away.norm() <= close_by * size)
+      found.push_back({cell, local, shape(film.type, local).value});
+  }
+  return found;
+}
+
+std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,
+                                     const fem::Samples& samples) {
+  const meshing::CellBlock& film = *mesh.film();
+  const std::vector<Points> points = points_of_cells(film, samples);
+  std::vector<FilmReading> readings;
+  for (const ElementPoint& at : elements_at(point, mesh)) {
+    const auto [first, count] = points[static_cast<std::size_t>(at.cell)];
+    readings.push_back(
+        {at.cell, first, point, continued(film.type, count, at.local.transpose()).transpose()});
   }
   return readings;
 }

@@ -23,6 +23,17 @@ struct FilmReading {
 std::vector<FilmReading> readings_at(const std::string& place, const meshing::Mesh& mesh,
                                      const fem::Samples& samples);
 
+/// A point of an element, as drawn.
+struct ElementPoint {
+  int cell = 0;
+  Eigen::VectorXd local; ///< coordinates in the element
+  Eigen::VectorXd shape; ///< weights of the values at its nodes
+};
+
+/// In all elements that have the point, as drawn, to a thousandth of their size; in a film of revolution it
+/// may be at any angle about the z axis. None beside the film.
+std::vector<ElementPoint> elements_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh);
+
 /// In the elements that have the point, as drawn, to a thousandth of their size; in a film of revolution it
 /// may be at any angle about the z axis. None beside the film.
 std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,

@@ -69,6 +69,14 @@ Measurement::Measurement(const Case& one, const Device& device) : case_(one), de
     written += !quantity.standard;
     if (quantity.kind == QuantityKind::value)
       readings_[quantity.name] = readings_of(quantity, fmt::format("quantity[{}]", written), drawn);
+    if (quantity.kind == QuantityKind::displacement && quantity.point) {
+      const auto found = elements_at(Eigen::Vector3d(quantity.point->data()), device.mesh);
+      const std::string where = fmt::format("quantity[{}].point", written);
+      if (found.empty())
+        throw CaseError(
+            {{case_.where(where), where, "there is no film; coordinates are those of the film as drawn"}});
+      points_[quantity.name] = found.front();
+    }
     if (quantity.kind == QuantityKind::radial_stretch)
       readings_[quantity.name] = readings_at(quantity.of, device.mesh, drawn);
     if (quantity.kind == QuantityKind::stretch)
@@ -145,8 +153,16 @@ double Measurement::length(const Quantity& quantity, const fem::State& state) co
 }
 
 double Measurement::displacement(const Quantity& quantity, const fem::State& state) const {
-  const Eigen::Vector3d moved =
-      position(quantity.of, state) - position(quantity.of, device_.model.initial_state());
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  if (quantity.point) {
+    const ElementPoint& at = points_.at(quantity.name);
+    const auto nodes = device_.mesh.film()->cell(at.cell);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      moved +=
+          at.shape[static_cast<Eigen::Index>(a)] * state.displacement[static_cast<std::size_t>(nodes[a])];
+  } else {
+    moved = position(quantity.of, state) - position(quantity.of, device_.model.initial_state());
+  }
   return quantity.along == along_gravity ? moved.dot(case_.gravity.down()) : component(moved, quantity.along);
 }
 
@@ -224,6 +240,12 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     const auto rest = references.find(quantity.name);
     return rest == references.end() ? unknown : moved - rest->second;
   }
+  case QuantityKind::swelling: {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const int n : device_.mesh.node_sets.at(quantity.of))
+      largest = std::max(largest, state.displacement[static_cast<std::size_t>(n)][*quantity.along]);
+    return largest;
+  }
   case QuantityKind::angle: {
     const auto master = static_cast<std::size_t>(device_.mesh.node_sets.at(quantity.of).front());
     return fem::spin_of(state.rotation[master])[*quantity.along];
@@ -272,10 +294,9 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   case QuantityKind::energy:
     return energy(quantity.of, measured.energy);
   case QuantityKind::capacitance:
-  case QuantityKind::charge: {
-    return (quantity.kind == QuantityKind::charge ? measured.charges.charge
-                                                  : measured.charges.capacitance)[electrode(quantity.of)];
-  }
+    return device_.model.capacitance(state, electrode(quantity.of));
+  case QuantityKind::charge:
+    return measured.charges.charge[electrode(quantity.of)];
   case QuantityKind::current:
   case QuantityKind::pressure:
   case QuantityKind::volume:

@@ -77,6 +77,7 @@ class Measurement {
   const Case& case_;
   const Device& device_;
   std::map<std::string, std::vector<FilmReading>> readings_; ///< by quantity
+  std::map<std::string, ElementPoint> points_;               ///< likewise, of displacements
   std::map<std::string, double> prestretch_;                 ///< by quantity of kind stretch, along its axis
   mutable std::map<std::string, std::vector<char>> film_at_;
 };

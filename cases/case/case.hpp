@@ -30,6 +30,7 @@ struct Electrode {
   std::optional<double> sheet_resistance; ///< of both faces together, Ohm per square
   std::string terminal;                   ///< where a resistive one is connected
   double stray_capacitance = 0;           ///< beside the film's, of what leads to it, F
+  std::string ground; ///< of a solid with a potential: the surface that lies opposite `place`
 };
 
 /// [[support]]
@@ -127,6 +128,12 @@ struct Chamber {
   std::optional<Waveform> pressure; ///< Pa
   std::optional<Waveform> volume;   ///< that is pumped in, m^3
   double bulk_modulus = 0;          ///< of what fills it, Pa
+  std::string place;                ///< the surface of a solid on which it presses; empty: the film
+};
+
+/// [contact]: what touches is kept apart by a barrier that sets in before it does
+struct Contact {
+  double thickness = 0; ///< of the barrier: the gap at which it sets in, m
 };
 
 /// [[spring]]: a linear spring between the centroids of two places, tension stiffness (distance -
@@ -236,6 +243,7 @@ enum class QuantityKind {
   pressure,
   volume,
   pumped_volume,
+  swelling,
   stiffness,
   coupling,
   natural_frequency,
@@ -265,7 +273,7 @@ struct Quantity {
                   ///< another quantity
   std::optional<int> along;                   ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
   std::string place;                          ///< value: over which it is the mean; coupling: where it pulls
-  std::optional<std::array<double, 3>> point; ///< value: instead of a place, as drawn, m
+  std::optional<std::array<double, 3>> point; ///< value, displacement: instead of a place, as drawn, m
   double length = 0;                          ///< coupling: of the electrode, m
   int mode = 1;                               ///< natural_frequency: its number, from the lowest
   post::Extreme extreme{};
@@ -329,6 +337,7 @@ struct Case {
   std::optional<Pivot> pivot;
   Gravity gravity;
   std::optional<Chamber> chamber;
+  std::optional<Contact> contact;
   std::vector<Spring> springs;
   std::vector<Linkage> linkages;
   std::vector<Step> steps;

@@ -15,6 +15,13 @@
 
 namespace dielast::cases {
 
+/// What a film's thickness does.
+enum class FilmSection {
+  membrane, ///< it does not resist bending
+  shell,    ///< it resists bending
+  solid,    ///< it is meshed
+};
+
 /// [film]
 struct Film {
   std::string material_name;
@@ -22,7 +29,13 @@ struct Film {
   double thickness = 0;               ///< undeformed H, m
   std::array<double, 2> prestretch{}; ///< lambda_p along x and y
   bool tension_field = false;         ///< it wrinkles where it would be compressed, and carries tension only
-  bool shell = false;                 ///< it resists bending
+  FilmSection section{};
+  bool potential = false; ///< of a solid: the field follows from the electric potential; otherwise it is
+                          ///< that of layers of `thickness`, stacked along the height
+  double width = 0;       ///< of a solid in plane strain, across the plane, m
+  std::optional<double> bulk_modulus{}; ///< of a solid, Pa; absent: incompressible
+
+  bool is_solid() const { return section == FilmSection::solid; }
 };
 
 /// Bars of rectangular section: the walls of a lattice, or [part.NAME.beam] along lines of a mesh
@@ -154,9 +167,22 @@ struct Line {
   std::array<double, 3> from{}, to{}; ///< m
 };
 
+/// [slab]: a rectangle of solid, in plane strain or of revolution about z
+struct Slab {
+  double length = 0, height = 0;                    ///< along x, and along y or z, m
+  double inner_radius = 0;                          ///< of revolution: where it begins, m
+  std::optional<std::array<double, 2>> electrode{}; ///< from where to where along x, m; absent: all of it
+  double cover_thickness = 0;                       ///< without field below and above the electrode, m
+};
+
+/// [hollow_sphere]: of solid, as drawn
+struct HollowSphere {
+  double inner_radius = 0, outer_radius = 0; ///< m
+};
+
 /// What has no mesh of its own is std::monostate.
 using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Strip, Line,
-                              AntagonisticRolls, MeshFile>;
+                              AntagonisticRolls, Slab, HollowSphere, MeshFile>;
 
 /// [mesh]
 struct MeshOptions {
@@ -166,8 +192,8 @@ struct MeshOptions {
   int wall_elements = 8; ///< beams per wall (honeycomb), or along a line
   double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
   int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
-  int across = 0;        ///< elements from side to side of a strip
-  int quadrature = 3;    ///< integration points of a 6-node triangle: 3 or 6
+  int across = 0; ///< elements from side to side of a strip, across the height of a slab, or a sphere's wall
+  int quadrature = 3; ///< integration points of a 6-node triangle: 3 or 6
 };
 
 /// A film, rods of it, or bars, with a mesh of their own or in a place of the unnamed part's. The part

@@ -2,6 +2,7 @@
 #include "cases/case/quantities.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace dielast::cases {
 
@@ -10,6 +11,7 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
   case QuantityKind::distance:
   case QuantityKind::size:
   case QuantityKind::displacement:
+  case QuantityKind::swelling:
   case QuantityKind::radius:
     return "m";
   case QuantityKind::elongation:
@@ -73,8 +75,11 @@ std::string meaning_of(const Quantity& q) {
     return fmt::format("growth of {}{}, since {}{}", q.of, along,
                        q.since.empty() ? "the mesh as drawn" : "\"" + q.since + "\"", at);
   case QuantityKind::displacement:
-    return fmt::format("displacement of {}{}{}{}", q.of, along,
+    return fmt::format("displacement of {}{}{}{}",
+                       q.point ? fmt::format("the point ({} m)", fmt::join(*q.point, ", ")) : q.of, along,
                        q.since.empty() ? "" : ", since \"" + q.since + "\"", at);
+  case QuantityKind::swelling:
+    return fmt::format("largest displacement of {}{}{}", q.of, along, at);
   case QuantityKind::radius:
     return fmt::format("mean radius of {}{}", q.of, at);
   case QuantityKind::angle:
@@ -136,7 +141,7 @@ bool reads_film(QuantityKind kind) {
 const Quantity* response_quantity(const Case& one, const std::string& name) {
   for (const QuantityKind kind : {QuantityKind::displacement, QuantityKind::angle})
     for (const Quantity& quantity : one.quantities)
-      if (quantity.kind == kind && quantity.along && (name.empty() || quantity.name == name))
+      if (quantity.kind == kind && quantity.along && !quantity.point && (name.empty() || quantity.name == name))
         return &quantity;
   return nullptr;
 }

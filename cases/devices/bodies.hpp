@@ -32,4 +32,8 @@ std::vector<std::unique_ptr<fem::ElementBlock>> body_masses(const std::vector<Bo
 void tie_bodies(const Case& one, const std::vector<BodyNodes>& nodes, const meshing::Mesh& mesh,
                 fem::DofMap& dofs);
 
+/// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
+/// the node next to the middle, one far from it along x and, in space, one far along y.
+void pin(const meshing::Mesh& mesh, fem::Dimension dimension, fem::DofMap& dofs);
+
 } // namespace dielast::cases

@@ -8,6 +8,7 @@
 #include "fem/elements/distance_block.hpp"
 #include "fem/elements/point_mass_block.hpp"
 #include "meshing/mesh_error.hpp"
+#include "meshing/solids/sides.hpp"
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
@@ -114,32 +115,6 @@ void keep_homogeneous(const Part& part, const Patch& patch, const meshing::Mesh&
   if (patch.mode == PatchMode::equal_biaxial) dofs.share(right.front(), 0, top.front(), 1);
 }
 
-/// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
-/// the node next to the middle, one far from it along x and, in space, one far along y.
-void pin(const meshing::Mesh& mesh, fem::DofMap& dofs) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const auto& x : mesh.nodes) middle += x / static_cast<double>(mesh.nodes.size());
-  std::vector<char> tied(mesh.nodes.size());
-  for (const fem::Tie& tie : dofs.ties()) tied[static_cast<std::size_t>(tie.node)] = 1;
-  const auto best = [&](auto&& cost) {
-    int found = static_cast<int>(std::ranges::find(tied, 0) - tied.begin());
-    for (int n = found + 1; n < mesh.node_count(); ++n)
-      if (!tied[static_cast<std::size_t>(n)] &&
-          cost(mesh.nodes[static_cast<std::size_t>(n)]) < cost(mesh.nodes[static_cast<std::size_t>(found)]))
-        found = n;
-    return found;
-  };
-  const int first = best([&](const Eigen::Vector3d& x) { return (x - middle).norm(); });
-  const Eigen::Vector3d anchor = mesh.nodes[static_cast<std::size_t>(first)];
-  const int along_x =
-      best([&](const Eigen::Vector3d& x) { return x.x() - anchor.x() + 2 * std::abs(x.y() - anchor.y()); });
-  const int along_y =
-      best([&](const Eigen::Vector3d& x) { return x.y() - anchor.y() + 2 * std::abs(x.x() - anchor.x()); });
-  for (const int c : {0, 1, 2}) dofs.hold(first, c);
-  for (const int c : {1, 2}) dofs.hold(along_x, c);
-  dofs.hold(along_y, 2);
-}
-
 fem::Distance distance(const meshing::Mesh& mesh, const std::array<std::string, 2>& between, int axis) {
   return {{mesh.node_sets.at(between[0]), mesh.node_sets.at(between[1])}, axis};
 }
@@ -207,6 +182,11 @@ void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
   if (!one.chamber) return;
   const std::size_t port = model.electrodes.size();
   model.chambers = {{"chamber", one.chamber->bulk_modulus}};
+  if (!one.chamber->place.empty()) {
+    model.blocks.push_back(fem::make_pressure_block(
+        mesh, meshing::sides_at(mesh, one.chamber->place, meshing::CellType::meridian3), port));
+    return;
+  }
   model.blocks.push_back(fem::make_pressure_block(mesh, *mesh.film(), port));
   if (const auto* annulus = one.geometry<Annulus>(); annulus && one.plate)
     model.blocks.push_back(
@@ -314,8 +294,7 @@ Device build_device(const Case& one) {
   for (const Body& body : one.bodies) places.push_back(body.name);
   check_places(one, places);
   const fem::Dimension dimension = one.dimension;
-
-  const Eigen::Vector3d size = mesh.bounds().sizes(); // of the film; bodies have nodes of their own
+  const Eigen::Vector3d size = mesh.bounds().sizes(); // bodies have nodes of their own
   const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
@@ -324,35 +303,38 @@ Device build_device(const Case& one) {
   model.corners = fem::element_corners(mesh);
 
   std::vector<std::string> warnings = size_warnings(one, size);
-  const bool of_revolution = dimension == fem::Dimension::axisymmetric;
   const meshing::CellBlock* film = mesh.film();
   if (!film) throw meshing::MeshError("the case has no film: neither triangles nor rods");
-  if (of_revolution && !meshing::is_meridian(film->type))
-    throw meshing::MeshError("model = \"axisymmetric\" is for discs, annuli and balloons");
   std::vector<int> parts = film_parts(one, mesh);
-  if (meshing::is_triangle(film->type)) require_flat_films(mesh, parts, model.extent);
+  const bool of_solid = one.any_film([](const Film& f) { return f.is_solid(); });
+  if (meshing::is_triangle(film->type) && !of_solid) require_flat_films(mesh, parts, model.extent);
   const auto elements = static_cast<double>(film->size());
-  model.length_scale = model.extent / (of_revolution ? elements : std::sqrt(elements));
+  model.length_scale = model.extent / (meshing::is_meridian(film->type) ? elements : std::sqrt(elements));
   try {
     add_films(one, mesh, parts, model);
+    add_solids(one, mesh, parts, model);
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
   const auto films = static_cast<int>(model.blocks.size());
   add_bars(one, mesh, model);
+  add_contact(one, mesh, model);
 
   add_springs(one, mesh, model);
   add_capacitors(one, model);
   add_masses(one, mesh, model);
   for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
   add_chamber(one, mesh, model);
-  for (const auto& block : model.blocks) block->claim_dofs(model.dofs, dimension);
+  for (const auto& block : model.blocks) {
+    block->place_scalars(model.dofs);
+    block->claim_dofs(model.dofs, dimension);
+  }
   tie_bodies(one, bodies, mesh, model.dofs);
   clamp_under_walls(one, mesh, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty();
-  if (free_body) pin(mesh, model.dofs);
-  if (of_revolution)
+  if (free_body) pin(mesh, dimension, model.dofs);
+  if (dimension == fem::Dimension::axisymmetric)
     for (int n = 0; n < mesh.node_count(); ++n)
       if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);
   if (one.plate) carry_plate(*one.plate, mesh, model.dofs);
@@ -386,7 +368,8 @@ Device build_device(const Case& one) {
   device.film_parts = std::move(parts);
   device.films = films;
   device.tension_field = one.any_film([](const Film& f) { return f.tension_field; });
-  device.shell = !one.any_film([](const Film& f) { return !f.shell; });
+  device.bears_compression = !one.any_film([](const Film& f) { return f.section == FilmSection::membrane; });
+  device.solid = of_solid;
   device.bar_widths = bar_widths(one, device.mesh);
   require_one_prestretch(one, device);
   device.warnings = std::move(warnings);

@@ -13,13 +13,14 @@ namespace dielast::cases {
 struct Device {
   meshing::Mesh mesh;
   fem::Model model;
-  std::vector<int> film_parts;       ///< for each cell of the film, its part: a number in Case::parts
-  int films = 0;                     ///< blocks of film; they stand in front of the model's others
-  std::vector<double> bar_widths;    ///< for each line of the mesh, m
-  bool tension_field = false;        ///< a film wrinkles where it would be compressed
-  bool shell = false;                ///< every film resists bending: where it is compressed it may buckle
-  bool free_body = false;            ///< no support: pinned against rigid motion only, without reactions
-  Eigen::VectorXd weight;            ///< dead forces of gravity, per equation, N
+  std::vector<int> film_parts;    ///< for each cell of the film, its part: a number in Case::parts
+  int films = 0;                  ///< blocks of film; they stand in front of the model's others
+  std::vector<double> bar_widths; ///< for each line of the mesh, m
+  bool tension_field = false;     ///< a film wrinkles where it would be compressed
+  bool bears_compression = false; ///< every film is a shell or a solid: it may buckle, and does not wrinkle
+  bool solid = false;             ///< its film is meshed across its thickness
+  bool free_body = false;         ///< no support: pinned against rigid motion only, without reactions
+  Eigen::VectorXd weight;         ///< dead forces of gravity, per equation, N
   std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each
 };
 

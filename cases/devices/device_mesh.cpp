@@ -12,6 +12,7 @@
 #include "meshing/refine.hpp"
 #include "meshing/regions/region_mesh.hpp"
 #include "meshing/rings.hpp"
+#include "meshing/solids/slab.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -124,6 +125,15 @@ meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_orde
             return meshing::rolls_mesh({rolls.length * part.film->prestretch[0], part.hinge->length,
                                         part.hinge->beam.width, part.ribbon->length, rolls.arm},
                                        options.wall_elements, options.order);
+          },
+          [&](const Slab& s) {
+            const meshing::SlabShape shape{s.length, s.height, of_revolution ? s.inner_radius : 0.0,
+                                           s.electrode.value_or(std::array{0.0, s.length}),
+                                           s.cover_thickness};
+            return meshing::slab_mesh(shape, options.across, options.grading, of_revolution);
+          },
+          [&](const HollowSphere& h) {
+            return meshing::hollow_sphere_mesh(h.inner_radius, h.outer_radius, options.across);
           },
           [&](const MeshFile& file) {
             meshing::Mesh mesh = meshing::read_gmsh(file.path);

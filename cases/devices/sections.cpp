@@ -5,6 +5,7 @@
 #include "fem/elements/capacitor_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/shells/shell_block.hpp"
+#include "fem/solids/solid_block.hpp"
 #include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ namespace {
 std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {
   std::vector<int> map(static_cast<std::size_t>(film.size()), fem::passive);
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    if (!one.electrodes[e].ground.empty()) continue; // a surface
     const std::vector<int>* cells = mesh.cells_of(one.electrodes[e].place, &film);
     if (!cells)
       throw meshing::MeshError("electrode \"" + one.electrodes[e].name + "\": the place \"" +
@@ -36,6 +38,34 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
     }
   }
   return map;
+}
+
+/// Electrode or ground at each node of solids with a potential.
+std::vector<int> potential_map(const Case& one, const meshing::Mesh& mesh) {
+  std::vector<int> map(mesh.nodes.size(), fem::NodePotential::follows);
+  const auto claim = [&](const Electrode& electrode, const std::string& place, int potential) {
+    for (const int node : mesh.node_sets.at(place)) {
+      int& known = map[static_cast<std::size_t>(node)];
+      if (known != fem::NodePotential::follows && known != potential)
+        throw meshing::MeshError(fmt::format(
+            "electrode \"{}\": \"{}\" touches a surface of another potential", electrode.name, place));
+      known = potential;
+    }
+  };
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+    if (const Electrode& electrode = one.electrodes[e]; !electrode.ground.empty()) {
+      claim(electrode, electrode.ground, fem::NodePotential::ground);
+      claim(electrode, electrode.place, static_cast<int>(e));
+    }
+  return map;
+}
+
+/// A part that is meshed across its thickness.
+fem::SolidSection solid_section(const Film& film, fem::Dimension dimension) {
+  fem::SolidSection section{.material = film.material, .width = film.width, .thickness = film.thickness};
+  if (film.bulk_modulus) section.bulk_modulus = *film.bulk_modulus;
+  section.normal = Eigen::Vector3d::Unit(dimension == fem::Dimension::axisymmetric ? 2 : 1);
+  return section;
 }
 
 /// The mesh's options that hold for a part: those of the mesh in which it is.
@@ -173,7 +203,8 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
       model.blocks.push_back(fem::make_membrane_block(mesh, meshing::subset(film, cells), with,
                                                       std::move(under), one.dimension, points, cells));
     };
-    if (part.film->shell) {
+    if (part.film->is_solid()) continue;
+    if (part.film->section == FilmSection::shell) {
       const std::vector<int> none(cells.size(), fem::passive);
       fem::ShellSection layers{.prestretch = part.film->prestretch};
       std::vector<std::vector<int>> electrodes_of;
@@ -291,6 +322,34 @@ void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& 
       dofs.tie({node, master, at(node) - at(master)});
     }
   }
+}
+
+void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
+                fem::Model& model) {
+  std::vector<fem::SolidSection> sections;
+  std::map<int, int> section_of;
+  bool potential = false;
+  for (std::size_t p = 0; p < one.parts.size(); ++p)
+    if (const auto& film = one.parts[p].film; film && film->is_solid()) {
+      section_of[static_cast<int>(p)] = static_cast<int>(sections.size());
+      sections.push_back(solid_section(*film, one.dimension));
+      potential = film->potential;
+    }
+  if (sections.empty()) return;
+  const meshing::CellBlock& film = *mesh.film();
+  const std::vector<int> electrodes = electrode_map(one, mesh, film);
+  fem::SolidCells cells;
+  for (int cell = 0; cell < film.size(); ++cell)
+    if (const auto section = section_of.find(parts[static_cast<std::size_t>(cell)]);
+        section != section_of.end()) {
+      cells.numbers.push_back(cell);
+      cells.electrodes.push_back(electrodes[static_cast<std::size_t>(cell)]);
+      cells.sections.push_back(section->second);
+    }
+  cells.triangles = meshing::subset(film, cells.numbers);
+  model.blocks.push_back(fem::make_solid_block(mesh, std::move(cells), sections,
+                                               potential ? potential_map(one, mesh) : std::vector<int>{},
+                                               one.dimension));
 }
 
 std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh) {

@@ -20,10 +20,16 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
 
 /// Adds what else an electrode charges: its stray capacitance, and what of it lies in a strip's clamps.
 void add_capacitors(const Case& one, fem::Model& model);
+/// Adds one block of all solids, likewise.
+void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model);
 
 /// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws MeshError for a place without
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
+
+/// Adds what keeps the walls of a lattice's cells apart, where the case has [contact]. Throws MeshError where
+/// they are closer as drawn than the barrier reaches.
+void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
 /// Width of the bar along each line of the mesh, m.
 std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh);

@@ -176,7 +176,8 @@ Condition elements() {
 Condition curved_triangles() {
   return on<Part>("6-node triangles: mesh.order = 2 of a membrane that is not of revolution",
                   [](const Case& one, const Part& part) {
-                    const bool membranes = one.any_film([](const Film& film) { return !film.shell; });
+                    const bool membranes =
+                        one.any_film([](const Film& film) { return film.section == FilmSection::membrane; });
                     return membranes && part.mesh.order == 2 && one.dimension != fem::Dimension::axisymmetric;
                   });
 }
@@ -185,6 +186,21 @@ Condition an_electrode_keeps_off_walls() {
   return on_case("an [[electrode]] at the place \"electrode\"", [](const Case& one) {
     return std::ranges::any_of(one.electrodes,
                                [](const Electrode& e) { return e.place.ends_with("electrode"); });
+  });
+}
+
+Condition solid() {
+  return on<Film>("section = \"solid\"", [](const Case&, const Film& film) { return film.is_solid(); });
+}
+
+Condition of_revolution() {
+  return on_case("model = \"axisymmetric\"",
+                 [](const Case& one) { return one.dimension == fem::Dimension::axisymmetric; });
+}
+
+Condition plane_strain() {
+  return on<Film>("section = \"solid\" in a planar model", [](const Case& one, const Film& film) {
+    return film.is_solid() && one.dimension == fem::Dimension::planar;
   });
 }
 

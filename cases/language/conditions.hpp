@@ -28,6 +28,9 @@ Condition elements();
 Condition curved_triangles(); ///< the film is of 6-node triangles
 Condition moves_along_it();   ///< of a quantity's direction
 Condition an_electrode_keeps_off_walls();
+Condition solid(); ///< the film's own section is one
+Condition of_revolution();
+Condition plane_strain(); ///< likewise, of a planar model
 
 } // namespace when
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/language/conditions.hpp"
 #include "cases/readers/rules.hpp"
 #include "cases/tables/templates.hpp"
 
@@ -83,7 +84,7 @@ void check_line(SectionReader& reader, const Node& top, const Part& part) {
 
 /// What a shell needs of its case and its mesh.
 void check_shell(SectionReader& reader, const Node& top, const Case& one, const Part& part) {
-  if (!part.film || !part.film->shell) return;
+  if (!part.film || part.film->section != FilmSection::shell) return;
   const Node* film = top.find("film");
   const Node* written = film->find("section");
   const auto report = [&](const char* message) {
@@ -105,11 +106,91 @@ void check_shell(SectionReader& reader, const Node& top, const Case& one, const 
            "membranes");
 }
 
+/// What a solid needs of its case and its mesh.
+void check_solid(SectionReader& reader, const Node& tree, const Case& one, const Part& part) {
+  const bool thick =
+      std::holds_alternative<Slab>(part.geometry) || std::holds_alternative<HollowSphere>(part.geometry);
+  if (!part.film || (!thick && !part.film->is_solid())) return;
+  const Film& film = *part.film;
+  const Node& section = *top_of(tree, part).find("film");
+  const auto report = [&](const char* key, const std::string& message) {
+    const Node* written = section.find(key);
+    if (written && !written->source.is_written()) written = nullptr; // the geometry has brought it
+    reader.report(written ? written->source : section.source, key_of(part, fmt::format("film.{}", key)),
+                  written ? fmt::format("found {}: {}", text_of(*written), message) : message);
+  };
+  if (!film.is_solid()) return report("section", "a thick geometry is of solid");
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  const Part* meshed = part.has_mesh() ? &part : one.unnamed();
+  if (!meshed) return; // reported elsewhere
+  const bool own_mesh = std::holds_alternative<MeshFile>(meshed->geometry) && !of_revolution;
+  const bool in_thick_mesh = std::holds_alternative<Slab>(meshed->geometry) ||
+                             std::holds_alternative<HollowSphere>(meshed->geometry);
+  if (!own_mesh && !in_thick_mesh)
+    report("section", "a solid is a [slab], a [hollow_sphere], or a planar mesh of your own");
+  if (one.dimension == fem::Dimension::spatial)
+    report("section", "solids are in plane strain (model = \"planar\") or of revolution");
+  if (std::holds_alternative<HollowSphere>(part.geometry) && !film.potential)
+    report("field", "a hollow sphere is charged between its surfaces: field = \"potential\"");
+  if (film.prestretch != std::array{1.0, 1.0}) report("prestretch", "a solid is drawn free of stress");
+  if (film.tension_field) report("wrinkling", "a solid does not wrinkle");
+  if (film.material.dielectric.electrostriction != 0)
+    report("material", "a solid is an ideal dielectric: leave out electrostriction");
+  if (std::ranges::any_of(film.material.branches, [](const materials::Branch& branch) {
+        return branch.dashpot == materials::Dashpot::nominal;
+      }))
+    report("material", "a solid's dashpots have no axes: dashpot = \"log\"");
+  if (meshed->mesh.order != 2) report("section", "a solid is made of 6-node triangles");
+  if (std::ranges::any_of(one.steps, &Step::inertia) ||
+      (is_linearised(one) && (!film.material.branches.empty() || film.material.viscosity > 0)))
+    report("section", "solids move without inertia; their branches know of no harmonic response");
+  for (const Quantity& quantity : one.quantities)
+    if (quantity.kind == QuantityKind::nominal_stress || quantity.kind == QuantityKind::radial_stretch ||
+        quantity.kind == QuantityKind::stretch)
+      report("section",
+             fmt::format("quantity \"{}\" is of films that are membranes or shells", quantity.name));
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    const Electrode& electrode = one.electrodes[e];
+    if (electrode.ground.empty() != film.potential) continue;
+    const Node* list = tree.find("electrode");
+    const bool written = list && e < list->items.size() && list->items[e].source.is_written();
+    reader.report(written ? list->items[e].source : section.source,
+                  fmt::format("electrode[{}].ground", e + 1),
+                  film.potential ? "missing; with field = \"potential\" an electrode has a surface opposite"
+                                 : "only for a solid with field = \"potential\"");
+  }
+}
+
+/// Surfaces are for solids.
+void check_surfaces(SectionReader& reader, const Node& tree, const Case& one) {
+  if (!one.any_film([](const Film& film) { return film.is_solid(); })) {
+    for (std::size_t e = 0; e < one.electrodes.size(); ++e)
+      if (!one.electrodes[e].ground.empty())
+        reader.report(tree.find("electrode")->items.at(e).find("ground")->source,
+                      fmt::format("electrode[{}].ground", e + 1),
+                      "only for a solid with field = \"potential\"");
+    if (one.chamber && !one.chamber->place.empty())
+      reader.report(tree.find("chamber")->find("at")->source, "chamber.at", "only for solids");
+    return;
+  }
+  if (one.any_film([](const Film& film) { return !film.is_solid(); }))
+    reader.report(tree.source, "part", "solids and other films cannot be in one case");
+  const auto has_potential = [](const Film& film) { return film.potential; };
+  if (one.any_film(has_potential) && one.any_film(std::not_fn(has_potential)))
+    reader.report(tree.source, "part", "give all solids of a case the same field");
+  if (one.chamber && one.chamber->place.empty())
+    reader.report(tree.find("chamber")->source, "chamber.at",
+                  "missing; say on which surface of the solid it presses");
+}
+
 /// Electrodes with a resistance along them need triangles or meridians of membrane.
 void check_resistive_electrodes(SectionReader& reader, const Node& tree, const Case& one) {
   const char* other = nullptr;
-  for (const Part& part : one.parts)
-    if (part.rolled() || (part.film && part.film->shell)) other = part.rolled() ? "rods" : "shells";
+  for (const Part& part : one.parts) {
+    if (part.rolled()) other = "rods";
+    if (part.film && part.film->section == FilmSection::shell) other = "shells";
+    if (part.film && part.film->is_solid()) other = "solids";
+  }
   for (std::size_t e = 0; other && e < one.electrodes.size(); ++e)
     if (one.electrodes[e].sheet_resistance)
       reader.report(
@@ -138,6 +219,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     check_line(reader, top, part);
     check_strip(reader, top, one, part);
     check_shell(reader, top, one, part);
+    check_solid(reader, tree, one, part);
     if (part.name.empty()) continue;
     const auto report = [&](const char* key, const std::string& message) {
       const Node* blamed = top.find(key);
@@ -169,6 +251,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     if (knows_x_from_y(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
       report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
   }
+  check_surfaces(reader, tree, one);
   check_resistive_electrodes(reader, tree, one);
   const auto wrinkles = [](const Film& film) { return film.tension_field; };
   if (one.any_film(wrinkles) && one.any_film(std::not_fn(wrinkles)))

@@ -243,6 +243,12 @@ void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   need(StepKind::inflate, "volume", one.chamber && one.chamber->volume);
 }
 
+void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
+  if (!one.contact) return;
+  if (!one.geometry<Honeycomb>() || one.dimension != fem::Dimension::planar)
+    report_at(reader, tree, "contact", "is between the walls of a planar [honeycomb]");
+}
+
 /// Linear models have no unknowns for the voltages along a sheet.
 void check_sheets(SectionReader& reader, const Node& tree, const Case& one) {
   if (!is_linearised(one)) return;
@@ -335,11 +341,15 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
   const bool annulus = one.geometry<Annulus>();
   const bool round = annulus || one.geometry<Disc>();
   const bool balloon = one.geometry<Balloon>();
+  const bool sphere = one.geometry<HollowSphere>();
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  if (sphere && !of_revolution)
+    report_at(reader, tree, "model", "a hollow sphere is of revolution: model = \"axisymmetric\"");
   if (balloon && !of_revolution)
     report_at(reader, tree, "model", "a balloon is a film of revolution: model = \"axisymmetric\"");
-  if (of_revolution && !round && !balloon)
-    report_at(reader, tree, "model", "\"axisymmetric\" is for [disc], [annulus] and [balloon]");
+  if (of_revolution && !round && !balloon && !sphere && !one.geometry<Slab>())
+    report_at(reader, tree, "model",
+              "\"axisymmetric\" is for [disc], [annulus], [balloon], [slab] and [hollow_sphere]");
   if (of_revolution &&
       one.any_film([](const Film& film) { return film.prestretch[0] != film.prestretch[1]; }))
     report_at(reader, tree, "film", "a film of revolution has one prestretch in all directions");
@@ -364,6 +374,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_bodies(reader, tree, one);
   check_supports(reader, tree, one);
   check_chamber(reader, tree, one);
+  check_contact(reader, tree, one);
   check_sheets(reader, tree, one);
   check_quantities(reader, tree, one);
   check_names(reader, tree, one);

@@ -18,6 +18,7 @@ class Pictures {
  public:
   Pictures(const Device& device, const Snapshot& last)
       : device_(device), meridian_(meshing::is_meridian(device.mesh.film()->type)),
+        solid_of_revolution_(device.solid && device.mesh.bounds().sizes().y() == 0),
         wall_width_(device.bar_widths.empty() ? 0 : std::ranges::max(device.bar_widths)) {
     // Thickness and field jump at the electrode's edge: they are not smoothed across it.
     for (const double field : last.field) regions_.push_back(field != 0);
@@ -27,7 +28,11 @@ class Pictures {
     post::Panel panel{.title = snapshot.title, .positions = device_.mesh.nodes, .values = values};
     if (snapshot.voltage != 0) panel.title += ", " + post::engineering(snapshot.voltage, "V");
     if (values.size() == regions_.size()) panel.regions = regions_;
-    for (std::size_t n = 0; n < panel.positions.size(); ++n) panel.positions[n] += snapshot.displacement[n];
+    for (std::size_t n = 0; n < panel.positions.size(); ++n) {
+      Eigen::Vector3d& place = panel.positions[n];
+      place += snapshot.displacement[n];
+      if (solid_of_revolution_) place = {place.x(), place.z(), 0}; // seen along the hoops
+    }
     return panel;
   }
 
@@ -53,7 +58,7 @@ class Pictures {
   }
 
   const Device& device_;
-  bool meridian_;
+  bool meridian_, solid_of_revolution_;
   double wall_width_;
   std::vector<int> regions_;
 };
@@ -78,23 +83,23 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   const auto& all = journal.snapshots;
   const Snapshot& last = all.back();
   const Pictures pictures(device, last);
-  const std::string thickness = "Film thickness";
+  const ShapeField shown = shape_field(device);
   std::vector<const Snapshot*> ends{&last};
   if (all.size() > 1) ends.insert(ends.begin(), &all[all.size() - 2]);
   std::vector<post::Section> sections{{"Shape",
-                                       {pictures.image(ends, &Snapshot::thickness, thickness, "m",
+                                       {pictures.image(ends, &Snapshot::shape, shown.meaning, shown.unit,
                                                        "Before and after the last step, to one scale.")}}};
-  std::vector<double> both = ends.front()->thickness;
-  both.insert(both.end(), last.thickness.begin(), last.thickness.end());
-  if (!pictures.are_profiles() && spread(last.thickness) < 0.5 * spread(both))
-    sections.back().blocks.push_back(pictures.image({&last}, &Snapshot::thickness, thickness, "m",
+  std::vector<double> both = ends.front()->shape;
+  both.insert(both.end(), last.shape.begin(), last.shape.end());
+  if (!pictures.are_profiles() && spread(last.shape) < 0.5 * spread(both))
+    sections.back().blocks.push_back(pictures.image({&last}, &Snapshot::shape, shown.meaning, shown.unit,
                                                     "After the last step, in colours of its own."));
   if (!journal.critical.empty())
-    sections.push_back(
-        {"Critical mode",
-         {pictures.image({&journal.critical[0], &journal.critical[1]}, &Snapshot::thickness, thickness, "m",
-                         "The last critical point, and displaced along its mode, much "
-                         "exaggerated.")}});
+    sections.push_back({"Critical mode",
+                        {pictures.image({&journal.critical[0], &journal.critical[1]}, &Snapshot::shape,
+                                        shown.meaning, shown.unit,
+                                        "The last critical point, and displaced along its mode, much "
+                                        "exaggerated.")}});
   if (!journal.shapes.empty()) {
     post::Section modes{"Mode shapes", {}};
     for (const Snapshot& shape : journal.shapes)

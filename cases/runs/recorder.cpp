@@ -15,6 +15,11 @@ namespace dielast::cases {
 
 using nlohmann::json;
 
+ShapeField shape_field(const Device& device) {
+  if (device.solid) return {"principal_stretches.lambda1", "Largest stretch", "1"};
+  return {"thickness", "Film thickness", "m"};
+}
+
 namespace {
 
 /// Shorter runs are repeated faster than their checkpoints are written.
@@ -50,7 +55,7 @@ json archive(const Snapshot& snapshot) {
       {"title", snapshot.title},
       {"voltage", snapshot.voltage},
       {"displacement", post::pack({snapshot.displacement.front().data(), 3 * snapshot.displacement.size()})},
-      {"thickness", post::pack(snapshot.thickness)},
+      {"shape", post::pack(snapshot.shape)},
       {"field", post::pack(snapshot.field)}};
 }
 
@@ -59,7 +64,7 @@ Snapshot restore_snapshot(const json& archived, const meshing::Mesh& mesh) {
   Snapshot snapshot{archived.at("title"),
                     archived.at("voltage"),
                     {},
-                    post::unpack(archived.at("thickness"), triangles),
+                    post::unpack(archived.at("shape"), triangles),
                     post::unpack(archived.at("field"), triangles)};
   const std::vector<double> displacement = post::unpack(archived.at("displacement"), 3 * mesh.nodes.size());
   for (std::size_t i = 0; i + 2 < displacement.size(); i += 3)
@@ -76,7 +81,7 @@ Snapshot snapshot(const Device& device, const std::string& title, const fem::Sta
   for (std::size_t e = 0; e < device.model.electrodes.size(); ++e)
     if (std::abs(state.voltage[e]) > std::abs(voltage)) voltage = state.voltage[e];
   const int cells = device.mesh.film()->size();
-  return {title, voltage, state.displacement, post::average(samples, "thickness", cells),
+  return {title, voltage, state.displacement, post::average(samples, shape_field(device).name, cells),
           post::average(samples, "electric_field", cells)};
 }
 

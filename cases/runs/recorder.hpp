@@ -16,9 +16,15 @@ struct Snapshot {
   std::string title;
   double voltage = 0;                        ///< largest, V
   std::vector<Eigen::Vector3d> displacement; ///< per node, m
-  std::vector<double> thickness;             ///< m, per triangle
+  std::vector<double> shape;                 ///< ShapeField, per triangle
   std::vector<double> field;                 ///< true electric field, V/m, per triangle
 };
+
+/// The field that tells how a device has deformed.
+struct ShapeField {
+  std::string name, meaning, unit;
+};
+ShapeField shape_field(const Device& device);
 
 /// File of a run's checkpoint in its folder of results; removed when they are complete.
 inline constexpr const char* checkpoint_name = "checkpoint.cbor";

@@ -63,7 +63,7 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
                                   wrinkles->value > 1 ? "slack" : "wrinkled",
                                   wrinkles->value > 1 ? "no direction" : "one direction only")});
   if (const auto stress = extremes.find("min_principal_stress", post::Extreme::minimum);
-      !device_.tension_field && !device_.shell && stress &&
+      !device_.tension_field && !device_.bears_compression && stress &&
       begins(stress->value < -smallest_stress, "loss of tension"))
     events.push_back(
         {"loss of tension", place_of_triangle(stress->cell),

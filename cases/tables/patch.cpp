@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/tables/patch.hpp"
 
+#include "cases/tables/templates.hpp"
+
 #include <cmath>
 
 namespace dielast::cases {
@@ -45,6 +47,21 @@ void add_patch_sides(Case& one) {
   for (const Part& part : one.parts)
     if (const auto* patch = std::get_if<Patch>(&part.geometry); patch && part.film)
       add_sides(one, part, *patch);
+}
+
+void add_solid_defaults(Node& tree) {
+  const Source source{tree.source.file, 0, 0};
+  const bool sphere = tree.find("hollow_sphere");
+  if (!sphere && !tree.find("slab")) return;
+  const auto complete = [&](Node& part) {
+    Node* film = part.is(Node::Kind::table) ? part.find("film") : nullptr;
+    if (!film || !film->is(Node::Kind::table)) return;
+    if (!film->find("section")) film->add("section", parse_value("\"solid\"", source));
+    if (sphere && !film->find("field")) film->add("field", parse_value("\"potential\"", source));
+  };
+  complete(tree);
+  if (Node* parts = tree.find("part"))
+    for (Node& part : parts->items) complete(part);
 }
 
 } // namespace dielast::cases

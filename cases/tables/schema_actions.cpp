@@ -19,6 +19,11 @@ Section electrode_section() {
   section.keys = {
       text("name", to(&Electrode::name), "its name, for [drive.<name>]").distinct(),
       text("place", to(&Electrode::place), "the part of the film that it covers").refers_to(Reference::place),
+      text("ground", to(&Electrode::ground),
+           "of a solid with field = \"potential\": the surface without voltage; `place` is the one that is "
+           "charged")
+          .optional()
+          .refers_to(Reference::place),
       measure("sheet_resistance", "Ohm", to(&Electrode::sheet_resistance),
               "per square of the deformed film, both faces together; without it the voltage is the same "
               "everywhere")
@@ -278,7 +283,25 @@ Section chamber_section() {
           .at_least(1)
           .otherwise("2.2 GPa")
           .only_with(when::chamber_is_closed()),
+      text("at", to(&Chamber::place), "of a solid: the surface on which it presses")
+          .optional()
+          .refers_to(Reference::place),
   };
+  return section;
+}
+
+Section contact_section() {
+  Section section;
+  section.name = "contact";
+  section.meaning =
+      "walls of a [honeycomb] that touch are kept apart, without friction, by a barrier (Li et al. "
+      "2020); in the plane";
+  section.presence = Section::Presence::optional;
+  section.access = present(&Case::contact);
+  section.keys = {measure("thickness", "m", to(&Contact::thickness),
+                          "gap between the walls' faces at which the barrier sets in; it is never closed")
+                      .above(0)
+                      .at_most(0.1)};
   return section;
 }
 
@@ -306,7 +329,7 @@ Section drive_section() {
 std::vector<Section> action_sections() {
   return {electrode_section(), support_section(), load_section(),    spring_section(),     linkage_section(),
           drive_section(),     circuit_section(), plate_section(),   point_mass_section(), body_section(),
-          weight_section(),    pivot_section(),   gravity_section(), chamber_section()};
+          weight_section(),    pivot_section(),   gravity_section(), chamber_section(),    contact_section()};
 }
 
 } // namespace dielast::cases

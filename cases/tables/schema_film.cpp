@@ -198,7 +198,10 @@ Section film_section() {
   section.presence = Section::Presence::required;
   section.access = present(&Part::film);
   section.keys = {
-      measure("thickness", "m", to(&Film::thickness), "thickness of the unstretched film")
+      measure(
+          "thickness", "m", to(&Film::thickness),
+          "thickness of the unstretched film; of a solid that of one of its layers, or the distance of its "
+          "electrodes")
           .above(0)
           .at_most(0.1),
       number("prestretch", to(&Film::prestretch),
@@ -214,10 +217,35 @@ Section film_section() {
            to(&Film::tension_field), "what the film does where it would be compressed")
           .otherwise("compression"),
       word("section",
-           {{"membrane", "it does not resist bending", false},
-            {"shell", "it resists bending, and its nodes turn; in space, of 6-node triangles", true}},
-           to(&Film::shell), "what the film's thickness does")
+           {{"membrane", "it does not resist bending", FilmSection::membrane},
+            {"shell", "it resists bending, and its nodes turn; in space, of 6-node triangles",
+             FilmSection::shell},
+            {"solid",
+             "it is meshed: in plane strain (model = \"planar\") or of revolution, of 6-node triangles; the "
+             "default of a [slab] and a [hollow_sphere]",
+             FilmSection::solid}},
+           to(&Film::section), "what the film's thickness does")
           .otherwise("membrane"),
+      word(
+          "field",
+          {{"layers",
+            "of layers of its thickness, each between two electrodes, stacked along the height: voltage over "
+            "thickness, along the layers' normal",
+            false},
+           {"potential", "follows from the electric potential between an electrode's place and its ground",
+            true}},
+          to(&Film::potential), "where the field of a solid comes from")
+          .otherwise("layers")
+          .only_with(when::solid()),
+      measure("width", "m", to(&Film::width), "of a solid in plane strain: across the plane")
+          .above(0)
+          .at_most(10)
+          .otherwise("1 m")
+          .only_with(when::plane_strain()),
+      measure("bulk_modulus", "Pa", to(&Film::bulk_modulus), "of a solid; without it it is incompressible")
+          .above(0)
+          .optional()
+          .only_with(when::solid()),
   };
   section.sections.push_back(material_section());
   section.check = prestretch_conflict;

@@ -189,6 +189,64 @@ Section patch_section() {
   return section;
 }
 
+Section slab_section() {
+  Section section;
+  section.name = "slab";
+  section.meaning = "rectangle of solid, as high along y as its layers are stacked: in plane strain; or of "
+                    "revolution about z, as high along z: a disc, a ring, a tube";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Slab>();
+  section.keys = {
+      measure("length", "m", to(&Slab::length), "along x, or along the radius").above(0).at_most(10),
+      measure("height", "m", to(&Slab::height), "along y, or along z").above(0).at_most(10),
+      measure("inner_radius", "m", to(&Slab::inner_radius), "of revolution: where it begins")
+          .at_least(0)
+          .at_most(10)
+          .otherwise("0 m")
+          .only_with(when::of_revolution()),
+      measure("electrode", "m", to(&Slab::electrode),
+              "where the electrode begins and ends, along x from the slab's beginning; without it it covers "
+              "all")
+          .values(2, 2)
+          .at_least(0)
+          .optional(),
+      measure("cover_thickness", "m", to(&Slab::cover_thickness),
+              "height without electrodes at the bottom, and at the top")
+          .at_least(0)
+          .otherwise("0 m"),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& slab = *static_cast<const Slab*>(object);
+    if (slab.electrode &&
+        !((*slab.electrode)[0] < (*slab.electrode)[1] && (*slab.electrode)[1] <= slab.length))
+      return Conflict{"electrode", "must lead from the left to the right, within the slab's length"};
+    if (2 * slab.cover_thickness >= slab.height)
+      return Conflict{"cover_thickness", "must be below half of the height"};
+    return std::nullopt;
+  };
+  return section;
+}
+
+Section hollow_sphere_section() {
+  Section section;
+  section.name = "hollow_sphere";
+  section.meaning = "sphere of solid about a hollow, of revolution about z";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<HollowSphere>();
+  section.keys = {
+      measure("inner_radius", "m", to(&HollowSphere::inner_radius), "radius of the hollow")
+          .above(0)
+          .at_most(10),
+      measure("outer_radius", "m", to(&HollowSphere::outer_radius), "outer radius").above(0).at_most(10),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& sphere = *static_cast<const HollowSphere*>(object);
+    if (sphere.inner_radius < sphere.outer_radius) return std::nullopt;
+    return Conflict{"inner_radius", "must be below outer_radius"};
+  };
+  return section;
+}
+
 Binding mesh_file() {
   return {[](void* object, const Value& value) {
             static_cast<Part*>(object)->geometry = MeshFile{value.at(0).text};
@@ -207,8 +265,8 @@ Binding mesh_option(M MeshOptions::*option) {
 } // namespace
 
 std::vector<Section> geometry_sections() {
-  return {honeycomb_section(), disc_section(),  annulus_section(), balloon_section(),
-          patch_section(),     strip_section(), line_section(),    rolls_section()};
+  return {honeycomb_section(), disc_section(), annulus_section(),       balloon_section(), patch_section(),
+          strip_section(),     slab_section(), hollow_sphere_section(), line_section(),    rolls_section()};
 }
 
 Section mesh_section() {
@@ -271,6 +329,23 @@ Section mesh_section() {
           .at_most(100)
           .otherwise("4")
           .only({"annulus"}),
+      number(
+          "grading", mesh_option(&MeshOptions::grading),
+          "largest element along x over the height of one, as long as which they are at an electrode's end")
+          .at_least(1)
+          .at_most(100)
+          .otherwise("6")
+          .only({"slab"}),
+      integer("across", mesh_option(&MeshOptions::across), "elements across the height, or the wall")
+          .at_least(1)
+          .at_most(200)
+          .otherwise("12")
+          .only({"slab"}),
+      integer("across", mesh_option(&MeshOptions::across), "elements across the height, or the wall")
+          .at_least(1)
+          .at_most(200)
+          .otherwise("4")
+          .only({"hollow_sphere"}),
       integer("rings", mesh_option(&MeshOptions::rings),
               "elements along the radius, of a balloon from pole to pole; without it 24, of a film of "
               "revolution 64")

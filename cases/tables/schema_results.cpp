@@ -35,6 +35,8 @@ Section quantity_section() {
            {"size", "of the box around a place (m)", QuantityKind::size},
            {"growth", "relative change of the size of a place (-)", QuantityKind::growth},
            {"displacement", "of the centroid of a place (m)", QuantityKind::displacement},
+           {"swelling", "largest displacement along an axis among the nodes of a place (m)",
+            QuantityKind::swelling},
            {"angle", "rotation of a body about an axis (rad)", QuantityKind::angle},
            {"radius", "mean distance of a place's nodes from their centroid (m)", QuantityKind::radius},
            {"force", "reaction at a support while it holds (N)", QuantityKind::force},
@@ -78,7 +80,8 @@ Section quantity_section() {
           .only({"distance", "elongation", "stretch"})
           .refers_to(Reference::place),
       of("the place")
-          .only({"size", "growth", "displacement", "radius", "nominal stress", "stiffness", "radial stretch"})
+          .only({"size", "growth", "displacement", "swelling", "radius", "nominal stress", "stiffness",
+                 "radial stretch"})
           .refers_to(Reference::place),
       of("the place of a support, or a body that is fixed")
           .only({"force"})
@@ -104,6 +107,10 @@ Section quantity_section() {
           .values(3, 3)
           .only({"value"})
           .replacing("place"),
+      measure("point", "m", to(&Quantity::point), "instead of a place: the point of the film, as drawn")
+          .values(3, 3)
+          .only({"displacement"})
+          .replacing("of"),
       word("of",
            {{"electrical_work", "done on the film's electrodes: sum of int Phi dQ"},
             {"mechanical_work", "done by loads, moved supports and the pressure in a chamber; where several "
@@ -153,7 +160,7 @@ Section quantity_section() {
           .only({"coupling"}),
       word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along), "direction")
           .only_with(when::moves_along_it())
-          .only({"stiffness"}),
+          .only({"stiffness", "swelling"}),
       word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along), "the axis")
           .only({"angle", "moment"}),
       integer("mode", to(&Quantity::mode), "its number, from the lowest frequency")

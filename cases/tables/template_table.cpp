@@ -216,6 +216,30 @@ name = "natural_frequency"
 kind = "natural frequency"
 )";
 
+constexpr std::string_view slab_defaults = R"(
+electrode = [{ name = "film", place = "electrode" }]
+step = [{ kind = "voltage" }]
+)";
+
+constexpr std::string_view hollow_sphere_defaults = R"(
+electrode = [{ name = "film", place = "outer", ground = "inner" }]
+support = [{ place = "equator", fix = ["z"] }]
+step = [{ kind = "voltage" }]
+)";
+
+constexpr std::string_view hollow_sphere_quantities = R"(
+[[quantity]]
+name = "inner_radius"
+kind = "size"
+of = "inner"
+along = "x"
+[[quantity]]
+name = "outer_radius"
+kind = "size"
+of = "outer"
+along = "x"
+)";
+
 constexpr std::string_view file_defaults = R"(
 electrode = [{ name = "film", place = "film" }]
 step = [{ kind = "voltage" }]
@@ -329,6 +353,28 @@ std::span<const Template> templates() {
           rolls_quantities,
           "",
           true},
+      Template{
+          "slab",
+          "a thick part whose plane is meshed: a stack of layers, or of revolution a disc, a ring or a tube",
+          {{"film", "all of it"},
+           {"electrode", "what is charged"},
+           {"passive", "what is not"},
+           {"left", "the side at its beginning"},
+           {"right", "the side at its end"},
+           {"bottom", "the lower side"},
+           {"top", "the upper side"}},
+          slab_defaults,
+          ""},
+      Template{"hollow_sphere",
+               "a thick sphere about a hollow, charged between its surfaces",
+               {{"film", "all of it"},
+                {"inner", "the surface of the hollow"},
+                {"outer", "the outer surface"},
+                {"equator", "where z = 0, held along z"},
+                {"south", "the wall on the axis below"},
+                {"north", "the wall on the axis above"}},
+               hollow_sphere_defaults,
+               hollow_sphere_quantities},
       Template{"line",
                "a rod of film between two points",
                {{"film", "the rod"}, {"start", "where it starts"}, {"end", "where it ends"}},

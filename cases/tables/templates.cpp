@@ -208,7 +208,8 @@ namespace {
 void add_motion_defaults(Node& tree) {
   const Source source{tree.source.file, 0, 0};
   if (!tree.find("model") && tree.find("pivot")) tree.add("model", text_node("3d", source));
-  if (!tree.find("model") && (tree.find("plate") || tree.find("chamber") || tree.find("balloon")))
+  if (!tree.find("model") &&
+      (tree.find("plate") || tree.find("chamber") || tree.find("balloon") || tree.find("hollow_sphere")))
     tree.add("model", text_node("axisymmetric", source));
   Node* steps = tree.find("step");
   if (!(tree.find("plate") || tree.find("point_mass") || tree.find("body")) || !steps ||
@@ -319,6 +320,7 @@ void add_defaults(Node& tree) {
       if (!written[k]) add_part_defaults(tree, keys[k], part);
   if (!parts.empty() && !tree.find("step")) tree.add("step", parse_value("[{ kind = \"voltage\" }]", source));
   add_gravity_of_strip(tree);
+  add_solid_defaults(tree);
   add_motion_defaults(tree);
 }
 

@@ -44,6 +44,9 @@ std::string geometry_of(const Node& table);
 /// electrode are called after the part.
 void add_defaults(Node& tree);
 
+/// Thick geometries are of solid; between the surfaces of a sphere there is a potential.
+void add_solid_defaults(Node& tree);
+
 /// Standard quantities of a case whose top is that device (null: of none), with those of its parts.
 std::vector<Node> standard_quantities(const Node& tree, const Template* device);
 

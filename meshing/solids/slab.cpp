@@ -12,7 +12,8 @@
 namespace dielast::meshing {
 
 Mesh slab_mesh(const SlabShape& shape, int across, double grading, bool upright) {
-  const auto& [length, height, start, electrode, cover] = shape;
+  const double length = shape.length, height = shape.height, start = shape.start, cover = shape.cover;
+  const auto& electrode = shape.electrode;
   if (!(length > 0 && height > 0 && cover >= 0 && 2 * cover < height && 0 <= electrode[0] &&
         electrode[0] < electrode[1] && electrode[1] <= length))
     throw std::invalid_argument(

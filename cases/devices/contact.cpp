@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/devices/sections.hpp"
+#include "fem/elements/wall_contact.hpp"
+#include "fem/elements/wall_contact_block.hpp"
+#include "meshing/mesh_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace dielast::cases {
+
+void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  if (!one.contact) return;
+  const meshing::CellBlock& lines = *mesh.walls();
+  const std::vector<double> widths = bar_widths(one, mesh);
+  const fem::WallContactSearch walls(mesh, lines, widths);
+  const auto at = [&](int node) -> const Eigen::Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(node)];
+  };
+  std::map<int, std::vector<int>> lines_at;
+  for (int line = 0; line < lines.size(); ++line)
+    for (const int node : lines.cell(line)) lines_at[node].push_back(line);
+  std::vector<fem::ContactPair> pairs;
+  for (const auto& place : mesh.node_sets) {
+    if (!place.first.starts_with("cell[")) continue;
+    const std::vector<int>& nodes = place.second;
+    std::vector<int> around;
+    std::map<int, double> length; // that a node stands for, by Simpson's rule
+    for (int line = 0; line < lines.size(); ++line) {
+      const auto own = lines.cell(line);
+      if (!std::ranges::all_of(own, [&](int node) { return std::ranges::binary_search(nodes, node); }))
+        continue;
+      around.push_back(line);
+      const double whole = (at(own[1]) - at(own[0])).norm();
+      for (const int end : {own[0], own[1]}) length[end] += own.size() == 3 ? whole / 6 : whole / 2;
+      if (own.size() == 3) length[own[2]] += whole * 4 / 6;
+    }
+    for (const auto& [node, stands_for] : length)
+      for (const int line : around) {
+        const std::vector<int>& meeting = lines_at.at(node);
+        if (!std::ranges::all_of(meeting, [&](int other) { return walls.may_touch(line, other); })) continue;
+        const double touching =
+            (widths[static_cast<std::size_t>(line)] + widths[static_cast<std::size_t>(meeting.front())]) / 2;
+        const auto own = lines.cell(line);
+        const std::vector<int> chain =
+            own.size() == 3 ? std::vector{own[0], own[2], own[1]} : std::vector{own[0], own[1]};
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+          pairs.push_back({node, {chain[i], chain[i + 1]}, touching, stands_for});
+      }
+  }
+  const Beam& wall = std::get<Honeycomb>(one.unnamed()->geometry).wall;
+  const double thickness = one.contact->thickness;
+  // A gap of half the barrier's thickness carries about what strains a wall across itself by 1 %.
+  model.blocks.push_back(fem::make_wall_contact_block(
+      mesh, std::move(pairs), {thickness, 0.01 * wall.material.youngs_modulus * wall.height / thickness}));
+  fem::State state;
+  state.displacement.assign(mesh.nodes.size(), Eigen::Vector3d::Zero());
+  const fem::ElementBlock& block = *model.blocks.back();
+  const fem::Evaluation drawn = block.evaluate(state, 0, block.element_count(), {});
+  if (!drawn.feasible || drawn.energy > 0)
+    throw meshing::MeshError(fmt::format(
+        "walls of a cell are closer as drawn than the {:.6g} mm of contact.thickness", 1e3 * thickness));
+}
+
+} // namespace dielast::cases
