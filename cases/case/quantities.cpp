@@ -141,7 +141,8 @@ bool reads_film(QuantityKind kind) {
 const Quantity* response_quantity(const Case& one, const std::string& name) {
   for (const QuantityKind kind : {QuantityKind::displacement, QuantityKind::angle})
     for (const Quantity& quantity : one.quantities)
-      if (quantity.kind == kind && quantity.along && !quantity.point && (name.empty() || quantity.name == name))
+      if (quantity.kind == kind && quantity.along && !quantity.point &&
+          (name.empty() || quantity.name == name))
         return &quantity;
   return nullptr;
 }
