@@ -30,9 +30,10 @@ Task begin(meshing::Mesh mesh, double prestretch, std::vector<int> electrodes, f
   model.dofs = fem::DofMap(task.mesh.node_count());
   model.electrodes = {"film"};
   model.extent = model.length_scale = extent;
-  model.blocks.push_back(fem::make_membrane_block(task.mesh, task.mesh.blocks.front(),
-                                                  {film, 1e-3, {prestretch, prestretch}},
-                                                  std::move(electrodes), dimension, integration_points));
+  model.blocks.push_back(
+      fem::make_membrane_block(task.mesh, task.mesh.blocks.front(),
+                               {.material = film, .thickness = 1e-3, .prestretch = {prestretch, prestretch}},
+                               std::move(electrodes), dimension, integration_points));
   model.blocks.front()->claim_dofs(model.dofs, dimension);
   return task;
 }

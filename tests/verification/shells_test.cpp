@@ -107,9 +107,9 @@ TEST(ThinShell, deflects_like_a_membrane) {
     return materials::Material{materials::Gent{stiffness / H, 60}, acrylic, 960, {}};
   };
   const double membrane = rise([&](const meshing::Mesh& mesh) {
-    return make_membrane_block(mesh, mesh.blocks[0], {material(1e-4), 1e-4, {1.5, 1.2}},
-                               std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive),
-                               Dimension::spatial, 3);
+    return make_membrane_block(
+        mesh, mesh.blocks[0], {.material = material(1e-4), .thickness = 1e-4, .prestretch = {1.5, 1.2}},
+        std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::spatial, 3);
   });
   std::vector<double> errors;
   for (const double H : {1e-3, 1e-4, 1e-5}) {
