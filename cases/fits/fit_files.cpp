@@ -15,20 +15,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-const char* word(FitEnding ending) {
-  switch (ending) {
-  case FitEnding::converged:
-    return "converged";
-  case FitEnding::gave_up:
-    return "not converged";
-  case FitEnding::interrupted:
-    break;
-  }
-  return "interrupted";
-}
-
 std::string cell(double value) { return std::isfinite(value) ? fmt::format(",{}", value) : ","; }
 
 double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
@@ -49,28 +35,52 @@ std::string keys_text(const Section& section, const void* object) {
 
 } // namespace
 
+Json finite_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+const char* word(FitEnding ending) {
+  switch (ending) {
+  case FitEnding::converged:
+    return "converged";
+  case FitEnding::gave_up:
+    return "not converged";
+  case FitEnding::interrupted:
+    break;
+  }
+  return "interrupted";
+}
+
+void append_value(Json& named, const FittedParameter& one) {
+  const bool known = one.determined();
+  named["value"] = one.value;
+  named["low_95"] = known ? Json(one.low) : Json();
+  named["high_95"] = known ? Json(one.high) : Json();
+  named["start"] = one.start;
+  named["at_bound"] = one.at_bound;
+}
+
+Json correlation_json(const Eigen::MatrixXd& correlation) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < correlation.rows(); ++i) {
+    Json row = Json::array();
+    for (const double r : correlation.row(i)) row.push_back(finite_json(r));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 Json fit_json(const FitResults& results) {
   const FitOutcome& outcome = results.outcome;
   Json json{{"title", results.fit.title},
             {"status", word(outcome.ending)},
             {"iterations", outcome.iterations},
-            {"deviation", finite(outcome.deviation)},
+            {"deviation", finite_json(outcome.deviation)},
             {"parameters", Json::array()},
-            {"correlation", Json::array()},
+            {"correlation", correlation_json(outcome.correlation)},
             {"tests", Json::array()}};
   for (std::size_t i = 0; i < outcome.parameters.size(); ++i) {
-    const FittedParameter& one = outcome.parameters[i];
-    const bool known = one.determined();
-    json["parameters"].push_back({{"name", results.task.parameters[i].name},
-                                  {"unit", results.task.parameters[i].unit},
-                                  {"value", one.value},
-                                  {"low_95", known ? Json(one.low) : Json()},
-                                  {"high_95", known ? Json(one.high) : Json()},
-                                  {"start", one.start},
-                                  {"at_bound", one.at_bound}});
-    Json row = Json::array();
-    for (const double r : outcome.correlation.row(static_cast<Eigen::Index>(i))) row.push_back(finite(r));
-    json["correlation"].push_back(std::move(row));
+    const FitParameter& asked = results.task.parameters[i];
+    append_value(json["parameters"].emplace_back(Json{{"name", asked.name}, {"unit", asked.unit}}),
+                 outcome.parameters[i]);
   }
   for (std::size_t t = 0; t < results.errors.size(); ++t) {
     const FitTest& test = results.fit.tests[t];
@@ -79,8 +89,8 @@ Json fit_json(const FitResults& results) {
                              {"rows", test.lines.size()},
                              {"weight", test.weight},
                              {"largest_stress", test.measured.largest_stress()},
-                             {"rms_error", finite(results.errors[t].rms)},
-                             {"largest_error", finite(results.errors[t].largest)},
+                             {"rms_error", finite_json(results.errors[t].rms)},
+                             {"largest_error", finite_json(results.errors[t].largest)},
                              {"steps_between_rows", outcome.steps[t]}});
   }
   json["warnings"] = results.warnings();

@@ -7,6 +7,14 @@
 
 namespace dielast::cases {
 
+// What fit.json and identify.json share.
+/// Null where it is no number.
+nlohmann::ordered_json finite_json(double value);
+const char* word(FitEnding ending);
+/// Adds value, interval, start and whether it is at a bound.
+void append_value(nlohmann::ordered_json& named, const FittedParameter& one);
+nlohmann::ordered_json correlation_json(const Eigen::MatrixXd& correlation);
+
 /// fit.json: ending, parameters with intervals (null where there is none), correlation, errors of the tests,
 /// warnings. SI.
 nlohmann::ordered_json fit_json(const FitResults& results);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/fits/fit_files.hpp"
 #include "cases/fits/identify.hpp"
 
 #include "post/engineering.hpp"
@@ -17,13 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using post::Cell, post::Tone;
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 std::string ending(const IdentifyOutcome& outcome) {
-  const char* how = outcome.ending == FitEnding::converged ? "converged"
-                    : outcome.ending == FitEnding::gave_up ? "not converged"
-                                                           : "interrupted";
-  return fmt::format("{} after {} iterations", how, outcome.iterations);
+  return fmt::format("{} after {} iterations", word(outcome.ending), outcome.iterations);
 }
 
 std::string in_unit(double value, const Unknown& unknown) {
@@ -103,29 +99,20 @@ std::string identify_json(const Identification& asked, const IdentifyOutcome& ou
   Json json{{"title", asked.title},
             {"status", ending(outcome)},
             {"converged", outcome.ending == FitEnding::converged},
-            {"deviation", finite(outcome.deviation)},
+            {"deviation", finite_json(outcome.deviation)},
             {"unknowns", Json::array()},
-            {"correlation", Json::array()},
+            {"correlation", correlation_json(outcome.correlation)},
             {"tests", Json::array()}};
   for (std::size_t i = 0; i < asked.unknowns.size(); ++i) {
-    const FittedParameter& one = outcome.unknowns[i];
-    const bool known = one.determined();
-    json["unknowns"].push_back({{"key", asked.unknowns[i].key},
-                                {"unit", asked.unknowns[i].unit},
-                                {"value", one.value},
-                                {"low_95", known ? Json(one.low) : Json()},
-                                {"high_95", known ? Json(one.high) : Json()},
-                                {"start", one.start},
-                                {"at_bound", one.at_bound}});
-    Json row = Json::array();
-    for (const double r : outcome.correlation.row(static_cast<Eigen::Index>(i))) row.push_back(finite(r));
-    json["correlation"].push_back(std::move(row));
+    const Unknown& unknown = asked.unknowns[i];
+    append_value(json["unknowns"].emplace_back(Json{{"key", unknown.key}, {"unit", unknown.unit}}),
+                 outcome.unknowns[i]);
   }
   for (std::size_t t = 0; t < asked.tests.size(); ++t)
     json["tests"].push_back({{"file", asked.tests[t].file.string()},
                              {"use", asked.tests[t].predict ? "predict" : "fit"},
                              {"rows", asked.tests[t].x.size()},
-                             {"rms_error", finite(outcome.errors[t])}});
+                             {"rms_error", finite_json(outcome.errors[t])}});
   json["warnings"] = identify_warnings(asked, outcome);
   json["version"] = DIELAST_VERSION;
   return json.dump(2) + "\n";

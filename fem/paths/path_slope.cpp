@@ -110,16 +110,6 @@ bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, 
          still * std::sqrt(equilibrium.energy_scale());
 }
 
-bool is_along(const Equilibrium& equilibrium, const PathEnd& from, const PathEnd& to,
-              const Steadiness& steadiness) {
-  if (from.slope.size() == 0) return false;
-  const auto norm = [&](const Eigen::VectorXd& a) { return norm_by(equilibrium.stiffness(), a); };
-  const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from.state, to.state);
-  const double length = to.s - from.s;
-  return norm(chord - length / 2 * (from.slope + to.slope)) <=
-         steadiness.steady * std::abs(length) * std::max(norm(from.slope), norm(to.slope));
-}
-
 bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& from, const PathEnd& to,
                const Steadiness& steadiness) {
   const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from.state, to.state);
@@ -129,11 +119,11 @@ bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& fr
   const auto norm = [&](const Eigen::VectorXd& a) { return norm_by(equilibrium.stiffness(), a); };
   const double least = still * std::sqrt(equilibrium.energy_scale());
   if (norm(chord) <= least) return true;
-  if (is_along(equilibrium, from, to, steadiness)) return true;
   const bool singular_start = from.slope.size() == 0;
   const double length = to.s - from.s;
   const Eigen::VectorXd v0 = length * from.slope, v1 = length * to.slope;
   const double n0 = singular_start ? 0 : norm(v0), n1 = norm(v1);
+  if (!singular_start && norm(chord - (v0 + v1) / 2) <= steadiness.steady * std::max(n0, n1)) return true;
   const WorkOfLoads work0 = work_of_loads(equilibrium, path, from, from.s, to.s),
                     work1 = work_of_loads(equilibrium, path, to, from.s, to.s);
   const double missing = std::abs(work1.potential - work0.potential - (work0.work + work1.work) / 2);

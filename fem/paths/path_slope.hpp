@@ -45,12 +45,6 @@ struct PathEnd {
   const Balance* balance = nullptr; ///< of the state, where it has been evaluated
 };
 
-/// Whether the chord between two states agrees with the slopes of the path at both, times s1 - s0:
-///   |c - (v0 + v1)/2| <= steady max(|v0|, |v1|),
-/// in the norm of Equilibrium::stiffness(): the tangents alone then tell that the states are joined.
-bool is_along(const Equilibrium& equilibrium, const PathEnd& from, const PathEnd& to,
-              const Steadiness& steadiness);
-
 /// Whether the state `to` lies on the path that goes through `from`: Newton's method may have found a state
 /// of another branch beyond a limit point. In the norm of Equilibrium::stiffness(), the chord c = u1 - u0 is
 /// compared with the mean v of the slopes v0, v1 at both ends, and the change of the potential P with the
@@ -59,11 +53,13 @@ bool is_along(const Equilibrium& equilibrium, const PathEnd& from, const PathEnd
 /// In other words: what the film sets free on its way from u0 to u1 under the loads at the end is what this
 /// way would cost it under those at the start; however the loads go from one to the other.
 /// Where the path gets faster, |v1| > |v0|, it may do so up to the square root at a limit point: c may be
-/// near any point between v0 and v, and the energy may miss `energy_of_faster`. Where is_along() the energy
-/// is not asked: while nothing but dashpots move, the works differ by the time schemes of their increments,
-/// and by nothing else. What a film has set free on its way to another branch is missing from the energy; on
-/// another branch it is mostly slower. An increment that fails may just be too long. `to.slope` must not be
-/// that of a singular tangent.
+/// near any point between v0 and v, and the energy may miss `energy_of_faster`. Where it misses next to
+/// nothing, and c is no longer than the longer slope, c may be near any point of the plane of v0 and v1:
+/// loads that do not go straight on lead there. Where |c - v| <= steady max(|v0|, |v1|) the energy is not
+/// asked: while nothing but dashpots move, the works differ by the time schemes of their increments, and by
+/// nothing else. What a film has set free on its way to another branch is missing from the energy; on another
+/// branch it is mostly slower. An increment that fails may just be too long. `to.slope` must not be that of a
+/// singular tangent.
 bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& from, const PathEnd& to,
                const Steadiness& steadiness);
 
