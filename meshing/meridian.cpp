@@ -124,4 +124,33 @@ Mesh balloon_meridian(double radius, int elements, int order) {
   return mesh;
 }
 
+Mesh roll_meridian(double length, double radius, double electrode_length, int elements, int order) {
+  if (!(length > 0 && radius > 0 && electrode_length > 0) || electrode_length > length * (1 + 1e-9))
+    throw std::invalid_argument(
+        "a roll needs a length and a radius above 0, and its electrode lies within it");
+  validate(elements, 2, order);
+  const double margin = (length - electrode_length) / 2;
+  const bool covered = margin <= 1e-9 * length;
+  const int beside = covered ? 0 : std::max(1, static_cast<int>(std::lround(elements * margin / length)));
+  const int under = std::max(1, elements - 2 * beside);
+  std::vector<double> heights;
+  append_steps(heights, 0, covered ? 0 : margin, beside);
+  append_steps(heights, covered ? 0 : margin, covered ? length : length - margin, under);
+  append_steps(heights, length - margin, length, beside);
+  heights.push_back(length);
+  Mesh mesh = chain(heights, order, [radius](double z) { return Eigen::Vector3d(radius, 0, z); });
+  const int all = 2 * beside + under;
+  name_cells(mesh, "film", 0, all);
+  name_cells(mesh, "electrode", beside, beside + under);
+  if (!covered) {
+    std::vector<int>& cells = mesh.cell_sets["passive"].cells;
+    for (int cell = 0; cell < all; ++cell)
+      if (cell < beside || cell >= beside + under) cells.push_back(cell);
+    mesh.node_sets["passive"] = nodes_of(mesh, mesh.cell_sets["passive"]);
+  }
+  mesh.node_sets["lower_end"] = {0};
+  mesh.node_sets["upper_end"] = {all};
+  return mesh;
+}
+
 } // namespace dielast::meshing

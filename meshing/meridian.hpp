@@ -23,4 +23,9 @@ Mesh annulus_meridian(double inner_radius, double outer_radius, int elements, in
 /// `film`; nodes `equator`, `south`, `north`.
 Mesh balloon_meridian(double radius, int elements, int order);
 
+/// A cylinder from z = 0 to `length`, of about `elements` >= 2 with a node at each end of the electrode in
+/// its middle. Places: cells `film`, `electrode` and, where there are any beside it, `passive`; nodes
+/// `lower_end` (z = 0), `upper_end`.
+Mesh roll_meridian(double length, double radius, double electrode_length, int elements, int order);
+
 } // namespace dielast::meshing

@@ -162,6 +162,15 @@ struct Strip {
   double clamped_electrode() const { return electrode_length.value_or(length) - free_electrode(); }
 };
 
+/// [roll]: film wound around a core, a film of revolution about z. The prestretch is along the roll and
+/// around it.
+struct Roll {
+  double length = 0;                        ///< before the prestretch, m
+  double radius = 0;                        ///< of the film's middle as wound, m
+  int turns = 1;                            ///< layers of film, each with the electrode's voltage across it
+  std::optional<double> electrode_length{}; ///< in the middle, before the prestretch, m; absent: all
+};
+
 /// [line]: a straight rod, or a straight row of beams, as drawn
 struct Line {
   std::array<double, 3> from{}, to{}; ///< m
@@ -181,7 +190,7 @@ struct HollowSphere {
 };
 
 /// What has no mesh of its own is std::monostate.
-using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Strip, Line,
+using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Strip, Roll, Line,
                               AntagonisticRolls, Slab, HollowSphere, MeshFile>;
 
 /// [mesh]
@@ -213,6 +222,12 @@ struct Part {
   std::array<double, 3> at{}; ///< where the origin of its mesh is, m
   double turned = 0;          ///< of its mesh about z, rad
 
+  /// Layers of its film that lie one on another.
+  int layers() const {
+    if (const auto* strip = std::get_if<Strip>(&geometry)) return strip->layers;
+    if (const auto* roll = std::get_if<Roll>(&geometry)) return roll->turns;
+    return 1;
+  }
   /// What its film is rolled to; null: it lies flat, or is a film of revolution.
   const Rod* rolled() const {
     if (const auto* rolls = std::get_if<AntagonisticRolls>(&geometry)) return &rolls->roll;

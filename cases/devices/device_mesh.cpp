@@ -116,6 +116,12 @@ meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_orde
                 {s.length, s.width, s.free_electrode(), s.electrode_width.value_or(s.width)}, options.across,
                 options.order);
           },
+          [&](const Roll& roll) {
+            const double along = part.film->prestretch[0];
+            return meshing::roll_meridian(roll.length * along, roll.radius,
+                                          roll.electrode_length.value_or(roll.length) * along, options.rings,
+                                          options.order);
+          },
           [&](const Line& line) {
             const Eigen::Vector3d from(line.from.data()), to(line.to.data());
             return part.rod ? meshing::rod_mesh(from, to)

@@ -23,6 +23,7 @@ std::optional<Density> density_of(const Geometry& geometry) {
   if (std::holds_alternative<Strip>(geometry)) return Density{&MeshOptions::across, 1};
   if (std::holds_alternative<Slab>(geometry) || std::holds_alternative<HollowSphere>(geometry))
     return Density{&MeshOptions::across, 1};
+  if (std::holds_alternative<Roll>(geometry)) return Density{&MeshOptions::rings, 2};
   if (std::holds_alternative<Balloon>(geometry)) return Density{&MeshOptions::rings, 4};
   if (std::holds_alternative<Disc>(geometry) || std::holds_alternative<Annulus>(geometry))
     return Density{&MeshOptions::rings, 2};

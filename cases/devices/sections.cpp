@@ -196,7 +196,7 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
     const double cover = strip_of ? strip_of->cover_thickness : 0;
     const fem::MembraneSection section{.material = part.film->material,
                                        .thickness = part.film->thickness,
-                                       .layers = strip_of ? strip_of->layers : 1,
+                                       .layers = part.layers(),
                                        .prestretch = part.film->prestretch,
                                        .tension_field = part.film->tension_field};
     const auto add = [&](const fem::MembraneSection& with, std::vector<int> under) {

@@ -310,6 +310,7 @@ Section rod_section();                        ///< of a Part
 Section line_section();                       ///< a geometry of a Part
 Section rolls_section();                      ///< likewise
 Section strip_section();                      ///< likewise
+Section roll_section();                       ///< likewise
 Section weight_section();                     ///< what hangs from a strip
 std::vector<Section> leaf_sections();         ///< of a Part with antagonistic rolls
 std::vector<Section> unnamed_part_sections(); ///< film, the geometries, mesh

@@ -58,6 +58,8 @@ void check_line(SectionReader& reader, const Node& top, const Part& part) {
     return report("antagonistic_rolls", "antagonistic rolls are a case of their own, not a part");
   if (std::holds_alternative<Strip>(part.geometry) && !part.name.empty())
     return report("strip", "a strip is a case of its own, not a part");
+  if (std::holds_alternative<Roll>(part.geometry) && !part.name.empty())
+    return report("roll", "a roll is a case of its own, not a part");
   for (const char* leaf : {"hinge", "ribbon"})
     if (rolls && !top.find(leaf))
       reader.report(top.find("antagonistic_rolls")->key_source, leaf,

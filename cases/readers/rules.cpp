@@ -342,15 +342,18 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
   const bool round = annulus || one.geometry<Disc>();
   const bool balloon = one.geometry<Balloon>();
   const bool sphere = one.geometry<HollowSphere>();
+  const bool roll = one.geometry<Roll>();
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
   if (sphere && !of_revolution)
     report_at(reader, tree, "model", "a hollow sphere is of revolution: model = \"axisymmetric\"");
+  if (roll && !of_revolution)
+    report_at(reader, tree, "model", "a roll is a film of revolution: model = \"axisymmetric\"");
   if (balloon && !of_revolution)
     report_at(reader, tree, "model", "a balloon is a film of revolution: model = \"axisymmetric\"");
-  if (of_revolution && !round && !balloon && !sphere && !one.geometry<Slab>())
+  if (of_revolution && !round && !balloon && !roll && !sphere && !one.geometry<Slab>())
     report_at(reader, tree, "model",
-              "\"axisymmetric\" is for [disc], [annulus], [balloon], [slab] and [hollow_sphere]");
-  if (of_revolution &&
+              "\"axisymmetric\" is for [disc], [annulus], [balloon], [roll], [slab] and [hollow_sphere]");
+  if (of_revolution && !roll &&
       one.any_film([](const Film& film) { return film.prestretch[0] != film.prestretch[1]; }))
     report_at(reader, tree, "film", "a film of revolution has one prestretch in all directions");
   if (one.dimension == fem::Dimension::planar)

@@ -265,8 +265,9 @@ Binding mesh_option(M MeshOptions::*option) {
 } // namespace
 
 std::vector<Section> geometry_sections() {
-  return {honeycomb_section(), disc_section(), annulus_section(),       balloon_section(), patch_section(),
-          strip_section(),     slab_section(), hollow_sphere_section(), line_section(),    rolls_section()};
+  return {honeycomb_section(),     disc_section(),  annulus_section(), balloon_section(),
+          patch_section(),         strip_section(), roll_section(),    slab_section(),
+          hollow_sphere_section(), line_section(),  rolls_section()};
 }
 
 Section mesh_section() {
@@ -308,7 +309,7 @@ Section mesh_section() {
           .at_least(1)
           .at_most(2)
           .otherwise("2")
-          .only({"honeycomb", "disc", "annulus", "balloon", "strip", "line", "antagonistic_rolls"})
+          .only({"honeycomb", "disc", "annulus", "balloon", "strip", "roll", "line", "antagonistic_rolls"})
           .only_with(when::elements()),
       integer("wall_elements", mesh_option(&MeshOptions::wall_elements),
               "beams per wall, along a line, a hinge or a ribbon")
@@ -347,12 +348,13 @@ Section mesh_section() {
           .otherwise("4")
           .only({"hollow_sphere"}),
       integer("rings", mesh_option(&MeshOptions::rings),
-              "elements along the radius, of a balloon from pole to pole; without it 24, of a film of "
+              "elements along the radius, of a balloon from pole to pole, along a roll; without it 24, of a "
+              "film of "
               "revolution 64")
           .at_least(2)
           .at_most(2000)
           .optional()
-          .only({"disc", "annulus", "balloon"}),
+          .only({"disc", "annulus", "balloon", "roll"}),
       integer("across", mesh_option(&MeshOptions::across), "elements from side to side of a strip")
           .at_least(1)
           .at_most(1000)

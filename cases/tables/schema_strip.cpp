@@ -41,6 +41,39 @@ Section strip_section() {
   return section;
 }
 
+Section roll_section() {
+  Section section;
+  section.name = "roll";
+  section.meaning = "film wound around a core: a cylinder of layers about z, with one prestretch along it "
+                    "and one around it";
+  section.presence = Section::Presence::geometry;
+  section.access = geometry_of_type<Roll>();
+  section.keys = {
+      measure("length", "m", to(&Roll::length), "length along the roll, before the prestretch")
+          .above(0)
+          .at_most(1),
+      measure("radius", "m", to(&Roll::radius), "radius of the film's middle as wound, after the prestretch")
+          .above(0)
+          .at_most(1),
+      integer("turns", to(&Roll::turns), "layers of film, each with the electrode's voltage across it")
+          .at_least(1)
+          .at_most(100000)
+          .otherwise("1"),
+      measure(
+          "electrode_length", "m", to(&Roll::electrode_length),
+          "length of the electrode in the roll's middle, before the prestretch; without it all of the length")
+          .above(0)
+          .at_most(1)
+          .optional(),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& roll = *static_cast<const Roll*>(object);
+    if (roll.electrode_length.value_or(0) <= roll.length) return std::nullopt;
+    return Conflict{"electrode_length", "the electrode is longer than the film"};
+  };
+  return section;
+}
+
 Section weight_section() {
   Section section;
   section.name = "weight";

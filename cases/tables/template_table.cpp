@@ -7,118 +7,48 @@ namespace dielast::cases {
 namespace {
 
 constexpr std::string_view honeycomb_quantities = R"(
-[[quantity]]
-name = "eps_x"
-kind = "elongation"
-between = ["left_apex", "right_apex"]
-along = "x"
-since = "release"
-[[quantity]]
-name = "eps_y"
-kind = "elongation"
-between = ["corner_bottom", "corner_top"]
-along = "y"
-since = "release"
-[[quantity]]
-name = "released_length_x"
-kind = "distance"
-between = ["left_apex", "right_apex"]
-along = "x"
-at = "release"
-[[quantity]]
-name = "released_length_y"
-kind = "distance"
-between = ["corner_bottom", "corner_top"]
-along = "y"
-at = "release"
-[[quantity]]
-name = "yield_ratio"
-kind = "extreme"
-of = "yield_ratio"
-extreme = "maximum"
+quantity = [
+  { name = "eps_x", kind = "elongation", between = ["left_apex", "right_apex"], along = "x", since = "release" },
+  { name = "eps_y", kind = "elongation", between = ["corner_bottom", "corner_top"], along = "y", since = "release" },
+  { name = "released_length_x", kind = "distance", between = ["left_apex", "right_apex"], along = "x", at = "release" },
+  { name = "released_length_y", kind = "distance", between = ["corner_bottom", "corner_top"], along = "y", at = "release" },
+  { name = "yield_ratio", kind = "extreme", of = "yield_ratio", extreme = "maximum" }
+]
 )";
 
 constexpr std::string_view disc_quantities = R"(
-[[quantity]]
-name = "electrode_radius"
-kind = "radius"
-of = "electrode_edge"
+quantity = [
+  { name = "electrode_radius", kind = "radius", of = "electrode_edge" }
+]
 )";
 
 constexpr std::string_view pivoted_quantities = R"(
-[[quantity]]
-name = "tilt_x"
-kind = "angle"
-of = "plate"
-along = "x"
-[[quantity]]
-name = "tilt_y"
-kind = "angle"
-of = "plate"
-along = "y"
-[[quantity]]
-name = "pivot_force"
-kind = "force"
-of = "plate"
-along = "z"
+quantity = [
+  { name = "tilt_x", kind = "angle", of = "plate", along = "x" },
+  { name = "tilt_y", kind = "angle", of = "plate", along = "y" },
+  { name = "pivot_force", kind = "force", of = "plate", along = "z" }
+]
 )";
 
 constexpr std::string_view diaphragm_quantities = R"(
-[[quantity]]
-name = "drop"
-kind = "displacement"
-of = "inner"
-along = "gravity"
-[[quantity]]
-name = "stroke"
-kind = "displacement"
-of = "inner"
-along = "gravity"
-since = "weight"
-[[quantity]]
-name = "stiffness"
-kind = "stiffness"
-of = "inner"
-along = "z"
-[[quantity]]
-name = "natural_frequency"
-kind = "natural frequency"
-[[quantity]]
-name = "stretch_inner"
-kind = "radial stretch"
-of = "inner"
-[[quantity]]
-name = "stretch_outer"
-kind = "radial stretch"
-of = "outer"
+quantity = [
+  { name = "drop", kind = "displacement", of = "inner", along = "gravity" },
+  { name = "stroke", kind = "displacement", of = "inner", along = "gravity", since = "weight" },
+  { name = "stiffness", kind = "stiffness", of = "inner", along = "z" },
+  { name = "natural_frequency", kind = "natural frequency" },
+  { name = "stretch_inner", kind = "radial stretch", of = "inner" },
+  { name = "stretch_outer", kind = "radial stretch", of = "outer" }
+]
 )";
 
 constexpr std::string_view patch_quantities = R"(
-[[quantity]]
-name = "stretch_x"
-kind = "stretch"
-between = ["left", "right"]
-along = "x"
-[[quantity]]
-name = "stretch_y"
-kind = "stretch"
-between = ["bottom", "top"]
-along = "y"
-[[quantity]]
-name = "stress_x"
-kind = "nominal stress"
-of = "film"
-along = "x"
-[[quantity]]
-name = "stress_y"
-kind = "nominal stress"
-of = "film"
-along = "y"
-[[quantity]]
-name = "thickness_stretch"
-kind = "extreme"
-of = "principal_stretches.lambda3"
-extreme = "maximum"
+quantity = [
+  { name = "stretch_x", kind = "stretch", between = ["left", "right"], along = "x" },
+  { name = "stretch_y", kind = "stretch", between = ["bottom", "top"], along = "y" },
+  { name = "stress_x", kind = "nominal stress", of = "film", along = "x" },
+  { name = "stress_y", kind = "nominal stress", of = "film", along = "y" },
+  { name = "thickness_stretch", kind = "extreme", of = "principal_stretches.lambda3", extreme = "maximum" }
+]
 )";
 
 constexpr std::string_view honeycomb_defaults = R"(
@@ -169,11 +99,9 @@ step = [{ kind = "release" }, { kind = "voltage" }]
 )";
 
 constexpr std::string_view rolls_quantities = R"(
-[[quantity]]
-name = "tip_angle"
-kind = "angle"
-of = "tip"
-along = "z"
+quantity = [
+  { name = "tip_angle", kind = "angle", of = "tip", along = "z" }
+]
 )";
 
 constexpr std::string_view strip_defaults = R"(
@@ -184,36 +112,28 @@ step = [{ kind = "weight" }, { kind = "voltage" }]
 )";
 
 constexpr std::string_view strip_quantities = R"(
-[[quantity]]
-name = "extension"
-kind = "displacement"
-of = "lower_end"
-along = "gravity"
-[[quantity]]
-name = "stroke"
-kind = "displacement"
-of = "lower_end"
-along = "gravity"
-since = "weight"
-[[quantity]]
-name = "strain"
-kind = "elongation"
-between = ["lower_end", "upper_end"]
-along = "y"
-since = "weight"
-[[quantity]]
-name = "stiffness"
-kind = "stiffness"
-of = "lower_end"
-along = "y"
-[[quantity]]
-name = "coupling"
-kind = "coupling"
-place = "lower_end"
-along = "gravity"
-[[quantity]]
-name = "natural_frequency"
-kind = "natural frequency"
+quantity = [
+  { name = "extension", kind = "displacement", of = "lower_end", along = "gravity" },
+  { name = "stroke", kind = "displacement", of = "lower_end", along = "gravity", since = "weight" },
+  { name = "strain", kind = "elongation", between = ["lower_end", "upper_end"], along = "y", since = "weight" },
+  { name = "stiffness", kind = "stiffness", of = "lower_end", along = "y" },
+  { name = "coupling", kind = "coupling", place = "lower_end", along = "gravity" },
+  { name = "natural_frequency", kind = "natural frequency" }
+]
+)";
+
+constexpr std::string_view roll_defaults = R"(
+electrode = [{ name = "film", place = "electrode" }]
+support = [{ place = "film", fix = ["x"] }, { place = "lower_end", fix = ["z"] }]
+step = [{ kind = "release" }, { kind = "voltage" }]
+)";
+
+constexpr std::string_view roll_quantities = R"(
+quantity = [
+  { name = "length", kind = "distance", between = ["lower_end", "upper_end"], along = "z" },
+  { name = "stroke", kind = "displacement", of = "upper_end", along = "z", since = "release" },
+  { name = "stiffness", kind = "stiffness", of = "upper_end", along = "z" }
+]
 )";
 
 constexpr std::string_view slab_defaults = R"(
@@ -228,16 +148,10 @@ step = [{ kind = "voltage" }]
 )";
 
 constexpr std::string_view hollow_sphere_quantities = R"(
-[[quantity]]
-name = "inner_radius"
-kind = "size"
-of = "inner"
-along = "x"
-[[quantity]]
-name = "outer_radius"
-kind = "size"
-of = "outer"
-along = "x"
+quantity = [
+  { name = "inner_radius", kind = "size", of = "inner", along = "x" },
+  { name = "outer_radius", kind = "size", of = "outer", along = "x" }
+]
 )";
 
 constexpr std::string_view file_defaults = R"(
@@ -334,6 +248,19 @@ std::span<const Template> templates() {
            {"bar", "the body at the lower end"}},
           strip_defaults,
           strip_quantities,
+          "",
+          true},
+      Template{
+          "roll",
+          "film wound around a core that holds its radius, along which it slides; with a [[spring]] between "
+          "its ends a spring-rolled muscle",
+          {{"film", "the film"},
+           {"electrode", "the film under the electrode"},
+           {"passive", "the film beside it, if there is any"},
+           {"lower_end", "the end z = 0, held along z"},
+           {"upper_end", "the end that moves"}},
+          roll_defaults,
+          roll_quantities,
           "",
           true},
       Template{

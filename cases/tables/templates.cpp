@@ -208,8 +208,8 @@ namespace {
 void add_motion_defaults(Node& tree) {
   const Source source{tree.source.file, 0, 0};
   if (!tree.find("model") && tree.find("pivot")) tree.add("model", text_node("3d", source));
-  if (!tree.find("model") &&
-      (tree.find("plate") || tree.find("chamber") || tree.find("balloon") || tree.find("hollow_sphere")))
+  if (!tree.find("model") && (tree.find("plate") || tree.find("chamber") || tree.find("balloon") ||
+                              tree.find("roll") || tree.find("hollow_sphere")))
     tree.add("model", text_node("axisymmetric", source));
   Node* steps = tree.find("step");
   if (!(tree.find("plate") || tree.find("point_mass") || tree.find("body")) || !steps ||

@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 namespace dielast::meshing {
 namespace {
@@ -126,6 +128,23 @@ TEST(Meridian, RejectsWhatCannotBeDrawn) {
   EXPECT_THROW(balloon_meridian(infinity, 10, 2), std::invalid_argument);
   EXPECT_THROW(balloon_meridian(1, 0, 2), std::invalid_argument);
   EXPECT_THROW(balloon_meridian(1, 10, 0), std::invalid_argument);
+}
+
+TEST(Meridian, ARollHasItsElectrodeInTheMiddle) {
+  const Mesh mesh = roll_meridian(0.06, 0.005, 0.04, 12, 2);
+  EXPECT_EQ(mesh.film()->size(), 12);
+  EXPECT_EQ(mesh.cell_sets.at("electrode").cells.size(), 8u);
+  EXPECT_EQ(mesh.cell_sets.at("passive").cells.size(), 4u);
+  const auto height = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)].z(); };
+  EXPECT_EQ(height(mesh.node_sets.at("lower_end").front()), 0);
+  EXPECT_EQ(height(mesh.node_sets.at("upper_end").front()), 0.06);
+  const std::vector<int>& charged = mesh.node_sets.at("electrode");
+  double low = 1, high = 0;
+  for (const int node : charged) low = std::min(low, height(node)), high = std::max(high, height(node));
+  EXPECT_NEAR(low, 0.01, 1e-15);
+  EXPECT_NEAR(high, 0.05, 1e-15);
+  EXPECT_FALSE(roll_meridian(0.06, 0.005, 0.06, 12, 1).cell_sets.contains("passive"));
+  EXPECT_THROW(roll_meridian(0.06, 0.005, 0.07, 12, 1), std::invalid_argument);
 }
 
 } // namespace
