@@ -130,11 +130,13 @@ BranchPower branch_power(const Branch& branch, const InPlaneC<double>& C, const 
       std::visit([&](const auto& law) { return planar(law, T, D); }, branch.law);
   if (branch.dashpot == Dashpot::log) {
     // M = 2 dW/dG G in the plane, G33 = 1/det G taken along; its deviator in three dimensions drives the
-    // flow.
-    const double trace = 2 * w.dT * T + 4 * w.dD * D;
-    const double trace_of_square =
-        4 * w.dT * w.dT * (T * T - 2 * D) + 8 * w.dT * w.dD * D * T + 8 * w.dD * w.dD * D * D;
-    return {w.value, (trace_of_square - trace * trace / 3) / (2 * branch.viscosity)};
+    // flow. By half the sum and half the difference of its eigenvalues, from P = C G entry by entry: a spring
+    // much stiffer than its dashpot leaves eigenvalues of P that hardly differ.
+    const double P11 = C.C11 * G.C11 + C.C12 * G.C12, P12 = C.C11 * G.C12 + C.C12 * G.C22;
+    const double P21 = C.C12 * G.C11 + C.C22 * G.C12, P22 = C.C12 * G.C12 + C.C22 * G.C22;
+    const double half_sum = w.dT * T + 2 * w.dD * D;
+    const double squared_half_difference = w.dT * w.dT * ((P11 - P22) * (P11 - P22) + 4 * P12 * P21);
+    return {w.value, (half_sum * half_sum + 3 * squared_half_difference) / (3 * branch.viscosity)};
   }
   const std::array<double, 2> stretch_squared{C.C11 * G.C11, C.C22 * G.C22};
   double power = 0;

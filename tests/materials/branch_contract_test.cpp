@@ -148,7 +148,9 @@ TYPED_TEST(BranchContract, power_balances_what_a_held_branch_loses) {
       const double extrapolated = 2 * loss(dt / 2) - loss(dt);
       EXPECT_NEAR(power.dissipation, extrapolated, 1e-5 * (power.dissipation + power.stored));
       EXPECT_GE(power.dissipation, 0);
-      EXPECT_DOUBLE_EQ(power.stored, branch_potential(branch, C, TimeScheme::frozen(), now, now).value);
+      // a law's invariants may be summed in another order
+      EXPECT_NEAR(power.stored, branch_potential(branch, C, TimeScheme::frozen(), now, now).value,
+                  1e-13 * power.stored);
     }
 }
 

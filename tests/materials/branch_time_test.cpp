@@ -74,6 +74,20 @@ TEST(BranchTime, work_is_stored_or_dissipated) {
     }
 }
 
+// A spring ten thousand times as stiff as what it stands beside hardly strains: its power is quadratic in
+// that.
+TEST(BranchTime, the_power_of_a_stiff_spring_is_not_lost_in_round_off) {
+  for (const Dashpot dashpot : {Dashpot::log, Dashpot::nominal}) {
+    const Branch branch{NeoHookean{5e8}, dashpot, 50};
+    const InPlaneC<double> rest = pulled(0.7);
+    const Internal at_rest = advance(branch, rest, TimeScheme::relaxed(), undeformed(), {});
+    const auto power = [&](double strain) {
+      return branch_power(branch, {rest.C11 * (1 + strain), rest.C22, rest.C12}, at_rest).dissipation;
+    };
+    EXPECT_NEAR(power(1e-9) / power(1e-7), 1e-4, 1e-3 * 1e-4);
+  }
+}
+
 TEST(BranchTime, a_history_that_cannot_be_extrapolated_is_continued_by_backward_euler) {
   const TimeScheme bdf2 = TimeScheme::bdf2(1, 0.5);
   const InPlaneC<double> C{1.5, 1.2, 0.1};
