@@ -24,6 +24,7 @@ class PointMassBlock final : public ElementBlock {
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
   void add_mass(int /*element*/, std::span<double> packed) const override { packed[0] += point_.mass; }
   void add_damping(int /*element*/, std::span<double> packed) const override { packed[0] += point_.damping; }
+  void add_drag(int /*element*/, std::span<double> drag) const override { drag[0] += point_.drag; }
 
  private:
   PointMass point_;

@@ -7,12 +7,14 @@
 
 namespace dielast::fem {
 
-/// A mass at a node and a linear damper between it and the ground, felt along one axis: forces m a and c v.
+/// A mass at a node, and a damper and drag between it and the ground, felt along one axis: forces m a, c v
+/// and d |v| v.
 struct PointMass {
   int node = 0;
   int axis = 2;       ///< 0, 1, 2 = x, y, z
   double mass = 0;    ///< m, kg
   double damping = 0; ///< c, N s/m
+  double drag = 0;    ///< d, N s^2/m^2
 };
 
 std::unique_ptr<ElementBlock> make_point_mass_block(const PointMass& point);

@@ -137,11 +137,12 @@ void Assembler::build_pattern() {
 }
 
 /// The lower triangle of its part of the elements' unknowns.
+int Assembler::equation(int unknown) const {
+  return model_.dofs.is_free(unknown) ? unknown : unknown + model_.dofs.held_count();
+}
+
 std::vector<double> Assembler::on_pattern(const Eigen::SparseMatrix<double>& constant) const {
   if (constant.nonZeros() == 0) return {};
-  const auto equation = [this](int unknown) {
-    return model_.dofs.is_free(unknown) ? unknown : unknown + model_.dofs.held_count();
-  };
   std::vector<double> values(matrix_.values.size(), 0.0);
   for (int column = 0; column < matrix_.size; ++column)
     for (int at = matrix_.column_start[static_cast<std::size_t>(column)];
@@ -249,6 +250,11 @@ void Assembler::add_inertia(const State& state) {
   };
   add(state.motion_scheme.mass_factor(), mass_);
   add(state.motion_scheme.damping_factor(), damping_);
+  if (model_.inertia.drag.isZero(0) || !state.motion) return;
+  const Eigen::VectorXd stiffness = InertialForce(model_.inertia, model_.dofs, state).drag_stiffness();
+  for (int column = 0; column < matrix_.size; ++column) // the lower triangle: a column starts on the diagonal
+    matrix_.values[static_cast<std::size_t>(matrix_.column_start[static_cast<std::size_t>(column)])] +=
+        stiffness[equation(column)];
 }
 
 std::vector<double> Assembler::without_ties(const State& state, std::vector<double> values) const {

@@ -43,6 +43,7 @@ class Assembler {
 
   void build_pattern();
   void colour_chunks();
+  int equation(int unknown) const; ///< of matrix_
   std::vector<double> on_pattern(const Eigen::SparseMatrix<double>& constant) const;
   Evaluation run(const State& state, bool want_residual, bool want_tangent);
   void add_inertia(const State& state);

@@ -108,6 +108,8 @@ class ElementBlock {
   virtual void add_mass(int /*element*/, std::span<double> /*packed*/) const {}
   /// Adds what it resists motion with, likewise (N s/m).
   virtual void add_damping(int /*element*/, std::span<double> /*packed*/) const {}
+  /// Adds what it resists the square of velocity with, per dof of the element: d in d |v| v (N s^2/m^2).
+  virtual void add_drag(int /*element*/, std::span<double> /*drag*/) const {}
   /// Adds sum_j weight(rate_j) K_j to the tangent: what relaxed branches resist besides their equilibrium
   /// tangent, taken apart by rates (see Relaxation). Throws std::domain_error where branches are not relaxed
   /// or their film is wrinkled.

@@ -24,6 +24,7 @@ void scatter(const std::vector<double>& packed, const std::vector<int>& equation
 
 Inertia Inertia::of(const std::vector<std::unique_ptr<ElementBlock>>& blocks, const DofMap& dofs) {
   Triplets mass, damping;
+  Eigen::VectorXd drag = Eigen::VectorXd::Zero(dofs.count());
   for (const auto& block : blocks) {
     const auto size = static_cast<std::size_t>(block->dofs_per_element());
     std::vector<int> equations(size);
@@ -36,10 +37,14 @@ Inertia Inertia::of(const std::vector<std::unique_ptr<ElementBlock>>& blocks, co
       std::ranges::fill(packed, 0.0);
       block->add_damping(e, packed);
       scatter(packed, equations, damping);
+      std::ranges::fill(packed, 0.0);
+      block->add_drag(e, std::span(packed).first(size));
+      for (std::size_t i = 0; i < size; ++i)
+        if (equations[i] != DofMap::absent) drag[equations[i]] += packed[i];
     }
   }
   Inertia inertia{Eigen::SparseMatrix<double>(dofs.count(), dofs.count()),
-                  Eigen::SparseMatrix<double>(dofs.count(), dofs.count())};
+                  Eigen::SparseMatrix<double>(dofs.count(), dofs.count()), std::move(drag)};
   inertia.mass.setFromTriplets(mass.begin(), mass.end());
   inertia.damping.setFromTriplets(damping.begin(), damping.end());
   return inertia;
@@ -64,7 +69,8 @@ Eigen::VectorXd position(const State& state, const DofMap& dofs) {
 }
 
 InertialForce::InertialForce(const Inertia& inertia, const DofMap& dofs, const State& state)
-    : start_(*state.motion), scheme_(state.motion_scheme), step_(position(state, dofs) - start_.position) {
+    : inertia_(inertia), start_(*state.motion), scheme_(state.motion_scheme),
+      step_(position(state, dofs) - start_.position) {
   const auto& s = scheme_;
   const auto force = [&](const Eigen::VectorXd& step) {
     acceleration_ = (step - s.dt * start_.velocity) / (s.beta * s.dt * s.dt) - s.start * start_.acceleration;
@@ -76,8 +82,24 @@ InertialForce::InertialForce(const Inertia& inertia, const DofMap& dofs, const S
         (1 - s.alpha_f));
   };
   const Eigen::VectorXd at_start = force(Eigen::VectorXd::Zero(step_.size()));
+  const Eigen::VectorXd velocity_at_start = velocity_;
   force_ = force(step_);
   energy_ = (at_start + force_).dot(step_) / 2;
+  if (inertia.drag.isZero(0)) return;
+  // Drag is the gradient of d |v|^3 / (3 dv/du), as the velocity grows by dv/du for each step, and of a dead
+  // force.
+  const double growth = s.damping_factor();
+  const auto cubed = [](const Eigen::VectorXd& v) { return v.array().abs().cube(); };
+  const Eigen::ArrayXd dead = s.alpha_f / (1 - s.alpha_f) * inertia.drag.array() *
+                              start_.velocity.array().abs() * start_.velocity.array();
+  energy_ += (dead * step_.array() +
+              inertia.drag.array() / (3 * growth) * (cubed(velocity_) - cubed(velocity_at_start)))
+                 .sum();
+  force_.array() += dead + inertia.drag.array() * velocity_.array().abs() * velocity_.array();
+}
+
+Eigen::VectorXd InertialForce::drag_stiffness() const {
+  return 2 * scheme_.damping_factor() * inertia_.drag.cwiseProduct(velocity_.cwiseAbs());
 }
 
 Motion InertialForce::arrived() const {

@@ -9,22 +9,26 @@ namespace dielast::fem {
 
 class ElementBlock;
 
-/// What resists acceleration and velocity: M (kg) and C (N s/m), per equation, held ones too; symmetric, both
-/// triangles stored. Empty where nothing has a mass.
+/// What resists acceleration and velocity, M a + C v + d |v| v: M (kg), C (N s/m) and d (N s^2/m^2), per
+/// equation, held ones too; the matrices symmetric, both triangles stored. Empty where nothing has a mass.
 struct Inertia {
   Eigen::SparseMatrix<double> mass, damping;
+  Eigen::VectorXd drag;
 
   /// The sum over blocks; `dofs` numbered.
   static Inertia of(const std::vector<std::unique_ptr<ElementBlock>>& blocks, const DofMap& dofs);
-  bool empty() const { return mass.nonZeros() == 0 && damping.nonZeros() == 0; }
+  bool empty() const { return mass.nonZeros() == 0 && damping.nonZeros() == 0 && drag.isZero(0); }
+  /// C v + d |v| v, N.
+  Eigen::VectorXd resistance(const Eigen::VectorXd& velocity) const {
+    return damping * velocity + Eigen::VectorXd(drag.array() * velocity.array().abs() * velocity.array());
+  }
 };
 
 /// Displacements of a state per equation, m, and of rotations their vectors, rad.
 Eigen::VectorXd position(const State& state, const DofMap& dofs);
 
-/// The forces of inertia and damping in a trial state as a linear function of the displacement d since the
-/// last accepted time, force = start + stiffness . d (see GeneralisedAlpha): the gradient of a quadratic
-/// energy.
+/// The forces of inertia, damping and drag in a trial state as a function of the displacement since the last
+/// accepted time (see GeneralisedAlpha): the gradient of an energy, quadratic but for the drag's share.
 class InertialForce {
  public:
   /// Precondition: state.motion is there and the scheme is not static.
@@ -32,10 +36,13 @@ class InertialForce {
 
   const Eigen::VectorXd& force() const { return force_; } ///< per equation, N
   double energy() const { return energy_; }               ///< J
+  /// What drag adds to the tangent's diagonal, N/m.
+  Eigen::VectorXd drag_stiffness() const;
   /// The motion that a converged trial state has arrived with; its unbalanced forces follow from the balance.
   Motion arrived() const;
 
  private:
+  const Inertia& inertia_;
   const Motion& start_;
   GeneralisedAlpha scheme_;
   Eigen::VectorXd step_, acceleration_, velocity_, force_;

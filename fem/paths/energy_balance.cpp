@@ -207,10 +207,10 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   if (state.motion) {
     const Motion& motion = *state.motion;
     Eigen::VectorXd inertial =
-        model.inertia.mass * motion.acceleration + model.inertia.damping * motion.velocity;
+        model.inertia.mass * motion.acceleration + model.inertia.resistance(motion.velocity);
     dofs.gather(state, inertial);
     force += inertial;
-    point.power[EnergyPoint::dampers] = motion.velocity.dot(model.inertia.damping * motion.velocity);
+    point.power[EnergyPoint::dampers] = motion.velocity.dot(model.inertia.resistance(motion.velocity));
   }
   // Supports carry the forces on tied nodes, which do work of their own.
   Eigen::VectorXd carried = state.dead_force;

@@ -23,8 +23,8 @@ struct EnergyPoint {
   Conjugates electrical; ///< per electrode voltage and charge
   Conjugates resistance; ///< per electrode drop of voltage from its source and charge
   Conjugates sheet;      ///< per Model::sheet_points drop of voltage from the terminal and charge
-  /// Powers, W: of dashpots by their flow rules; of dampers; of leaking current in the film, in sheets on its
-  /// way there, and in the resistance behind its source.
+  /// Powers, W: of dashpots by their flow rules; of dampers and drag; of leaking current in the film, in
+  /// sheets on its way there, and in the resistance behind its source.
   enum Power { dashpots, dampers, leak, leak_through_sheet, leak_through_resistance, power_count };
   std::array<double, power_count> power{};
   double flow = 0; ///< heat of the dashpots since the point before, see flow_heat(), J

@@ -18,11 +18,11 @@ constexpr double mass = 0.3, omega = 2 * pi, stiffness = mass * omega * omega; /
 
 /// A mass at x = 1 m (node 0) on a spring, relaxed as drawn, to a support with a mass too (node 1).
 struct Oscillator {
-  explicit Oscillator(double damping = 0) {
+  explicit Oscillator(double damping = 0, double drag = 0) {
     const meshing::Mesh mesh{{{1, 0, 0}, {0, 0, 0}}, {}, {}, {}};
     model = test::unnumbered_model(
         2, true, make_distance_block(mesh, {{std::vector{1}, std::vector{0}}, 0}, Spring{stiffness, 1}),
-        make_point_mass_block({.node = 0, .axis = 0, .mass = mass, .damping = damping}),
+        make_point_mass_block({.node = 0, .axis = 0, .mass = mass, .damping = damping, .drag = drag}),
         make_point_mass_block({.node = 1, .axis = 0, .mass = 0.7}));
     model->dofs.hold(1, 0);
     model->dofs.number();
@@ -116,6 +116,70 @@ TEST(Inertia, a_damper_lets_the_vibration_decay) {
   const double stored = stiffness * 1e-4 / 2;
   EXPECT_NEAR(run.balance.work().dissipated, stored * (1 - std::exp(-2 * ratio * omega * 3)), 0.01 * stored);
   EXPECT_LT(std::abs(run.balance.error()), 1e-4 * stored);
+}
+
+// Falls towards its terminal velocity, of a load that the spring does not carry: it moves with the mass.
+TEST(Inertia, drag_lets_a_pulled_mass_reach_its_terminal_velocity) {
+  constexpr double force = 2, drag = 8, duration = 0.6;
+  const std::unique_ptr<Model> falling =
+      test::free_model(1, true, make_point_mass_block({.node = 0, .axis = 0, .mass = mass, .drag = drag}));
+  Model& model = *falling;
+  model.inertia = Inertia::of(model.blocks, model.dofs);
+  Equilibrium equilibrium(model, 1);
+  State start = model.initial_state();
+  start.dead_force[0] = force;
+  const double rate = std::sqrt(force * drag) / mass;
+  const auto fallen = [=](double t) { return mass / drag * std::log(std::cosh(rate * t)); };
+  const auto error = [&](int steps) {
+    const test::TimedRun run = test::run_in_time(equilibrium, start, test::constant_loads(model.dofs, start),
+                                                 equal_steps(steps, duration));
+    EXPECT_NEAR(run.balance.work().dissipated,
+                force * fallen(duration) - mass / 2 * force / drag * std::pow(std::tanh(rate * duration), 2),
+                0.02 * force * fallen(duration));
+    return x_of(run.end()) - fallen(duration);
+  };
+  const double coarse = error(100), fine = error(200);
+  EXPECT_LT(std::abs(fine), 1e-4 * fallen(duration));
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.15);
+}
+
+TEST(Inertia, forces_of_drag_are_derivatives_of_their_energy_and_the_tangent_of_them) {
+  Oscillator oscillator(0.4, 7);
+  for (const double velocity : {0.3, -0.05, 0.0}) {
+    Motion start{Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2),
+                 Eigen::VectorXd::Zero(2), 0};
+    start.velocity[0] = velocity;
+    start.acceleration[0] = -2;
+    State state = oscillator.model->initial_state();
+    state.motion = std::make_shared<const Motion>(start);
+    state.motion_scheme = GeneralisedAlpha::of(0.02, 0.8);
+    const auto at = [&](double x) {
+      state.displacement[0].x() = x;
+      Balance balance;
+      oscillator.equilibrium->balance(state, balance);
+      return std::pair{balance.energy, balance.force[0]};
+    };
+    constexpr double h = 1e-4;
+    const double x = 0.004;
+    const double slope =
+        (8 * (at(x + h).first - at(x - h).first) - (at(x + 2 * h).first - at(x - 2 * h).first)) / (12 * h);
+    EXPECT_NEAR(at(x).second, slope, 1e-9 * (1 + std::abs(slope))) << velocity;
+    const double change = (at(x + h).second - at(x - h).second) / (2 * h);
+    at(x);
+    ASSERT_TRUE(oscillator.equilibrium->factor(state));
+    Eigen::VectorXd step;
+    oscillator.equilibrium->tangent().solve(Eigen::VectorXd::Ones(1), step);
+    EXPECT_NEAR(1 / step[0], change, 1e-8 * change) << velocity;
+  }
+}
+
+TEST(Inertia, what_drag_takes_is_what_the_oscillator_loses) {
+  Oscillator oscillator(0, 20);
+  const test::TimedRun run = oscillator.let_go(0.1, resolved(2, 1e-9));
+  const double lost = stiffness * 0.01 / 2 - run.balance.stored();
+  EXPECT_GT(lost, 0.5 * stiffness * 0.01 / 2);
+  EXPECT_NEAR(run.balance.work().dissipated, lost, 1e-5 * lost);
+  EXPECT_LT(run.balance.error(), 1e-4 * lost);
 }
 
 TEST(Inertia, a_load_that_jumps_overshoots_twofold_and_its_work_is_told) {
