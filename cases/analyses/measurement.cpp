@@ -328,8 +328,15 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
                 [&](const fem::MembraneSample& sample, const auto&) {
                   return post::film_value(sample, quantity.of);
                 });
+  case QuantityKind::fin_force:
+    return fin_load(quantity, state).force;
+  case QuantityKind::thrust:
+    return fin_load(quantity, state).thrust;
+  case QuantityKind::fin_power:
+    return fin_load(quantity, state).power;
   case QuantityKind::margin: // told at the end of a run
   case QuantityKind::peak:   // of the others, see all()
+  case QuantityKind::mean:
     return unknown;
   case QuantityKind::extreme: {
     const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);
@@ -339,53 +346,55 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   return unknown;
 }
 
+FinLoad Measurement::fin_load(const Quantity& quantity, const fem::State& state) const {
+  const auto fin = std::ranges::find(case_.fins, quantity.of, &Fin::name) - case_.fins.begin();
+  return load_on(device_.fins[static_cast<std::size_t>(fin)], device_.model, state);
+}
+
 std::vector<double> Measurement::all(const Measured& measured) {
   std::vector<double> values;
   for (const Quantity& quantity : case_.quantities) values.push_back(evaluate(quantity, measured));
-  for (std::size_t q = 0; q < values.size(); ++q) {
-    const Quantity& quantity = case_.quantities[q];
-    if (quantity.kind == QuantityKind::peak)
-      values[q] =
-          peak(quantity, values[static_cast<std::size_t>(&subject(quantity) - case_.quantities.data())]);
-  }
+  for (std::size_t q = 0; q < values.size(); ++q)
+    if (const Quantity& quantity = case_.quantities[q]; is_of_course(quantity.kind))
+      values[q] = value_so_far(references, quantity,
+                               values[static_cast<std::size_t>(&subject(quantity) - case_.quantities.data())],
+                               measured.state.time);
   return values;
 }
 
-const Quantity& Measurement::subject(const Quantity& peak) const {
-  return *std::ranges::find(case_.quantities, peak.of, &Quantity::name);
-}
-
-/// The peak so far, now that its subject has this value.
-double Measurement::peak(const Quantity& quantity, double now) {
-  double& peak = references.try_emplace(quantity.name, now).first->second;
-  const bool beyond = quantity.extreme == post::Extreme::minimum ? now < peak : now > peak;
-  if (beyond || std::isnan(peak)) peak = now;
-  return peak;
+const Quantity& Measurement::subject(const Quantity& quantity) const {
+  return *std::ranges::find(case_.quantities, quantity.of, &Quantity::name);
 }
 
 void Measurement::pass(const Measured& measured) {
   for (const Quantity& quantity : case_.quantities)
-    if (quantity.kind == QuantityKind::peak) peak(quantity, evaluate(subject(quantity), measured));
+    if (is_of_course(quantity.kind))
+      value_so_far(references, quantity, evaluate(subject(quantity), measured), measured.state.time);
 }
 
-bool Measurement::has_peaks() const {
-  return std::ranges::count(case_.quantities, QuantityKind::peak, &Quantity::kind) > 0;
+bool Measurement::follows_course() const {
+  return std::ranges::any_of(case_.quantities,
+                             [](const Quantity& quantity) { return is_of_course(quantity.kind); });
 }
 
-bool Measurement::has_peaks_of_fields() const {
+bool Measurement::follows_fields() const {
   return std::ranges::any_of(case_.quantities, [this](const Quantity& quantity) {
-    if (quantity.kind != QuantityKind::peak) return false;
+    if (!is_of_course(quantity.kind)) return false;
     const QuantityKind kind = subject(quantity).kind;
     return kind == QuantityKind::extreme || reads_film(kind);
   });
 }
 
 void Measurement::step_ended(const std::string& step, const Measured& measured) {
-  for (const Quantity& quantity : case_.quantities)
-    if (quantity.since == step && !step.empty())
+  for (const Quantity& quantity : case_.quantities) {
+    if (quantity.since != step || step.empty()) continue;
+    if (quantity.kind == QuantityKind::mean)
+      begin_mean(references, quantity, measured.state.time);
+    else
       references[quantity.name] = quantity.kind == QuantityKind::displacement
                                       ? displacement(quantity, measured.state)
                                       : length(quantity, measured.state);
+  }
 }
 
 } // namespace dielast::cases

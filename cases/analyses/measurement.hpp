@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cases/analyses/course.hpp"
 #include "cases/analyses/film_values.hpp"
 #include "cases/devices/device.hpp"
 #include "fem/paths/energy_balance.hpp"
@@ -38,22 +39,21 @@ class Measurement {
   /// step that has not ended).
   std::vector<double> all(const Measured& measured);
 
-  /// Sees a state that is not recorded: for peaks.
+  /// Sees a state that is not recorded: for what depends on the course (see is_of_course).
   void pass(const Measured& measured);
-  bool has_peaks() const;
-  /// Whether peaks are of quantities that are measured on fields.
-  bool has_peaks_of_fields() const;
+  bool follows_course() const;
+  /// Whether that is of quantities that are measured on fields.
+  bool follows_fields() const;
 
   /// Says that a step ended in this state: elongations and displacements since it start here.
   void step_ended(const std::string& step, const Measured& measured);
 
-  /// Lengths and displacements that quantities are relative to, and peaks so far, by quantity; stored with a
-  /// checkpoint.
-  std::map<std::string, double> references;
+  /// Lengths and displacements that quantities are relative to, and courses so far; stored with a checkpoint.
+  References references;
 
  private:
-  const Quantity& subject(const Quantity& peak) const;
-  double peak(const Quantity& quantity, double now);
+  /// Whose course a quantity follows.
+  const Quantity& subject(const Quantity& quantity) const;
   double evaluate(const Quantity& quantity, const Measured& measured) const;
   double length(const Quantity& quantity, const fem::State& state) const;
   double displacement(const Quantity& quantity, const fem::State& state) const;
@@ -69,6 +69,7 @@ class Measurement {
   /// Where a value of a field is read; `key`: the quantity's path.
   std::vector<FilmReading> readings_of(const Quantity& quantity, const std::string& key,
                                        const fem::Samples& drawn) const;
+  FinLoad fin_load(const Quantity& quantity, const fem::State& state) const;
   std::size_t electrode(const std::string& name) const;
   Eigen::Vector3d position(const std::string& place, const fem::State& state) const;
   /// Which triangles belong to a place: its own, or those with a node there.

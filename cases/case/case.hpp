@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cases/case/bodies.hpp"
 #include "cases/case/part.hpp"
 #include "cases/text/diagnostics.hpp"
 #include "cases/text/waveform.hpp"
@@ -74,53 +75,6 @@ struct Circuit {
   std::optional<double> current_limit;      ///< of the source, A
 
   bool operator==(const Circuit&) const = default;
-};
-
-/// [plate]: a rigid plate that closes a place of the film and moves along z only
-struct Plate {
-  std::string place;
-  double mass = 0;    ///< kg
-  double damping = 0; ///< between the plate and the ground, N s/m
-};
-
-/// [[point_mass]]: spread evenly over the nodes of a place, with a damper to the ground along each axis
-struct PointMass {
-  std::string place;
-  double mass = 0;    ///< kg
-  double damping = 0; ///< N s/m
-};
-
-/// [[body]]: rigid, carries all nodes of its places. Its own place, called by its name, is the pivot, or
-/// without one the centre of mass.
-struct Body {
-  std::string name;
-  std::vector<std::string> places;
-  double mass = 0;                             ///< kg
-  std::array<double, 3> inertia{};             ///< about axes along x, y, z through the centre, kg m^2
-  std::optional<std::array<double, 3>> centre; ///< of mass, as drawn, m; absent: the mean of its nodes
-  std::optional<std::array<double, 3>> pivot;  ///< a point that stays where it is drawn, m
-  std::array<bool, 6> fixed{};                 ///< displacements of its own place, rotations about x, y, z
-  double damping_rate = 0; ///< c / m of dampers between all of its mass and the ground, 1/s
-};
-
-/// [pivot]: a pin under a body's own place, which it pushes along z and lets turn
-struct Pivot {
-  std::string body;
-  double height = 0; ///< from where the body is drawn, m
-};
-
-/// [weight]: hangs from a strip; the mass of its body "bar"
-struct HungWeight {
-  double mass = 0; ///< kg
-};
-
-/// [gravity]
-struct Gravity {
-  double acceleration = 0;                   ///< m/s^2
-  std::array<double, 3> direction{0, 0, -1}; ///< any length but 0
-  bool film = false;                         ///< whether the film's own weight counts
-
-  Eigen::Vector3d down() const { return Eigen::Vector3d(direction.data()).normalized(); }
 };
 
 /// [chamber]: what is under the film and the plate, up to z = 0
@@ -251,12 +205,21 @@ enum class QuantityKind {
   energy,
   value,
   extreme,
+  fin_force,
+  thrust,
+  fin_power,
   peak,
+  mean,
   margin
 };
 
 /// Where gravity pulls, as a direction of a quantity.
 constexpr int along_gravity = 3;
+
+/// A value that another quantity's course has, not the state alone.
+constexpr bool is_of_course(QuantityKind kind) {
+  return kind == QuantityKind::peak || kind == QuantityKind::mean;
+}
 
 /// Elongation is the relative change of a distance, growth that of a size.
 constexpr bool is_relative(QuantityKind kind) {
@@ -269,17 +232,17 @@ struct Quantity {
   QuantityKind kind{};
   std::array<std::string, 2> between; ///< distance, elongation, stretch: two places (their centroids)
   std::string of; ///< size, growth, displacement, radius, force, nominal_stress, stiffness, radial_stretch: a
-                  ///< place; capacitance, charge, current: an electrode; value, extreme: a field; peak:
-                  ///< another quantity
+                  ///< place; capacitance, charge, current: an electrode; value, extreme: a field;
+                  ///< fin_force, thrust, fin_power: a fin; peak, mean: another quantity
   std::optional<int> along;                   ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
   std::string place;                          ///< value: over which it is the mean; coupling: where it pulls
   std::optional<std::array<double, 3>> point; ///< value, displacement: instead of a place, as drawn, m
   double length = 0;                          ///< coupling: of the electrode, m
   int mode = 1;                               ///< natural_frequency: its number, from the lowest
   post::Extreme extreme{};
-  std::string at; ///< the step at whose end summary.json reads it; empty: the last
-  std::string
-      since; ///< elongation, growth, displacement: the step at whose end it is zero; empty: the mesh as drawn
+  std::string at;    ///< the step at whose end summary.json reads it; empty: the last
+  std::string since; ///< elongation, growth, displacement: the step at whose end it is zero; empty: the mesh
+                     ///< as drawn; mean: the step at whose end it begins; empty: with the run
   bool standard = false; ///< brought by the geometry's template, not written by the user
 };
 
@@ -333,6 +296,7 @@ struct Case {
   std::optional<Plate> plate;
   std::vector<PointMass> point_masses;
   std::vector<Body> bodies;
+  std::vector<Fin> fins;
   std::optional<HungWeight> weight{};
   std::optional<Pivot> pivot;
   Gravity gravity;

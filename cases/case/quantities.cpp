@@ -46,9 +46,15 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
     return "C";
   case QuantityKind::energy:
     return "J";
+  case QuantityKind::fin_force:
+  case QuantityKind::thrust:
+    return "N";
+  case QuantityKind::fin_power:
+    return "W";
   case QuantityKind::peak:
+  case QuantityKind::mean:
     for (const Quantity& other : all)
-      if (other.name == quantity.of && other.kind != QuantityKind::peak) return unit_of(other, all);
+      if (other.name == quantity.of && !is_of_course(other.kind)) return unit_of(other, all);
     return "1";
   case QuantityKind::value:
   case QuantityKind::extreme:
@@ -113,6 +119,15 @@ std::string meaning_of(const Quantity& q) {
   case QuantityKind::peak:
     return fmt::format("{} {} so far{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
                        at);
+  case QuantityKind::mean:
+    return fmt::format("mean of {} over time{}{}", q.of, q.since.empty() ? "" : ", since \"" + q.since + "\"",
+                       at);
+  case QuantityKind::fin_force:
+    return fmt::format("force of the fluid on {}, across it{}", q.of, at);
+  case QuantityKind::thrust:
+    return fmt::format("force of the fluid on {}, forward along it{}", q.of, at);
+  case QuantityKind::fin_power:
+    return fmt::format("power that {} gives to the fluid{}", q.of, at);
   case QuantityKind::margin:
     return fmt::format("factor on the voltages at the end that leads to {}", q.of);
   case QuantityKind::stretch:

@@ -224,7 +224,8 @@ void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
 }
 
 /// Forces of gravity: on plate and masses, and on the film where its weight counts.
-Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies, const meshing::Mesh& mesh,
+Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,
+                          const std::vector<FinPoints>& fins, const meshing::Mesh& mesh,
                           const fem::Model& model) {
   const fem::DofMap& dofs = model.dofs;
   const Eigen::Vector3d pull = one.gravity.acceleration * one.gravity.down();
@@ -238,7 +239,11 @@ Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,
     for (int n = 0; n < dofs.node_count(); ++n)
       for (int c = 0; c < 3; ++c)
         if (const int e = dofs.equation(n, c); e != fem::DofMap::absent) falls[e] = one.gravity.down()[c];
-    return one.gravity.acceleration * (model.inertia.mass * falls);
+    weight = one.gravity.acceleration * (model.inertia.mass * falls);
+    for (const FinPoints& fin : fins) // the mass that they add is of a fluid, which floats
+      for (const FinPoints::Point& at : fin.points)
+        weight[dofs.equation(at.node, fin.along)] -= at.mass * pull[fin.along];
+    return weight;
   }
   for (const BodyNodes& body : bodies)
     for (const auto& [node, mass] : body.masses) add(node, mass);
@@ -296,6 +301,7 @@ Device build_device(const Case& one) {
   const fem::Dimension dimension = one.dimension;
   const Eigen::Vector3d size = mesh.bounds().sizes(); // bodies have nodes of their own
   const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
+  std::vector<FinPoints> fins = add_fin_nodes(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
   model.extent = size.norm();
@@ -324,12 +330,14 @@ Device build_device(const Case& one) {
   add_capacitors(one, model);
   add_masses(one, mesh, model);
   for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
+  for (auto& fluid : fluid_around(fins)) model.blocks.push_back(std::move(fluid));
   add_chamber(one, mesh, model);
   for (const auto& block : model.blocks) {
     block->place_scalars(model.dofs);
     block->claim_dofs(model.dofs, dimension);
   }
   tie_bodies(one, bodies, mesh, model.dofs);
+  tie_fins(fins, mesh, model.dofs);
   clamp_under_walls(one, mesh, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty();
@@ -363,7 +371,7 @@ Device build_device(const Case& one) {
   scale_charges(model);
 
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = free_body};
-  device.weight = weight_of(one, bodies, device.mesh, device.model);
+  device.weight = weight_of(one, bodies, fins, device.mesh, device.model);
   require_loads_that_act(one, device);
   device.film_parts = std::move(parts);
   device.films = films;
@@ -372,6 +380,7 @@ Device build_device(const Case& one) {
   device.solid = of_solid;
   device.bar_widths = bar_widths(one, device.mesh);
   require_one_prestretch(one, device);
+  device.fins = std::move(fins);
   device.warnings = std::move(warnings);
   return device;
 }

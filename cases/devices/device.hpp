@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
+#include "cases/devices/fins.hpp"
 #include "fem/model/model.hpp"
 #include "meshing/mesh.hpp"
 
@@ -21,6 +22,7 @@ struct Device {
   bool solid = false;             ///< its film is meshed across its thickness
   bool free_body = false;         ///< no support: pinned against rigid motion only, without reactions
   Eigen::VectorXd weight;         ///< dead forces of gravity, per equation, N
+  std::vector<FinPoints> fins{};  ///< in the order of Case::fins
   std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each
 };
 

@@ -14,7 +14,7 @@ bool has_mass(const Case& one) {
   const auto heavy = [](const auto& body) { return body.mass > 0; };
   return one.any_film([](const Film& film) { return film.material.density > 0; }) ||
          (one.plate && heavy(*one.plate)) || std::ranges::any_of(one.point_masses, heavy) ||
-         std::ranges::any_of(one.bodies, heavy);
+         std::ranges::any_of(one.bodies, heavy) || !one.fins.empty();
 }
 
 bool is_linearised(const Case& one) { return one.linearise.written || has_step(one, {StepKind::harmonic}); }
@@ -97,6 +97,8 @@ Condition masses_matter() {
            (one.gravity.film && has_step(one, {StepKind::weight}));
   });
 }
+
+Condition inertia() { return on_case("a step with inertia", has_inertia); }
 
 Condition dampers_matter() {
   return on_case("a step with inertia or of kind \"harmonic\"",

@@ -14,6 +14,7 @@ Condition time_passes();       ///< a step has a duration
 Condition without_duration();  ///< the key's own step has none
 Condition weight();            ///< gravity acts in a step
 Condition masses_matter();     ///< something has inertia, vibrates, or weighs
+Condition inertia();           ///< something moves with inertia
 Condition dampers_matter();    ///< something moves with inertia, or is linearised
 Condition has_mass();          ///< something has one
 Condition film_flows();        ///< a dashpot beside the law is felt
@@ -37,7 +38,7 @@ Condition plane_strain(); ///< likewise, of a planar model
 /// Whether a step is of one of these kinds.
 bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
 
-/// Whether the film, the plate or a point mass has a mass.
+/// Whether the film, the plate, a point mass, a body or what is around a fin has a mass.
 bool has_mass(const Case& one);
 bool is_linearised(const Case& one); ///< by a harmonic response or a linear model
 

@@ -45,7 +45,7 @@ enum class Type {
 constexpr std::size_t longest_name = 100;
 
 /// What a text refers to, checked once everything is read (places: once the mesh exists).
-enum class Reference { none, place, supported_place, body, electrode, step, quantity };
+enum class Reference { none, place, supported_place, body, fin, electrode, step, quantity };
 
 /// A word that a user may write, and the value that it stands for: an enumerator, a number or a flag. Without
 /// one the word itself is the value, of a text.
@@ -317,6 +317,7 @@ std::vector<Section> unnamed_part_sections(); ///< film, the geometries, mesh
 std::vector<Section> region_sections();       ///< region, sectors, of a Part
 std::vector<Section> part_sections();         ///< part, tie
 Section body_section();
+Section fin_section();
 Section pivot_section();
 std::vector<Section> action_sections(); ///< electrode, support, load, spring, linkage, drive
 Section step_section();

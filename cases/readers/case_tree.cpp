@@ -121,6 +121,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   require_known(reader, Reference::step, "step", names_of(one.steps, &Step::name));
   require_known(reader, Reference::quantity, "quantity", names_of(one.quantities, &Quantity::name));
   require_known(reader, Reference::body, "body", names_of(one.bodies, &Body::name));
+  require_known(reader, Reference::fin, "fin", names_of(one.fins, &Fin::name));
   std::vector<std::string> supported = names_of(one.supports, &Support::place);
   for (const Body& body : one.bodies)
     if (body.pivot || std::ranges::count(body.fixed, true) > 0) supported.push_back(body.name);

@@ -39,9 +39,9 @@ void note(Solution& solution, const post::StepRecord& record) {
       solution.events.insert(event.kind);
 }
 
-/// The quantity, or the one whose peak it is.
+/// The quantity, or the one whose course it follows.
 const Quantity& measured(const Quantity& quantity, const std::vector<Quantity>& all) {
-  return quantity.kind == QuantityKind::peak ? *std::ranges::find(all, quantity.of, &Quantity::name)
+  return is_of_course(quantity.kind) ? *std::ranges::find(all, quantity.of, &Quantity::name)
                                              : quantity;
 }
 

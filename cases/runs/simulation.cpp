@@ -169,8 +169,8 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   account(state, increment, reached);
   if (increment.lands) return record(observer, step, state, increment, reached);
   unrecorded_ = increment;
-  if (measurement_.has_peaks())
-    measurement_.pass({device_, *equilibrium_, state, energy_, measurement_.has_peaks_of_fields()});
+  if (measurement_.follows_course())
+    measurement_.pass({device_, *equilibrium_, state, energy_, measurement_.follows_fields()});
   return !observer.on_pass || observer.on_pass();
 }
 

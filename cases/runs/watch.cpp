@@ -12,6 +12,9 @@ namespace dielast::cases {
 
 namespace {
 
+/// Beyond this the fluid's force on a fin is more than 2 % off, rad.
+constexpr double largest_turn = 0.2;
+
 /// Of a lattice, also of one that is a part with a name.
 bool is_cell(const std::string& place) {
   return place.starts_with("cell[") || place.find(".cell[") != std::string::npos;
@@ -74,6 +77,13 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
       ratio && begins(ratio->value >= 1, "breakdown"))
     events.push_back({"breakdown", place_of_triangle(ratio->cell),
                       fmt::format("the electric field is {:.3g} times the breakdown field", ratio->value)});
+  double turn = 0;
+  for (const FinPoints& fin : device_.fins) turn = std::max(turn, turn_of(fin, state));
+  if (begins(turn > largest_turn, "fin turns"))
+    events.push_back({"fin turns", "",
+                      fmt::format("a fin has turned by {}: the fluid resists along the axis across it as "
+                                  "drawn, which is {:.2g} % off",
+                                  post::engineering(turn, "rad"), 100 * (1 - std::cos(turn)))});
   if (const auto ratio = extremes.find("yield_ratio", post::Extreme::maximum);
       ratio && begins(ratio->value >= 1, "wall yield"))
     events.push_back({"wall yield", place_of_line(ratio->cell),

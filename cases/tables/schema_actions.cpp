@@ -327,9 +327,10 @@ Section drive_section() {
 } // namespace
 
 std::vector<Section> action_sections() {
-  return {electrode_section(), support_section(), load_section(),    spring_section(),     linkage_section(),
-          drive_section(),     circuit_section(), plate_section(),   point_mass_section(), body_section(),
-          weight_section(),    pivot_section(),   gravity_section(), chamber_section(),    contact_section()};
+  return {electrode_section(),  support_section(), load_section(),    spring_section(),
+          linkage_section(),    drive_section(),   circuit_section(), plate_section(),
+          point_mass_section(), body_section(),    fin_section(),     weight_section(),
+          pivot_section(),      gravity_section(), chamber_section(), contact_section()};
 }
 
 } // namespace dielast::cases

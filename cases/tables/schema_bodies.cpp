@@ -50,6 +50,51 @@ Section body_section() {
   return section;
 }
 
+Section fin_section() {
+  Section section = list_section(
+      "fin", "a flat fin on a body, in a fluid that resists its motion across itself", each(&Case::fins));
+  const auto end = [](const char* name, std::array<double, 3> Fin::*member, const char* meaning) {
+    return measure(name, "m", to(member), meaning).values(3, 3).at_least(-10).at_most(10);
+  };
+  section.keys = {
+      text("name", to(&Fin::name), "its name").distinct(),
+      text("body", to(&Fin::body), "the body").refers_to(Reference::body),
+      end("from", &Fin::from, "its front end, as drawn"),
+      end("to", &Fin::to, "its trailing end, as drawn"),
+      measure("height", "m", to(&Fin::height), "across its length and the axis `along`")
+          .above(0)
+          .at_most(10)
+          .only_with(when::masses_matter()),
+      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Fin::along),
+           "the axis across it, as drawn, along which the fluid resists"),
+      measure("fluid_density", "kg/m^3", to(&Fin::fluid_density), "of the fluid")
+          .above(0)
+          .at_most(1e5)
+          .otherwise("1000 kg/m^3")
+          .only_with(when::masses_matter()),
+      number("drag_coefficient", to(&Fin::drag_coefficient),
+             "drag over density x height x length x velocity squared / 2")
+          .at_least(0)
+          .at_most(100)
+          .otherwise("2")
+          .only_with(when::inertia()),
+      number("added_mass_coefficient", to(&Fin::added_mass_coefficient),
+             "added mass over that of the cylinder of fluid around the fin, whose diameter is its height")
+          .at_least(0)
+          .at_most(100)
+          .otherwise("1")
+          .only_with(when::masses_matter()),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& fin = *static_cast<const Fin*>(object);
+    const auto along = static_cast<std::size_t>(fin.along);
+    if (fin.from == fin.to) return Conflict{"to", "the fin has no length"};
+    if (fin.from[along] != fin.to[along]) return Conflict{"along", "the fin is not across this axis"};
+    return std::nullopt;
+  };
+  return section;
+}
+
 Section pivot_section() {
   Section section;
   section.name = "pivot";

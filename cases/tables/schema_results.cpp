@@ -69,6 +69,11 @@ Section quantity_section() {
            {"value", "of a field of the film: at a point, or its mean over a place", QuantityKind::value},
            {"extreme", "smallest or largest value of a field", QuantityKind::extreme},
            {"peak", "smallest or largest value of another quantity so far", QuantityKind::peak},
+           {"mean", "mean over time of another quantity so far", QuantityKind::mean},
+           {"fin force", "of the fluid on a fin, across it as drawn (N)", QuantityKind::fin_force},
+           {"thrust", "of the fluid on a fin, along it from its trailing end to its front (N)",
+            QuantityKind::thrust},
+           {"fin power", "that a fin gives to the fluid (W)", QuantityKind::fin_power},
            {"margin",
             "factor on all voltages at the end of the run that leads to a limit, below 1 where it was "
             "passed; "
@@ -87,6 +92,7 @@ Section quantity_section() {
           .only({"force"})
           .refers_to(Reference::supported_place),
       of("the body").only({"angle", "moment"}).refers_to(Reference::body),
+      of("the fin").only({"fin force", "thrust", "fin power"}).refers_to(Reference::fin),
       of("the electrode")
           .only({"capacitance", "charge", "current", "coupling"})
           .refers_to(Reference::electrode),
@@ -143,7 +149,7 @@ Section quantity_section() {
             {"wall yield", "somewhere a wall yields"}},
            to(&Quantity::of), "the limit")
           .only({"margin"}),
-      of("the quantity").only({"peak"}).refers_to(Reference::quantity),
+      of("the quantity").only({"peak", "mean"}).refers_to(Reference::quantity),
       word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along),
            "component; without it the magnitude")
           .optional()
@@ -173,6 +179,10 @@ Section quantity_section() {
       text("since", to(&Quantity::since), "step at whose end it is zero; without it the mesh as drawn")
           .optional()
           .only({"elongation", "growth", "displacement"})
+          .refers_to(Reference::step),
+      text("since", to(&Quantity::since), "step at whose end it begins; without it the whole run")
+          .optional()
+          .only({"mean"})
           .refers_to(Reference::step),
       text("at", to(&Quantity::at), "step at whose end summary.json reads it; without it the last")
           .optional()
