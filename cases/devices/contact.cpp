@@ -44,10 +44,8 @@ void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
         const double touching =
             (widths[static_cast<std::size_t>(line)] + widths[static_cast<std::size_t>(meeting.front())]) / 2;
         const auto own = lines.cell(line);
-        const std::vector<int> chain =
-            own.size() == 3 ? std::vector{own[0], own[2], own[1]} : std::vector{own[0], own[1]};
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-          pairs.push_back({node, {chain[i], chain[i + 1]}, touching, stands_for});
+        const int middle = own.size() == 3 ? own[2] : fem::ContactPair::straight;
+        pairs.push_back({node, {own[0], own[1], middle}, touching, stands_for});
       }
   }
   const Beam& wall = std::get<Honeycomb>(one.unnamed()->geometry).wall;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/equilibrium/equilibrium.hpp"
 
+#include "fem/model/contact_block.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -64,8 +66,8 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
     model_.dofs.advance(trial, step, 1);
     const double dead_work =
         state.dead_force.head(free).dot(step) + model_.dofs.work_on_tied(state.dead_force, state, trial);
-    bool feasible = true;
-    if (chamber) {
+    bool feasible = free_way(model_, state, trial) == 1;
+    if (feasible && chamber) {
       trial.voltage[*chamber] += tangent_.voltage_step(*chamber);
       feasible = model_.fill(trial, tangent_.response(*chamber));
     }

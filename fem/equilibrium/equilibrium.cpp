@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/equilibrium/equilibrium.hpp"
 
+#include "fem/model/contact_block.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -175,6 +177,11 @@ double Equilibrium::backtrack(State& state, Balance& current, const Eigen::Vecto
   for (int halving = 0; halving <= halvings; ++halving, length *= 0.5) {
     State trial = state;
     model_.dofs.advance(trial, step, length);
+    if (const double way = free_way(model_, state, trial); way < 1) {
+      length *= way;
+      trial = state;
+      model_.dofs.advance(trial, step, length);
+    }
     if (chamber) {
       trial.voltage[*chamber] += length * tangent_.voltage_step(*chamber);
       if (!model_.fill(trial, response)) continue;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/continuation.hpp"
 
+#include "fem/model/contact_block.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -84,6 +86,7 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
   ContinuationProgress to = from;
   to.load_factor += arc * from.load_direction;
   dofs.advance(to.state, from.direction, arc);
+  if (free_way(equilibrium.model(), from.state, to.state) < 1) return std::nullopt;
   to.last_arc = arc;
   ++to.steps;
   const Eigen::VectorXd row = dual(equilibrium, from.direction);
@@ -104,7 +107,9 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
                             from.load_direction};
     if (!equilibrium.factor(to.state, &border)) return std::nullopt;
     to.load_factor += equilibrium.tangent().solve(-current.force.head(row.size()), du);
+    const State before = to.state;
     dofs.advance(to.state, du, 1);
+    if (free_way(equilibrium.model(), before, to.state) < 1) return std::nullopt;
     step = equilibrium.step_size(du);
   }
   to.newton.outcome = Outcome::converged;

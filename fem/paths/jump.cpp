@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/jump.hpp"
 
+#include "fem/model/contact_block.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -74,6 +76,7 @@ bool Descent::push(const Eigen::VectorXd& direction) {
   for (const double side : {length, -length}) {
     State there = state_;
     model_.dofs.advance(there, direction, side);
+    if (free_way(model_, state_, there) < 1) continue;
     equilibrium_.balance(there, trial_);
     if (!trial_.feasible) continue;
     const double energy = potential(there, trial_);
@@ -93,6 +96,7 @@ bool Descent::step(double damping) {
   equilibrium_.tangent().solve(-current_.force.head(added.size()), du);
   State there = state_;
   model_.dofs.advance(there, du, 1);
+  if (free_way(model_, state_, there) < 1) return false;
   equilibrium_.balance(there, trial_);
   if (!trial_.feasible || potential(there, trial_) >= energy_) return false;
   energy_ = potential(there, trial_);

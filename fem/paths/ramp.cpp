@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/ramp.hpp"
 
+#include "fem/model/contact_block.hpp"
 #include "fem/paths/held_masses.hpp"
 #include "fem/paths/homotopy.hpp"
 #include "fem/paths/time_error.hpp"
@@ -154,6 +155,7 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   slope_.reset();
   const Model& model = equilibrium_.model();
   if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
+  if (has_friction(model)) return true; // a path with a corner wherever a node starts or stops to slide
   if (options_.inertia) return follows(predicted, trial, s);
   if (options_.newton.wrinkles && equilibrium_.is_slack(last()))
     return equilibrium_.is_slack(trial) || leads_back_to_slack(equilibrium_, within(s), trial, options_);
@@ -334,6 +336,7 @@ RampResult Ramp::run() {
     if (observer_.on_try) observer_.on_try(s);
     State predicted = extrapolate(progress_.points, parameter(s));
     equilibrium_.model().dofs.carry(predicted);
+    if (free_way(equilibrium_.model(), last(), predicted) < 1) predicted = last();
     State trial = solve(predicted, s);
     if ((newton_.outcome != Outcome::converged || less_stable()) && progress_.points.size() > 1)
       trial = solve(last(), s); // the predictor may have led astray

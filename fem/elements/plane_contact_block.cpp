@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/elements/plane_contact_block.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace dielast::fem {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int size = 3;
+constexpr double stick = 10; ///< stiffness of the springs of nodes that stand still, over the barrier's
+constexpr double fresh_stick = 1e-4; ///< over that, where they have just touched
+constexpr double least_share =
+    1e-3; ///< of a side: on the axis Simpson's rule has none, and the barrier must hold
+
+/// What slides has no stiffness along its way; where all of a body does, Newton's method needs some. This
+/// part of force over way makes it converge linearly, and quickly, as the body is much stiffer.
+constexpr double firmness = 0.01;
+
+class PlaneContactBlock final : public ContactBlock {
+ public:
+  PlaneContactBlock(const meshing::Mesh& mesh, PlaneContact contact)
+      : contact_(std::move(contact)),
+        along_(Matrix3d::Identity() - contact_.normal * contact_.normal.transpose()) {
+    for (const int node : contact_.nodes) drawn_.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+  }
+
+  int element_count() const override { return static_cast<int>(contact_.nodes.size()); }
+  int dofs_per_element() const override { return size; }
+  void claim_dofs(DofMap& /*those of the surface*/, Dimension /*dimension*/) const override {}
+  void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
+    for (int i = 0; i < size; ++i) equations[static_cast<std::size_t>(i)] = dofs.equation(node(element), i);
+  }
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override {
+    Evaluation result;
+    for (int e = first; e < last; ++e) {
+      const double gap = this->gap(state, e);
+      if (!(gap > 0)) {
+        result.feasible = false;
+        continue;
+      }
+      const BarrierEnergy barrier = contact_.barrier.at(gap);
+      const Slider slider = friction() ? this->slider(state, e) : Slider{};
+      result.energy += area(e) * barrier.value + slider.energy;
+      if (scatter.residual) {
+        const Vector3d force = area(e) * barrier.slope * contact_.normal + slider.force;
+        scatter.add_residual(e, std::span(force.data(), size));
+      }
+      if (!scatter.tangent) continue;
+      const Matrix3d tangent =
+          area(e) * barrier.curvature * contact_.normal * contact_.normal.transpose() + slider.tangent;
+      std::array<double, size*(size + 1) / 2> packed;
+      std::size_t k = 0;
+      for (int i = 0; i < size; ++i)
+        for (int j = 0; j <= i; ++j) packed[k++] = tangent(i, j);
+      scatter.add_tangent(e, packed);
+    }
+    return result;
+  }
+  double free_way(const State& from, const State& to) const override {
+    constexpr double kept = 0.1; // of the gap
+    double part = 1;
+    for (int e = 0; e < element_count(); ++e) {
+      const double before = gap(from, e), after = gap(to, e);
+      if (after < kept * before) part = std::min(part, (1 - kept) * before / (before - after));
+    }
+    return part;
+  }
+  double contact_force(const State& state) const override {
+    double sum = 0;
+    for (int e = 0; e < element_count(); ++e) sum += normal_force(state, e);
+    return sum;
+  }
+  bool has_friction() const override { return friction(); }
+  double friction_heat(const State& state) const override {
+    double sum = 0;
+    for (int e = 0; e < element_count() && friction(); ++e)
+      sum += state.history->now[place(e, heat)] * energy_unit(e);
+    return sum;
+  }
+  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
+  void add_energies(const State& state, EnergyParts& parts) const override {
+    for (int e = 0; e < element_count(); ++e) {
+      parts.elastic += area(e) * contact_.barrier.at(gap(state, e)).value;
+      if (friction())
+        parts.elastic += stiffness(e) * (slip(state, e) - anchor(*state.history, e)).squaredNorm() / 2;
+    }
+  }
+  int history_size() const override { return friction() ? element_count() * per_node : 0; }
+  void place_history(int first) override { first_ = first; }
+  void start_history(std::vector<double>& all) const override {
+    if (!friction()) return;
+    for (int e = 0; e < element_count(); ++e) {
+      for (int i = 0; i < per_node; ++i) all[place(e, i)] = 0;
+      const double gap = (drawn_[static_cast<std::size_t>(e)] - contact_.origin).dot(contact_.normal);
+      if (contact_.barrier.touches(gap)) all[place(e, normal)] = light;
+    }
+  }
+  void advance_history(const State& state, std::vector<double>& all) const override {
+    if (!friction()) return;
+    for (int e = 0; e < element_count(); ++e) {
+      const double now = normal_force(state, e);
+      const Vector3d stretched = slip(state, e) - anchor(*state.history, e), force = slider(state, e).force;
+      const double held = is_fresh(*state.history, e) ? contact_.friction * now : force.norm();
+      const Vector3d kept = force.norm() > 0 ? Vector3d(force.normalized() * std::min(held, force.norm()))
+                                             : Vector3d(Vector3d::Zero());
+      const Vector3d slid = stretched - kept / stiffness(e);
+      for (int i = 0; i < size; ++i) all[place(e, i)] += slid[i] / length_unit();
+      all[place(e, heat)] += kept.dot(slid) / energy_unit(e);
+      all[place(e, normal)] =
+          std::max(now / force_unit(e), contact_.barrier.touches(gap(state, e)) ? light : 0.0);
+    }
+  }
+
+ private:
+  /// Internal variables of a node: the anchor's displacement over length_unit(), the normal force and the
+  /// heat likewise.
+  static constexpr int normal = 3, heat = 4, per_node = 5;
+  /// Normal force of what touches, at least, likewise.
+  static constexpr double light = 1e-9;
+
+  struct Slider {
+    double energy = 0;
+    Vector3d force = Vector3d::Zero();
+    Matrix3d tangent = Matrix3d::Zero();
+  };
+
+  bool friction() const { return contact_.friction > 0; }
+  int node(int element) const { return contact_.nodes[static_cast<std::size_t>(element)]; }
+  double area(int element) const { return contact_.areas[static_cast<std::size_t>(element)]; }
+  double stiffness(int element) const { return stick * contact_.barrier.stiffness * area(element); }
+  double length_unit() const { return contact_.barrier.thickness; }
+  double energy_unit(int element) const {
+    return contact_.barrier.stiffness * area(element) * length_unit() * length_unit();
+  }
+  double force_unit(int element) const { return energy_unit(element) / length_unit(); }
+  std::size_t place(int element, int variable) const {
+    return static_cast<std::size_t>(first_ + element * per_node + variable);
+  }
+  const Vector3d& displacement(const State& state, int element) const {
+    return state.displacement[static_cast<std::size_t>(node(element))];
+  }
+  double gap(const State& state, int element) const {
+    return (drawn_[static_cast<std::size_t>(element)] + displacement(state, element) - contact_.origin)
+        .dot(contact_.normal);
+  }
+  double normal_force(const State& state, int element) const {
+    return -area(element) * contact_.barrier.at(gap(state, element)).slope;
+  }
+  Vector3d slip(const State& state, int element) const { return along_ * displacement(state, element); }
+  Vector3d anchor(const History& history, int element) const {
+    return length_unit() * Vector3d(history.now[place(element, 0)], history.now[place(element, 1)],
+                                    history.now[place(element, 2)]);
+  }
+  /// Whether it has touched, and not been pressed on the plane yet.
+  bool is_fresh(const History& history, int element) const {
+    return history.now[place(element, normal)] == light;
+  }
+  /// Accepted states are in balance with their anchors where they are. What is fresh is held by a weak spring
+  /// for an increment, whatever the force: nothing else may keep a body from sliding away.
+  Slider slider(const State& state, int element) const {
+    const Vector3d stretched = slip(state, element) - anchor(*state.history, element);
+    const bool frozen = state.scheme.is_frozen(), fresh = is_fresh(*state.history, element);
+    const double k = stiffness(element) * (fresh && !frozen ? fresh_stick : 1), length = stretched.norm();
+    const double most = contact_.friction * state.history->now[place(element, normal)] * force_unit(element);
+    if (most == 0 && !frozen) return {};
+    if (frozen || fresh || k * length <= most) return {k * length * length / 2, k * stretched, k * along_};
+    const Vector3d direction = stretched / length;
+    return {most * (length - most / k / 2), most * direction,
+            most / length * (along_ - (1 - firmness) * direction * direction.transpose())};
+  }
+
+  PlaneContact contact_;
+  Matrix3d along_; ///< projects on the plane
+  std::vector<Vector3d> drawn_;
+  int first_ = 0;
+};
+
+} // namespace
+
+PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sides,
+                        std::optional<double> width) {
+  const auto at = [&](int node) -> const Vector3d& { return mesh.nodes[static_cast<std::size_t>(node)]; };
+  std::map<int, double> areas;
+  for (int side = 0; side < sides.size(); ++side) {
+    const auto own = sides.cell(side); // ends, middle
+    const double length = (at(own[1]) - at(own[0])).norm();
+    const auto across = [&](int node) { return width.value_or(2 * std::numbers::pi * at(node).x()); };
+    for (std::size_t i = 0; i < 3; ++i)
+      areas[own[i]] +=
+          length * std::max((i == 2 ? 4.0 : 1.0) / 6 * across(own[i]), least_share * across(own[2]));
+  }
+  PlaneContact surface;
+  for (const auto& [node, area] : areas) {
+    surface.nodes.push_back(node);
+    surface.areas.push_back(area);
+  }
+  return surface;
+}
+
+std::unique_ptr<ElementBlock> make_plane_contact_block(const meshing::Mesh& mesh, PlaneContact contact) {
+  return std::make_unique<PlaneContactBlock>(mesh, std::move(contact));
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/elements/barrier.hpp"
+#include "fem/model/contact_block.hpp"
+#include "meshing/mesh.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace dielast::fem {
+
+/// A surface that may touch a rigid plane.
+struct PlaneContact {
+  std::vector<int> nodes;
+  std::vector<double> areas;                         ///< undeformed, that each node stands for, m^2
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< a point of the plane, m
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitY(); ///< unit vector towards the surface
+  Barrier barrier;                                   ///< its stiffness in Pa/m
+  double friction = 0;                               ///< Coulomb's coefficient; 0: it slides freely
+};
+
+/// The surface that 3-node sides of solids make: each node stands for what Simpson's rule gives it. `width`:
+/// of plane strain, m; nothing: of revolution about x = 0.
+PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sides,
+                        std::optional<double> width);
+
+/// Keeps the nodes of a surface above a rigid plane by a barrier; states with a node on the plane or below
+/// are not feasible. No adhesion.
+///
+/// Friction: where a node stands still it is held by a stiff spring along the plane, to an anchor; where the
+/// spring's force would exceed friction * N the anchor slides (lagged potential: N is the normal force at the
+/// last accepted state, so that the potential has a symmetric tangent and friction follows by one increment).
+/// The tangent of what slides is a little firmer than the derivative (a body that slides as a whole would
+/// have none). Anchors, N and the heat of sliding are internal variables.
+std::unique_ptr<ElementBlock> make_plane_contact_block(const meshing::Mesh& mesh, PlaneContact contact);
+
+} // namespace dielast::fem

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/model/contact_block.hpp"
+
+#include <algorithm>
+
+namespace dielast::fem {
+
+namespace {
+
+template<class Use>
+void for_each_contact(const Model& model, const Use& use) {
+  for (const auto& block : model.blocks)
+    if (const auto* contact = dynamic_cast<const ContactBlock*>(block.get())) use(*contact);
+}
+
+} // namespace
+
+double free_way(const Model& model, const State& from, const State& to) {
+  double part = 1;
+  for_each_contact(model, [&](const ContactBlock& one) { part = std::min(part, one.free_way(from, to)); });
+  return part;
+}
+
+double contact_force(const Model& model, const State& state) {
+  double sum = 0;
+  for_each_contact(model, [&](const ContactBlock& one) { sum += one.contact_force(state); });
+  return sum;
+}
+
+double friction_heat(const Model& model, const State& state) {
+  double sum = 0;
+  for_each_contact(model, [&](const ContactBlock& one) { sum += one.friction_heat(state); });
+  return sum;
+}
+
+bool has_friction(const Model& model) {
+  bool any = false;
+  for_each_contact(model, [&](const ContactBlock& one) { any = any || one.has_friction(); });
+  return any;
+}
+
+} // namespace dielast::fem
