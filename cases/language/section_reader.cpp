@@ -360,7 +360,9 @@ void SectionReader::report_unknown(const Section& section, const Node& table, co
       const auto names = section.names_for(selected);
       advice = home_of(name);
       if (advice.empty()) advice = did_you_mean(name, names);
-      if (advice.empty()) advice = ", allowed " + listed(names);
+      constexpr std::size_t few = 12; // so that they are told although the key is another section's
+      if (advice.empty() || (names.size() <= few && advice.find("belongs in") != std::string::npos))
+        advice = ", allowed " + listed(names) + advice;
     }
     report(node.key_source, full, "unknown key" + advice);
   }

@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <sstream>
 
 namespace dielast::cases {
 namespace {
@@ -25,16 +28,42 @@ Json number_schema(const Key& key, const char* type) {
 
 Json section_schema(const Section& section);
 
-Json item_schema(const Key& key) {
+constexpr const char* any_number = "^\\s*[+-]?[0-9.]";
+
+/// A number with its unit, but not with one that is known to be wrong: one of another dimension, or one that
+/// is spelt in letters of the wrong size. All others are left to the program, which knows more units.
+std::string measure_pattern(std::string_view si_unit) {
+  std::vector<std::string> wrong;
+  const auto add = [&](const std::string& unit) {
+    try {
+      parse_measure("1 " + unit, si_unit);
+    } catch (const UnitError&) {
+      if (std::ranges::find(wrong, unit) == wrong.end()) wrong.push_back(unit);
+    }
+  };
+  for (const Dimension& other : dimensions()) {
+    std::istringstream units{std::string(other.usual)};
+    for (std::string unit; units >> unit;)
+      if (std::ranges::all_of(unit, [](unsigned char c) { return std::isalpha(c) != 0; })) add(unit);
+  }
+  for (const char* unit : {"v", "kv", "KV", "pa", "kpa", "KPa", "mpa", "hz", "khz", "KHz", "MM", "Kg"})
+    add(unit);
+  return fmt::format("^(?!\\s*[+-]?[0-9.eE+-]+\\s*(?:{})\\s*$)\\s*[+-]?[0-9.]", fmt::join(wrong, "|"));
+}
+
+/// `one_unit`: the unit of the key is the same wherever its section has it.
+Json item_schema(const Key& key, bool one_unit) {
+  const std::string pattern =
+      one_unit && !key.unit.empty() ? measure_pattern(key.unit) : std::string(any_number);
   switch (key.type) {
   case Type::wave:
     return {{"anyOf",
              {number_schema(key, "number"),
-              {{"type", "string"}, {"pattern", "^\\s*[+-]?[0-9.]"}},
+              {{"type", "string"}, {"pattern", pattern}},
               section_schema(wave_section(key.unit))}}};
   case Type::measure:
   case Type::tolerance:
-    return {{"anyOf", {number_schema(key, "number"), {{"type", "string"}, {"pattern", "^\\s*[+-]?[0-9.]"}}}}};
+    return {{"anyOf", {number_schema(key, "number"), {{"type", "string"}, {"pattern", pattern}}}}};
   case Type::integer:
     return number_schema(key, "integer");
   case Type::flag:
@@ -52,8 +81,8 @@ Json item_schema(const Key& key) {
   return {{"type", "string"}, {"minLength", 1}};
 }
 
-Json key_schema(const Key& key) {
-  Json schema = item_schema(key);
+Json key_schema(const Key& key, bool one_unit) {
+  Json schema = item_schema(key, one_unit);
   if (key.is_list()) {
     Json list{{"type", "array"}, {"items", schema}, {"minItems", key.least}, {"maxItems", key.most}};
     schema = key.spreads ? Json{{"anyOf", {schema, list}}} : list;
@@ -84,11 +113,13 @@ Json shaped_schema(const Section& section) {
 Json section_schema(const Section& section) {
   Json properties = Json::object(), required = Json::array();
   for (const Key& key : section.keys) {
+    const bool one_unit = std::ranges::all_of(
+        section.keys, [&](const Key& other) { return other.name != key.name || other.unit == key.unit; });
     if (!properties.contains(key.name)) {
-      properties[key.name] = key_schema(key);
+      properties[key.name] = key_schema(key, one_unit);
     } else { // another kind of step or quantity has the key with a default or meaning of its own
       Json& known = properties[key.name];
-      Json other = key_schema(key);
+      Json other = key_schema(key, one_unit);
       if (known.value("default", Json()) != other.value("default", Json())) known.erase("default");
       if (key.type == Type::word || !known.contains("pattern")) {
         known.erase("enum");

@@ -39,15 +39,20 @@ class Columns {
   Columns(const CsvTable& csv, const Node& table, const std::string& path, std::vector<Diagnostic>& wrong)
       : csv_(csv), table_(table), path_(path), wrong_(wrong) {}
 
+  /// Keys one of which tells what `key` does.
+  static std::string keys_of(const std::string& key) {
+    return key == "stretch" ? "stretch, strain or displacement" : key;
+  }
+
   /// Number of the column that `key` names, or of `usual`; -1 when there is none, after a report.
   int find(const std::string& key, const std::string& named, const std::string& usual) const {
     const std::string& name = named.empty() ? usual : named;
     const int column = csv_.find(name);
     if (column < 0)
-      report(named.empty() ? "file" : key, named.empty()
-                                               ? fmt::format("{} has no column {}: give {}, one of {}",
-                                                             csv_.file, usual, key, listed(csv_.names))
-                                               : missing(named));
+      report(named.empty() ? "file" : key,
+             named.empty() ? fmt::format("{} has no column {}: give {}, one of {}", csv_.file, usual,
+                                         keys_of(key), listed(csv_.names))
+                           : missing(named));
     return column;
   }
 

@@ -15,7 +15,8 @@ namespace {
 bool keeps_the_device(std::string_view assignment) {
   for (const std::string_view how : {"model=", "mesh.", "solver.", "output.", "check", "quantity", "title"})
     if (assignment.starts_with(how)) return !assignment.starts_with("mesh.file");
-  return false;
+  const std::string_view key = std::string_view(assignment).substr(0, assignment.find('='));
+  return key.starts_with("step") && key.ends_with(".increments");
 }
 
 } // namespace

@@ -45,12 +45,22 @@ Said shell(const std::string& command) {
   return said;
 }
 
-enum class Array { runs, has_ended, unknown };
+struct Array {
+  bool has_ended = false; ///< false, too, where the cluster does not answer
+  std::string waits_for;  ///< Slurm's reason why none of its tasks runs; empty: one runs, or it is new
+};
 
 Array state_of(const std::string& job) {
-  const Said said = shell("squeue --noheader --jobs=" + quoted(job));
-  if (said.exit_code == 0) return said.text.empty() ? Array::has_ended : Array::runs;
-  return said.text.find("Invalid job id") != std::string::npos ? Array::has_ended : Array::unknown;
+  const Said said = shell("squeue --noheader --format='%T %r' --jobs=" + quoted(job));
+  if (said.exit_code != 0) return {said.text.find("Invalid job id") != std::string::npos, ""};
+  if (said.text.empty()) return {true, ""};
+  std::string reason;
+  std::istringstream lines(said.text);
+  for (std::string state; lines >> state;) {
+    std::getline(lines >> std::ws, reason);
+    if (state != "PENDING") return {};
+  }
+  return {false, reason == "None" ? "" : reason};
 }
 
 /// A job array, a batch of points for each of its tasks; returns its number.
@@ -121,6 +131,7 @@ void run_on_cluster(const Study& study, std::span<const WaitingPoint> waiting,
   std::vector<const StudyPoint*> left;
   for (const WaitingPoint& one : waiting) left.push_back(one.point);
   bool got_on = true;
+  std::string told; // why the array waits
   const auto collect = [&] {
     std::erase_if(left, [&](const StudyPoint* point) {
       const Kept kept = kept_of(study, *point, true);
@@ -135,7 +146,7 @@ void run_on_cluster(const Study& study, std::span<const WaitingPoint> waiting,
           folder.string());
       return;
     }
-    if (job.empty() || state_of(job) == Array::has_ended) {
+    if (job.empty() || state_of(job).has_ended) {
       std::vector<int> numbers;
       for (const StudyPoint* point : left) numbers.push_back(point->number);
       job = submit(numbers, folder, cluster);
@@ -147,7 +158,13 @@ void run_on_cluster(const Study& study, std::span<const WaitingPoint> waiting,
     // What was written last is seen after the array has ended.
     for (bool more = true; more && !left.empty() && !interrupted();) {
       std::this_thread::sleep_for(pause);
-      more = state_of(job) != Array::has_ended;
+      const Array array = state_of(job);
+      more = !array.has_ended;
+      if (!array.waits_for.empty() && array.waits_for != told) {
+        say("job array {} waits: {}\n", job, array.waits_for);
+        std::fflush(stdout);
+      }
+      told = array.waits_for;
       collect();
     }
     if (got_on) vain = -1;

@@ -144,7 +144,8 @@ TEST_F(FitReader, ColumnsThatAreMissing) {
   write("odd.csv", "strech,force\n1,2\n2,3\n");
   EXPECT_EQ(
       errors("", test),
-      (Texts{"fit.toml:11:8: error: test[1].file: odd.csv has no column stretch: give stretch, one of "
+      (Texts{"fit.toml:11:8: error: test[1].file: odd.csv has no column stretch: give stretch, strain or "
+             "displacement, one of "
              "\"strech\", \"force\"",
              "fit.toml:11:8: error: test[1].file: odd.csv has no column that ends in a unit of stress, such "
              "as P_kPa: give stress, one of \"strech\", \"force\""}));

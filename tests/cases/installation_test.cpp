@@ -17,7 +17,8 @@ TEST_F(Installation, WorksInAnyPlace) {
   for (const char* file :
        {"share/man/man1/dielast.1", "share/bash-completion/completions/dielast",
         "share/zsh/vendor-completions/_dielast", "share/fish/vendor_completions.d/dielast.fish",
-        "share/dielast/gallery/honeycomb/case.toml"})
+        "share/dielast/gallery/honeycomb/case.toml", "share/doc/dielast/docs/guide.md",
+        "share/doc/dielast/README.md"})
     EXPECT_GT(content("second/" + std::string(file)).size(), 100u) << file;
   EXPECT_FALSE(exists("second/bin/dielast_gmsh.so"));
   EXPECT_EQ(shell("second/bin/dielast mesh second/share/dielast/gallery/own_mesh/slider.toml"), "");

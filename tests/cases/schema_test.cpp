@@ -297,6 +297,11 @@ TEST(JsonSchema, RefusesWhatTheLanguageDoesNotKnow) {
   EXPECT_EQ(wrong(film + "[fit]\n"), "");
   EXPECT_EQ(wrong(film + "thicknes = \"1 mm\"\n[fit]\n"), ".film.thicknes: unknown");
   EXPECT_EQ(wrong(film + "thickness = -1\n"), ".film.thickness: anyOf");
+  for (const char* thickness : {"8 kg", "7.5 kv", "50 deg", "1e-3 s"})
+    EXPECT_EQ(wrong(film + "thickness = \"" + thickness + "\"\n"), ".film.thickness: anyOf") << thickness;
+  for (const char* thickness : {"0.8 mm", "1e-3m", "800 µm", "30 thou", "1 mm2/mm"})
+    EXPECT_EQ(wrong(film + "thickness = \"" + thickness + "\"\n"), "") << thickness;
+  EXPECT_NE(wrong("[drive]\nvoltage = \"7.5 kv\"\n"), "");
   EXPECT_EQ(wrong("model = \"flat\"\n"), ".model: enum");
   EXPECT_EQ(wrong("[[step]]\nkind = \"voltage\"\nincrements = 2.5\n"), ".step[0].increments: type");
 }

@@ -25,8 +25,10 @@ class StudyOnCluster : public CommandTest {
            "[ $job = 0 ] && last=0\n"
            "(for task in $(seq 0 $last); do SLURM_ARRAY_TASK_ID=$task sh $script; done; rm running-$job) "
            ">/dev/null 2>&1 &\necho $job\n");
-    script("squeue", "for word; do case $word in --jobs=*) job=${word#--jobs=};; esac; done\n"
-                     "[ -e running-$job ] && echo $job; exit 0\n");
+    script("squeue",
+           "for word; do case $word in --jobs=*) job=${word#--jobs=};; esac; done\n"
+           "[ -e waiting ] && { rm waiting; echo PENDING Nodes required for job are DRAINED; exit; }\n"
+           "[ -e running-$job ] && echo RUNNING None; exit 0\n");
   }
   void script(const std::string& name, const std::string& text) const {
     const std::string file = "bin/" + name;
@@ -48,6 +50,15 @@ TEST_F(StudyOnCluster, PointsThatAnArrayHasLeftAreSubmittedAgainAndTheTableIsTha
   EXPECT_NE(ended.out.find("job array 0: 5 points"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("job array 1: 3 points"), std::string::npos) << ended.out;
   EXPECT_EQ(content("there/study.csv"), content("here/study.csv"));
+}
+
+// A study that says nothing for an hour looks like one that hangs.
+TEST_F(StudyOnCluster, WhatAnArrayWaitsForIsTold) {
+  write("waiting", "");
+  const Ended ended = study({"-o", "there", "--slurm=--time=5"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  EXPECT_NE(ended.out.find("job array 0 waits: Nodes required for job are DRAINED\n"), std::string::npos)
+      << ended.out;
 }
 
 TEST_F(StudyOnCluster, WhatSbatchRefusesIsTold) {
