@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,8 @@ struct FilmPoint {
   double electric_field = 0;        ///< true field E, V/m
 };
 
+enum class Extreme { minimum, maximum };
+
 /// One output field: the row from which files, extremes and documentation are made.
 template<class Point>
 struct Field {
@@ -37,6 +40,7 @@ struct Field {
   std::vector<std::string_view> components; ///< names; empty for a scalar
   std::string_view meaning;
   void (*evaluate)(const Point&, double* values);
+  std::optional<Extreme> worst{}; ///< of a scalar: the end of its range that breaks a device
 
   int width() const { return components.empty() ? 1 : static_cast<int>(components.size()); }
 };

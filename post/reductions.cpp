@@ -43,6 +43,19 @@ std::vector<std::vector<double>> weighted_average(std::span<const Sample> sample
   return sums;
 }
 
+template<class Sample, class Point>
+std::vector<double> worst_in_cells(std::span<const Sample> samples, const Field<Point>& field,
+                                   int cell_count) {
+  std::vector<double> worst(static_cast<std::size_t>(cell_count), not_a_number);
+  for (const Sample& sample : samples) {
+    double value = 0;
+    field.evaluate(Point(sample), &value);
+    double& known = worst[static_cast<std::size_t>(sample.cell)];
+    known = *field.worst == Extreme::minimum ? std::fmin(known, value) : std::fmax(known, value);
+  }
+  return worst;
+}
+
 template<class Point>
 std::string scalar_name(const Field<Point>& field, std::size_t component) {
   if (field.components.empty()) return std::string(field.name);
@@ -94,6 +107,14 @@ bool same_kind(const fem::MembraneSample& a, const fem::MembraneSample& b) {
 bool same_kind(const fem::BeamSample&, const fem::BeamSample&) { return true; }
 
 } // namespace
+
+std::vector<double> worst(std::span<const fem::MembraneSample> samples, const FilmField& field,
+                          int cell_count) {
+  return worst_in_cells(samples, field, cell_count);
+}
+std::vector<double> worst(std::span<const fem::BeamSample> samples, const WallField& field, int cell_count) {
+  return worst_in_cells(samples, field, cell_count);
+}
 
 double rise_at(const Extremum& extremum, const fem::Samples& samples, const meshing::Mesh& mesh,
                std::string_view scalar) {

@@ -21,11 +21,16 @@ std::vector<std::vector<double>> average(std::span<const fem::MembraneSample> sa
 std::vector<std::vector<double>> average(std::span<const fem::BeamSample> samples,
                                          std::span<const WallField> fields, int cell_count);
 
+/// The worst value of a field at the integration points of each cell; NaN for a cell without any.
+/// Preconditions: the field is a scalar that has a worst end; every sample's cell < cell_count.
+std::vector<double> worst(std::span<const fem::MembraneSample> samples, const FilmField& field,
+                          int cell_count);
+std::vector<double> worst(std::span<const fem::BeamSample> samples, const WallField& field, int cell_count);
+
 /// One scalar of the film at an integration point. Throws std::invalid_argument for an unknown name.
 double film_value(const fem::MembraneSample& sample, std::string_view scalar);
 
 enum class Part { film, walls };
-enum class Extreme { minimum, maximum };
 
 /// A scalar that can be asked for by name: a scalar field, or one component as "cauchy_stress.xx".
 struct Scalar {

@@ -78,11 +78,13 @@ Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State s
     std::vector<Eigen::Vector3d> shape = fem::displacements(device.model.dofs, state, mode.shape);
     double largest = 0;
     for (const Eigen::Vector3d& u : shape) largest = std::max(largest, u.norm());
-    for (Eigen::Vector3d& u : shape) u /= largest > 0 ? largest : 1;
+    std::vector<Eigen::Vector3d> spin = fem::spins(device.model.dofs, state, mode.shape);
+    for (auto* vectors : {&shape, &spin})
+      for (Eigen::Vector3d& u : *vectors) u /= largest > 0 ? largest : 1;
     analysis.shapes.push_back({mode.stiffness > 0 ? fmt::format("mode {:.0f}, {:.6g} Hz", number,
                                                                 mode.frequency() / (2 * std::numbers::pi))
                                                   : fmt::format("mode {:.0f}, unstable", number),
-                               std::move(shape)});
+                               std::move(shape), std::move(spin)});
   }
   return analysis;
 }
@@ -148,9 +150,13 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   }
   const std::string where = fmt::format("at {:.6g} Hz", hertz[strongest]);
   const Eigen::VectorXcd& peak = responses[strongest].displacement;
-  analysis.shapes = {
-      {"in phase " + where, fem::displacements(device.model.dofs, state, peak.real())},
-      {"a quarter period behind " + where, fem::displacements(device.model.dofs, state, -peak.imag())}};
+  const auto shape = [&](const std::string& phase, const Eigen::VectorXd& along) {
+    const fem::DofMap& dofs = device.model.dofs;
+    analysis.shapes.push_back(
+        {phase + where, fem::displacements(dofs, state, along), fem::spins(dofs, state, along)});
+  };
+  shape("in phase ", peak.real());
+  shape("a quarter period behind ", -peak.imag());
   return analysis;
 }
 
@@ -247,13 +253,55 @@ Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::S
         row[e] = turns(*quantity.along, c);
     return row;
   }
-  const Eigen::Vector3d along =
-      quantity.along == along_gravity ? one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along);
-  const auto& nodes = device.mesh.node_sets.at(quantity.of);
-  for (const int node : nodes)
+  const auto add = [&](int node, const Eigen::Vector3d& gradient) {
     for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
-        row[e] += along[c] / static_cast<double>(nodes.size());
+      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent) row[e] += gradient[c];
+  };
+  const auto add_mean = [&](const std::string& place, const Eigen::Vector3d& gradient) {
+    const auto& nodes = device.mesh.node_sets.at(place);
+    for (const int node : nodes) add(node, gradient / static_cast<double>(nodes.size()));
+  };
+  const auto position = [&](int node) -> Eigen::Vector3d {
+    return device.mesh.nodes[static_cast<std::size_t>(node)] +
+           state.displacement[static_cast<std::size_t>(node)];
+  };
+  const auto centre = [&](const std::string& place) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const auto& nodes = device.mesh.node_sets.at(place);
+    for (const int node : nodes) sum += position(node);
+    return Eigen::Vector3d(sum / static_cast<double>(nodes.size()));
+  };
+  if (quantity.kind == QuantityKind::distance) {
+    const Eigen::Vector3d apart = centre(quantity.between[1]) - centre(quantity.between[0]);
+    Eigen::Vector3d along = apart.normalized();
+    if (quantity.along) { // positive as drawn
+      const auto mean = [&](const std::string& place) {
+        double sum = 0;
+        const auto& nodes = device.mesh.node_sets.at(place);
+        for (const int node : nodes)
+          sum += device.mesh.nodes[static_cast<std::size_t>(node)][*quantity.along];
+        return sum / static_cast<double>(nodes.size());
+      };
+      along = Eigen::Vector3d::Unit(*quantity.along) *
+              (mean(quantity.between[1]) < mean(quantity.between[0]) ? -1 : 1);
+    }
+    add_mean(quantity.between[1], along);
+    add_mean(quantity.between[0], -along);
+  } else if (quantity.kind == QuantityKind::radius && one.dimension == fem::Dimension::axisymmetric) {
+    add_mean(quantity.of, Eigen::Vector3d::UnitX());
+  } else if (quantity.kind == QuantityKind::radius) {
+    const Eigen::Vector3d middle = centre(quantity.of);
+    const auto& nodes = device.mesh.node_sets.at(quantity.of);
+    for (const int node : nodes) {
+      const Eigen::Vector3d outwards =
+          (position(node) - middle).normalized() / static_cast<double>(nodes.size());
+      add(node, outwards);
+      add_mean(quantity.of, -outwards); // the middle moves with the nodes
+    }
+  } else {
+    add_mean(quantity.of,
+             quantity.along == along_gravity ? one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along));
+  }
   return dofs.jacobian(state).transpose() * row;
 }
 

@@ -21,7 +21,7 @@ struct Analysis {
   /// in phase and a quarter period behind (m/V).
   struct Shape {
     std::string name;
-    std::vector<Eigen::Vector3d> displacement;
+    std::vector<Eigen::Vector3d> displacement, spin; ///< spins about the state, of bars
   };
   std::vector<Shape> shapes{}; ///< not kept in a checkpoint
 

@@ -41,8 +41,7 @@ post::Section analysis_section(const Analysis& analysis) {
       plots.push_back(std::move(plot));
   }
   post::Section section{analysis.step, {}};
-  for (std::string& svg : post::render_svg(plots))
-    if (!svg.empty()) section.blocks.push_back(post::Image{std::move(svg), ""});
+  for (post::Image& image : post::draw(plots)) section.blocks.push_back(std::move(image));
   if (section.blocks.empty())
     section.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
   return section;

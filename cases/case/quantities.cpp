@@ -154,11 +154,14 @@ bool reads_film(QuantityKind kind) {
 }
 
 const Quantity* response_quantity(const Case& one, const std::string& name) {
-  for (const QuantityKind kind : {QuantityKind::displacement, QuantityKind::angle})
+  for (const QuantityKind kind :
+       {QuantityKind::displacement, QuantityKind::angle, QuantityKind::radius, QuantityKind::distance}) {
+    const bool directed = kind == QuantityKind::displacement || kind == QuantityKind::angle;
     for (const Quantity& quantity : one.quantities)
-      if (quantity.kind == kind && quantity.along && !quantity.point &&
+      if (quantity.kind == kind && (quantity.along || !directed) && !quantity.point &&
           (name.empty() || quantity.name == name))
         return &quantity;
+  }
   return nullptr;
 }
 

@@ -11,6 +11,7 @@
 #include "cases/readers/reader.hpp"
 #include "cases/readers/study_reader.hpp"
 #include "cases/runs/linearise.hpp"
+#include "cases/runs/recorder.hpp"
 #include "cases/runs/run.hpp"
 #include "cases/studies/study.hpp"
 #include "fem/equilibrium/tangent_check.hpp"
@@ -66,8 +67,9 @@ ExitCode mesh(const Arguments& arguments) {
   post::ResultsFolder folder(arguments.output("-mesh"), "mesh");
   folder.begin();
   const fem::State drawn = device.model.initial_state();
-  post::VtkSeries(folder, one.source.stem().string() + "-mesh", device.mesh)
-      .write({0, "drawn"}, drawn.displacement, device.model.sample(drawn));
+  const fem::Samples samples = device.model.sample(drawn);
+  post::VtkSeries(folder, one.source.stem().string() + "-mesh", cases::series_model(one, device))
+      .write({0, "drawn"}, {drawn.displacement, drawn.rotation, samples});
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
   const std::string gmsh_name = one.source.stem().string() + ".msh";
   if (!of_revolution) folder.write(gmsh_name, meshing::gmsh_text(device.mesh));
@@ -116,7 +118,7 @@ ExitCode linearise(const Arguments& arguments) {
 }
 
 ExitCode info(const Arguments& arguments) {
-  cases::say("{}", cases::describe(arguments.topic));
+  cases::show(cases::describe(arguments.topic));
   return ExitCode::ok;
 }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/console/terminal.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace dielast::cases {
@@ -21,6 +25,25 @@ void interrupt(int signal) {
 }
 
 } // namespace
+
+void show(const std::string& text) {
+  struct winsize window {};
+  if (::isatty(STDOUT_FILENO) == 1) {
+    constexpr int usual_rows = 24;
+    const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_row > 0;
+    const auto rows = known ? window.ws_row : usual_rows;
+    const char* chosen = std::getenv("PAGER");
+    const std::string pager = chosen && *chosen != '\0' ? chosen : "less -R";
+    if (std::ranges::count(text, '\n') >= rows)
+      if (std::FILE* pipe = ::popen(pager.c_str(), "w")) {
+        std::fwrite(text.data(), 1, text.size(), pipe);
+        constexpr int no_such_command = 127;
+        if (const int status = ::pclose(pipe); !WIFEXITED(status) || WEXITSTATUS(status) != no_such_command)
+          return;
+      }
+  }
+  say("{}", text);
+}
 
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

@@ -22,6 +22,9 @@ void say(fmt::format_string<Values...> text, Values&&... values) {
   say(stdout, text, std::forward<Values>(values)...);
 }
 
+/// Prints a text, on a terminal that it does not fit on through the pager of the user ($PAGER, or less).
+void show(const std::string& text);
+
 /// Opens /dev/null where standard input, output or error is closed: the first file of results would take its
 /// place, and what is printed would be written into it.
 void open_standard_streams();

@@ -14,7 +14,7 @@ namespace dielast::cases {
 void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   if (!one.contact) return;
   const meshing::CellBlock& lines = *mesh.walls();
-  const std::vector<double> widths = bar_widths(one, mesh);
+  const std::vector<double> widths = bars(one, mesh).widths;
   const fem::WallContactSearch walls(mesh, lines, widths);
   const auto at = [&](int node) -> const Eigen::Vector3d& {
     return mesh.nodes[static_cast<std::size_t>(node)];

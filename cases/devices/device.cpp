@@ -370,6 +370,13 @@ Device build_device(const Case& one) {
   }
   scale_charges(model);
 
+  for (const Part& part : one.parts)
+    if (part.film && part.film->section == FilmSection::membrane && !part.film->tension_field &&
+        std::ranges::min(part.film->prestretch) < 1)
+      warnings.push_back(
+          fmt::format("{}: the prestretch {:.4g} is below 1: it compresses the film, which buckles",
+                      part.called("film"), std::ranges::min(part.film->prestretch)));
+
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = free_body};
   device.weight = weight_of(one, bodies, fins, device.mesh, device.model);
   require_loads_that_act(one, device);
@@ -378,7 +385,7 @@ Device build_device(const Case& one) {
   device.tension_field = one.any_film([](const Film& f) { return f.tension_field; });
   device.bears_compression = !one.any_film([](const Film& f) { return f.section == FilmSection::membrane; });
   device.solid = of_solid;
-  device.bar_widths = bar_widths(one, device.mesh);
+  device.bars = bars(one, device.mesh);
   require_one_prestretch(one, device);
   device.fins = std::move(fins);
   device.warnings = std::move(warnings);

@@ -10,13 +10,19 @@
 
 namespace dielast::cases {
 
+/// The bar along each line of a mesh.
+struct Bars {
+  std::vector<double> widths, heights; ///< across it in the plane of x and y, and along z, m
+  std::vector<int> parts;              ///< numbers in Case::parts
+};
+
 /// A case made computable: its mesh and its model.
 struct Device {
   meshing::Mesh mesh;
   fem::Model model;
-  std::vector<int> film_parts;    ///< for each cell of the film, its part: a number in Case::parts
-  int films = 0;                  ///< blocks of film; they stand in front of the model's others
-  std::vector<double> bar_widths; ///< for each line of the mesh, m
+  std::vector<int> film_parts; ///< for each cell of the film, its part: a number in Case::parts
+  int films = 0;               ///< blocks of film; they stand in front of the model's others
+  Bars bars;
   bool tension_field = false;     ///< a film wrinkles where it would be compressed
   bool bears_compression = false; ///< every film is a shell or a solid: it may buckle, and does not wrinkle
   bool solid = false;             ///< its film is meshed across its thickness

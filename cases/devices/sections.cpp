@@ -110,16 +110,16 @@ std::array<materials::BeamSection, 2> leaves(const Part& part) {
   return {hinge, ribbon};
 }
 
-/// Lines of the mesh with the section of the bars along them, and their width in the plane, m.
+/// Lines of the mesh with the section of the bars along them, and the number of the part that they are of.
 using UseBars =
-    std::function<void(const std::vector<int>& lines, const materials::BeamSection&, double width)>;
+    std::function<void(const std::vector<int>& lines, const materials::BeamSection&, std::size_t part)>;
 
 /// Calls `use` with the lines and the section of each lattice's walls, and of each part along lines of the
 /// mesh.
 void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh, const UseBars& use) {
   std::set<int> taken;
-  const auto take = [&](const std::string& part, const std::string& place,
-                        const materials::BeamSection& section, double width) {
+  const auto take = [&](std::size_t p, const std::string& place, const materials::BeamSection& section) {
+    const std::string& part = one.parts[p].name;
     const std::vector<int>* lines = mesh.cells_of(place, mesh.walls());
     if (!lines)
       throw meshing::MeshError(
@@ -127,21 +127,21 @@ void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh, const UseB
     for (const int line : *lines)
       if (!taken.insert(line).second)
         throw meshing::MeshError(fmt::format("part \"{}\": a line of \"{}\" has a bar already", part, place));
-    use(*lines, section, width);
+    use(*lines, section, p);
   };
-  const auto take_beam = [&](const std::string& part, const std::string& place, const Beam& beam) {
-    take(part, place, materials::rectangular_section(beam.material, beam.width, beam.height), beam.width);
+  const auto take_beam = [&](std::size_t p, const std::string& place, const Beam& beam) {
+    take(p, place, materials::rectangular_section(beam.material, beam.width, beam.height));
   };
-  for (const Part& part : one.parts) {
+  for (std::size_t p = 0; p < one.parts.size(); ++p) {
+    const Part& part = one.parts[p];
     if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
-      take_beam(part.name, part.called("walls"), lattice->wall);
+      take_beam(p, part.called("walls"), lattice->wall);
     if (std::holds_alternative<AntagonisticRolls>(part.geometry)) {
       const auto [hinge, ribbon] = leaves(part);
-      take(part.name, "hinge", hinge, part.hinge->beam.width);
-      for (const char* place : {"upper_ribbon", "lower_ribbon"})
-        take(part.name, place, ribbon, part.ribbon->beam.width);
+      take(p, "hinge", hinge);
+      for (const char* place : {"upper_ribbon", "lower_ribbon"}) take(p, place, ribbon);
     }
-    if (part.beam) take_beam(part.name, part.has_mesh() ? part.called("line") : part.place, *part.beam);
+    if (part.beam) take_beam(p, part.has_mesh() ? part.called("line") : part.place, *part.beam);
   }
 }
 
@@ -260,7 +260,7 @@ void add_capacitors(const Case& one, fem::Model& model) {
 
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   for_each_set_of_bars(
-      one, mesh, [&](const std::vector<int>& lines, const materials::BeamSection& section, double) {
+      one, mesh, [&](const std::vector<int>& lines, const materials::BeamSection& section, std::size_t) {
         model.blocks.push_back(fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), lines), section,
                                                     Eigen::Vector3d::UnitZ(), lines));
       });
@@ -352,13 +352,19 @@ void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<in
                                                one.dimension));
 }
 
-std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh) {
-  std::vector<double> widths(mesh.walls() ? static_cast<std::size_t>(mesh.walls()->size()) : 0);
-  for_each_set_of_bars(one, mesh,
-                       [&](const std::vector<int>& lines, const materials::BeamSection&, double width) {
-                         for (const int line : lines) widths[static_cast<std::size_t>(line)] = width;
-                       });
-  return widths;
+Bars bars(const Case& one, const meshing::Mesh& mesh) {
+  const std::size_t count = mesh.walls() ? static_cast<std::size_t>(mesh.walls()->size()) : 0;
+  Bars bars{std::vector<double>(count), std::vector<double>(count), std::vector<int>(count)};
+  for_each_set_of_bars(
+      one, mesh, [&](const std::vector<int>& lines, const materials::BeamSection& section, std::size_t part) {
+        for (const int number : lines) {
+          const auto line = static_cast<std::size_t>(number);
+          bars.widths[line] = 2 * section.half_width;
+          bars.heights[line] = 2 * section.half_height;
+          bars.parts[line] = static_cast<int>(part);
+        }
+      });
+  return bars;
 }
 
 void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent) {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/case/case.hpp"
-#include "fem/model/model.hpp"
-#include "meshing/mesh.hpp"
+#include "cases/devices/device.hpp"
 
 #include <vector>
 
@@ -31,8 +29,8 @@ void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 /// they are closer as drawn than the barrier reaches.
 void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
-/// Width of the bar along each line of the mesh, m.
-std::vector<double> bar_widths(const Case& one, const meshing::Mesh& mesh);
+/// The bar along each line of the mesh.
+Bars bars(const Case& one, const meshing::Mesh& mesh);
 
 /// Ties the nodes of film under walls that hold it over their width to the wall's nodes opposite to them,
 /// near a joint to the joint's: they move with the wall's sections.

@@ -6,6 +6,7 @@
 #include "cases/fits/fit_report.hpp"
 #include "cases/readers/fit_reader.hpp"
 #include "cases/readers/resolved.hpp"
+#include "post/files/report_files.hpp"
 #include "post/files/results_folder.hpp"
 
 #include <fmt/format.h>
@@ -51,7 +52,7 @@ ExitCode run_fit(const Fit& fit, const FitSettings& settings) {
 
   folder.write("fit.csv", fit_table(results));
   folder.write("material.toml", material_toml(results));
-  folder.write("report.html", fit_report(results).html());
+  post::write_report(folder, fit_report(results));
   folder.write("fit.json", fit_json(results).dump(2) + "\n");
 
   say("{}\n{}", results.ending(), fit_summary(results));

@@ -141,8 +141,7 @@ post::Report fit_report(const FitResults& results) {
   std::vector<post::Plot> plots;
   for (std::size_t t = 0; t < results.errors.size(); ++t)
     plots.push_back(plot_of(results.fit.tests[t], outcome.stress[t], results.errors[t]));
-  for (std::string& svg : post::render_svg(plots))
-    if (!svg.empty()) drawn.blocks.push_back(post::Image{std::move(svg), ""});
+  for (post::Image& image : post::draw(plots)) drawn.blocks.push_back(std::move(image));
   if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
   report.sections.push_back(
       {"Parameters",

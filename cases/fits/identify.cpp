@@ -7,6 +7,7 @@
 #include "cases/fitting/fit_statistics.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/readers/resolved.hpp"
+#include "post/files/report_files.hpp"
 #include "post/files/results_folder.hpp"
 
 #include <ceres/ceres.h>
@@ -258,7 +259,7 @@ ExitCode run_identification(const Identification& asked, const FitSettings& sett
     found.push_back(asked.unknowns[i].assignment(outcome.unknowns[i].value));
   folder.write("identified.toml", resolved_text(read_case(asked.base, found)));
   folder.write("identify.csv", identify_table(asked, outcome));
-  folder.write("report.html", identify_report(asked, outcome));
+  post::write_report(folder, identify_report(asked, outcome));
   folder.write("identify.json", identify_json(asked, outcome));
   say("{}", identify_summary(asked, outcome));
   for (const std::string& warning : identify_warnings(asked, outcome)) say("warning: {}\n", warning);

@@ -4,6 +4,7 @@
 #include "cases/case/identify_spec.hpp"
 #include "cases/fits/fit.hpp"
 #include "cases/fitting/fit_solver.hpp"
+#include "post/pictures/report.hpp"
 
 namespace dielast::cases {
 
@@ -35,7 +36,7 @@ ExitCode run_identification(const Identification& asked, const FitSettings& sett
 /// The files of run_identification.
 std::string identify_json(const Identification& asked, const IdentifyOutcome& outcome);
 std::string identify_table(const Identification& asked, const IdentifyOutcome& outcome);
-std::string identify_report(const Identification& asked, const IdentifyOutcome& outcome);
+post::Report identify_report(const Identification& asked, const IdentifyOutcome& outcome);
 std::string identify_summary(const Identification& asked, const IdentifyOutcome& outcome);
 std::vector<std::string> identify_warnings(const Identification& asked, const IdentifyOutcome& outcome);
 

@@ -141,7 +141,7 @@ std::string identify_summary(const Identification& asked, const IdentifyOutcome&
   return text;
 }
 
-std::string identify_report(const Identification& asked, const IdentifyOutcome& outcome) {
+post::Report identify_report(const Identification& asked, const IdentifyOutcome& outcome) {
   post::Report report{
       .title = asked.title,
       .subtitle =
@@ -157,12 +157,11 @@ std::string identify_report(const Identification& asked, const IdentifyOutcome& 
   for (std::size_t t = 0; t < asked.tests.size(); ++t)
     if (!outcome.model[t].empty()) append_plots(plots, asked.tests[t], outcome.model[t]);
   post::Section drawn{"Measured and modelled", {}};
-  for (std::string& svg : post::render_svg(plots))
-    if (!svg.empty()) drawn.blocks.push_back(post::Image{std::move(svg), ""});
+  for (post::Image& image : post::draw(plots)) drawn.blocks.push_back(std::move(image));
   if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
   report.sections.push_back({"Unknowns", {unknown_table(asked, outcome)}});
   report.sections.push_back({"Tests", {test_table(asked, outcome)}});
-  return report.html();
+  return report;
 }
 
 } // namespace dielast::cases

@@ -8,6 +8,7 @@
 #include "fem/linear/balanced_truncation.hpp"
 #include "fem/linear/harmonic.hpp"
 #include "post/engineering.hpp"
+#include "post/files/report_files.hpp"
 #include "post/files/results_folder.hpp"
 #include "post/pictures/bode.hpp"
 #include "post/pictures/report.hpp"
@@ -142,9 +143,9 @@ post::Report report_of(const Case& one, const Linearised& found) {
   for (std::size_t c = 0; c < found.compared.size(); ++c)
     curves.push_back({one.linearise.compare[c].name, found.frequency, found.compared[c]});
   post::Section plots{"Response", {}};
-  for (std::string& svg :
-       post::render_svg(post::bode(found.output, fmt::format("{} [{}/V]", found.output, found.unit), curves)))
-    if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
+  for (post::Image& image :
+       post::draw(post::bode(found.output, fmt::format("{} [{}/V]", found.output, found.unit), curves)))
+    plots.blocks.push_back(std::move(image));
   post::Table gains{{"model", fmt::format("static gain [{}/V]", found.unit)}, {}};
   for (const post::FrequencyResponse& curve : curves)
     gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::abs(curve.value.front()))});
@@ -176,10 +177,11 @@ post::Report report_of(const Case& one, const Linearised& found) {
 
 ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
   if (one.electrodes.empty() || !response_quantity(one, one.linearise.output))
-    throw CaseError(
-        {{{one.source.string()},
-          "linearise",
-          "needs an electrode and a quantity of kind \"displacement\" with a direction, or \"angle\""}});
+    throw CaseError({{{one.source.string()},
+                      "linearise",
+                      "needs an electrode and a quantity of kind \"displacement\" with a direction, "
+                      "\"angle\", \"radius\" or "
+                      "\"distance\""}});
   post::ResultsFolder folder(settings.directory, "linearise");
   folder.begin();
   Simulation simulation(one, settings.threads);
@@ -192,7 +194,7 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
   try {
     const Linearised found = linearise(one, simulation);
     folder.write("linear_model.m", matlab_script(one, found));
-    folder.write("report.html", report_of(one, found).html());
+    post::write_report(folder, report_of(one, found));
     folder.write("linear_model.json", model_json(one, found).dump(2) + "\n");
     folder.set_complete(static_cast<int>(ExitCode::ok));
     say("order {}, largest error {:.3g} of the full response, static gain {:.6g} {}/V of the source of {}\n",

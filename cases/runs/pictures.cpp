@@ -19,7 +19,7 @@ class Pictures {
   Pictures(const Device& device, const Snapshot& last)
       : device_(device), meridian_(meshing::is_meridian(device.mesh.film()->type)),
         solid_of_revolution_(device.solid && device.mesh.bounds().sizes().y() == 0),
-        wall_width_(device.bar_widths.empty() ? 0 : std::ranges::max(device.bar_widths)) {
+        wall_width_(device.bars.widths.empty() ? 0 : std::ranges::max(device.bars.widths)) {
     // Thickness and field jump at the electrode's edge: they are not smoothed across it.
     for (const double field : last.field) regions_.push_back(field != 0);
   }
@@ -36,25 +36,45 @@ class Pictures {
     return panel;
   }
 
-  /// Side by side, as wide as the page. `values`: a member of the snapshots, whose colours mean `quantity` in
-  /// `unit`. Films of revolution are drawn by their profiles, without colours.
+  /// Side by side, as wide as the page, in a file of that name. `values`: a member of the snapshots, whose
+  /// colours mean `quantity` in `unit`. Films of revolution are drawn by their profiles, without colours.
   post::Image image(const std::vector<const Snapshot*>& states, std::vector<double> Snapshot::*values,
-                    const std::string& quantity, const std::string& unit, const std::string& caption) const {
+                    const std::string& quantity, const std::string& unit, const std::string& caption,
+                    const std::string& name) const {
     post::Picture picture{.quantity = quantity, .unit = unit, .wall_width = wall_width_};
     for (const Snapshot* state : states) picture.panels.push_back(panel(*state, state->*values));
-    return image(std::move(picture), caption, true);
+    return image(std::move(picture), caption, true, name);
+  }
+  /// One at a time.
+  post::Slides slides(const std::vector<Snapshot>& states, const ShapeField& shown) const {
+    post::Picture picture{
+        .quantity = shown.meaning, .unit = shown.unit, .wall_width = wall_width_, .width = 900};
+    for (const Snapshot& state : states) picture.panels.push_back(panel(state, state.shape));
+    return post::draw_slides(device_.mesh, std::move(picture));
   }
   /// A small picture without colours.
   post::Image shape(const Snapshot& state, const std::string& caption) const {
-    return image({.wall_width = wall_width_, .panels = {panel(state, {})}, .width = 800}, caption, false);
+    return image({.wall_width = wall_width_, .panels = {panel(state, {})}, .width = 800}, caption, false,
+                 "mode " + state.title);
   }
   bool are_profiles() const { return meridian_; }
 
  private:
-  post::Image image(post::Picture picture, const std::string& caption, bool wide) const {
-    if (!meridian_) return {post::render_png(device_.mesh, std::move(picture)), caption, wide};
-    const auto svg = post::render_svg({post::profile_plot(device_.mesh, "Meridian", picture.panels)});
-    return {svg.empty() ? "" : svg.front(), caption};
+  post::Image image(post::Picture picture, const std::string& caption, bool wide,
+                    const std::string& name) const {
+    post::Image image;
+    if (meridian_) {
+      auto drawn = post::draw({post::profile_plot(
+          device_.mesh, picture.panels.size() == 1 ? picture.panels.front().title : "Meridian",
+          picture.panels)});
+      if (!drawn.empty()) image = std::move(drawn.front());
+      image.name = name;
+    } else {
+      image = post::draw(device_.mesh, std::move(picture), name);
+      image.wide = wide;
+    }
+    image.caption = caption;
+    return image;
   }
 
   const Device& device_;
@@ -86,20 +106,32 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   const ShapeField shown = shape_field(device);
   std::vector<const Snapshot*> ends{&last};
   if (all.size() > 1) ends.insert(ends.begin(), &all[all.size() - 2]);
-  std::vector<post::Section> sections{{"Shape",
-                                       {pictures.image(ends, &Snapshot::shape, shown.meaning, shown.unit,
-                                                       "Before and after the last step, to one scale.")}}};
+  std::vector<post::Section> sections{
+      {"Shape",
+       {pictures.image(ends, &Snapshot::shape, shown.meaning, shown.unit,
+                       "Before and after the last step, to one scale.", "shape")}}};
   std::vector<double> both = ends.front()->shape;
   both.insert(both.end(), last.shape.begin(), last.shape.end());
   if (!pictures.are_profiles() && spread(last.shape) < 0.5 * spread(both))
     sections.back().blocks.push_back(pictures.image({&last}, &Snapshot::shape, shown.meaning, shown.unit,
-                                                    "After the last step, in colours of its own."));
+                                                    "After the last step, in colours of its own.",
+                                                    "shape at the end"));
+  if (journal.stills.size() > 2 && !pictures.are_profiles()) {
+    std::vector<Snapshot> along = journal.stills;
+    // The last state may be none of those kept.
+    if (along.back().title != last.title || along.back().displacement != last.displacement)
+      along.push_back(last);
+    post::Slides slides = pictures.slides(along, shown);
+    slides.caption = "The way there, state by state, to one scale.";
+    sections.back().blocks.push_back(std::move(slides));
+  }
   if (!journal.critical.empty())
     sections.push_back({"Critical mode",
                         {pictures.image({&journal.critical[0], &journal.critical[1]}, &Snapshot::shape,
                                         shown.meaning, shown.unit,
                                         "The last critical point, and displaced along its mode, much "
-                                        "exaggerated.")}});
+                                        "exaggerated.",
+                                        "critical mode")}});
   if (!journal.shapes.empty()) {
     post::Section modes{"Mode shapes", {}};
     for (const Snapshot& shape : journal.shapes)
@@ -108,9 +140,10 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
   }
   if (last.voltage != 0 && !pictures.are_profiles()) {
     const Snapshot charged = without_passive(last);
-    sections.push_back({"Electric field",
-                        {pictures.image({&charged}, &Snapshot::field, "True electric field", "V/m",
-                                        "What the film must bear; film without a field is grey.")}});
+    sections.push_back(
+        {"Electric field",
+         {pictures.image({&charged}, &Snapshot::field, "True electric field", "V/m",
+                         "What the film must bear; film without a field is grey.", "electric field")}});
   }
   return sections;
 }

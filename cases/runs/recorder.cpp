@@ -3,6 +3,7 @@
 
 #include "cases/case/quantities.hpp"
 #include "cases/readers/resolved.hpp"
+#include "post/engineering.hpp"
 #include "post/files/checkpoint.hpp"
 #include "post/reductions.hpp"
 
@@ -18,6 +19,13 @@ using nlohmann::json;
 ShapeField shape_field(const Device& device) {
   if (device.solid) return {"principal_stretches.lambda1", "Largest stretch", "1"};
   return {"thickness", "Film thickness", "m"};
+}
+
+post::SeriesModel series_model(const Case& one, const Device& device) {
+  post::SeriesModel model{device.mesh,       device.bars.widths, device.bars.heights,
+                          device.film_parts, device.bars.parts,  {}};
+  for (const Part& part : one.parts) model.parts.push_back(part.name.empty() ? "unnamed" : part.name);
+  return model;
 }
 
 namespace {
@@ -72,8 +80,9 @@ Snapshot restore_snapshot(const json& archived, const meshing::Mesh& mesh) {
   return snapshot;
 }
 
-constexpr double mode_drawn = 0.1;     ///< of the device's extent: how far its largest displacement goes
-constexpr std::size_t most_shapes = 6; ///< of vibrations in the report
+constexpr std::size_t most_stills = 16; ///< of the states along the way in the report
+constexpr double mode_drawn = 0.1;      ///< of the device's extent: how far its largest displacement goes
+constexpr std::size_t most_shapes = 6;  ///< of vibrations in the report
 
 Snapshot snapshot(const Device& device, const std::string& title, const fem::State& state,
                   const fem::Samples& samples) {
@@ -145,7 +154,7 @@ std::string Recorder::series_name(std::string_view part) const {
 
 void Recorder::open_series(std::optional<post::VtkSeries>& series, std::string_view part,
                            std::vector<std::string> entries) {
-  series.emplace(folder_, series_name(part), simulation_.device().mesh, std::move(entries));
+  series.emplace(folder_, series_name(part), series_model(case_, simulation_.device()), std::move(entries));
 }
 
 /// A time for every state, none twice: ParaView shows all states of a time at once. Where time passes it is
@@ -178,7 +187,7 @@ post::SeriesStep Recorder::series_step(double time, const std::string& name, dou
                                        std::span<const double> voltages) const {
   post::SeriesStep step{time, name, load_factor, {}};
   for (std::size_t e = 0; e < case_.electrodes.size() && e < voltages.size(); ++e)
-    step.voltages.push_back({voltage_name(case_, e), voltages[e]});
+    step.numbers.push_back({voltage_name(case_, e) + " [V]", voltages[e]});
   return step;
 }
 
@@ -192,8 +201,9 @@ void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event
   journal_.critical = {std::move(at), std::move(along)};
   if (!case_.fields) return;
   if (!modes_) open_series(modes_, critical_name);
-  modes_->write(series_step(journal_.modes++, event.message, critical.load_factor, critical.state.voltage),
-                critical.state.displacement, samples, mode);
+  modes_->write(series_step(++journal_.modes, event.message, critical.load_factor, critical.state.voltage),
+                {critical.state.displacement, critical.state.rotation, samples},
+                {mode, fem::spins(device.model.dofs, critical.state, critical.mode.direction)});
 }
 
 void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
@@ -210,10 +220,11 @@ void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
                                           analysis.shapes[i].displacement, device.model.extent));
   }
   if (case_.fields) {
-    post::VtkSeries series(folder_, series_name(analysis.step), device.mesh);
+    post::VtkSeries series(folder_, series_name(analysis.step), series_model(case_, device));
     for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
-      series.write(series_step(static_cast<double>(i), analysis.shapes[i].name, 1, state.voltage),
-                   state.displacement, samples, analysis.shapes[i].displacement);
+      series.write(series_step(static_cast<double>(i) + 1, analysis.shapes[i].name, 1, state.voltage),
+                   {state.displacement, state.rotation, samples},
+                   {analysis.shapes[i].displacement, analysis.shapes[i].spin});
   }
   analysis.shapes.clear();
   journal_.analyses.push_back(std::move(analysis));
@@ -225,11 +236,26 @@ void Recorder::record(const Frame& frame) {
   if (series_) {
     if (waiting_ && waiting_->step.name != record.step) write_waiting();
     waiting_ = {series_step(series_time(record), record.step, record.load_factor, record.voltages),
-                frame.measured.state.displacement, frame.measured.samples};
+                frame.measured.state.displacement, frame.measured.state.rotation, frame.measured.samples};
+    for (std::size_t q = 0; q < case_.quantities.size(); ++q)
+      waiting_->step.numbers.push_back(
+          {fmt::format("{} [{}]", case_.quantities[q].name, unit_of(case_.quantities[q], case_.quantities)),
+           frame.values[q]});
     if (case_.all_states || frame.ends_step) write_waiting();
   }
 
   Snapshot now = snapshot(simulation_.device(), record.step, frame.measured.state, frame.measured.samples);
+  if (case_.all_states && record.index % journal_.stills_every == 0) {
+    journal_.stills.push_back(now);
+    if (record.time > 0) journal_.stills.back().title += ", " + post::engineering(record.time, "s");
+    if (journal_.stills.size() > most_stills) {
+      std::vector<Snapshot> kept;
+      for (std::size_t i = 0; i < journal_.stills.size(); i += 2)
+        kept.push_back(std::move(journal_.stills[i]));
+      journal_.stills = std::move(kept);
+      journal_.stills_every *= 2;
+    }
+  }
   // The last accepted state is replaced until its step has ended.
   const bool replaces = record.index > 1 && journal_.records.back().step == record.step;
   if (replaces)
@@ -243,7 +269,8 @@ void Recorder::record(const Frame& frame) {
 }
 
 void Recorder::write_waiting() {
-  if (series_ && waiting_) series_->write(waiting_->step, waiting_->displacement, waiting_->samples);
+  if (series_ && waiting_)
+    series_->write(waiting_->step, {waiting_->displacement, waiting_->rotation, waiting_->samples});
   waiting_.reset();
 }
 
@@ -254,6 +281,8 @@ void Recorder::save_checkpoint() {
   for (const auto& record : journal_.records) records.push_back(archive(record));
   for (const auto& row : journal_.values) values.push_back(post::pack(row));
   for (const auto& one : journal_.snapshots) snapshots.push_back(archive(one));
+  json stills = json::array();
+  for (const auto& one : journal_.stills) stills.push_back(archive(one));
   json critical = json::array();
   for (const auto& one : journal_.critical) critical.push_back(archive(one));
   json shapes = json::array();
@@ -282,6 +311,8 @@ void Recorder::save_checkpoint() {
         {{"records", records},
          {"values", values},
          {"snapshots", snapshots},
+         {"stills", stills},
+         {"stills_every", journal_.stills_every},
          {"modes", journal_.modes},
          {"critical", critical},
          {"shapes", shapes},
@@ -325,6 +356,9 @@ void Recorder::restore_checkpoint() try {
   if (journal_.values.size() != journal_.records.size()) throw post::CheckpointError("damaged");
   for (const json& one : journal.at("snapshots"))
     journal_.snapshots.push_back(restore_snapshot(one, device.mesh));
+  for (const json& one : journal.at("stills")) journal_.stills.push_back(restore_snapshot(one, device.mesh));
+  journal_.stills_every = journal.at("stills_every");
+  if (journal_.stills_every < 1) throw post::CheckpointError("damaged");
   for (const json& one : journal.at("critical"))
     journal_.critical.push_back(restore_snapshot(one, device.mesh));
   for (const json& one : journal.at("shapes")) journal_.shapes.push_back(restore_snapshot(one, device.mesh));

@@ -26,6 +26,9 @@ struct ShapeField {
 };
 ShapeField shape_field(const Device& device);
 
+/// What series for ParaView show of a device, which must outlive it.
+post::SeriesModel series_model(const Case& one, const Device& device);
+
 /// File of a run's checkpoint in its folder of results; removed when they are complete.
 inline constexpr const char* checkpoint_name = "checkpoint.cbor";
 
@@ -34,7 +37,9 @@ struct Journal {
   std::vector<post::StepRecord> records;
   std::vector<std::vector<double>> values; ///< of the quantities, per record
   std::vector<Snapshot> snapshots;         ///< drawn, the end of each step, and the last accepted state
-  int modes = 0;                           ///< of critical points, written so far
+  std::vector<Snapshot> stills; ///< of the states 0, stills_every, 2 stills_every, ...: a bounded number
+  int stills_every = 1;
+  int modes = 0;                  ///< of critical points, written so far
   std::vector<Snapshot> critical; ///< the last critical point, and it displaced along its mode; or none
   std::vector<Snapshot>
       shapes; ///< of the vibrations that the last step of kind "modes" has found, the lowest
@@ -67,6 +72,7 @@ class Recorder {
   struct WaitingState {
     post::SeriesStep step;
     std::vector<Eigen::Vector3d> displacement;
+    std::vector<Eigen::Quaterniond> rotation;
     fem::Samples samples;
   };
   double series_time(const post::StepRecord& record);

@@ -81,9 +81,18 @@ std::vector<post::Highlight> highlights(const Case& one, const Results& results,
   return shown;
 }
 
+/// The state in which the first step that takes time begins.
+std::vector<post::StepRecord>::const_iterator
+before_time_passes(const std::vector<post::StepRecord>& records) {
+  const auto later =
+      std::ranges::find_if(records, [](const post::StepRecord& record) { return record.time > 0; });
+  const auto first = std::ranges::find(records, later->step, &post::StepRecord::step);
+  return first == records.begin() ? first : first - 1;
+}
+
 /// Every quantity against time, where it passes; otherwise against the largest voltage from where it rises,
 /// or against the load factor of the last step in a run without voltage; strains in one plot. Quantities that
-/// have fewer than two values there, or that do not change beyond round-off, are `left_out` by their names.
+/// have hardly any values there, or that do not change beyond round-off, are `left_out` by their names.
 std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vector<std::string>& left_out) {
   std::vector<post::Plot> plots;
   const auto sizes = sizes_of_units(one, journal);
@@ -94,7 +103,7 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vec
   });
   const bool electric = charged != records.end();
   const bool timed = records.back().time > 0;
-  const auto begin = timed ? records.begin()
+  const auto begin = timed ? before_time_passes(records)
                      : electric
                          ? charged - (charged != records.begin())
                          : std::find_if(records.begin(), records.end(), [&](const post::StepRecord& record) {
@@ -124,7 +133,7 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vec
     for (const double value : series.y)
       if (std::isfinite(value)) values.push_back(value / scaled.factor);
     const auto ends = std::ranges::minmax_element(values);
-    if (values.size() < 2 ||
+    if (values.size() < std::max<std::size_t>(2, series.y.size() / 10) ||
         !(*ends.max - *ends.min > round_off * sizes.at(unit_of(quantity, one.quantities)))) {
       left_out.push_back(quantity.name);
       continue;
@@ -322,8 +331,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   post::Section plots{"Curves", {}};
   std::vector<std::string> left_out;
   const std::vector<post::Plot> drawn = curves(one, journal, left_out);
-  for (std::string& svg : post::render_svg(drawn))
-    if (!svg.empty()) plots.blocks.push_back(post::Image{std::move(svg), ""});
+  for (post::Image& image : post::draw(drawn)) plots.blocks.push_back(std::move(image));
   if (plots.blocks.empty() && !drawn.empty())
     plots.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
   if (!left_out.empty())

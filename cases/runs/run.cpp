@@ -7,6 +7,7 @@
 #include "cases/readers/resolved.hpp"
 #include "cases/runs/results.hpp"
 #include "meshing/quality.hpp"
+#include "post/files/report_files.hpp"
 #include "post/files/results_folder.hpp"
 
 #include <fmt/format.h>
@@ -194,7 +195,10 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
                                                           : ExitCode::check_failed;
   post::Report report = run_report(one, device, results, recorder.journal(), read_text(folder / "run.log"));
   report.part_of = settings.part_of;
-  folder.write("report.html", report.html());
+  if (one.all_states)
+    post::write_report(folder, report);
+  else
+    folder.write("report.html", report.html());
   folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
   folder.set_complete(static_cast<int>(code));
   std::filesystem::remove(folder / checkpoint_name);

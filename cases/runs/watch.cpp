@@ -23,7 +23,7 @@ bool is_cell(const std::string& place) {
 } // namespace
 
 Watch::Watch(const Device& device) : device_(device), lines_(device.mesh.walls()) {
-  if (lines_) contacts_.emplace(device.mesh, *lines_, device.bar_widths);
+  if (lines_) contacts_.emplace(device.mesh, *lines_, device.bars.widths);
 }
 
 std::string Watch::place_of_triangle(int triangle) const {
@@ -92,7 +92,7 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
     const auto found = contacts_->find(state);
     if (begins(!found.empty(), "wall contact")) {
       const auto& worst = found.front();
-      const double width = device_.bar_widths[static_cast<std::size_t>(worst.lines[0])];
+      const double width = device_.bars.widths[static_cast<std::size_t>(worst.lines[0])];
       events.push_back(
           {"wall contact", cell_of(worst.lines[0], worst.lines[1]),
            fmt::format("walls touch at {} place{}; the nearest centrelines are {} apart, the walls are {} "

@@ -9,6 +9,7 @@
 #include "cases/studies/study_process.hpp"
 #include "cases/studies/study_report.hpp"
 #include "cases/studies/study_targets.hpp"
+#include "post/files/report_files.hpp"
 #include "post/files/results_folder.hpp"
 
 #include <fmt/format.h>
@@ -166,7 +167,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   }
   std::vector<std::string> answers = best_lines(study, points);
   for (std::string& line : target_lines(study, points, solutions)) answers.push_back(std::move(line));
-  folder.write("report.html", study_report(study, points, answers).html());
+  post::write_report(folder, study_report(study, points, answers));
 
   int failed = 0;
   for (const StudyPoint& point : points)

@@ -210,8 +210,7 @@ post::Report study_report(const Study& study, const std::vector<StudyPoint>& poi
     for (const StudyPlot& alike : by_unit(study, spec, collected))
       plots.push_back(make_plot(study, alike, points, collected));
   post::Section drawn{"Plots", {}};
-  for (std::string& svg : post::render_svg(plots))
-    if (!svg.empty()) drawn.blocks.push_back(post::Image{std::move(svg), ""});
+  for (post::Image& image : post::draw(plots)) drawn.blocks.push_back(std::move(image));
   if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
 
   std::vector<std::pair<std::size_t, std::string>> best; // point and quantity

@@ -271,7 +271,9 @@ Section output_section() {
            {{"all", "every row of the history", true},
             {"last", "the last of each step, on much less disk", false}},
            to(&Case::all_states),
-           "what the series has; points of a study have the last ones unless it is written")
+           "what the series has, and whether the page has slides and its figures files of their own; points "
+           "of a "
+           "study have the last ones unless it is written")
           .otherwise("all"),
   };
   return section;
@@ -295,9 +297,8 @@ Section linearise_section() {
   section.keys = {
       integer("order", to(&Linearise::order), "number of its states").at_least(1).at_most(100).otherwise("3"),
       text("output", to(&Linearise::output),
-           "quantity of kind \"displacement\" or \"angle\"; without it the first displacement that has a "
-           "direction, "
-           "or the first angle")
+           "quantity of kind \"displacement\", \"angle\", \"radius\" or \"distance\"; without it the first "
+           "displacement that has a direction, or the first angle, radius or distance")
           .optional()
           .refers_to(Reference::quantity),
       text("driven", to(&Linearise::driven), driven_meaning)

@@ -117,9 +117,8 @@ Section step_section() {
           .otherwise("6")
           .only({"modes"}),
       text("response_of", to(&Step::response_of),
-           "quantity of kind \"displacement\" or \"angle\"; without it the first displacement that has a "
-           "direction, "
-           "or the first angle")
+           "quantity of kind \"displacement\", \"angle\", \"radius\" or \"distance\"; without it the first "
+           "displacement that has a direction, or the first angle, radius or distance")
           .optional()
           .refers_to(Reference::quantity)
           .only({"harmonic"}),

@@ -21,6 +21,8 @@ std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state);
 /// Displacements of the nodes along a direction in the free equations, at a state.
 std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
                                            const Eigen::VectorXd& direction);
+/// Rotations of the nodes along it: spins about their rotations in the state.
+std::vector<Eigen::Vector3d> spins(const DofMap& dofs, const State& state, const Eigen::VectorXd& direction);
 
 /// At a limit point the load has an extremum along the path; at a bifurcation paths cross.
 enum class Instability { limit_point, bifurcation };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/files/vtk_series.hpp"
 
+#include "post/bars.hpp"
 #include "post/fields.hpp"
 #include "post/markup.hpp"
 #include "post/reductions.hpp"
@@ -12,6 +13,7 @@
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -30,18 +32,17 @@ namespace {
 
 int vtk_type(meshing::CellType type) {
   switch (type) {
-  case meshing::CellType::line2:
   case meshing::CellType::rod2:
     return VTK_LINE;
-  case meshing::CellType::line3:
-    return VTK_QUADRATIC_EDGE;
   case meshing::CellType::triangle3:
     return VTK_TRIANGLE;
   case meshing::CellType::triangle6:
     return VTK_QUADRATIC_TRIANGLE;
+  case meshing::CellType::line2:
+  case meshing::CellType::line3:
   case meshing::CellType::meridian2:
   case meshing::CellType::meridian3:
-    break; // drawn as a surface
+    break; // drawn as solids, and as a surface
   }
   return VTK_EMPTY_CELL;
 }
@@ -49,15 +50,14 @@ int vtk_type(meshing::CellType type) {
 Part part_of(meshing::CellType type) { return meshing::is_line(type) ? Part::walls : Part::film; }
 
 /// `values`: of the mesh's cells; the array has a tuple per cell of the grid.
-template<class Point>
-vtkNew<vtkFloatArray> cell_array(const Field<Point>& field, const std::vector<double>& values,
-                                 const std::vector<int>& mesh_cells) {
+vtkNew<vtkFloatArray> cell_array(const std::string& name, std::span<const std::string_view> components,
+                                 const std::vector<double>& values, const std::vector<int>& mesh_cells) {
   vtkNew<vtkFloatArray> array;
-  array->SetName(fmt::format("{} [{}]", field.name, field.unit).c_str());
-  array->SetNumberOfComponents(field.width());
-  for (std::size_t c = 0; c < field.components.size(); ++c)
-    array->SetComponentName(static_cast<vtkIdType>(c), std::string(field.components[c]).c_str());
-  const auto width = static_cast<std::size_t>(field.width());
+  array->SetName(name.c_str());
+  const auto width = std::max<std::size_t>(components.size(), 1);
+  array->SetNumberOfComponents(static_cast<int>(width));
+  for (std::size_t c = 0; c < components.size(); ++c)
+    array->SetComponentName(static_cast<vtkIdType>(c), std::string(components[c]).c_str());
   float* target = array->WritePointer(0, static_cast<vtkIdType>(mesh_cells.size() * width));
   for (const int cell : mesh_cells)
     target = std::copy_n(values.data() + static_cast<std::size_t>(cell) * width, width, target);
@@ -66,23 +66,28 @@ vtkNew<vtkFloatArray> cell_array(const Field<Point>& field, const std::vector<do
 
 } // namespace
 
-/// One part's grid, built once; a step exchanges its data only.
+/// The grid of the film or of the walls, built once; a step exchanges its points and its data.
 class VtkSeries::PartFile {
  public:
-  PartFile(const meshing::Mesh& mesh, const meshing::CellBlock& block)
+  PartFile(const SeriesModel& model, const meshing::CellBlock& block)
       : part_(part_of(block.type)), cell_count_(block.size()) {
-    if (meshing::is_meridian(block.type))
-      add_surface(Revolution(mesh, block));
+    if (part_ == Part::walls)
+      add_bars(Bars(model.mesh, block, model.bar_widths, model.bar_heights));
+    else if (meshing::is_meridian(block.type))
+      add_surface(Revolution(model.mesh, block));
     else
-      add_cells(mesh, block);
+      add_cells(model.mesh, block);
+    for (const TurnedNode& point : points_) drawn_.push_back(point(model.mesh.nodes));
+    for (const BarPoint& point : edges_) drawn_.push_back(point.place(model.mesh.nodes));
+    prepare(place_, "Points");
     vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (const TurnedNode& point : points_) points->InsertNextPoint(point(mesh.nodes).data());
+    points->SetData(place_);
     grid_->SetPoints(points);
 
     prepare(displacement_, "displacement [m]");
     grid_->GetPointData()->SetVectors(displacement_);
     prepare(mode_, "mode");
+    add_parts(part_ == Part::walls ? model.bar_parts : model.film_parts, model.parts);
 
     time_->SetName("TimeValue");
     time_->SetNumberOfTuples(1);
@@ -105,33 +110,34 @@ class VtkSeries::PartFile {
 
   std::string_view name() const { return part_ == Part::film ? "film" : "walls"; }
 
-  std::string content(const SeriesStep& step, std::span<const Eigen::Vector3d> displacement,
-                      const fem::Samples& samples, std::span<const Eigen::Vector3d> mode) {
-    fill(displacement_, displacement);
-    if (!mode.empty()) {
-      fill(mode_, mode);
+  std::string content(const SeriesStep& step, const SeriesState& state, const SeriesMode& mode) {
+    move(state);
+    if (!mode.displacement.empty()) {
+      fill(
+          mode_, [&](const TurnedNode& point) { return point(mode.displacement); },
+          [&](const BarPoint& point) { return point.motion(mode.displacement, mode.spin, state.rotation); });
       grid_->GetPointData()->AddArray(mode_);
     }
     time_->SetValue(0, step.time);
     step_->SetValue(0, step.name);
     load_factor_->SetValue(0, step.load_factor);
-    for (const SeriesStep::Voltage& voltage : step.voltages) {
+    for (const SeriesStep::Number& number : step.numbers) {
       vtkNew<vtkDoubleArray> array;
-      array->SetName((voltage.name + " [V]").c_str());
-      array->InsertNextValue(voltage.value);
+      array->SetName(number.name.c_str());
+      array->InsertNextValue(number.value);
       grid_->GetFieldData()->AddArray(array); // replaces the last step's by its name
     }
     if (part_ == Part::film)
-      set_cell_data(samples.film, film_fields());
+      set_cell_data(state.samples.film, film_fields());
     else
-      set_cell_data(samples.walls, wall_fields());
+      set_cell_data(state.samples.walls, wall_fields());
     grid_->Modified();
     // A file must not tell of the one before: ranges that writing cached are dropped.
     time_->Modified();
     step_->Modified();
     load_factor_->Modified();
     for (vtkAbstractArray* kept :
-         {static_cast<vtkAbstractArray*>(grid_->GetPoints()->GetData()),
+         {static_cast<vtkAbstractArray*>(place_), static_cast<vtkAbstractArray*>(part_number_),
           static_cast<vtkAbstractArray*>(displacement_), static_cast<vtkAbstractArray*>(mode_),
           static_cast<vtkAbstractArray*>(time_), static_cast<vtkAbstractArray*>(load_factor_)})
       kept->GetInformation()->Clear();
@@ -161,6 +167,21 @@ class VtkSeries::PartFile {
       add_cell(facet.corners == 4 ? VTK_QUAD : VTK_TRIANGLE,
                {facet.points.begin(), facet.points.begin() + facet.corners}, facet.cell);
   }
+  void add_bars(Bars bars) {
+    edges_ = std::move(bars.points);
+    for (const Bars::Hexahedron& bar : bars.hexahedra)
+      add_cell(VTK_HEXAHEDRON, {bar.points.begin(), bar.points.end()}, bar.cell);
+  }
+  void add_parts(std::span<const int> part_of_cell, const std::vector<std::string>& names) {
+    part_number_->SetName("part");
+    for (const int cell : mesh_cells_)
+      part_number_->InsertNextValue(part_of_cell.empty() ? 0 : part_of_cell[static_cast<std::size_t>(cell)]);
+    grid_->GetCellData()->AddArray(part_number_);
+    vtkNew<vtkStringArray> said;
+    said->SetName("part_names");
+    for (const std::string& name : names) said->InsertNextValue(name);
+    if (!names.empty()) grid_->GetFieldData()->AddArray(said);
+  }
   void add_cell(int type, const std::vector<vtkIdType>& points, int mesh_cell) {
     grid_->InsertNextCell(type, static_cast<vtkIdType>(points.size()), points.data());
     mesh_cells_.push_back(mesh_cell);
@@ -168,28 +189,54 @@ class VtkSeries::PartFile {
   void prepare(vtkDoubleArray* array, const char* name) const {
     array->SetName(name);
     array->SetNumberOfComponents(3);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(points_.size()));
+    array->SetNumberOfTuples(static_cast<vtkIdType>(drawn_.size()));
     for (const int i : {0, 1, 2}) array->SetComponentName(i, std::string(1, "xyz"[i]).c_str());
   }
-  void fill(vtkDoubleArray* array, std::span<const Eigen::Vector3d> vectors) const {
-    double* values = array->GetPointer(0);
-    for (const TurnedNode& point : points_) values = std::copy_n(point(vectors).data(), 3, values);
+  /// A vector for each point: one of the two lists of points is empty.
+  template<class OfNode, class OfBar>
+  void fill(vtkDoubleArray* array, OfNode&& of_node, OfBar&& of_bar) const {
+    Eigen::Map<Eigen::Matrix3Xd> values(array->GetPointer(0), 3, array->GetNumberOfTuples());
+    Eigen::Index i = 0;
+    for (const TurnedNode& point : points_) values.col(i++) = of_node(point);
+    for (const BarPoint& point : edges_) values.col(i++) = of_bar(point);
     array->Modified();
+  }
+  void move(const SeriesState& state) {
+    fill(
+        displacement_, [&](const TurnedNode& point) { return point(state.displacement); },
+        [&](const BarPoint& point) { return point.displacement(state.displacement, state.rotation); });
+    for (vtkIdType i = 0; i < place_->GetNumberOfTuples(); ++i)
+      for (const int c : {0, 1, 2})
+        place_->SetComponent(i, c,
+                             drawn_[static_cast<std::size_t>(i)][c] + displacement_->GetComponent(i, c));
+    place_->Modified();
+    grid_->GetPoints()->Modified();
   }
   template<class Sample, class Point>
   void set_cell_data(const std::vector<Sample>& samples, std::span<const Field<Point>> fields) {
     const auto averages = average(samples, fields, cell_count_);
-    for (std::size_t i = 0; i < fields.size(); ++i)
-      grid_->GetCellData()->AddArray(
-          cell_array(fields[i], averages[i], mesh_cells_)); // replaces the last step's by its name
+    // Arrays replace those of the last step by their names.
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const Field<Point>& field = fields[i];
+      grid_->GetCellData()->AddArray(cell_array(fmt::format("{} [{}]", field.name, field.unit),
+                                                field.components, averages[i], mesh_cells_));
+      if (field.worst)
+        grid_->GetCellData()->AddArray(
+            cell_array(fmt::format("{}_{} [{}]", field.name, *field.worst == Extreme::minimum ? "min" : "max",
+                                   field.unit),
+                       {}, worst(samples, field, cell_count_), mesh_cells_));
+    }
   }
 
   Part part_;
-  int cell_count_;                 ///< of the mesh's block
-  std::vector<TurnedNode> points_; ///< of the grid
-  std::vector<int> mesh_cells_;    ///< per cell of the grid
+  int cell_count_;                     ///< of the mesh's block
+  std::vector<TurnedNode> points_;     ///< of the grid, where it is of film
+  std::vector<BarPoint> edges_;        ///< of the grid, where it is of walls
+  std::vector<Eigen::Vector3d> drawn_; ///< the grid's points, m
+  std::vector<int> mesh_cells_;        ///< per cell of the grid
   vtkNew<vtkUnstructuredGrid> grid_;
-  vtkNew<vtkDoubleArray> displacement_, mode_;
+  vtkNew<vtkDoubleArray> place_, displacement_, mode_;
+  vtkNew<vtkIntArray> part_number_;
   vtkNew<vtkDoubleArray> time_, load_factor_;
   vtkNew<vtkStringArray> step_;
   vtkNew<vtkXMLUnstructuredGridWriter> writer_;
@@ -198,13 +245,13 @@ class VtkSeries::PartFile {
 VtkSeries::~VtkSeries() = default;
 VtkSeries::VtkSeries(VtkSeries&&) noexcept = default;
 
-VtkSeries::VtkSeries(ResultsFolder& folder, std::string name, const meshing::Mesh& mesh,
+VtkSeries::VtkSeries(ResultsFolder& folder, std::string name, const SeriesModel& model,
                      std::vector<std::string> entries)
     : folder_(folder), name_(std::move(name)), entries_(std::move(entries)) {
   for (const Part part : {Part::film, Part::walls})
-    for (const meshing::CellBlock& block : mesh.blocks)
+    for (const meshing::CellBlock& block : model.mesh.blocks)
       if (part_of(block.type) == part && block.size() > 0)
-        parts_.push_back(std::make_unique<PartFile>(mesh, block));
+        parts_.push_back(std::make_unique<PartFile>(model, block));
 
   write_list();
 }
@@ -217,13 +264,12 @@ int VtkSeries::steps() const {
   return static_cast<int>(entries_.size() / std::max<std::size_t>(parts_.size(), 1));
 }
 
-void VtkSeries::write(const SeriesStep& step, std::span<const Eigen::Vector3d> displacement,
-                      const fem::Samples& samples, std::span<const Eigen::Vector3d> mode) {
+void VtkSeries::write(const SeriesStep& step, const SeriesState& state, const SeriesMode& mode) {
   const int index = steps();
   std::vector<std::string> entries;
   for (const auto& part : parts_) {
     const std::string file = file_name(part->name(), index);
-    folder_.write(file, part->content(step, displacement, samples, mode));
+    folder_.write(file, part->content(step, state, mode));
     entries.push_back(fmt::format(R"(    <DataSet timestep="{}" part="{}" name="{}" file="{}"/>)", step.time,
                                   entries.size(), part->name(), escape_markup(file)));
   }

@@ -5,7 +5,7 @@
 #include "meshing/mesh.hpp"
 #include "post/files/results_folder.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <memory>
 #include <span>
@@ -20,35 +20,55 @@ struct SeriesStep {
   double time = 0;        ///< s, or a pseudo-time; larger than that of the step before. "TimeValue"
   std::string name;       ///< "step"
   double load_factor = 0; ///< "load_factor"
-  struct Voltage {
-    std::string name; ///< "<name> [V]"
-    double value;     ///< V
+  struct Number {
+    std::string name; ///< with its unit: "voltage [V]"
+    double value;     ///< SI
   };
-  std::vector<Voltage> voltages{}; ///< of the electrodes
+  std::vector<Number> numbers{}; ///< voltages of the electrodes, quantities
+};
+
+/// What a series shows: a mesh, the bars along its lines, and to which part of the device cells belong.
+struct SeriesModel {
+  const meshing::Mesh& mesh;
+  std::span<const double> bar_widths{}, bar_heights{}; ///< per line, see Bars
+  std::span<const int> film_parts{}, bar_parts{};      ///< per cell and line; empty: all are of part 0
+  std::vector<std::string> parts{};                    ///< their names
+};
+
+/// A state of it.
+struct SeriesState {
+  const std::vector<Eigen::Vector3d>& displacement; ///< per mesh node, m
+  const std::vector<Eigen::Quaterniond>& rotation;  ///< per mesh node, from the mesh as drawn
+  const fem::Samples& samples;
+};
+
+/// A small motion of the mesh nodes, about a state; empty: none.
+struct SeriesMode {
+  std::vector<Eigen::Vector3d> displacement{}, spin{};
 };
 
 /// The ParaView series of a run: per accepted step `<name>_film_0000.vtu` and, where the mesh has lines,
-/// `<name>_walls_0000.vtu` (binary, compressed), and `<name>.pvd` that lists them by time with the parts film
-/// and walls.
+/// `<name>_walls_0000.vtu` (binary, compressed), and `<name>.pvd` that lists them by time with the blocks
+/// film and walls.
 ///
-/// Points are the mesh's nodes, point data "displacement [m]", cell data every output field averaged over its
-/// cell, in single precision, named "electric_field [V/m]". A film of revolution is written as the surface
-/// (post/revolution.hpp), vectors of points turned with them; tensors stay those of the meridian's plane, x
-/// along the radius and y around. Every file appears whole or not at all, and the
-/// list after the files it names, so a killed run leaves a readable series.
+/// Points are where the mesh's nodes are in that state; point data "displacement [m]", by which they have
+/// moved since drawn. Walls are solids with their sections (post/bars.hpp), films of revolution surfaces
+/// (post/revolution.hpp) with the vectors of points turned with them; tensors stay those of the meridian's
+/// plane, x along the radius and y around. Cell data: every output field averaged over its cell, in single
+/// precision, named "electric_field [V/m]"; its extreme over the cell's integration points where one matters,
+/// "electric_field_max [V/m]"; and "part", a number of field data "part_names". Every file appears whole or
+/// not at all, and the list after the files it names, so a killed run leaves a readable series.
 class VtkSeries {
  public:
   /// Precondition: at most one film and one line block, as samples number their cells within a block.
   /// To resume, `entries` are those of the steps to keep. The folder must outlive this. Throws WriteError.
-  VtkSeries(ResultsFolder& folder, std::string name, const meshing::Mesh& mesh,
+  VtkSeries(ResultsFolder& folder, std::string name, const SeriesModel& model,
             std::vector<std::string> entries = {});
   ~VtkSeries();
   VtkSeries(VtkSeries&&) noexcept;
 
-  /// Adds a step. `displacement` per mesh node, m.
-  /// `mode`, if any: a vector per mesh node, written as point data "mode". Throws WriteError.
-  void write(const SeriesStep& step, std::span<const Eigen::Vector3d> displacement,
-             const fem::Samples& samples, std::span<const Eigen::Vector3d> mode = {});
+  /// Adds a step. `mode`, if any, is written as point data "mode". Throws WriteError.
+  void write(const SeriesStep& step, const SeriesState& state, const SeriesMode& mode = {});
 
   /// Lines of the list, one per step and part: what a checkpoint keeps.
   const std::vector<std::string>& entries() const { return entries_; }

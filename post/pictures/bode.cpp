@@ -10,7 +10,8 @@ std::vector<Plot> bode(const std::string& title, const std::string& magnitude_la
                        std::span<const FrequencyResponse> responses) {
   Plot magnitude{
       .title = title, .x_label = "Frequency (Hz)", .y_label = magnitude_label, .log_x = true, .log_y = true};
-  Plot phase{.title = title, .x_label = "Frequency (Hz)", .y_label = "Phase (deg)", .log_x = true};
+  Plot phase{
+      .title = title, .x_label = "Frequency (Hz)", .y_label = "Phase (deg)", .log_x = true, .y_step = 45};
   for (const FrequencyResponse& response : responses) {
     Series absolute{response.label, response.frequency, {}, response.style}, angle = absolute;
     double last = 0; // so that the first angle stays as it is

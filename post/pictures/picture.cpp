@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/pictures/picture.hpp"
 
+#include "post/engineering.hpp"
+#include "post/pictures/film_raster.hpp"
 #include "post/pictures/legend.hpp"
-#include "post/pictures/raster.hpp"
 
 #include <Eigen/Geometry>
+#include <cairo-svg.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -22,7 +26,7 @@ using meshing::CellType;
 using Box = Eigen::AlignedBox2d;
 
 constexpr double margin = 44, gap = 40, legend_height = 96, tallest_panel = 1400; // px
-constexpr Colour wall_colour{0.16, 0.18, 0.22}, plain_film{0.86, 0.89, 0.92};
+constexpr Colour wall_colour{0.16, 0.18, 0.22};
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
@@ -53,124 +57,11 @@ Box extent(const meshing::Mesh& mesh, const Panel& panel, double wall_width) {
   return {box.min() - half, box.max() + half};
 }
 
-/// The film without seams: neighbours share hard edges on a canvas that is finer than the picture by this
-/// factor.
-constexpr int supersampling = 2;
+/// By which the canvas is finer on which the film is drawn, with hard edges. Slides are many, and printers
+/// are finer than a page.
+constexpr int of_pages = 2, of_slides = 1, of_files = 1;
 /// Drawn width of a rod, over the diagonal of all that is drawn: its section is not in the mesh.
 constexpr double rod_width = 0.01;
-
-/// Values at the nodes of triangles: means over the triangles of one region that share a node.
-class NodeValues {
- public:
-  NodeValues(const meshing::Mesh& mesh, const Panel& panel) : panel_(panel), nodes_(mesh.nodes.size()) {
-    if (panel.values.empty()) return;
-    const int regions = panel.regions.empty() ? 1 : std::ranges::max(panel.regions) + 1;
-    sums_.resize(static_cast<std::size_t>(regions) * nodes_);
-    std::size_t number = 0;
-    for (const CellBlock& block : mesh.blocks) {
-      if (is_line(block.type)) continue;
-      for (int cell = 0; cell < block.size(); ++cell, ++number)
-        if (const double value = panel.values[number]; std::isfinite(value))
-          for (const int node : block.cell(cell)) {
-            auto& [sum, count] = sums_[place(number, node)];
-            sum += value;
-            ++count;
-          }
-    }
-  }
-  /// Of a node of triangle `number`; not a number where the triangle has no value.
-  double at(std::size_t number, int node) const {
-    if (panel_.values.empty() || !std::isfinite(panel_.values[number])) return NAN;
-    const auto& [sum, count] = sums_[place(number, node)];
-    return sum / count;
-  }
-
- private:
-  std::size_t place(std::size_t number, int node) const {
-    const auto region = static_cast<std::size_t>(panel_.regions.empty() ? 0 : panel_.regions[number]);
-    return region * nodes_ + static_cast<std::size_t>(node);
-  }
-
-  const Panel& panel_;
-  std::size_t nodes_;
-  std::vector<std::pair<double, int>> sums_; ///< by region and node
-};
-
-/// Light comes along z, so that flat film has its full colours.
-constexpr double darkest = 0.55;
-
-/// Of px, y downwards.
-double light_on(const std::array<Eigen::Vector3d, 6>& x, const Eigen::Vector3d& towards) {
-  const Eigen::Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
-  const Eigen::Vector3d light(towards.x(), -towards.y(), towards.z());
-  return darkest + (1 - darkest) * std::abs(normal.dot(light)) / std::max(normal.norm(), 1e-300);
-}
-
-constexpr int parts_of_side = 3;
-
-/// A triangle of six nodes, perhaps with curved sides, as `parts`^2 flat ones.
-void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
-                   const std::array<double, 6>& value, int parts, const Palette& palette, double light) {
-  const auto corner = [&](int i, int j) {
-    const double r = static_cast<double>(i) / parts, s = static_cast<double>(j) / parts, t = 1 - r - s;
-    const std::array<double, 6> N{t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1),
-                                  4 * r * t,       4 * r * s,       4 * s * t};
-    Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    double v = 0;
-    for (std::size_t a = 0; a < 6; ++a) {
-      p += N[a] * x[a];
-      v += N[a] * value[a];
-    }
-    return Corner{p.head<2>(), p.z(), v};
-  };
-  for (int j = 0; j < parts; ++j)
-    for (int i = 0; i < parts - j; ++i) {
-      raster.draw({corner(i, j), corner(i + 1, j), corner(i, j + 1)}, palette, light);
-      if (i + j + 1 < parts)
-        raster.draw({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}, palette, light);
-    }
-}
-
-/// From a state's positions to px of a canvas, y downwards, z towards the viewer.
-struct Placement {
-  double scale;
-  Eigen::Vector3d centre; ///< in the middle of the canvas
-  Eigen::Vector2d size;   ///< of the canvas
-  Eigen::Vector3d light;  ///< unit vector towards it
-
-  Eigen::Vector3d operator()(const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d p = scale * (x - centre);
-    return {size.x() / 2 + p.x(), size.y() / 2 - p.y(), p.z()};
-  }
-};
-
-Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range,
-                   const Placement& place) {
-  Raster raster(static_cast<int>(place.size.x()), static_cast<int>(place.size.y()));
-  const NodeValues values(mesh, panel);
-  const Palette palette = panel.values.empty() ? Palette(plain_film) : Palette(range);
-  std::size_t number = 0;
-  for (const CellBlock& block : mesh.blocks) {
-    if (is_line(block.type)) continue;
-    for (int cell = 0; cell < block.size(); ++cell, ++number) {
-      if (!is_triangle(block.type)) continue;
-      const auto nodes = block.cell(cell);
-      std::array<Eigen::Vector3d, 6> x;
-      std::array<double, 6> value{};
-      for (std::size_t a = 0; a < nodes.size(); ++a) {
-        x[a] = place(panel.positions[static_cast<std::size_t>(nodes[a])]);
-        value[a] = values.at(number, nodes[a]);
-      }
-      if (nodes.size() == 3)
-        raster.draw({Corner{x[0].head<2>(), x[0].z(), value[0]}, Corner{x[1].head<2>(), x[1].z(), value[1]},
-                     Corner{x[2].head<2>(), x[2].z(), value[2]}},
-                    palette, light_on(x, place.light));
-      else
-        draw_triangle(raster, x, value, parts_of_side, palette, light_on(x, place.light));
-    }
-  }
-  return raster;
-}
 
 /// Rods have no section in the mesh.
 void stroke_rods(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel,
@@ -207,11 +98,11 @@ void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, do
 
 /// Draws a panel with its box centred in the rectangle at (left, top), y upwards.
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
-                std::pair<double, double> range, const Eigen::Vector3d& light, double scale, double left,
-                double top, double width, double height) {
+                std::pair<double, double> range, const Eigen::Vector3d& light, double scale, int finer,
+                double left, double top, double width, double height) {
   const Box box = extent(mesh, panel, picture.wall_width);
-  const Eigen::Vector2d size(std::ceil(width) * supersampling, std::ceil(height) * supersampling);
-  const Placement place{scale * supersampling, {box.center().x(), box.center().y(), 0}, size, light};
+  const Eigen::Vector2d size(std::ceil(width) * finer, std::ceil(height) * finer);
+  const Placement place{scale * finer, {box.center().x(), box.center().y(), 0}, size, light};
   Raster film = film_raster(mesh, panel, range, place);
   const Surface surface(cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(film.pixels()),
                                                             CAIRO_FORMAT_ARGB32, film.width(), film.height(),
@@ -220,7 +111,7 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
   cairo_save(cr);
   cairo_translate(cr, left, top);
   cairo_save(cr);
-  cairo_scale(cr, 1.0 / supersampling, 1.0 / supersampling);
+  cairo_scale(cr, 1.0 / finer, 1.0 / finer);
   cairo_set_source_surface(cr, surface.get(), 0, 0);
   cairo_paint(cr);
   cairo_restore(cr);
@@ -279,62 +170,119 @@ void check(const meshing::Mesh& mesh, const Picture& picture) {
       throw std::invalid_argument("a panel needs a position per node, a value and a region per triangle");
 }
 
-std::string png_bytes(cairo_surface_t* surface) {
-  std::string bytes;
-  const auto append = [](void* target, const unsigned char* data, unsigned length) {
-    static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  const cairo_status_t status = cairo_surface_write_to_png_stream(surface, append, &bytes);
+void require_drawn(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(std::string("cannot draw a picture: ") + cairo_status_to_string(status));
-  return bytes;
 }
+
+cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned length) {
+  static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+/// Draws panels of a picture side by side, `together` of them at a time, always to one scale.
+class Drawing {
+ public:
+  /// Moves the picture's positions into the view.
+  Drawing(const meshing::Mesh& mesh, Picture& picture, std::size_t together)
+      : mesh_(mesh), picture_(picture), range_((check(mesh, picture), value_range(picture))) {
+    const Eigen::Matrix3d view = view_of(picture);
+    light_ = view.col(2);
+    for (Panel& panel : picture.panels)
+      for (Eigen::Vector3d& x : panel.positions) x = view * x;
+    const auto panels = static_cast<double>(together);
+    panel_width_ = (picture.width - 2 * margin - gap * (panels - 1)) / panels;
+    Eigen::Vector2d largest(1e-12, 1e-12);
+    for (const Panel& panel : picture.panels)
+      largest = largest.cwiseMax(extent(mesh, panel, picture.wall_width).sizes());
+    scale_ = std::min(panel_width_ / largest.x(), tallest_panel / largest.y());
+    panel_height_ = largest.y() * scale_;
+    const bool titled =
+        std::ranges::any_of(picture.panels, [](const Panel& panel) { return !panel.title.empty(); });
+    panel_title_ = picture.title.empty() ? margin : margin + 54; // baseline
+    panel_top_ = titled ? panel_title_ + 22 : panel_title_;
+    legend_top_ = panel_top_ + panel_height_ + 64;
+    coloured_ = std::ranges::any_of(picture.panels, [](const Panel& panel) { return !panel.values.empty(); });
+  }
+
+  std::string png(std::span<const Panel> panels, int finer) const {
+    const Canvas canvas(picture_.width, height());
+    draw(canvas.context.get(), panels, finer);
+    std::string bytes;
+    require_drawn(cairo_surface_write_to_png_stream(canvas.surface.get(), append_bytes, &bytes));
+    return bytes;
+  }
+  std::string svg(std::span<const Panel> panels) const {
+    std::string text;
+    const Surface surface(cairo_svg_surface_create_for_stream(append_bytes, &text, picture_.width, height()),
+                          cairo_surface_destroy);
+    {
+      const Context context(cairo_create(surface.get()), cairo_destroy);
+      draw(context.get(), panels, of_files);
+    }
+    cairo_surface_finish(surface.get());
+    require_drawn(cairo_surface_status(surface.get()));
+    return text;
+  }
+  /// See report_script(); empty without colours.
+  std::string readings() const {
+    if (!coloured_) return {};
+    const ScaledUnit scaled =
+        scaled_unit(std::max(std::abs(range_.first), std::abs(range_.second)), picture_.unit);
+    return nlohmann::json{{"range", {range_.first * scaled.factor, range_.second * scaled.factor}},
+                          {"quantity", picture_.quantity},
+                          {"unit", scaled.unit}}
+        .dump();
+  }
+
+ private:
+  int height() const { return static_cast<int>(std::ceil(legend_top_ + legend_height - margin / 2)); }
+  void draw(cairo_t* cr, std::span<const Panel> panels, int finer) const {
+    cairo_set_source_rgb(cr, 1, 1, 1);
+    cairo_paint(cr);
+    if (!picture_.title.empty())
+      draw_text(cr, picture_.title, margin, margin + 12, 28, ink, Align::left, CAIRO_FONT_WEIGHT_BOLD);
+    double left = margin;
+    for (const Panel& panel : panels) {
+      draw_text(cr, panel.title, left + panel_width_ / 2, panel_title_, 20, faint_ink, Align::centre);
+      draw_panel(cr, mesh_, picture_, panel, range_, light_, scale_, finer, left, panel_top_, panel_width_,
+                 panel_height_);
+      left += panel_width_ + gap;
+    }
+    draw_scale_bar(cr, scale_, margin, legend_top_ + 8);
+    const double bar_width = std::min(560.0, picture_.width / 2.0 - margin);
+    if (coloured_)
+      draw_colour_bar(cr, picture_.quantity, picture_.unit, range_, picture_.width - margin - bar_width,
+                      legend_top_, bar_width);
+  }
+
+  const meshing::Mesh& mesh_;
+  const Picture& picture_;
+  std::pair<double, double> range_;
+  Eigen::Vector3d light_; ///< towards it
+  double scale_ = 1, panel_width_ = 0, panel_height_ = 0, panel_title_ = 0, panel_top_ = 0, legend_top_ = 0;
+  bool coloured_ = false;
+};
 
 } // namespace
 
 std::string render_png(const meshing::Mesh& mesh, Picture picture) {
-  check(mesh, picture);
-  const Eigen::Matrix3d view = view_of(picture);
-  for (Panel& panel : picture.panels)
-    for (Eigen::Vector3d& x : panel.positions) x = view * x;
-  const auto panels = static_cast<double>(picture.panels.size());
-  const double panel_width = (picture.width - 2 * margin - gap * (panels - 1)) / panels;
-  Eigen::Vector2d largest(1e-12, 1e-12);
-  for (const Panel& panel : picture.panels)
-    largest = largest.cwiseMax(extent(mesh, panel, picture.wall_width).sizes());
-  const double scale = std::min(panel_width / largest.x(), tallest_panel / largest.y());
-  const double panel_height = largest.y() * scale;
+  return Drawing(mesh, picture, picture.panels.size()).png(picture.panels, of_pages);
+}
 
-  const bool titled = std::any_of(picture.panels.begin(), picture.panels.end(),
-                                  [](const Panel& panel) { return !panel.title.empty(); });
-  const double panel_title = picture.title.empty() ? margin : margin + 54; // baseline
-  const double panel_top = titled ? panel_title + 22 : panel_title;
-  const double legend_top = panel_top + panel_height + 64;
+Image draw(const meshing::Mesh& mesh, Picture picture, const std::string& name) {
+  const Drawing drawing(mesh, picture, picture.panels.size());
+  return {.data = drawing.png(picture.panels, of_pages),
+          .name = name,
+          .drawing = name.empty() ? "" : drawing.svg(picture.panels),
+          .readings = drawing.readings()};
+}
 
-  const Canvas canvas(picture.width, static_cast<int>(std::ceil(legend_top + legend_height - margin / 2)));
-  cairo_t* cr = canvas.context.get();
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_paint(cr);
-  if (!picture.title.empty())
-    draw_text(cr, picture.title, margin, margin + 12, 28, ink, Align::left, CAIRO_FONT_WEIGHT_BOLD);
-
-  const auto range = value_range(picture);
-  double left = margin;
-  for (const Panel& panel : picture.panels) {
-    draw_text(cr, panel.title, left + panel_width / 2, panel_title, 20, faint_ink, Align::centre);
-    draw_panel(cr, mesh, picture, panel, range, view.col(2), scale, left, panel_top, panel_width,
-               panel_height);
-    left += panel_width + gap;
-  }
-  draw_scale_bar(cr, scale, margin, legend_top + 8);
-  const bool coloured = std::any_of(picture.panels.begin(), picture.panels.end(),
-                                    [](const Panel& panel) { return !panel.values.empty(); });
-  const double bar_width = std::min(560.0, picture.width / 2.0 - margin);
-  if (coloured)
-    draw_colour_bar(cr, picture.quantity, picture.unit, range, picture.width - margin - bar_width, legend_top,
-                    bar_width);
-  return png_bytes(canvas.surface.get());
+Slides draw_slides(const meshing::Mesh& mesh, Picture picture) {
+  const Drawing drawing(mesh, picture, 1);
+  Slides slides{.readings = drawing.readings()};
+  for (const Panel& panel : picture.panels) slides.pictures.push_back(drawing.png({&panel, 1}, of_slides));
+  return slides;
 }
 
 } // namespace dielast::post

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meshing/mesh.hpp"
+#include "post/pictures/image.hpp"
 
 #include <Eigen/Core>
 
@@ -30,9 +31,17 @@ struct Picture {
   int width = 1600; ///< px; the height follows from the shapes
 };
 
-/// The picture as the bytes of a PNG file. Needs no display. Throws std::invalid_argument when a panel does
-/// not fit the mesh and for a mesh of meridians (post/pictures/profile.hpp draws those), std::runtime_error
-/// when it cannot be drawn.
+// None of these needs a display. Each throws std::invalid_argument when a panel does not fit the mesh and for
+// a mesh of meridians (post/pictures/profile.hpp draws those), std::runtime_error when it cannot be drawn.
+
+/// The picture as the bytes of a PNG file.
 std::string render_png(const meshing::Mesh& mesh, Picture picture);
+
+/// The picture for a page, with its values as readings; with a name also as SVG: texts and walls as curves,
+/// the film as an image.
+Image draw(const meshing::Mesh& mesh, Picture picture, const std::string& name = "");
+
+/// A picture of each panel alone, of the picture's width, all to one scale of length and one of colour.
+Slides draw_slides(const meshing::Mesh& mesh, Picture picture);
 
 } // namespace dielast::post

@@ -4,6 +4,7 @@
 #include "post/file_output.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include <fcntl.h>
 #include <set>
 #include <spawn.h>
+#include <sstream>
 #include <string_view>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -112,18 +114,67 @@ struct Key {
   }
 };
 
+int height_of(const Plot& plot) { return height + static_cast<int>(22 * Key(plot).rows); }
+
+/// Smallest and largest of the finite values; crossed where there are none.
+std::pair<double, double> ends(const std::vector<Series>& all, std::vector<double> Series::*values) {
+  std::pair<double, double> found{INFINITY, -INFINITY};
+  for (const Series& series : all)
+    for (const double value : series.*values)
+      if (std::isfinite(value)) found = {std::min(found.first, value), std::max(found.second, value)};
+  return found;
+}
+
+/// A power of ten as it is written in print.
+std::string power_of_ten(int exponent) {
+  if (exponent >= -2 && exponent <= 4)
+    return fmt::format("{:.{}f}", std::pow(10, exponent), std::max(0, -exponent));
+  constexpr std::array superscripts{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent)))
+    text += superscripts[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
+
+/// Ticks of a logarithmic axis: powers of ten; within two decades 2 and 5 between them, too; on a shorter
+/// axis as many as on a linear one, without which it might have a single label.
+std::string logarithmic_ticks(char axis, std::pair<double, double> range) {
+  const auto [low, high] = range;
+  if (!(high > low)) return fmt::format("set {}tics autofreq\n", axis);
+  std::string ticks;
+  const auto add = [&](const std::string& label, double value) {
+    ticks += fmt::format("{}{} {:.15g}", ticks.empty() ? "" : ", ", gnuplot_string(label), value);
+  };
+  if (high < 4 * low) {
+    const double raw = (high - low) / 4, decade = std::pow(10, std::floor(std::log10(raw)));
+    const double step = decade * (raw < 1.5 * decade ? 1 : raw < 3 * decade ? 2 : raw < 7 * decade ? 5 : 10);
+    for (double k = std::ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12); ++k)
+      add(fmt::format("{:.6g}", k * step), k * step);
+  } else {
+    const int first = static_cast<int>(std::floor(std::log10(low))),
+              last = static_cast<int>(std::ceil(std::log10(high)));
+    const int every = 1 + (last - first) / 9;
+    for (int exponent = first; exponent <= last; exponent += every)
+      for (const int times : {1, 2, 5})
+        if (const double value = times * std::pow(10, exponent); times == 1)
+          add(power_of_ten(exponent), value);
+        else if (high < 100 * low)
+          add(fmt::format("{:.3g}", value), value);
+  }
+  return fmt::format("set {}tics ({})\n", axis, ticks);
+}
+
 /// Digits that tell the ticks of an axis apart: more than usual where it shows a small part of a large
 /// number.
 int digits_of(const std::vector<Series>& all, std::vector<double> Series::*values) {
-  double low = INFINITY, high = -INFINITY;
-  for (const Series& series : all)
-    for (const double value : series.*values)
-      if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  const auto [low, high] = ends(all, values);
   constexpr int usual = 6, most = 15;
   if (!(high > low)) return usual;
   const double size = std::max(std::abs(low), std::abs(high));
   return std::clamp(static_cast<int>(std::ceil(std::log10(size / (high - low)))) + 3, usual, most);
 }
+
+constexpr std::string_view axes_mark = "axes of the plot above:";
 
 std::string script(const Plot& plot) {
   std::string data, curves;
@@ -154,7 +205,7 @@ std::string script(const Plot& plot) {
   std::string settings =
       fmt::format("set terminal svg size {},{} noenhanced rounded linewidth 1.4 font 'Helvetica,Arial,DejaVu "
                   "Sans,sans-serif,14' background '#ffffff'\nset key maxcols {}\n",
-                  width, height + 22 * key.rows, key.columns);
+                  width, height_of(plot), key.columns);
   settings += fmt::format("set title {} font ',{}' textcolor '#1d242c'\n", gnuplot_string(plot.title),
                           font_size(plot.title, 16, width - 40));
   settings += fmt::format("set xlabel {} font ',{}' textcolor '#3a434d' offset 0,0.4\n",
@@ -163,9 +214,20 @@ std::string script(const Plot& plot) {
                           font_size(plot.y_label, 14, height - 80));
   settings += fmt::format("set format x '%.{}g'\nset format y '%.{}g'\n", digits_of(drawn, &Series::x),
                           digits_of(drawn, &Series::y));
+  const auto [lowest, highest] = ends(drawn, &Series::y);
+  settings += plot.log_x ? logarithmic_ticks('x', ends(drawn, &Series::x)) : "set xtics autofreq\n";
+  settings += plot.log_y ? logarithmic_ticks('y', ends(drawn, &Series::y))
+              : plot.y_step > 0 && highest - lowest > 2 * plot.y_step
+                  ? fmt::format("set ytics {}\n", plot.y_step)
+                  : "set ytics autofreq\n";
   settings += fmt::format("unset logscale\n{}{}set size {}\n", plot.log_x ? "set logscale x\n" : "",
                           plot.log_y ? "set logscale y\n" : "", plot.equal_axes ? "ratio -1" : "noratio");
-  return fmt::format("{}{}plot {}\nunset output\n", data, settings, curves);
+  // Where the axes are: px from the lower left corner, then their ends.
+  return fmt::format(
+      "{}{}plot {}\nunset output\nset print '-'\nprint sprintf('{} %g %g %g %g %.15g %.15g %.15g "
+      "%.15g', GPVAL_TERM_XMIN, GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX, GPVAL_X_MIN, "
+      "GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX)\n",
+      data, settings, curves, axes_mark);
 }
 
 /// What gnuplot prints for a script; empty when it cannot be run.
@@ -199,23 +261,63 @@ std::string run_gnuplot(std::string_view commands) {
   return result;
 }
 
+/// Numbers for a reader: what is not finite is null.
+nlohmann::json json_of(const std::vector<double>& values, const std::vector<std::size_t>& places) {
+  nlohmann::json array = nlohmann::json::array();
+  for (const std::size_t k : places)
+    array.push_back(std::isfinite(values[k]) ? nlohmann::json(std::stod(fmt::format("{:.7g}", values[k])))
+                                             : nlohmann::json(nullptr));
+  return array;
+}
+
+/// What a page reads off a plot, see report_script(); `axes` is what gnuplot said of them. Empty where it
+/// said nothing that can be used.
+std::string readings_of(const Plot& plot, const std::string& axes) {
+  std::istringstream numbers(axes);
+  std::array<double, 8> n{};
+  for (double& number : n)
+    if (!(numbers >> number)) return {};
+  const int below = height_of(plot);
+  nlohmann::json series = nlohmann::json::array();
+  for (const Series& one : plot.series) {
+    if (!has_points(one)) continue;
+    const std::vector<std::size_t> drawn = drawn_points(one);
+    series.push_back({{"label", names_itself(plot, one) ? "" : one.label},
+                      {"x", json_of(shown(one.x, plot.log_x), drawn)},
+                      {"y", json_of(shown(one.y, plot.log_y), drawn)}});
+  }
+  const nlohmann::json readings{{"size", {width, below}},
+                                {"frame", {n[0], n[1], below - n[3], below - n[2]}},
+                                {"x", {{"ends", {n[4], n[5]}}, {"log", plot.log_x}, {"label", plot.x_label}}},
+                                {"y", {{"ends", {n[6], n[7]}}, {"log", plot.log_y}, {"label", plot.y_label}}},
+                                {"series", series}};
+  return readings.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 } // namespace
 
-std::vector<std::string> render_svg(const std::vector<Plot>& plots) {
+std::vector<Image> draw(const std::vector<Plot>& plots) {
   std::string commands(style);
   for (const Plot& plot : plots) commands += script(plot);
   const std::string output = plots.empty() ? std::string() : run_gnuplot(commands);
 
   constexpr std::string_view opening = "<?xml";
-  std::vector<std::string> documents;
+  std::vector<Image> images;
   for (std::size_t begin = output.find(opening); begin != std::string::npos;) {
     const std::size_t end = output.find(opening, begin + opening.size());
-    documents.push_back(output.substr(begin, end - begin));
+    const std::string document = output.substr(begin, end - begin);
+    const std::size_t axes = std::min(document.rfind(axes_mark), document.size());
+    Image& image = images.emplace_back(Image{document.substr(0, axes)});
+    if (images.size() <= plots.size() && axes < document.size()) {
+      const Plot& plot = plots[images.size() - 1];
+      image.name = plot.title.empty() ? plot.y_label : plot.title;
+      image.readings = readings_of(plot, document.substr(axes + axes_mark.size()));
+    }
     begin = end;
   }
   // A missing one cannot be told from its neighbours, so none is safe to show.
-  if (documents.size() != plots.size()) documents.assign(plots.size(), {});
-  return documents;
+  if (images.size() != plots.size()) images.clear();
+  return images;
 }
 
 } // namespace dielast::post

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "post/pictures/image.hpp"
+
 #include <string>
 #include <vector>
 
@@ -20,11 +22,14 @@ struct Plot {
   std::string title, x_label, y_label;
   std::vector<Series> series{};
   bool log_x = false, log_y = false;
+  double y_step = 0;       ///< between ticks of a linear y axis that is longer than two of them; 0: any
   bool equal_axes = false; ///< a unit is as long on y as on x
 };
 
-/// The plots as SVG documents, by one call of gnuplot. Empty strings where gnuplot is missing or failed: a
+/// The plots as SVG documents with their points as readings, named by their titles
+/// (without one by their y labels), by one call of gnuplot.
+/// None where gnuplot is missing or failed: a
 /// run's results do not depend on it.
-std::vector<std::string> render_svg(const std::vector<Plot>& plots);
+std::vector<Image> draw(const std::vector<Plot>& plots);
 
 } // namespace dielast::post

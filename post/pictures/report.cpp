@@ -2,12 +2,14 @@
 #include "post/pictures/report.hpp"
 
 #include "post/markup.hpp"
+#include "post/pictures/report_script.hpp"
 
 #include <fmt/format.h>
 #include <vtksys/Base64.h>
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 namespace dielast::post {
 
@@ -16,9 +18,14 @@ namespace {
 // Free of < and &, so that the page is well-formed XML too.
 constexpr std::string_view css = R"(
 :root { --ink: #1d242c; --soft: #5b6672; --line: #e2e7ec; --panel: #f6f8fa; --accent: #2563a8;
-        --good: #1a7f4b; --warning: #a86200; --bad: #c2283d; }
+        --good: #1a7f4b; --warning: #a86200; --bad: #c2283d; --paper: #fff; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --ink: #e3e8ee; --soft: #9fabb8; --line: #323a44; --panel: #20262d; --accent: #7db2ee;
+          --good: #5cc78f; --warning: #e5a84b; --bad: #f0798a; --paper: #15191e; color-scheme: dark; }
+  figure img { filter: brightness(0.9); }
+}
 * { box-sizing: border-box; }
-body { margin: 0; color: var(--ink); background: #fff; font: 15px/1.55 system-ui, "Segoe UI", Roboto, Helvetica, Arial, "DejaVu Sans", sans-serif; }
+body { margin: 0; color: var(--ink); background: var(--paper); font: 15px/1.55 system-ui, "Segoe UI", Roboto, Helvetica, Arial, "DejaVu Sans", sans-serif; }
 main { max-width: 1120px; margin: 0 auto; padding: 40px 28px 56px; }
 header { border-bottom: 1px solid var(--line); padding-bottom: 18px; }
 h1 { font-size: 28px; line-height: 1.25; margin: 0 0 4px; letter-spacing: -0.01em; }
@@ -30,14 +37,13 @@ summary { cursor: pointer; color: var(--accent); }
 .good { color: var(--good); } .warning { color: var(--warning); } .bad { color: var(--bad); }
 td.good, td.warning, td.bad { font-weight: 600; }
 .cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(155px, 1fr)); gap: 12px; margin: 24px 0 0; }
-.card { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; }
+.card { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 14px; }
 .card .label { color: var(--soft); font-size: 13px; }
-.card .value { overflow-wrap: anywhere; font-size: 21px; font-weight: 600; font-variant-numeric: tabular-nums; }
+.card .value { overflow-wrap: anywhere; font-size: 19px; font-weight: 600; font-variant-numeric: tabular-nums; }
 .card .note { color: var(--soft); font-size: 12.5px; }
 th.sorts { cursor: pointer; }
 .scroll { overflow-x: auto; margin: 0 0 14px; }
 table { border-collapse: collapse; min-width: 55%; font-size: 14px; font-variant-numeric: tabular-nums; }
-td:first-child { }
 th { text-align: left; color: var(--soft); font-weight: 600; font-size: 13px; border-bottom: 2px solid var(--line); }
 th, td { padding: 6px 24px 6px 0; vertical-align: top; }
 td { border-bottom: 1px solid var(--line); }
@@ -45,49 +51,22 @@ td { border-bottom: 1px solid var(--line); }
 pre { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 12px 16px; overflow-x: auto; font: 12.5px/1.5 ui-monospace, "SF Mono", Consolas, "DejaVu Sans Mono", monospace; }
 .images { display: grid; grid-template-columns: repeat(auto-fit, minmax(440px, 1fr)); gap: 20px; }
 figure { margin: 0 0 12px; break-inside: avoid; }
-figure:not(.wide) { max-width: 620px; }
-figure.wide { grid-column: 1 / -1; }
+figure { max-width: 620px; }
+figure.wide, figure.slides { max-width: none; grid-column: 1 / -1; }
+figure.slides { max-width: 760px; }
 figure img { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 8px; }
+.drawing { position: relative; }
+.mark { position: absolute; width: 11px; height: 11px; border: 2px solid #c2283d; border-radius: 50%; transform: translate(-50%, -50%); pointer-events: none; }
+.reading { position: absolute; padding: 3px 9px; border-radius: 6px; background: #1d242c; color: #fff; font-size: 12.5px; white-space: pre; transform: translate(12px, 8px); pointer-events: none; z-index: 1; }
+.reading.leftwards { transform: translate(calc(-100% - 12px), 8px); }
+.controls { display: flex; gap: 12px; align-items: center; margin-top: 6px; }
+.controls input { flex: 1; }
+nav { margin: 18px 0 0; font-size: 13.5px; display: flex; flex-wrap: wrap; gap: 4px 16px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
 footer { margin-top: 44px; padding-top: 14px; border-top: 1px solid var(--line); color: var(--soft); font-size: 13px; }
-@media print { main { max-width: none; padding: 0; } h2 { break-after: avoid; } tr { break-inside: avoid; }
+@media print { nav, .controls { display: none; } main { max-width: none; padding: 0; } h2 { break-after: avoid; } tr { break-inside: avoid; }
   pre { white-space: pre-wrap; } .card, pre, .status { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 @media (max-width: 560px) { .images { grid-template-columns: 1fr; } }
-)";
-
-/// Tables of more than two rows are sorted by a click on the head of a column, up, then down; not by columns
-/// whose numbers have different units.
-constexpr std::string_view script = R"(
-for (const table of document.querySelectorAll("table")) {
-  const body = table.tBodies[0], rows = [...body.rows];
-  if (rows.length < 3) continue;
-  [...table.tHead.rows[0].cells].forEach((head, column) => {
-    const text = row => row.cells[column] ? row.cells[column].textContent.trim() : "";
-    const number = words => words.match(/^([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)(.*)$/i);
-    const filled = rows.map(text).filter(words => words !== "" && words !== "-");
-    const numbers = filled.map(number).filter(found => found);
-    const numeric = numbers.length === filled.length && new Set(numbers.map(found => found[2].trim())).size === 1;
-    if (!numeric && numbers.length > 0) return;
-    const key = row => {
-      const words = text(row);
-      return words === "" || words === "-" ? null : numeric ? Number(number(words)[1]) : words;
-    };
-    let sign = -1;
-    const sort = () => {
-      sign = -sign;
-      rows.sort((one, other) => {
-        const a = key(one), b = key(other);
-        if (a === null || b === null) return (a === null) - (b === null);
-        return sign * (a < b ? -1 : a > b ? 1 : 0);
-      });
-      body.append(...rows);
-    };
-    head.classList.add("sorts");
-    head.tabIndex = 0;
-    head.addEventListener("click", sort);
-    head.addEventListener("keydown", event => { if (event.key === "Enter") sort(); });
-  });
-}
 )";
 
 std::string_view css_class(Tone tone) {
@@ -158,26 +137,49 @@ std::string html_of(const Table& table) {
 }
 
 /// As a data URI also for SVG: inline, the identifiers of several drawings would clash.
-std::string html_of(const Image& image) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(image.data.data());
-  std::string base64((image.data.size() + 2) / 3 * 4, '\0');
-  base64.resize(
-      vtksysBase64_Encode(bytes, image.data.size(), reinterpret_cast<unsigned char*>(base64.data()), 0));
-  const bool png = image.data.starts_with("\x89PNG");
-  return fmt::format(
-      "<figure{}><img alt=\"{}\" src=\"data:image/{};base64,{}\"/><figcaption>{}</figcaption></figure>\n",
-      image.wide ? " class=\"wide\"" : "", escape_markup(image.caption), png ? "png" : "svg+xml", base64,
-      escape_markup(image.caption));
+std::string img(const std::string& data, const std::string& words, bool hidden = false) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(data.data());
+  std::string base64((data.size() + 2) / 3 * 4, '\0');
+  base64.resize(vtksysBase64_Encode(bytes, data.size(), reinterpret_cast<unsigned char*>(base64.data()), 0));
+  return fmt::format("<img alt=\"{}\"{} src=\"data:image/{};base64,{}\"/>", escape_markup(words),
+                     hidden ? " hidden=\"hidden\"" : "", data.starts_with("\x89PNG") ? "png" : "svg+xml",
+                     base64);
 }
 
-std::string html_of(const Section& section) {
-  std::string html = "<section><h2>" + escape_markup(section.title) + "</h2>\n";
+std::string figure(const std::string& css_class, const std::string& readings, const std::string& drawing,
+                   const std::string& caption) {
+  return fmt::format("<figure{}{}><div class=\"drawing\">{}</div><figcaption>{}</figcaption></figure>\n",
+                     css_class.empty() ? "" : fmt::format(" class=\"{}\"", css_class),
+                     readings.empty() ? "" : fmt::format(" data-readings=\"{}\"", escape_markup(readings)),
+                     drawing, escape_markup(caption));
+}
+
+std::string html_of(const Image& image) {
+  return figure(image.wide ? "wide" : "", image.readings, img(image.data, image.caption), image.caption);
+}
+
+std::string html_of(const Slides& slides) {
+  std::string pictures;
+  for (const std::string& picture : slides.pictures)
+    pictures += img(picture, slides.caption, &picture != &slides.pictures.back());
+  return figure("slides", slides.readings, pictures, slides.caption);
+}
+
+bool could_be_drawn(const Block& block) {
+  const auto* image = std::get_if<Image>(&block);
+  const auto* slides = std::get_if<Slides>(&block);
+  return !(image && image->data.empty()) && !(slides && slides->pictures.empty());
+}
+
+std::string html_of(const Section& section, std::size_t number) {
+  std::string html =
+      fmt::format("<section id=\"part{}\"><h2>{}</h2>\n", number, escape_markup(section.title));
   bool in_images = false;
   for (const Block& block : section.blocks) {
-    const auto* image = std::get_if<Image>(&block);
-    if (image != nullptr && image->data.empty()) continue; // could not be drawn
-    if ((image != nullptr) != in_images) html += in_images ? "</div>\n" : "<div class=\"images\">\n";
-    in_images = image != nullptr;
+    if (!could_be_drawn(block)) continue;
+    const bool is_image = std::holds_alternative<Image>(block) || std::holds_alternative<Slides>(block);
+    if (is_image != in_images) html += in_images ? "</div>\n" : "<div class=\"images\">\n";
+    in_images = is_image;
     html += std::visit([](const auto& content) { return html_of(content); }, block);
   }
   return html + (in_images ? "</div>\n" : "") + "</section>\n";
@@ -205,9 +207,37 @@ std::string Report::html() const {
                         escape_markup(highlight.label), escape_markup(highlight.value),
                         escape_markup(highlight.note));
   if (!highlights.empty()) page += "</div>\n";
-  for (const Section& section : sections) page += html_of(section);
+  constexpr std::size_t worth_a_list = 4;
+  if (sections.size() >= worth_a_list) {
+    page += "<nav>";
+    for (std::size_t s = 0; s < sections.size(); ++s)
+      page += fmt::format("<a href=\"#part{}\">{}</a>", s, escape_markup(sections[s].title));
+    page += "</nav>\n";
+  }
+  for (std::size_t s = 0; s < sections.size(); ++s) page += html_of(sections[s], s);
   return page + "<footer>" + escape_markup(footer) + "</footer>\n</main>\n<script>//<![CDATA[" +
-         std::string(script) + "//]]></script>\n</body>\n</html>\n";
+         report_script() + "//]]></script>\n</body>\n</html>\n";
+}
+
+std::vector<Figure> Report::figures() const {
+  std::vector<Figure> figures;
+  std::map<std::string, int> taken;
+  for (const Section& section : sections)
+    for (const Block& block : section.blocks)
+      if (const auto* image = std::get_if<Image>(&block);
+          image && !image->name.empty() && !image->data.empty()) {
+        std::string name;
+        for (const char c : image->name)
+          if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+          else if (!name.empty() && name.back() != '_')
+            name += '_';
+        if (name.ends_with('_')) name.pop_back();
+        if (const int before = taken[name]++; before > 0) name += fmt::format("_{}", before + 1);
+        figures.push_back(
+            {fmt::format("figure_{}.svg", name), image->drawing.empty() ? image->data : image->drawing});
+      }
+  return figures;
 }
 
 } // namespace dielast::post

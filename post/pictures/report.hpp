@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "post/pictures/image.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,13 +42,7 @@ struct Table {
 struct Listing {
   std::string text;
 };
-/// A picture (PNG bytes) or plot (SVG text).
-struct Image {
-  std::string data;
-  std::string caption;
-  bool wide = false; ///< as wide as the page
-};
-using Block = std::variant<Paragraph, Table, Listing, Image>;
+using Block = std::variant<Paragraph, Table, Listing, Image, Slides>;
 
 /// A number worth seeing first.
 struct Highlight {
@@ -61,6 +57,12 @@ struct Section {
   std::vector<Block> blocks;
 };
 
+/// A file beside a page.
+struct Figure {
+  std::string name; ///< "figure_max_field.svg"
+  std::string svg;
+};
+
 /// A page about a run or a study: one HTML file that needs no other and no network. All texts are plain UTF-8
 /// text.
 struct Report {
@@ -72,6 +74,8 @@ struct Report {
   std::string footer{}; ///< program, version
 
   std::string html() const;
+  /// Its images that have a name, as files for elsewhere: no two of one name.
+  std::vector<Figure> figures() const;
 };
 
 } // namespace dielast::post

@@ -42,7 +42,7 @@ TEST_F(Contacts, keep_the_walls_of_a_collapsing_honeycomb_apart) {
     const Case one = read(text);
     Simulation simulation(one, 1);
     const Device& device = simulation.device();
-    const fem::WallContactSearch touching(device.mesh, *device.mesh.walls(), device.bar_widths);
+    const fem::WallContactSearch touching(device.mesh, *device.mesh.walls(), device.bars.widths);
     bool apart = true;
     SimulationObserver observer;
     observer.on_accept = [&](const Frame& frame) {

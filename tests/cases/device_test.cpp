@@ -30,7 +30,7 @@ TEST(Device, PlacesAreThoseOfTheMesh) {
   for (const char* place :
        {"film", "walls", "left_apex", "right_apex", "corner_top", "corner_bottom", "centre"})
     EXPECT_TRUE(std::binary_search(places.begin(), places.end(), place)) << place;
-  EXPECT_EQ(device.bar_widths.at(0), 0.0008);
+  EXPECT_EQ(device.bars.widths.at(0), 0.0008);
 }
 
 TEST(Device, OwnMeshThatIsBrokenIsAMeshError) {

@@ -196,5 +196,20 @@ TEST_F(Topics, TangentsPassTheirCheck) {
       }
 }
 
+// A text of a thousand lines would run away on a terminal; elsewhere it goes straight on.
+TEST_F(Topics, LongTextsGoThroughThePagerOnATerminal) {
+  if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP();
+  const auto shown = [&](const std::string& topic, const std::string& pager) {
+    const std::string line = "cd " + directory.string() + " && PAGER='" + pager +
+                             "' script -qec '" DIELAST_PROGRAM " info " + topic +
+                             "' /dev/null > shown < /dev/null 2>&1";
+    EXPECT_EQ(std::system(line.c_str()), 0);
+    return content("shown");
+  };
+  EXPECT_TRUE(shown("keys", "sed s/^/paged:/").starts_with("paged:"));
+  EXPECT_EQ(shown("gent", "sed s/^/paged:/").find("paged:"), std::string::npos); // a few lines
+  EXPECT_NE(shown("keys", "no-such-pager").find("prestretch"), std::string::npos);
+}
+
 } // namespace
 } // namespace dielast::test

@@ -8,6 +8,7 @@
 
 #include <cairo.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -197,6 +198,37 @@ TEST(Picture, RefusesPanelsThatDoNotFit) {
   EXPECT_THROW(render_png(mesh, {.panels = {{"", mesh.nodes, {1}}}}), std::invalid_argument);
   const meshing::Mesh balloon = meshing::balloon_meridian(1, 4, 2);
   EXPECT_THROW(render_png(balloon, {.panels = {{"", balloon.nodes, {}}}}), std::invalid_argument);
+}
+
+// A page tells values by colours: the ends of the readings' range are those of the colours.
+TEST(Picture, ReadingsAreTheRangeOfTheColours) {
+  const meshing::Mesh mesh = square_mesh();
+  const Picture picture{
+      .quantity = "Thickness", .unit = "m", .panels = {{"", mesh.nodes, {1e-3, 2e-3}, {0, 1}}}, .width = 400};
+  const Image image = draw(mesh, picture, "shape");
+  EXPECT_EQ(nlohmann::json::parse(image.readings),
+            (nlohmann::json{{"range", {1.0, 2.0}}, {"quantity", "Thickness"}, {"unit", "mm"}}));
+  EXPECT_EQ(image.data, render_png(mesh, picture));
+  EXPECT_NE(image.drawing.find("<svg"), std::string::npos);
+  EXPECT_NE(image.drawing.find("<image"), std::string::npos); // the film
+  EXPECT_EQ(draw(mesh, picture).drawing, "");
+  EXPECT_EQ(draw(mesh, {.panels = {{"", mesh.nodes, {}}}}).readings, "");
+}
+
+// A small state among slides stays small, and has the colours of the common range.
+TEST(Picture, SlidesHaveOneScale) {
+  const meshing::Mesh mesh = grid_mesh(2);
+  std::vector<Eigen::Vector3d> half = mesh.nodes;
+  for (Eigen::Vector3d& x : half) x /= 2;
+  const auto slides = draw_slides(
+      mesh, {.panels = {{"a", mesh.nodes, std::vector<double>(8, 1)}, {"b", half, std::vector<double>(8, 2)}},
+             .width = 400});
+  ASSERT_EQ(slides.pictures.size(), 2u);
+  const Pixels large(slides.pictures[0]), small(slides.pictures[1]);
+  EXPECT_EQ(large.width, 400);
+  EXPECT_EQ(large.height, small.height);
+  EXPECT_NEAR(static_cast<double>(large.count(lowest)) / static_cast<double>(small.count(highest)), 4, 0.1);
+  EXPECT_LT(large.count(highest), 200); // in the bar of the colours
 }
 
 } // namespace

@@ -30,7 +30,9 @@ class VtkSeriesTest : public ScratchTest {
     ScratchTest::SetUp();
     folder.emplace(directory, "test");
   }
-  VtkSeriesTest() : mesh(square_mesh()), displacement(mesh.nodes.size()) {
+  VtkSeriesTest()
+      : mesh(square_mesh()), displacement(mesh.nodes.size()),
+        rotation(mesh.nodes.size(), Eigen::Quaterniond::Identity()) {
     for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] = {static_cast<double>(i), 0.1, -1};
     for (const int cell : {0, 1}) {
       auto sample = film_sample(stretched(2, 1), (1 + cell) * Eigen::Matrix2d::Identity());
@@ -42,8 +44,12 @@ class VtkSeriesTest : public ScratchTest {
   }
 
   VtkSeries series(std::vector<std::string> entries = {}) {
-    return {*folder, "run", mesh, std::move(entries)};
+    return {*folder,
+            "run",
+            {mesh, widths, heights, film_parts, bar_parts, {"unnamed", "ribs"}},
+            std::move(entries)};
   }
+  SeriesState state() const { return {displacement, rotation, samples}; }
 
   vtkSmartPointer<vtkUnstructuredGrid> read(const std::string& file) const {
     vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -54,12 +60,23 @@ class VtkSeriesTest : public ScratchTest {
 
   meshing::Mesh mesh;
   std::vector<Eigen::Vector3d> displacement;
+  std::vector<Eigen::Quaterniond> rotation;
+  std::vector<double> widths{0.02}, heights{0.06}; // of the wall
+  std::vector<int> film_parts, bar_parts{1};
   fem::Samples samples;
   std::optional<ResultsFolder> folder;
 };
 
+/// Of cells: means, worst values, and the part.
+template<class Fields>
+int array_count(const Fields& fields) {
+  int count = 1;
+  for (const auto& field : fields) count += field.worst ? 2 : 1;
+  return count;
+}
+
 TEST_F(VtkSeriesTest, FilmReadsBack) {
-  series().write({2.5, "release"}, displacement, samples);
+  series().write({2.5, "release"}, state());
   const auto grid = read("run_film_0000.vtu");
   ASSERT_EQ(grid->GetNumberOfPoints(), 9); // without the node that no cell uses
   ASSERT_EQ(grid->GetNumberOfCells(), 2);
@@ -67,9 +84,8 @@ TEST_F(VtkSeriesTest, FilmReadsBack) {
   vtkNew<vtkIdList> points;
   grid->GetCellPoints(1, points);
   for (int i = 0; i < 6; ++i) {
-    const auto& expected =
-        mesh.nodes[static_cast<std::size_t>(mesh.blocks[1].cell(1)[static_cast<std::size_t>(i)])];
-    EXPECT_EQ(Eigen::Vector3d(grid->GetPoint(points->GetId(i))), expected);
+    const auto node = static_cast<std::size_t>(mesh.blocks[1].cell(1)[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(Eigen::Vector3d(grid->GetPoint(points->GetId(i))), mesh.nodes[node] + displacement[node]);
   }
 
   vtkDataArray* moved = grid->GetPointData()->GetArray("displacement [m]");
@@ -78,8 +94,9 @@ TEST_F(VtkSeriesTest, FilmReadsBack) {
   EXPECT_STREQ(moved->GetComponentName(2), "z");
   EXPECT_EQ(Eigen::Vector3d(moved->GetTuple3(0)), displacement[1]);
 
-  ASSERT_EQ(grid->GetCellData()->GetNumberOfArrays(), static_cast<int>(film_fields().size()));
+  ASSERT_EQ(grid->GetCellData()->GetNumberOfArrays(), array_count(film_fields()));
   EXPECT_NEAR(grid->GetCellData()->GetArray("electric_field [V/m]")->GetTuple1(1), 1e6, 0.1);
+  for (const int cell : {0, 1}) EXPECT_EQ(grid->GetCellData()->GetArray("part")->GetTuple1(cell), 0);
   vtkDataArray* stress = grid->GetCellData()->GetArray("cauchy_stress [Pa]");
   ASSERT_NE(stress, nullptr);
   ASSERT_EQ(stress->GetNumberOfComponents(), 6);
@@ -94,8 +111,8 @@ TEST_F(VtkSeriesTest, FilmReadsBack) {
 
 TEST_F(VtkSeriesTest, EveryFileSaysItsStepLoadFactorAndVoltages) {
   VtkSeries steps = series();
-  steps.write({0, "release", 1, {{"voltage_a", 0}, {"voltage_b", 10}}}, displacement, samples);
-  steps.write({1, "voltage", 0.25, {{"voltage_a", 500}, {"voltage_b", -20}}}, displacement, samples);
+  steps.write({0, "release", 1, {{"voltage_a [V]", 0}, {"voltage_b [V]", 10}}}, state());
+  steps.write({1, "voltage", 0.25, {{"voltage_a [V]", 500}, {"voltage_b [V]", -20}}}, state());
   for (const char* part : {"film", "walls"}) {
     const auto grid = read(std::string("run_") + part + "_0001.vtu");
     vtkFieldData* said = grid->GetFieldData();
@@ -107,20 +124,73 @@ TEST_F(VtkSeriesTest, EveryFileSaysItsStepLoadFactorAndVoltages) {
   }
 }
 
-TEST_F(VtkSeriesTest, WallsReadBack) {
-  series().write({0, "release"}, displacement, samples);
+// A cell's mean hides how far its worst point goes; the table of results tells that point.
+TEST_F(VtkSeriesTest, CellsSayTheirWorstPointBesideTheirMean) {
+  auto sample = samples.film[1];
+  sample.voltage = 800;
+  samples.film.push_back(sample);
+  series().write({0, "voltage"}, state());
+  const auto grid = read("run_film_0000.vtu");
+  vtkCellData* cells = grid->GetCellData();
+  EXPECT_NEAR(cells->GetArray("electric_field [V/m]")->GetTuple1(1), 1.3e6, 0.1);
+  EXPECT_NEAR(cells->GetArray("electric_field_max [V/m]")->GetTuple1(1), 1.6e6, 0.1);
+  EXPECT_NEAR(cells->GetArray("thickness_min [m]")->GetTuple1(1), 0.5e-3, 1e-9);
+  EXPECT_EQ(cells->GetArray("cauchy_stress_min [Pa]"), nullptr);
+}
+
+TEST_F(VtkSeriesTest, WallsAreBars) {
+  series().write({0, "release"}, state());
   const auto grid = read("run_walls_0000.vtu");
-  ASSERT_EQ(grid->GetNumberOfPoints(), 3);
-  ASSERT_EQ(grid->GetNumberOfCells(), 1);
-  EXPECT_EQ(grid->GetCellType(0), VTK_QUADRATIC_EDGE);
-  ASSERT_EQ(grid->GetCellData()->GetNumberOfArrays(), static_cast<int>(wall_fields().size()));
-  EXPECT_EQ(grid->GetCellData()->GetArray("axial_force [N]")->GetTuple1(0), 10);
+  ASSERT_EQ(grid->GetNumberOfPoints(), 12);
+  ASSERT_EQ(grid->GetNumberOfCells(), 2); // to the wall's middle node and from it on
+  double volume = 0;
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(grid->GetCellType(i), VTK_HEXAHEDRON);
+    EXPECT_EQ(grid->GetCellData()->GetArray("axial_force [N]")->GetTuple1(i), 10);
+    EXPECT_EQ(grid->GetCellData()->GetArray("part")->GetTuple1(i), 1);
+    vtkNew<vtkIdList> points;
+    grid->GetCellPoints(i, points);
+    const auto drawn = [&](int corner) {
+      const vtkIdType point = points->GetId(corner);
+      return Eigen::Vector3d(Eigen::Vector3d(grid->GetPoint(point)) -
+                             Eigen::Vector3d(grid->GetPointData()->GetVectors()->GetTuple3(point)));
+    };
+    const Eigen::Vector3d width = drawn(1) - drawn(0), height = drawn(3) - drawn(0),
+                          length = drawn(4) - drawn(0);
+    EXPECT_NEAR(width.norm(), 0.02, 1e-15);
+    EXPECT_LT((height - Eigen::Vector3d(0, 0, 0.06)).norm(), 1e-15);
+    volume += width.cross(height).dot(length);
+  }
+  EXPECT_NEAR(volume, 0.02 * 0.06 * std::sqrt(2), 1e-15);
+  ASSERT_EQ(grid->GetCellData()->GetNumberOfArrays(), array_count(wall_fields()));
   EXPECT_STREQ(grid->GetCellData()->GetArray("bending_moment [N m]")->GetComponentName(1), "3");
+  EXPECT_EQ(vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("part_names"))->GetValue(1),
+            "ribs");
+}
+
+// Sections turn with their nodes, in states and in modes.
+TEST_F(VtkSeriesTest, BarsTurnWithTheirNodes) {
+  const Eigen::Quaterniond quarter(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d(1, 1, 0).normalized()));
+  rotation[1] = quarter; // about the wall: its upper side now lies to the right of it
+  std::vector<Eigen::Vector3d> still(mesh.nodes.size(), Eigen::Vector3d::Zero()), spin = still;
+  spin[1] = {0, 0, 3};
+  displacement = still;
+  series().write({0, "release"}, state(), {still, spin});
+  const auto grid = read("run_walls_0000.vtu");
+  int found = 0;
+  for (vtkIdType i = 0; i < 4; ++i) { // those of the wall's first node, which is at the origin
+    const Eigen::Vector3d at(grid->GetPoint(i)), mode(grid->GetPointData()->GetArray("mode")->GetTuple3(i));
+    EXPECT_NEAR(std::abs(at.z()), 0.01, 1e-15);
+    EXPECT_NEAR(at.head<2>().norm(), 0.03, 1e-15);
+    EXPECT_LT((mode - Eigen::Vector3d(0, 0, 3).cross(at)).norm(), 1e-15);
+    found += at.x() > 0;
+  }
+  EXPECT_EQ(found, 2);
 }
 
 TEST_F(VtkSeriesTest, LinearCellsAndNoWalls) {
   mesh.blocks = {{meshing::CellType::triangle3, {1, 2, 3, 1, 3, 4}}};
-  series().write({0, "release"}, displacement, samples);
+  series().write({0, "release"}, state());
   EXPECT_EQ(read("run_film_0000.vtu")->GetCellType(0), VTK_TRIANGLE);
   EXPECT_EQ(file_count(), 3u);
 }
@@ -130,7 +200,7 @@ TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
   mesh.blocks = {{meshing::CellType::meridian3, {0, 1, 3, 1, 2, 4}}};
   displacement = {{0.1, 0, 0}, {0.2, 0, 3}, {0, 0, 5}, {0, 0, 0}, {0, 0, 0}};
   const std::vector<Eigen::Vector3d> mode{{1, 0, 0}, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-  series().write({0, "voltage"}, displacement, samples, mode);
+  series().write({0, "voltage"}, state(), {mode});
   EXPECT_EQ(file_count(), 3u);
   const auto grid = read("run_film_0000.vtu");
   constexpr int sectors = Revolution::sectors;
@@ -139,9 +209,17 @@ TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
   for (int i = 0; i < 4 * sectors; ++i)
     EXPECT_EQ(grid->GetCellType(i), i < 3 * sectors ? VTK_QUAD : VTK_TRIANGLE) << i;
 
+  // As drawn: there the points are without their displacement.
   const auto at = [&](double x, double y) {
-    const vtkIdType point = grid->FindPoint(x, y, 0);
-    EXPECT_LT((Eigen::Vector3d(grid->GetPoint(point)) - Eigen::Vector3d(x, y, 0)).norm(), 1e-15);
+    vtkIdType point = 0;
+    const auto away = [&](vtkIdType i) {
+      return (Eigen::Vector3d(grid->GetPoint(i)) -
+              Eigen::Vector3d(grid->GetPointData()->GetVectors()->GetTuple3(i)) - Eigen::Vector3d(x, y, 0))
+          .norm();
+    };
+    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+      if (away(i) < away(point)) point = i;
+    EXPECT_LT(away(point), 1e-15);
     return point;
   };
   const auto expect_vector = [&](const char* name, vtkIdType point, const Eigen::Vector3d& expected) {
@@ -165,21 +243,21 @@ TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
 
 TEST_F(VtkSeriesTest, EveryStepHasItsOwnValues) {
   VtkSeries steps = series();
-  steps.write({0, "release"}, displacement, samples);
+  steps.write({0, "release"}, state());
   samples.film[1].voltage = 1000;
   displacement[1].x() = 7;
-  steps.write({1, "voltage"}, displacement, samples);
+  steps.write({1, "voltage"}, state());
   const auto first = read("run_film_0000.vtu"), second = read("run_film_0001.vtu");
   EXPECT_EQ(first->GetCellData()->GetArray("voltage [V]")->GetTuple1(1), 500);
   EXPECT_EQ(second->GetCellData()->GetArray("voltage [V]")->GetTuple1(1), 1000);
   EXPECT_EQ(second->GetPointData()->GetArray("displacement [m]")->GetTuple3(0)[0], 7);
-  EXPECT_EQ(second->GetCellData()->GetNumberOfArrays(), static_cast<int>(film_fields().size()));
+  EXPECT_EQ(second->GetCellData()->GetNumberOfArrays(), array_count(film_fields()));
 }
 
 TEST_F(VtkSeriesTest, ListNamesPartsAndTimes) {
   VtkSeries steps = series();
-  steps.write({0, "release"}, displacement, samples);
-  steps.write({0.1, "voltage"}, displacement, samples);
+  steps.write({0, "release"}, state());
+  steps.write({0.1, "voltage"}, state());
   EXPECT_EQ(content("run.pvd"),
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -194,14 +272,14 @@ TEST_F(VtkSeriesTest, ListNamesPartsAndTimes) {
 
 TEST_F(VtkSeriesTest, ResumesAfterTheStepsToKeep) {
   VtkSeries steps = series();
-  steps.write({0, "voltage"}, displacement, samples);
+  steps.write({0, "voltage"}, state());
   const auto kept = steps.entries();
-  for (const double time : {1.0, 2.0}) steps.write({time, "voltage"}, displacement, samples);
+  for (const double time : {1.0, 2.0}) steps.write({time, "voltage"}, state());
   const std::string first = content("run_film_0000.vtu");
   folder->begin({"run.pvd", "run_film_0000.vtu", "run_walls_0000.vtu"});
   VtkSeries resumed = series(kept);
   EXPECT_EQ(file_count(), 4u); // with the manifest
-  resumed.write({7, "voltage"}, displacement, samples);
+  resumed.write({7, "voltage"}, state());
   EXPECT_EQ(content("run_film_0000.vtu"), first);
   EXPECT_EQ(file_count(), 6u);
   const std::string list = content("run.pvd");
@@ -213,12 +291,12 @@ TEST_F(VtkSeriesTest, ResumesAfterTheStepsToKeep) {
 
 TEST_F(VtkSeriesTest, AFullDiskIsReportedAndKeepsTheSeriesReadable) {
   VtkSeries steps = series();
-  steps.write({0, "release"}, displacement, samples);
+  steps.write({0, "release"}, state());
   const std::string list = content("run.pvd");
   {
     const FileSizeLimit limit(2000);
     try {
-      steps.write({1, "voltage"}, displacement, samples);
+      steps.write({1, "voltage"}, state());
       FAIL() << "no error";
     } catch (const WriteError& error) {
       EXPECT_EQ(std::string(error.what()),
@@ -227,7 +305,7 @@ TEST_F(VtkSeriesTest, AFullDiskIsReportedAndKeepsTheSeriesReadable) {
   }
   EXPECT_EQ(content("run.pvd"), list);
   EXPECT_EQ(file_count(), 4u);
-  steps.write({1, "voltage"}, displacement, samples); // room again
+  steps.write({1, "voltage"}, state()); // room again
   EXPECT_EQ(read("run_film_0001.vtu")->GetNumberOfCells(), 2);
 }
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/pictures/film_raster.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dielast::post {
+
+namespace {
+
+using meshing::CellBlock;
+
+/// Values at the nodes of triangles: means over the triangles of one region that share a node.
+class NodeValues {
+ public:
+  NodeValues(const meshing::Mesh& mesh, const Panel& panel) : panel_(panel), nodes_(mesh.nodes.size()) {
+    if (panel.values.empty()) return;
+    const int regions = panel.regions.empty() ? 1 : std::ranges::max(panel.regions) + 1;
+    sums_.resize(static_cast<std::size_t>(regions) * nodes_);
+    std::size_t number = 0;
+    for (const CellBlock& block : mesh.blocks) {
+      if (is_line(block.type)) continue;
+      for (int cell = 0; cell < block.size(); ++cell, ++number)
+        if (const double value = panel.values[number]; std::isfinite(value))
+          for (const int node : block.cell(cell)) {
+            auto& [sum, count] = sums_[place(number, node)];
+            sum += value;
+            ++count;
+          }
+    }
+  }
+  /// Of a node of triangle `number`; not a number where the triangle has no value.
+  double at(std::size_t number, int node) const {
+    if (panel_.values.empty() || !std::isfinite(panel_.values[number])) return NAN;
+    const auto& [sum, count] = sums_[place(number, node)];
+    return sum / count;
+  }
+
+ private:
+  std::size_t place(std::size_t number, int node) const {
+    const auto region = static_cast<std::size_t>(panel_.regions.empty() ? 0 : panel_.regions[number]);
+    return region * nodes_ + static_cast<std::size_t>(node);
+  }
+
+  const Panel& panel_;
+  std::size_t nodes_;
+  std::vector<std::pair<double, int>> sums_; ///< by region and node
+};
+
+/// Light comes along z, so that flat film has its full colours.
+constexpr double darkest = 0.55;
+
+/// Of px, y downwards.
+double light_on(const std::array<Eigen::Vector3d, 6>& x, const Eigen::Vector3d& towards) {
+  const Eigen::Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  const Eigen::Vector3d light(towards.x(), -towards.y(), towards.z());
+  return darkest + (1 - darkest) * std::abs(normal.dot(light)) / std::max(normal.norm(), 1e-300);
+}
+
+constexpr int parts_of_side = 3;
+
+/// A triangle of six nodes, perhaps with curved sides, as `parts`^2 flat ones.
+void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
+                   const std::array<double, 6>& value, int parts, const Palette& palette, double light) {
+  const auto corner = [&](int i, int j) {
+    const double r = static_cast<double>(i) / parts, s = static_cast<double>(j) / parts, t = 1 - r - s;
+    const std::array<double, 6> N{t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1),
+                                  4 * r * t,       4 * r * s,       4 * s * t};
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    double v = 0;
+    for (std::size_t a = 0; a < 6; ++a) {
+      p += N[a] * x[a];
+      v += N[a] * value[a];
+    }
+    return Corner{p.head<2>(), p.z(), v};
+  };
+  for (int j = 0; j < parts; ++j)
+    for (int i = 0; i < parts - j; ++i) {
+      raster.draw({corner(i, j), corner(i + 1, j), corner(i, j + 1)}, palette, light);
+      if (i + j + 1 < parts)
+        raster.draw({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}, palette, light);
+    }
+}
+
+} // namespace
+
+Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range,
+                   const Placement& place) {
+  Raster raster(static_cast<int>(place.size.x()), static_cast<int>(place.size.y()));
+  const NodeValues values(mesh, panel);
+  const Palette palette = panel.values.empty() ? Palette(plain_film) : Palette(range);
+  std::size_t number = 0;
+  for (const CellBlock& block : mesh.blocks) {
+    if (is_line(block.type)) continue;
+    for (int cell = 0; cell < block.size(); ++cell, ++number) {
+      if (!is_triangle(block.type)) continue;
+      const auto nodes = block.cell(cell);
+      std::array<Eigen::Vector3d, 6> x;
+      std::array<double, 6> value{};
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        x[a] = place(panel.positions[static_cast<std::size_t>(nodes[a])]);
+        value[a] = values.at(number, nodes[a]);
+      }
+      if (nodes.size() == 3)
+        raster.draw({Corner{x[0].head<2>(), x[0].z(), value[0]}, Corner{x[1].head<2>(), x[1].z(), value[1]},
+                     Corner{x[2].head<2>(), x[2].z(), value[2]}},
+                    palette, light_on(x, place.light));
+      else
+        draw_triangle(raster, x, value, parts_of_side, palette, light_on(x, place.light));
+    }
+  }
+  return raster;
+}
+
+} // namespace dielast::post

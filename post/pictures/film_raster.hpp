@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meshing/mesh.hpp"
+#include "post/pictures/picture.hpp"
+#include "post/pictures/raster.hpp"
+
+#include <Eigen/Core>
+
+#include <utility>
+
+namespace dielast::post {
+
+constexpr Colour plain_film{0.86, 0.89, 0.92};
+
+/// From a state's positions to px of a canvas, y downwards, z towards the viewer.
+struct Placement {
+  double scale;
+  Eigen::Vector3d centre; ///< in the middle of the canvas
+  Eigen::Vector2d size;   ///< of the canvas
+  Eigen::Vector3d light;  ///< unit vector towards it
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d p = scale * (x - centre);
+    return {size.x() / 2 + p.x(), size.y() / 2 - p.y(), p.z()};
+  }
+};
+
+/// The triangles of a panel, coloured by its values between their nodes; `range` of the colours.
+Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range,
+                   const Placement& place);
+
+} // namespace dielast::post

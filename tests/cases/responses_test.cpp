@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/cases/command.hpp"
+
+#include <cmath>
+
+namespace dielast::test {
+namespace {
+
+/// Planar actuators have radii and distances instead of strokes.
+class Responses : public CommandTest {
+ protected:
+  static inline const std::string disc = R"([film]
+thickness = "1 mm"
+prestretch = 2
+[film.material]
+law = "neo-hookean"
+shear_modulus = "40 kPa"
+relative_permittivity = 4.7
+[disc]
+radius = "50 mm"
+electrode_radius = "20 mm"
+[mesh]
+rings = 8
+[drive]
+voltage = "4 kV"
+[output]
+error_estimate = false
+fields = false
+[[step]]
+kind = "voltage"
+increments = 4
+[[quantity]]
+name = "r"
+kind = "radius"
+of = "electrode_edge"
+)";
+
+  double at_end(const std::string& voltage, const std::string& quantity,
+                std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"run", "disc.toml", "-o", "static", "--set", "drive.voltage=" + voltage});
+    EXPECT_EQ(dielast(more).exit_code, 0);
+    return json_of("static/summary.json")["quantities"][quantity]["value"];
+  }
+};
+
+// At next to no frequency a response is the slope of the quantity over the voltage, sign included.
+TEST_F(Responses, OfARadiusAndADistanceAreTheirSlopes) {
+  write("disc.toml", disc);
+  for (const char* model : {"axisymmetric", "planar"}) {
+    const std::string of_model = std::string("model=") + model;
+    const double slope =
+        (at_end("4.01 kV", "r", {"--set", of_model}) - at_end("3.99 kV", "r", {"--set", of_model})) / 20;
+    write("small.toml",
+          disc + "[[step]]\nkind = \"harmonic\"\nfrom = \"1e-4 Hz\"\nto = \"1e-3 Hz\"\npoints = 2\n"
+                 "response_of = \"r\"\n");
+    const Ended ended = dielast({"run", "small.toml", "-o", model, "--set", of_model});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    const auto table = table_of(directory / model / "harmonic.csv");
+    EXPECT_EQ(table.at(0).at(1), "r_per_volt[m/V]");
+    EXPECT_NEAR(std::stod(table.at(1).at(1)), slope, 1e-4 * slope) << model;
+    EXPECT_NEAR(std::stod(table.at(1).at(2)), 0, 1e-3) << model;
+  }
+}
+
+TEST_F(Responses, OfADistanceInAHoneycomb) {
+  const std::string height =
+      "[[quantity]]\nname = \"h\"\nkind = \"distance\"\nbetween = [\"left_apex\", \"right_apex\"]\n";
+  for (const std::string along : {"", "along = \"x\"\n"}) {
+    write("disc.toml",
+          small_honeycomb + height + along + "[output]\nerror_estimate = false\nfields = false\n");
+    const double slope = (at_end("6.01 kV", "h") - at_end("5.99 kV", "h")) / 20;
+    write("small.toml",
+          small_honeycomb +
+              "[[step]]\nkind = \"harmonic\"\nfrom = \"1e-4 Hz\"\nto = \"1e-3 Hz\"\npoints = 2\n"
+              "response_of = \"h\"\n" +
+              height + along + "[output]\nerror_estimate = false\n");
+    const Ended ended = dielast({"run", "small.toml", "-o", "out"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    const auto table = table_of(directory / "out/harmonic.csv");
+    EXPECT_NEAR(std::stod(table.at(1).at(1)), std::abs(slope), 1e-4 * std::abs(slope));
+    EXPECT_NEAR(std::abs(std::stod(table.at(1).at(2))), slope < 0 ? 180 : 0, 1e-2);
+  }
+}
+
+} // namespace
+} // namespace dielast::test
