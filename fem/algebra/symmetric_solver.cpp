@@ -1,47 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/algebra/symmetric_solver.hpp"
 
-#include <cholmod.h>
+#include "fem/algebra/blas.hpp"
+#include "fem/algebra/multifrontal_cholesky.hpp"
+#include "fem/algebra/one_thread.hpp"
+
 #include <dmumps_c.h>
 #include <sys/mman.h>
 
-#include <algorithm>
 #include <new>
 #include <stdexcept>
-
-// Of the OpenMP runtime of GCC, which CHOLMOD was compiled for; the one of another compiler would be a second
-// in the process.
-extern "C" int omp_get_max_active_levels();
-extern "C" void omp_set_max_active_levels(int);
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-extern "C" void dpotrf_(const char* uplo, const int* n, double* A, const int* stride, int* info);
 
 namespace dielast::fem {
 
 namespace {
 
-/// Above this many unknowns nested dissection repays its slower analysis.
-constexpr int nested_dissection_from = 60000;
-
 /// A pivot below this fraction of its diagonal entry is round-off.
 constexpr double singular_pivot = 1e-13;
-
-/// CHOLMOD opens as many OpenMP threads as it was compiled for, whatever the machine has, around loops that
-/// are too short for them: switched off while it works. A BLAS that threads by itself would make results
-/// depend on the number of threads, so it gets one.
-class OneThread {
- public:
-  OneThread() : levels_(omp_get_max_active_levels()) {
-    omp_set_max_active_levels(0);
-    if (openblas_set_num_threads) openblas_set_num_threads(1);
-  }
-  ~OneThread() { omp_set_max_active_levels(levels_); }
-  OneThread(const OneThread&) = delete;
-  OneThread& operator=(const OneThread&) = delete;
-
- private:
-  int levels_;
-};
 
 /// OpenBLAS tries for ever to get its buffer where memory is limited: asked for beforehand, and taken at once
 /// by the smallest factorisation, the buffer is there, or its lack is told.
@@ -53,99 +28,24 @@ bool has_blas_buffer() {
     throw std::runtime_error(
         "the limit of memory is too low for OpenBLAS, which needs 128 MB: see ulimit -v");
   munmap(memory, buffer);
-  const int one = 1;
   double number = 1;
-  int info = 0;
-  dpotrf_("L", &one, &number, &one, &info);
-  return true;
+  return blas::cholesky(1, &number, 1);
 }
 
 } // namespace
 
 struct SymmetricSolver::Cholesky {
-  explicit Cholesky(const SparseSymmetric& matrix) {
+  explicit Cholesky(const SparseSymmetric& matrix) : supernodes(matrix) {
     [[maybe_unused]] static const bool has_buffer = has_blas_buffer();
-    const OneThread one_thread;
-    cholmod_start(&common);
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.final_ll = 1;
-    common.quick_return_if_not_posdef = 1;
-    common.error_handler = nullptr;
-    common.print = 0;
-    common.nmethods = 1;
-    common.method[0].ordering = matrix.size < nested_dissection_from ? CHOLMOD_AMD : CHOLMOD_METIS;
-    common.postorder = 1;
-    A.nrow = A.ncol = static_cast<std::size_t>(matrix.size);
-    A.nzmax = matrix.rows.size();
-    A.p = const_cast<int*>(matrix.column_start.data());
-    A.i = const_cast<int*>(matrix.rows.data());
-    A.x = const_cast<double*>(matrix.values.data()); // set again by factor(): the vector may have moved
-    A.stype = -1;
-    A.itype = CHOLMOD_INT;
-    A.xtype = CHOLMOD_REAL;
-    A.dtype = CHOLMOD_DOUBLE;
-    A.sorted = 1;
-    A.packed = 1;
-    L = cholmod_analyze(&A, &common);
-    if (!L) throw std::bad_alloc();
-  }
-  ~Cholesky() {
-    cholmod_free_dense(&X, &common);
-    cholmod_free_dense(&Y, &common);
-    cholmod_free_dense(&E, &common);
-    cholmod_free_factor(&L, &common);
-    cholmod_finish(&common);
-  }
-  Cholesky(const Cholesky&) = delete;
-  Cholesky& operator=(const Cholesky&) = delete;
-
-  bool factor(const std::vector<double>& values) {
-    const OneThread one_thread;
-    A.x = const_cast<double*>(values.data());
-    cholmod_factorize(&A, L, &common);
-    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-    return common.status == CHOLMOD_OK && L->minor == A.nrow;
-  }
-  struct Pivot {
-    double relative = 1; ///< over the diagonal entry that it came from: no units
-    int equation = -1;
-  };
-  /// Round-off when the matrix is singular.
-  Pivot smallest_pivot(const std::vector<double>& entries) const {
-    const auto* super = static_cast<const int*>(L->super);
-    const auto* row_start = static_cast<const int*>(L->pi);
-    const auto* value_start = static_cast<const int*>(L->px);
-    const auto* permutation = static_cast<const int*>(L->Perm);
-    const auto* values = static_cast<const double*>(L->x);
-    const auto* column_start = static_cast<const int*>(A.p);
-    Pivot smallest;
-    for (std::size_t s = 0; s < L->nsuper; ++s)
-      for (int k = super[s]; k < super[s + 1]; ++k) {
-        const int column = k - super[s], height = row_start[s + 1] - row_start[s];
-        const double root = values[value_start[s] + column + column * height];
-        const int equation = permutation[k];
-        const double relative = root * root / entries[static_cast<std::size_t>(column_start[equation])];
-        if (relative < smallest.relative) smallest = {relative, equation};
-      }
-    return smallest;
-  }
-  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-    const OneThread one_thread;
-    cholmod_dense B{};
-    B.nrow = B.d = B.nzmax = A.nrow;
-    B.ncol = 1;
-    B.x = const_cast<double*>(b.data());
-    B.xtype = CHOLMOD_REAL;
-    B.dtype = CHOLMOD_DOUBLE;
-    if (!cholmod_solve2(CHOLMOD_A, L, &B, nullptr, &X, nullptr, &Y, &E, &common)) throw std::bad_alloc();
-    x = Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(X->x),
-                                          static_cast<Eigen::Index>(A.nrow));
   }
 
-  cholmod_common common{};
-  cholmod_sparse A{};
-  cholmod_factor* L = nullptr;
-  cholmod_dense *X = nullptr, *Y = nullptr, *E = nullptr; // kept workspaces
+  bool decompose(const std::vector<double>& values) {
+    const OneThread one_thread;
+    return factor.factor(values);
+  }
+
+  Supernodes supernodes;
+  MultifrontalCholesky<double> factor{supernodes};
 };
 
 struct SymmetricSolver::Indefinite {
@@ -217,9 +117,9 @@ bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
       shifted_[static_cast<std::size_t>(matrix_.column_start[static_cast<std::size_t>(c)])] += (*added)[c];
   }
   const std::vector<double>& values = added ? shifted_ : matrix_.values;
-  definite_ = cholesky_ && cholesky_->factor(values);
+  definite_ = cholesky_ && cholesky_->decompose(values);
   if (definite_) {
-    const auto [relative, equation] = cholesky_->smallest_pivot(values);
+    const auto [relative, equation] = cholesky_->factor.smallest_pivot(matrix_, values);
     singular_equation_ = equation;
     return relative > singular_pivot;
   }
@@ -235,7 +135,7 @@ void SymmetricSolver::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   if (matrix_.size == 0)
     x.resize(0);
   else if (definite_)
-    cholesky_->solve(b, x);
+    cholesky_->factor.solve(b, x);
   else
     indefinite_->solve(b, x);
 }

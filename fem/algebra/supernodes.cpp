@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/algebra/supernodes.hpp"
+
+#include "fem/algebra/one_thread.hpp"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <new>
+#include <numeric>
+
+namespace dielast::fem {
+
+namespace {
+
+/// Up to this many unknowns one panel holds the whole matrix.
+constexpr int dense_up_to = 64;
+
+/// Above this many unknowns nested dissection repays its slower analysis.
+constexpr int nested_dissection_from = 60000;
+
+} // namespace
+
+Supernodes::Supernodes(const SparseSymmetric& matrix) {
+  if (matrix.size <= dense_up_to)
+    make_dense(matrix.size);
+  else
+    analyse(matrix);
+  build_tree();
+  place_entries(matrix);
+  place_updates();
+}
+
+void Supernodes::make_dense(int size) {
+  permutation.resize(at(size));
+  std::iota(permutation.begin(), permutation.end(), 0);
+  rows = permutation;
+  first_column = row_start = {0, size};
+}
+
+/// Order and panels by CHOLMOD (Chen, Davis, Hager & Rajamanickam 2008).
+void Supernodes::analyse(const SparseSymmetric& matrix) {
+  const OneThread one_thread;
+  cholmod_common common{};
+  cholmod_start(&common);
+  common.supernodal = CHOLMOD_SUPERNODAL;
+  common.error_handler = nullptr;
+  common.print = 0;
+  common.nmethods = 1;
+  common.method[0].ordering = matrix.size < nested_dissection_from ? CHOLMOD_AMD : CHOLMOD_METIS;
+  common.postorder = 1;
+  // Wider panels than CHOLMOD's own: a multifrontal method has more to gain from few large ones.
+  common.nrelax[0] = 8;
+  common.nrelax[1] = 24;
+  common.nrelax[2] = 64;
+  common.zrelax[0] = 0.9;
+  common.zrelax[1] = 0.3;
+  common.zrelax[2] = 0.1;
+  cholmod_sparse A{};
+  A.nrow = A.ncol = at(matrix.size);
+  A.nzmax = matrix.rows.size();
+  A.p = const_cast<int*>(matrix.column_start.data());
+  A.i = const_cast<int*>(matrix.rows.data());
+  A.stype = -1;
+  A.itype = CHOLMOD_INT;
+  A.xtype = CHOLMOD_PATTERN;
+  A.dtype = CHOLMOD_DOUBLE;
+  A.sorted = 1;
+  A.packed = 1;
+  cholmod_factor* L = cholmod_analyze(&A, &common);
+  if (L) {
+    const auto copy = [](const void* from, std::size_t size) {
+      const auto* numbers = static_cast<const int*>(from);
+      return std::vector<int>(numbers, numbers + size);
+    };
+    permutation = copy(L->Perm, L->n);
+    first_column = copy(L->super, L->nsuper + 1);
+    row_start = copy(L->pi, L->nsuper + 1);
+    rows = copy(L->s, L->ssize);
+    cholmod_free_factor(&L, &common);
+  }
+  cholmod_finish(&common);
+  if (permutation.empty()) throw std::bad_alloc();
+}
+
+void Supernodes::build_tree() {
+  const int supernodes = static_cast<int>(first_column.size()) - 1;
+  std::vector<int> of_column(permutation.size());
+  parent.assign(at(supernodes), -1);
+  start.assign(1, 0);
+  for (int s = 0; s < supernodes; ++s) {
+    std::fill(of_column.begin() + first_column[at(s)], of_column.begin() + first_column[at(s) + 1], s);
+    start.push_back(start.back() + static_cast<std::ptrdiff_t>(width(s)) * height(s));
+  }
+  child_start.assign(at(supernodes) + 1, 0);
+  for (int s = 0; s < supernodes; ++s)
+    if (below(s) > 0) {
+      parent[at(s)] = of_column[at(rows_of(s)[width(s)])];
+      ++child_start[at(parent[at(s)]) + 1];
+    }
+  std::partial_sum(child_start.begin(), child_start.end(), child_start.begin());
+  child.resize(at(child_start.back()));
+  std::vector<int> next(child_start.begin(), child_start.end() - 1);
+  for (int s = 0; s < supernodes; ++s)
+    if (parent[at(s)] >= 0) child[at(next[at(parent[at(s)])]++)] = s;
+
+  places.assign(rows.size(), 0);
+  std::vector<int> place(permutation.size());
+  for (int s = 0; s < supernodes; ++s) {
+    for (int k = 0; k < height(s); ++k) place[at(rows_of(s)[k])] = k;
+    for (int c = child_start[at(s)]; c < child_start[at(s) + 1]; ++c)
+      for (int k = row_start[at(child[at(c)])]; k < row_start[at(child[at(c)]) + 1]; ++k)
+        places[at(k)] = place[at(rows[at(k)])];
+  }
+}
+
+void Supernodes::place_entries(const SparseSymmetric& matrix) {
+  std::vector<int> column_of(permutation.size()), of_column(permutation.size()), place(permutation.size());
+  for (std::size_t k = 0; k < permutation.size(); ++k) column_of[at(permutation[k])] = static_cast<int>(k);
+  for (int s = 0; s < count(); ++s)
+    std::fill(of_column.begin() + first_column[at(s)], of_column.begin() + first_column[at(s) + 1], s);
+  const auto for_each_entry = [&](const auto& visit) {
+    for (int c = 0; c < matrix.size; ++c)
+      for (int k = matrix.column_start[at(c)]; k < matrix.column_start[at(c) + 1]; ++k) {
+        const auto [column, row] = std::minmax(column_of[at(c)], column_of[at(matrix.rows[at(k)])]);
+        visit(k, column, row);
+      }
+  };
+  entry_start.assign(at(count()) + 1, 0);
+  for_each_entry([&](int, int column, int) { ++entry_start[at(of_column[at(column)]) + 1]; });
+  std::partial_sum(entry_start.begin(), entry_start.end(), entry_start.begin());
+  entry.resize(matrix.rows.size());
+  entry_place.resize(matrix.rows.size());
+  std::vector<int> columns(matrix.rows.size());
+  std::vector<std::ptrdiff_t> next(entry_start.begin(), entry_start.end() - 1);
+  for_each_entry([&](int k, int column, int row) {
+    const auto e = static_cast<std::size_t>(next[at(of_column[at(column)])]++);
+    entry[e] = k;
+    entry_place[e] = row;
+    columns[e] = column;
+  });
+  for (int s = 0; s < count(); ++s) {
+    for (int k = 0; k < height(s); ++k) place[at(rows_of(s)[k])] = k;
+    for (auto e = static_cast<std::size_t>(entry_start[at(s)]);
+         e < static_cast<std::size_t>(entry_start[at(s) + 1]); ++e)
+      entry_place[e] = (columns[e] - first_column[at(s)]) * height(s) + place[at(entry_place[e])];
+  }
+}
+
+/// What a supernode gives lies behind what its parent and the children before it give, and before all that
+/// stands above its own children: as long as it is needed, nothing else is written there.
+void Supernodes::place_updates() {
+  const auto size = [this](int s) { return static_cast<std::ptrdiff_t>(below(s)) * below(s); };
+  update_start.assign(at(count()), 0);
+  for (int s = count() - 1; s >= 0; --s) {
+    std::ptrdiff_t next = update_start[at(s)] + size(s);
+    for (int c = child_start[at(s)]; c < child_start[at(s) + 1]; ++c) {
+      update_start[at(child[at(c)])] = next;
+      next += size(child[at(c)]);
+    }
+    update_size = std::max(update_size, next);
+  }
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/algebra/sparse_matrix.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace dielast::fem {
+
+/// How the matrices of one symmetric pattern are factored, A = P^T L L^T P: columns of L of nearly equal rows
+/// are a supernode, a dense panel; what it changes in the rest of the matrix goes to its parent, which holds
+/// the first of its rows below the diagonal (Duff & Reid 1983; Liu 1992). Supernodes are numbered from the
+/// leaves to the roots, those below one another without a gap.
+struct Supernodes {
+  explicit Supernodes(const SparseSymmetric& matrix);
+
+  int count() const { return static_cast<int>(parent.size()); }
+  int width(int s) const { return first_column[at(s) + 1] - first_column[at(s)]; }
+  /// Rows of a panel, those of its own columns first.
+  int height(int s) const { return row_start[at(s) + 1] - row_start[at(s)]; }
+  /// Rows below its own columns: the size of what it gives to its parent.
+  int below(int s) const { return height(s) - width(s); }
+  const int* rows_of(int s) const { return rows.data() + row_start[at(s)]; }
+  /// Place in the parent's rows of each row below.
+  const int* place_in_parent(int s) const { return places.data() + row_start[at(s)] + width(s); }
+
+  std::vector<int> permutation;             ///< equation of each column of L
+  std::vector<int> first_column;            ///< per supernode, and the number of columns
+  std::vector<int> row_start;               ///< of each supernode in `rows`
+  std::vector<int> rows;                    ///< ascending, columns of L
+  std::vector<int> places;                  ///< beside `rows`
+  std::vector<int> parent;                  ///< -1: a root
+  std::vector<int> child_start, child;      ///< lists of children
+  std::vector<std::ptrdiff_t> start;        ///< of each panel in the values of L, and their number
+  std::vector<std::ptrdiff_t> entry_start;  ///< of each supernode in the next two
+  std::vector<int> entry;                   ///< of the matrix
+  std::vector<int> entry_place;             ///< in the panel
+  std::vector<std::ptrdiff_t> update_start; ///< of what each supernode gives to its parent, in a workspace of
+  std::ptrdiff_t update_size = 0;           ///< this size
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  void make_dense(int size);
+  void analyse(const SparseSymmetric& matrix);
+  void build_tree();
+  void place_entries(const SparseSymmetric& matrix);
+  void place_updates();
+};
+
+} // namespace dielast::fem
