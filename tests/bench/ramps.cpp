@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole ramps of the benchmark tasks. Counters, in ms of CPU per Newton iteration: residual, tangent, factor,
-// solve, all; overhead = all / (factor + solve) of the same matrices in the same run; whole_s = CPU from the
-// mesh to the last step.
-//   build/bin/dielast_bench --benchmark_filter=disc
+// solve, all; overhead = all / (factor + solve) of the same matrices in the same run; mesh_s and analysis_s =
+// CPU for the model and for orders and places of its tangent; whole_s = CPU from the mesh to the last step;
+// peak_mb = memory of the process until then, so that only the largest task of a run tells.
+//   build/bin/dielast_bench --benchmark_filter=disc --benchmark_out=FILE --benchmark_out_format=json
 
 #include "tests/bench/models.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <ctime>
+#include <sys/resource.h>
 
 namespace dielast::bench {
 
@@ -16,11 +18,18 @@ namespace {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
 void run(benchmark::State& bench, Task (*make_task)(int)) {
   constexpr int threads = 1;
   for (auto _ : bench) {
     const double begin = cpu_seconds();
     const Task task = make_task(static_cast<int>(bench.range(0)));
+    const double meshed = cpu_seconds();
     fem::Equilibrium equilibrium(task.model, threads);
     const double start = cpu_seconds();
     fem::State state = task.model.initial_state();
@@ -34,6 +43,9 @@ void run(benchmark::State& bench, Task (*make_task)(int)) {
     }
     const double all = cpu_seconds() - start;
     bench.counters["whole_s"] = cpu_seconds() - begin;
+    bench.counters["mesh_s"] = meshed - begin;
+    bench.counters["analysis_s"] = start - meshed;
+    bench.counters["peak_mb"] = peak_megabytes();
     const fem::Timings& t = equilibrium.timings();
     const double per_iteration = 1e3 / t.iterations;
     bench.counters["residual_ms"] = t.residual * per_iteration;
