@@ -47,8 +47,8 @@ fem::State Renumbering::operator()(fem::State state) const {
   state.dead_force = (*this)(state.dead_force);
   if (!state.motion) return state;
   fem::Motion motion = *state.motion;
-  for (Eigen::VectorXd* part :
-       {&motion.position, &motion.velocity, &motion.acceleration, &motion.unbalanced}) {
+  for (Eigen::VectorXd* part : {&motion.position, &motion.velocity, &motion.acceleration, &motion.unbalanced,
+                                &motion.acceleration_now}) {
     *part = (*this)(*part);
     if (part != &motion.position) part->segment(to_.free_count(), to_.held_count()).setZero();
   }

@@ -103,7 +103,14 @@ Eigen::VectorXd InertialForce::drag_stiffness() const {
 }
 
 Motion InertialForce::arrived() const {
-  return {start_.position + step_, velocity_, acceleration_, -force_, scheme_.dt};
+  // The scheme's accelerations are those of (alpha_f - alpha_m) dt before their times.
+  const double late = scheme_.alpha_f - scheme_.alpha_m;
+  return {start_.position + step_,
+          velocity_,
+          acceleration_,
+          -force_,
+          acceleration_ + late * (acceleration_ - start_.acceleration),
+          scheme_.dt};
 }
 
 } // namespace dielast::fem

@@ -26,7 +26,9 @@ struct History {
 struct Motion {
   Eigen::VectorXd position, velocity, acceleration; ///< m, m/s, m/s^2
   Eigen::VectorXd unbalanced;                       ///< internal minus external forces, N
-  double step = 0;                                  ///< s, that led here; 0 at rest and after a break
+  Eigen::VectorXd acceleration_now; ///< second order in the time step; `acceleration` is the scheme's, of a
+                                    ///< moment before, m/s^2
+  double step = 0;                  ///< s, that led here; 0 at rest and after a break
 };
 
 /// What is given at an electrode or a chamber.

@@ -207,7 +207,7 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   if (state.motion) {
     const Motion& motion = *state.motion;
     Eigen::VectorXd inertial =
-        model.inertia.mass * motion.acceleration + model.inertia.resistance(motion.velocity);
+        model.inertia.mass * motion.acceleration_now + model.inertia.resistance(motion.velocity);
     dofs.gather(state, inertial);
     force += inertial;
     point.power[EnergyPoint::dampers] = motion.velocity.dot(model.inertia.resistance(motion.velocity));

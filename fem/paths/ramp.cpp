@@ -219,8 +219,8 @@ bool Ramp::pass_break() {
   const DofMap& dofs = equilibrium_.model().dofs;
   if (options_.inertia) {
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs.count());
-    Motion motion = state.motion ? *state.motion : Motion{position(state, dofs), rest, rest, rest};
-    motion.acceleration = motion.unbalanced = rest;
+    Motion motion = state.motion ? *state.motion : Motion{position(state, dofs), rest, rest, rest, rest};
+    motion.acceleration = motion.acceleration_now = motion.unbalanced = rest;
     motion.step = 0;
     state.motion = std::make_shared<const Motion>(std::move(motion));
   }

@@ -45,6 +45,7 @@ json archive(const fem::Motion& motion) {
           {"velocity", pack(motion.velocity)},
           {"acceleration", pack(motion.acceleration)},
           {"unbalanced", pack(motion.unbalanced)},
+          {"acceleration_now", pack(motion.acceleration_now)},
           {"step", motion.step}};
 }
 
@@ -83,8 +84,9 @@ std::shared_ptr<const fem::History> restore_history(const json& archived, std::s
 std::shared_ptr<const fem::Motion> restore_motion(const json& archived, std::size_t equations) {
   if (archived.is_null()) return nullptr;
   const auto part = [&](const char* name) { return vector(archived.at(name), equations); };
-  return std::make_shared<const fem::Motion>(fem::Motion{
-      part("position"), part("velocity"), part("acceleration"), part("unbalanced"), archived.at("step")});
+  return std::make_shared<const fem::Motion>(fem::Motion{part("position"), part("velocity"),
+                                                         part("acceleration"), part("unbalanced"),
+                                                         part("acceleration_now"), archived.at("step")});
 }
 
 fem::State restore_state(const json& archived, const StateSizes& sizes) {

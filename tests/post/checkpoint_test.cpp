@@ -104,6 +104,7 @@ void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
       EXPECT_EQ(a.motion->velocity, b.motion->velocity);
       EXPECT_EQ(a.motion->acceleration, b.motion->acceleration);
       EXPECT_EQ(a.motion->unbalanced, b.motion->unbalanced);
+      EXPECT_EQ(a.motion->acceleration_now, b.motion->acceleration_now);
       EXPECT_EQ(bits(a.motion->step), bits(b.motion->step));
     }
     EXPECT_EQ(a.dead_force, b.dead_force);
