@@ -62,7 +62,8 @@ FinLoad load_on(const FinPoints& fin, const fem::Model& model, const fem::State&
   for (const FinPoints::Point& at : fin.points) {
     const int e = model.dofs.equation(at.node, fin.along);
     const double velocity = state.motion->velocity[e];
-    const double given = at.mass * state.motion->acceleration[e] + at.drag * std::abs(velocity) * velocity;
+    const double given =
+        at.mass * state.motion->acceleration_now[e] + at.drag * std::abs(velocity) * velocity;
     load.force -= given;
     load.power += given * velocity;
   }

@@ -199,6 +199,10 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
   if (one.chamber)
     reader.report(written.source, "body",
                   "the chamber's volume under a body that tilts is not known; use [plate]");
+  for (std::size_t f = 0; f < one.fins.size(); ++f)
+    if (!fem::moves(one.dimension, one.fins[f].along))
+      reader.report(tree.find("fin")->items[f].source, fmt::format("fin[{}].along", f + 1),
+                    "a planar model does not move along z");
   for (std::size_t b = 0; b < one.bodies.size(); ++b) {
     const Body& body = one.bodies[b];
     for (const std::string& place : body.places)

@@ -41,8 +41,7 @@ void note(Solution& solution, const post::StepRecord& record) {
 
 /// The quantity, or the one whose course it follows.
 const Quantity& measured(const Quantity& quantity, const std::vector<Quantity>& all) {
-  return is_of_course(quantity.kind) ? *std::ranges::find(all, quantity.of, &Quantity::name)
-                                             : quantity;
+  return is_of_course(quantity.kind) ? *std::ranges::find(all, quantity.of, &Quantity::name) : quantity;
 }
 
 void add_results(Solution& solution, const Case& one, const Simulation& simulation) {

@@ -239,5 +239,74 @@ TEST_F(Bodies, an_edge_moves_rigidly_and_freely) {
   EXPECT_NEAR(ran.last("carried"), -m + force * ran.last("rise"), 1e-9);
 }
 
+/// A hub of 2 g on a soft film in the plane with a fin in water on it.
+std::string wet_hub(const std::string& rest) {
+  std::string text = annulus("planar", "inertia = \"1 kg.mm^2\"\n", R"([[fin]]
+name = "sail"
+body = "hub"
+along = "y"
+height = "20 mm"
+from = ["-15 mm", "0 mm", "0 mm"]
+to = ["15 mm", "0 mm", "0 mm"]
+[solver]
+time_tolerance = "1e-6"
+)" + rest);
+  for (const char* line : {"centre = [\"3 mm\", \"0 mm\", \"0 mm\"]\n", "rings = 5\n"})
+    text.replace(text.find(line), std::string(line).size(), line[0] == 'r' ? "rings = 3\n" : "");
+  return text;
+}
+
+constexpr double added_mass = 1000 * 3.14159265358979 / 4 * 4e-4 * 0.03; ///< of its fin, kg
+
+TEST_F(Bodies, a_fin_gives_the_fluid_what_drag_takes_and_the_added_mass_keeps) {
+  const Ran ran = run(wet_hub(R"([[load]]
+place = "hub"
+force = ["0 N", { wave = "sine", amplitude = "0.3 N", frequency = "2 Hz" }, "0 N"]
+[[step]]
+kind = "transient"
+duration = "1 s"
+[[quantity]]
+name = "power"
+kind = "fin power"
+of = "sail"
+[[quantity]]
+name = "mean_power"
+kind = "mean"
+of = "power"
+[[quantity]]
+name = "thrust"
+kind = "thrust"
+of = "sail"
+[[quantity]]
+name = "kinetic"
+kind = "energy"
+of = "kinetic"
+)"));
+  const double kept = ran.last("kinetic") * added_mass / (added_mass + 2e-3);
+  EXPECT_GT(ran.last("dissipated_energy"), kept);
+  EXPECT_NEAR(ran.last("mean_power") * 1.0, ran.last("dissipated_energy") + kept,
+              1e-3 * ran.last("dissipated_energy"));
+  EXPECT_NEAR(ran.last("thrust"), 0, 1e-9); // it does not turn
+}
+
+TEST_F(Bodies, added_mass_lowers_the_natural_frequency_and_has_no_weight) {
+  const std::string weighed = "[gravity]\ndirection = [0, -1, 0]\nfilm = true\n[[step]]\nkind = \"weight\"\n"
+                              "[[quantity]]\nname = \"f\"\nkind = \"natural frequency\"\nmode = 2\n" +
+                              quantity("sag", "displacement", "y");
+  const std::string with = wet_hub(weighed);
+  std::string without = with;
+  const auto fin = without.find("[[fin]]");
+  without.erase(fin, without.find("[solver]") - fin);
+  const Ran wet = run(with), dry = run(without);
+  EXPECT_NEAR(wet.last("sag"), dry.last("sag"), 1e-12);
+  EXPECT_LT(wet.last("f"), dry.last("f"));
+}
+
+TEST_F(Bodies, a_fin_that_turns_far_is_told) {
+  const std::string load = "[[load]]\nplace = \"hub\"\nmoment = [\"0 N m\", \"0 N m\", \"0.02 N "
+                           "m\"]\n[[step]]\nkind = \"force\"\n";
+  EXPECT_TRUE(run(wet_hub(load)).events.contains("fin turns"));
+}
+
 } // namespace
 } // namespace dielast::cases

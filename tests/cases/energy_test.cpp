@@ -162,7 +162,7 @@ TEST_F(Energy, heat_of_a_relaxed_step_behind_an_instantaneous_one) {
   }
 }
 
-TEST_F(Energy, peaks_do_not_depend_on_what_is_recorded) {
+TEST_F(Energy, peaks_and_means_do_not_depend_on_what_is_recorded) {
   std::vector<Row> ends;
   for (const char* record : {"", "record = \"0.4 s\"\n"})
     ends.push_back(
@@ -175,10 +175,26 @@ TEST_F(Energy, peaks_do_not_depend_on_what_is_recorded) {
             std::string(record) +
             "[[quantity]]\nname = \"widest\"\nkind = \"peak\"\nof = \"stretch_x\"\nextreme = \"maximum\"\n"
             "[[quantity]]\nname = \"strongest\"\nkind = \"peak\"\nof = \"max_field\"\nextreme = "
-            "\"maximum\"\n")
+            "\"maximum\"\n[[quantity]]\nname = \"usual\"\nkind = \"mean\"\nof = \"max_field\"\n")
             .back());
   for (const char* peak : {"widest", "strongest"}) EXPECT_EQ(ends[0].at(peak), ends[1].at(peak)) << peak;
+  EXPECT_NEAR(ends[0].at("usual"), ends[1].at("usual"), 1e-9 * ends[1].at("usual"));
+  EXPECT_NEAR(ends[1].at("usual"), 0.2 * ends[1].at("strongest"), 0.003 * ends[1].at("strongest"));
   EXPECT_NEAR(ends[1].at("widest"), 1.018417, 1e-6);
+}
+
+TEST_F(Energy, a_mean_begins_where_its_step_ends) {
+  const auto rows =
+      run(film(40e3) +
+          "[patch]\nmode = \"equal-biaxial\"\n[drive]\nvoltage = { wave = \"ramp\", to = \"10 kV\", "
+          "duration = \"1 s\" }\n[[step]]\nname = \"rise\"\nkind = \"transient\"\nduration = \"1 s\"\n"
+          "[[step]]\nkind = \"hold\"\nduration = \"3 s\"\n"
+          "[[quantity]]\nname = \"held\"\nkind = \"mean\"\nof = \"max_field\"\nsince = \"rise\"\n"
+          "[[quantity]]\nname = \"all\"\nkind = \"mean\"\nof = \"max_field\"\n");
+  EXPECT_TRUE(std::isnan(rows[1].at("held")));
+  EXPECT_NEAR(rows.back().at("held"), rows.back().at("max_field"), 1e-9 * rows.back().at("max_field"));
+  EXPECT_NEAR(rows.back().at("all"), 3.5 / 4 * rows.back().at("max_field"),
+              0.005 * rows.back().at("max_field"));
 }
 
 } // namespace

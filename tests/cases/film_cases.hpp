@@ -10,6 +10,7 @@
 
 #include <map>
 #include <random>
+#include <set>
 
 namespace dielast::cases {
 
@@ -21,6 +22,7 @@ class FilmCases : public test::ScratchTest {
     std::vector<double> time;                          ///< s, per recorded state
     std::vector<std::vector<double>> voltages;         ///< V, likewise, per electrode
     std::map<std::string, std::vector<double>> values; ///< per quantity likewise
+    std::set<std::string> events;                      ///< kinds
     double last(const std::string& name) const { return values.at(name).back(); }
   };
 
@@ -35,6 +37,7 @@ class FilmCases : public test::ScratchTest {
       ran.voltages.push_back(frame.record.voltages);
       for (std::size_t q = 0; q < one.quantities.size(); ++q)
         ran.values[one.quantities[q].name].push_back(frame.values[q]);
+      for (const post::Event& event : frame.record.events) ran.events.insert(event.kind);
       return true;
     };
     ran.outcome = simulation.run(observer);

@@ -146,8 +146,8 @@ TEST(Inertia, drag_lets_a_pulled_mass_reach_its_terminal_velocity) {
 TEST(Inertia, forces_of_drag_are_derivatives_of_their_energy_and_the_tangent_of_them) {
   Oscillator oscillator(0.4, 7);
   for (const double velocity : {0.3, -0.05, 0.0}) {
-    Motion start{Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2),
-                 Eigen::VectorXd::Zero(2), 0};
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(2);
+    Motion start{rest, rest, rest, rest, rest};
     start.velocity[0] = velocity;
     start.acceleration[0] = -2;
     State state = oscillator.model->initial_state();
