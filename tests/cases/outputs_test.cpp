@@ -61,6 +61,73 @@ TEST_F(Outputs, ThePageShowsTheUsersQuantitiesFirst) {
   EXPECT_NE(page.find("Case, with every default"), std::string::npos);
 }
 
+// A page of a run has slides of its states and its figures as files; a page of last states has neither.
+TEST_F(Outputs, SlidesAndFiguresAreOfRunsThatKeepAllStates) {
+  for (const std::string states : {"all", "last"}) {
+    ASSERT_EQ(dielast({"run", "small.toml", "-o", states, "--set", "output.states=" + states, "--set",
+                       "output.error_estimate=false"})
+                  .exit_code,
+              0);
+    const bool all = states == "all";
+    EXPECT_EQ(content(states + "/report.html").find("<figure class=\"slides\"") != std::string::npos, all);
+    EXPECT_EQ(exists(directory / states / "figure_shape.svg"), all);
+    EXPECT_EQ(exists(directory / states / "figure_strains.svg"), all);
+  }
+  EXPECT_TRUE(content("all/figure_shape.svg").starts_with("<?xml"));
+}
+
+// A quantity that is known at rest alone is no curve over time, and what happens before time passes is not
+// squeezed into its first moment.
+TEST_F(Outputs, CurvesOverTimeBeginWhereTimeDoes) {
+  write("timed.toml", R"(model = "axisymmetric"
+[film]
+thickness = "1 mm"
+prestretch = 2
+[film.material]
+law = "neo-hookean"
+shear_modulus = "40 kPa"
+relative_permittivity = 4.7
+[annulus]
+inner_radius = "12.7 mm"
+outer_radius = "68.58 mm"
+[mesh]
+rings = 6
+[plate]
+mass = "100 g"
+damping = "1.6 N.s/m"
+[drive]
+voltage = { wave = "step", to = "5 kV" }
+[output]
+error_estimate = false
+fields = false
+[[step]]
+kind = "weight"
+[[step]]
+kind = "transient"
+duration = "0.2 s"
+)");
+  const Ended ended = dielast({"run", "timed.toml", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+  EXPECT_FALSE(exists(directory / "out/figure_stiffness.svg"));
+  ASSERT_TRUE(exists(directory / "out/figure_drop.svg"));
+  const std::string page = content("out/report.html");
+  const std::regex drop(
+      R"re(&quot;y&quot;:\[([-0-9.e]+),[^\]]*\]\}\],&quot;size&quot;:[^/]*&quot;label&quot;:&quot;drop \[mm\]&quot;)re");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(page, found, drop));
+  EXPECT_GT(std::stod(found[1]), 5); // hung on its weight, in mm
+}
+
+TEST_F(Outputs, ACompressingPrestretchIsWarnedOf) {
+  for (const char* prestretch : {"0.9", "1.1"}) {
+    const Ended ended =
+        dielast({"check", "small.toml", "--set", std::string("film.prestretch=") + prestretch});
+    EXPECT_EQ((ended.out + ended.err).find("below 1: it compresses the film") != std::string::npos,
+              std::string(prestretch) == "0.9")
+        << ended.out << ended.err;
+  }
+}
+
 TEST_F(Outputs, OfAHoneycomb) {
   ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);
   for (const char* file :

@@ -312,5 +312,13 @@ TEST(Places, UnknownOnesAreReportedWhereTheyWereWritten) {
   }
 }
 
+// Smaller increments lead to the same state: what is checked there holds.
+TEST(Reader, ChecksStayWhereOnlyTheWayThereIsSet) {
+  const std::filesystem::path file =
+      std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/honeycomb/case.toml";
+  EXPECT_EQ(read_case(file, {"step[2].increments=3"}).skipped_checks, 0);
+  EXPECT_GT(read_case(file, {"drive.voltage=3 kV"}).skipped_checks, 0);
+}
+
 } // namespace
 } // namespace dielast::cases
