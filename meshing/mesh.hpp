@@ -11,10 +11,21 @@
 namespace dielast::meshing {
 
 /// Cell types; the node order is VTK's: corners first, then the middles of the sides
-/// (triangle6: v0 v1 v2 m01 m12 m20; line3, meridian3: v0 v1 middle). Triangles turn counter-clockwise about
-/// +z. Lines are walls. Meridians are pieces of a film of revolution: curves in the plane y = 0, x >= 0,
-/// revolved about the z axis. Rods are straight pieces of film that is rolled or folded to a bar.
-enum class CellType { line2, line3, triangle3, triangle6, meridian2, meridian3, rod2 };
+/// (triangle6: v0 v1 v2 m01 m12 m20; line3, meridian3: v0 v1 middle; tetrahedron10: v0 v1 v2 v3 m01 m12 m20
+/// m03 m13 m23). Triangles turn counter-clockwise about +z. Lines are walls. Meridians are pieces of a film
+/// of revolution: curves in the plane y = 0, x >= 0, revolved about the z axis. Rods are straight pieces of
+/// film that is rolled or folded to a bar. Of tetrahedra (v1 - v0) x (v2 - v0) points towards v3.
+enum class CellType {
+  line2,
+  line3,
+  triangle3,
+  triangle6,
+  meridian2,
+  meridian3,
+  rod2,
+  tetrahedron4,
+  tetrahedron10
+};
 
 constexpr int nodes_per_cell(CellType type) {
   switch (type) {
@@ -32,6 +43,10 @@ constexpr int nodes_per_cell(CellType type) {
     return 3;
   case CellType::rod2:
     return 2;
+  case CellType::tetrahedron4:
+    return 4;
+  case CellType::tetrahedron10:
+    return 10;
   }
   return 0;
 }
@@ -43,6 +58,11 @@ constexpr bool is_meridian(CellType type) {
 constexpr bool is_triangle(CellType type) {
   return type == CellType::triangle3 || type == CellType::triangle6;
 }
+constexpr bool is_tetrahedron(CellType type) {
+  return type == CellType::tetrahedron4 || type == CellType::tetrahedron10;
+}
+/// Corners, or ends: the nodes that are no middles.
+constexpr int corners_per_cell(CellType type) { return is_tetrahedron(type) ? 4 : is_triangle(type) ? 3 : 2; }
 
 /// All cells of one type, node numbers one after another.
 struct CellBlock {
@@ -94,7 +114,7 @@ struct Mesh {
     return box;
   }
   int node_count() const { return static_cast<int>(nodes.size()); }
-  /// The block of triangles, meridians or rods, of lines; null when there is none.
+  /// The block of triangles, tetrahedra, meridians or rods, of lines; null when there is none.
   const CellBlock* film() const { return find_block(false); }
   const CellBlock* walls() const { return find_block(true); }
 

@@ -2,6 +2,7 @@
 #include "meshing/middle_nodes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace dielast::meshing {
@@ -10,11 +11,15 @@ namespace {
 
 using Side = std::pair<int, int>;
 
+/// Corners at the ends of the sides, in the order of their middle nodes: those of a triangle, or a
+/// tetrahedron.
+constexpr std::array<std::array<std::size_t, 2>, 6> ends{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
 Side side_of(std::span<const int> cell, std::size_t k) {
-  return std::minmax(cell[k], cell[(k + 1) % cell.size()]);
+  return std::minmax(cell[ends[k][0]], cell[ends[k][1]]);
 }
 
-std::size_t sides_per_cell(CellType type) { return type == CellType::line2 ? 1 : 3; }
+std::size_t sides_per_cell(CellType type) { return type == CellType::line2 ? 1 : is_triangle(type) ? 3 : 6; }
 
 } // namespace
 
@@ -41,7 +46,10 @@ void add_middle_nodes(Mesh& mesh) {
         nodes.push_back(corners + static_cast<int>(side - sides.begin()));
       }
     }
-    block = {block.type == CellType::line2 ? CellType::line3 : CellType::triangle6, std::move(nodes)};
+    block = {block.type == CellType::line2       ? CellType::line3
+             : block.type == CellType::triangle3 ? CellType::triangle6
+                                                 : CellType::tetrahedron10,
+             std::move(nodes)};
   }
 }
 

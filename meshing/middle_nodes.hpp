@@ -5,9 +5,9 @@
 
 namespace dielast::meshing {
 
-/// Turns 3-node triangles and 2-node lines into 6-node and 3-node ones with straight sides; cells that share
-/// a side share its middle node. Middle nodes are numbered after all others, by the sides' (smaller, larger)
-/// corner numbers.
+/// Turns 3-node triangles, 4-node tetrahedra and 2-node lines into 6-, 10- and 3-node ones with straight
+/// sides; cells that share a side share its middle node. Middle nodes are numbered after all others, by the
+/// sides' (smaller, larger) corner numbers.
 void add_middle_nodes(Mesh& mesh);
 
 /// The nodes of a cell set, ascending.

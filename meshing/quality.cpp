@@ -51,6 +51,81 @@ Measure measure(const Mesh& mesh, const Plane& plane, std::span<const int> nodes
   return result;
 }
 
+/// The straight tetrahedron of the corners.
+struct Straight {
+  double smallest_angle, aspect; ///< degrees, 1 for the regular one
+  explicit Straight(const std::array<Vector3d, 4>& x) : smallest_angle(180), aspect(0) {
+    std::array<Vector3d, 4> normal; // of the face opposite to a corner, pointing outwards, twice its area
+    double surface = 0, longest = 0;
+    for (std::size_t a = 0; a < 4; ++a) {
+      const Vector3d &p = x[(a + 1) % 4], &q = x[(a + 2) % 4], &r = x[(a + 3) % 4];
+      normal[a] = (q - p).cross(r - p);
+      if (normal[a].dot(x[a] - p) > 0) normal[a] = -normal[a];
+      surface += normal[a].norm() / 2;
+      for (std::size_t b = 0; b < a; ++b) {
+        const double angle = std::atan2(normal[a].cross(normal[b]).norm(), -normal[a].dot(normal[b]));
+        smallest_angle = std::min(smallest_angle, angle * 180 / std::numbers::pi);
+        longest = std::max(longest, (x[a] - x[b]).norm());
+      }
+    }
+    const double volume = std::abs((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0])) / 6;
+    aspect = longest * surface / (6 * std::sqrt(6.0) * volume); // inradius: 3 volume / surface
+  }
+};
+
+/// Volume, with the rule of degree 2 of the solid elements.
+Measure measure_tetrahedron(const Mesh& mesh, std::span<const int> nodes) {
+  const auto x = [&](int k) -> const Vector3d& { return mesh.nodes[static_cast<std::size_t>(nodes[k])]; };
+  if (nodes.size() == 4) {
+    const double volume = (x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) / 6;
+    return {volume, !(volume > 0)};
+  }
+  constexpr std::array<std::array<int, 3>, 6> sides{
+      {{0, 1, 4}, {1, 2, 5}, {2, 0, 6}, {0, 3, 7}, {1, 3, 8}, {2, 3, 9}}};
+  const double near = (5 - std::sqrt(5.0)) / 20;
+  Measure result{0, false};
+  for (std::size_t point = 0; point < 4; ++point) {
+    std::array<double, 4> l{near, near, near, near};
+    l[point] = 1 - 3 * near;
+    std::array<Vector3d, 4> slope; // in the barycentric coordinates
+    for (int a = 0; a < 4; ++a)
+      slope[static_cast<std::size_t>(a)] = (4 * l[static_cast<std::size_t>(a)] - 1) * x(a);
+    for (const auto& [a, b, middle] : sides) {
+      const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+      slope[i] += 4 * l[j] * x(middle);
+      slope[j] += 4 * l[i] * x(middle);
+    }
+    const double det = (slope[1] - slope[0]).cross(slope[2] - slope[0]).dot(slope[3] - slope[0]);
+    result.area += det / 24;
+    result.inverted |= !(det > 0);
+  }
+  return result;
+}
+
+void add_tetrahedra(const Mesh& mesh, const CellBlock& block, QualityReport& report) {
+  for (int c = 0; c < block.size(); ++c) {
+    const auto nodes = block.cell(c);
+    std::array<Vector3d, 4> x;
+    for (std::size_t a = 0; a < 4; ++a) x[a] = mesh.nodes[static_cast<std::size_t>(nodes[a])];
+    const Straight straight(x);
+    const auto [volume, inverted] = measure_tetrahedron(mesh, nodes);
+    if (straight.smallest_angle < report.smallest_angle) {
+      report.smallest_angle = straight.smallest_angle;
+      report.worst_cell = c;
+      report.worst_place = (x[0] + x[1] + x[2] + x[3]) / 4;
+    }
+    report.smallest_volume = report.tetrahedra == 0 ? volume : std::min(report.smallest_volume, volume);
+    report.largest_volume = std::max(report.largest_volume, volume);
+    report.volume += volume;
+    report.tetrahedra += 1;
+    report.largest_aspect = std::max(report.largest_aspect, straight.aspect);
+    report.inverted += inverted;
+    report
+        .angles[std::min(static_cast<std::size_t>(straight.smallest_angle / 10), report.angles.size() - 1)] +=
+        1;
+  }
+}
+
 } // namespace
 
 QualityReport quality(const Mesh& mesh) {
@@ -61,6 +136,10 @@ QualityReport quality(const Mesh& mesh) {
                        .largest_area = -infinity};
   const Plane plane(mesh);
   for (const CellBlock& block : mesh.blocks) {
+    if (is_tetrahedron(block.type)) {
+      add_tetrahedra(mesh, block, report);
+      continue;
+    }
     if (!is_triangle(block.type)) {
       (is_line(block.type)       ? report.lines
        : is_meridian(block.type) ? report.meridians
@@ -94,7 +173,8 @@ QualityReport quality(const Mesh& mesh) {
       report.angles[std::min(static_cast<std::size_t>(smallest / 10), report.angles.size() - 1)] += 1;
     }
   }
-  if (report.triangles == 0) report.smallest_angle = report.smallest_area = report.largest_area = 0;
+  if (report.triangles == 0) report.smallest_area = report.largest_area = 0;
+  if (report.worst_cell < 0) report.smallest_angle = 0;
   return report;
 }
 
@@ -104,21 +184,31 @@ std::string format(const QualityReport& report) {
     text += fmt::format("meridians  {}\n", report.meridians);
   else if (report.rods > 0)
     text += fmt::format("rods       {}\n", report.rods);
+  else if (report.tetrahedra > 0)
+    text += fmt::format("tetrahedra {}\n", report.tetrahedra);
   else
     text += fmt::format("triangles  {}\n", report.triangles);
   text += fmt::format("lines      {}\n", report.lines);
-  if (report.triangles == 0) return text;
-  text += fmt::format("area       {:.6g} mm2 (triangles {:.4g} .. {:.4g} mm2)\n", report.area * 1e6,
-                      report.smallest_area * 1e6, report.largest_area * 1e6);
-  text += fmt::format("angle      {:.2f} deg at least, triangle {} at ({:.4g}, {:.4g}) mm\n",
-                      report.smallest_angle, report.worst_cell, report.worst_place.x() * 1e3,
-                      report.worst_place.y() * 1e3);
+  const int cells = report.triangles + report.tetrahedra;
+  if (cells == 0) return text;
+  const Vector3d worst = report.worst_place * 1e3;
+  if (report.tetrahedra > 0) {
+    text += fmt::format("volume     {:.6g} mm3 (tetrahedra {:.4g} .. {:.4g} mm3)\n", report.volume * 1e9,
+                        report.smallest_volume * 1e9, report.largest_volume * 1e9);
+    text += fmt::format(
+        "angle      {:.2f} deg between faces at least, tetrahedron {} at ({:.4g}, {:.4g}, {:.4g}) mm\n",
+        report.smallest_angle, report.worst_cell, worst.x(), worst.y(), worst.z());
+  } else {
+    text += fmt::format("area       {:.6g} mm2 (triangles {:.4g} .. {:.4g} mm2)\n", report.area * 1e6,
+                        report.smallest_area * 1e6, report.largest_area * 1e6);
+    text += fmt::format("angle      {:.2f} deg at least, triangle {} at ({:.4g}, {:.4g}) mm\n",
+                        report.smallest_angle, report.worst_cell, worst.x(), worst.y());
+  }
   text += fmt::format("aspect     {:.3g} at most (1 is equilateral)\ninverted   {}\n", report.largest_aspect,
                       report.inverted);
-  text += "smallest angles of the triangles:\n";
+  text += fmt::format("smallest angles of the {}:\n", report.tetrahedra > 0 ? "tetrahedra" : "triangles");
   for (std::size_t k = 0; k < report.angles.size(); ++k) {
-    const auto bar =
-        static_cast<std::size_t>((50L * report.angles[k] + report.triangles - 1) / report.triangles);
+    const auto bar = static_cast<std::size_t>((50L * report.angles[k] + cells - 1) / cells);
     text += fmt::format("  {:2}-{} deg {:7}{}{}\n", 10 * k, 10 * k + 10, report.angles[k], bar > 0 ? " " : "",
                         std::string(bar, '#'));
   }

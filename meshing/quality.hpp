@@ -7,22 +7,24 @@
 
 namespace dielast::meshing {
 
-/// How good the triangles of a mesh are; lines, meridians and rods are only counted. Angles and aspect ratios
-/// are those of the straight triangle of the corners.
+/// How good the triangles or tetrahedra of a mesh are; lines, meridians and rods are only counted. Angles (of
+/// tetrahedra those between their faces) and aspect ratios are those of the straight cell of the corners.
 struct QualityReport {
-  int nodes = 0, triangles = 0, meridians = 0, rods = 0, lines = 0;
+  int nodes = 0, triangles = 0, tetrahedra = 0, meridians = 0, rods = 0, lines = 0;
   double smallest_angle = 0; ///< degrees
-  int worst_cell = -1;       ///< triangle with the smallest angle, -1 without triangles
+  int worst_cell = -1;       ///< triangle or tetrahedron with the smallest angle, -1 without any
   Eigen::Vector3d worst_place = Eigen::Vector3d::Zero(); ///< its centroid, m
-  double largest_aspect = 0; ///< longest side / (2 sqrt(3) inradius): 1 is equilateral
+  double largest_aspect =
+      0; ///< longest side / (2 sqrt(3) inradius), of tetrahedra 2 sqrt(6): 1 is equilateral
   double smallest_area = 0, largest_area = 0,
-         area = 0; ///< m^2, of the curved triangles, negative when inverted
-  int inverted =
-      0; ///< triangles with det dx/dxi <= 0 at a corner (3 nodes) or an integration point (6 nodes)
-  std::array<int, 6> angles{}; ///< triangles whose smallest angle is in [10 k, 10 k + 10) degrees
+         area = 0; ///< m^2, of the curved triangles, negative when inverted; of tetrahedra 0
+  double smallest_volume = 0, largest_volume = 0, volume = 0; ///< m^3, of curved tetrahedra, likewise
+  /// Cells with det dx/dxi <= 0 at a corner (3 nodes) or an integration point (6 and 10 nodes).
+  int inverted = 0;
+  std::array<int, 6> angles{}; ///< cells whose smallest angle is in [10 k, 10 k + 10) degrees
 };
 
-/// For triangles in the x-y plane.
+/// For triangles in the x-y or the x-z plane, and for tetrahedra.
 QualityReport quality(const Mesh& mesh);
 
 /// Readable text of several lines, angles in degrees, lengths in mm.

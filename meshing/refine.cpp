@@ -13,13 +13,26 @@ namespace {
 /// Nodes of a triangle6 that are the corners of its four parts, of a line3 those of its halves.
 constexpr std::array<std::array<int, 3>, 4> quarters{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
 constexpr std::array<std::array<int, 2>, 2> halves{{{0, 2}, {2, 1}}};
+/// Of a tetrahedron10: its four corners, and the octahedron between them, split along a diagonal.
+constexpr std::array<std::array<int, 4>, 8> eighths{{{0, 4, 6, 7},
+                                                     {4, 1, 5, 8},
+                                                     {6, 5, 2, 9},
+                                                     {7, 8, 9, 3},
+                                                     {6, 8, 4, 5},
+                                                     {6, 8, 5, 9},
+                                                     {6, 8, 9, 7},
+                                                     {6, 8, 7, 4}}};
 
-/// Barycentric coordinates of a triangle6's nodes.
-constexpr std::array<std::array<double, 3>, 6> barycentric{
-    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}};
+/// Corners at the ends of the sides of a triangle, or a tetrahedron; its middle nodes lie between them.
+constexpr std::array<std::array<std::size_t, 2>, 6> ends{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
+int parts_of(CellType type) { return is_line(type) ? 2 : is_triangle(type) ? 4 : 8; }
 
 CellBlock split(const CellBlock& block) {
-  CellBlock parts{block.type == CellType::line3 ? CellType::line2 : CellType::triangle3, {}};
+  CellBlock parts{block.type == CellType::line3       ? CellType::line2
+                  : block.type == CellType::triangle6 ? CellType::triangle3
+                                                      : CellType::tetrahedron4,
+                  {}};
   for (int c = 0; c < block.size(); ++c) {
     const auto add = [&, cell = block.cell(c)](const auto& table) {
       for (const auto& part : table)
@@ -27,35 +40,55 @@ CellBlock split(const CellBlock& block) {
     };
     if (block.type == CellType::line3)
       add(halves);
-    else
+    else if (block.type == CellType::triangle6)
       add(quarters);
+    else
+      add(eighths);
   }
   return parts;
 }
 
-/// The point half way between two nodes of a triangle6, in its own coordinates.
+/// Barycentric coordinates of a node of a triangle6 or a tetrahedron10.
+Eigen::Vector4d barycentric(std::size_t corners, int node) {
+  Eigen::Vector4d l = Eigen::Vector4d::Zero();
+  const auto n = static_cast<std::size_t>(node);
+  if (n < corners) return Eigen::Vector4d::Unit(node);
+  for (const std::size_t end : ends[n - corners]) l[static_cast<int>(end)] = 0.5;
+  return l;
+}
+
+/// The point half way between two nodes of a cell, in its own coordinates.
 Eigen::Vector3d between(const Mesh& mesh, std::span<const int> cell, int a, int b) {
-  std::array<double, 3> l{};
-  for (std::size_t i = 0; i < 3; ++i)
-    l[i] = (barycentric[static_cast<std::size_t>(a)][i] + barycentric[static_cast<std::size_t>(b)][i]) / 2;
+  const std::size_t corners = cell.size() == 6 ? 3 : 4;
+  const Eigen::Vector4d l = (barycentric(corners, a) + barycentric(corners, b)) / 2;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < 3; ++i) {
-    x += l[i] * (2 * l[i] - 1) * mesh.nodes[static_cast<std::size_t>(cell[i])];
-    x += 4 * l[i] * l[(i + 1) % 3] * mesh.nodes[static_cast<std::size_t>(cell[3 + i])];
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double li = l[static_cast<int>(i)];
+    x += li * (2 * li - 1) * mesh.nodes[static_cast<std::size_t>(cell[i])];
+  }
+  for (std::size_t k = corners; k < cell.size(); ++k) {
+    const auto [from, to] = ends[k - corners];
+    x += 4 * l[static_cast<int>(from)] * l[static_cast<int>(to)] *
+         mesh.nodes[static_cast<std::size_t>(cell[k])];
   }
   return x;
 }
 
-/// Puts the middle nodes of the parts onto the curves of the triangles that they come from.
+/// Puts the middle nodes of the parts onto the curves of the cells that they come from.
 void bend(const Mesh& whole, const CellBlock& block, const CellBlock& parts, Mesh& mesh) {
+  const auto corners = static_cast<std::size_t>(corners_per_cell(block.type));
+  const auto bend_part = [&](int c, int part_number, const auto& own) {
+    const auto part = parts.cell(part_number);
+    for (std::size_t side = 0; side + corners < part.size(); ++side)
+      mesh.nodes[static_cast<std::size_t>(part[corners + side])] =
+          between(whole, block.cell(c), own[ends[side][0]], own[ends[side][1]]);
+  };
   for (int c = 0; c < block.size(); ++c)
-    for (int q = 0; q < 4; ++q) {
-      const auto part = parts.cell(4 * c + q);
-      const auto& corners = quarters[static_cast<std::size_t>(q)];
-      for (std::size_t side = 0; side < 3; ++side)
-        mesh.nodes[static_cast<std::size_t>(part[3 + side])] =
-            between(whole, block.cell(c), corners[side], corners[(side + 1) % 3]);
-    }
+    for (int q = 0; q < parts_of(block.type); ++q)
+      if (const auto k = static_cast<std::size_t>(q); corners == 3)
+        bend_part(c, 4 * c + q, quarters[k]);
+      else
+        bend_part(c, 8 * c + q, eighths[k]);
 }
 
 } // namespace
@@ -64,13 +97,13 @@ Mesh refined(Mesh mesh) {
   bool middles = true;
   for (const CellBlock& block : mesh.blocks) {
     assert(!is_meridian(block.type));
-    middles = middles && (block.type == CellType::line3 || block.type == CellType::triangle6);
+    middles = middles && nodes_per_cell(block.type) > corners_per_cell(block.type);
   }
   if (!middles) add_middle_nodes(mesh);
   Mesh finer = mesh;
   for (CellBlock& block : finer.blocks) block = split(block);
   for (auto& [place, set] : finer.cell_sets) {
-    const int each = is_line(finer.blocks[static_cast<std::size_t>(set.block)].type) ? 2 : 4;
+    const int each = parts_of(finer.blocks[static_cast<std::size_t>(set.block)].type);
     std::vector<int> parts;
     for (const int cell : set.cells)
       for (int k = 0; k < each; ++k) parts.push_back(each * cell + k);
@@ -79,7 +112,7 @@ Mesh refined(Mesh mesh) {
   if (middles) {
     add_middle_nodes(finer);
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-      if (mesh.blocks[b].type == CellType::triangle6) bend(mesh, mesh.blocks[b], finer.blocks[b], finer);
+      if (!is_line(mesh.blocks[b].type)) bend(mesh, mesh.blocks[b], finer.blocks[b], finer);
   }
   add_node_sets(finer);
   return finer;

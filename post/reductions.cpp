@@ -78,11 +78,11 @@ auto with_scalar(const fem::Samples& samples, std::string_view name, Use&& use) 
 
 /// Corners of a cell, or ends of a line.
 std::span<const int> corners(const meshing::CellBlock& block, int cell) {
-  return block.cell(cell).first(meshing::is_triangle(block.type) ? 3 : 2);
+  return block.cell(cell).first(static_cast<std::size_t>(meshing::corners_per_cell(block.type)));
 }
 
-/// The cell and those next to it: triangles with a common side; lines and meridians whose common end has no
-/// third.
+/// The cell and those next to it: triangles with a common side, tetrahedra with a common face; lines and
+/// meridians whose common end has no third.
 std::vector<char> neighbourhood(const meshing::CellBlock& block, int cell) {
   const std::span<const int> own = corners(block, cell);
   const auto is_own = [&](int node) { return std::ranges::count(own, node) > 0; };

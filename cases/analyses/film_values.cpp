@@ -3,6 +3,7 @@
 
 #include "fem/films/meridian.hpp"
 #include "fem/films/triangle.hpp"
+#include "fem/solids/tetrahedron.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -23,12 +24,18 @@ struct Shape {
   Eigen::MatrixXd slope; ///< one column per local coordinate
 };
 
+int local_dimension(CellType type) {
+  return meshing::is_tetrahedron(type) ? 3 : meshing::is_triangle(type) ? 2 : 1;
+}
+
 Shape shape(CellType type, const Eigen::VectorXd& local) {
   switch (type) {
   case CellType::triangle3:
     return {fem::shape_values<3>(local[0], local[1]), fem::shape_gradients<3>(local[0], local[1])};
   case CellType::triangle6:
     return {fem::shape_values<6>(local[0], local[1]), fem::shape_gradients<6>(local[0], local[1])};
+  case CellType::tetrahedron10:
+    return {fem::tetrahedron_shape<10>(local), fem::tetrahedron_slope<10>(local)};
   case CellType::meridian2:
   case CellType::rod2:
     return {fem::meridian_shape<2>(local[0]), fem::meridian_slope<2>(local[0])};
@@ -37,18 +44,25 @@ Shape shape(CellType type, const Eigen::VectorXd& local) {
   }
 }
 
-/// Local coordinates of the nodes, one per row: (xi, eta), of meridians and rods xi.
+/// Local coordinates of the nodes, one per row: (xi, eta), of tetrahedra (xi, eta, zeta), of meridians and
+/// rods xi.
 Eigen::MatrixXd local_nodes(CellType type) {
+  if (meshing::is_tetrahedron(type))
+    return (Eigen::MatrixXd(10, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0.5, 0,
+            0, 0, 0.5, 0.5, 0, 0.5, 0, 0.5, 0.5)
+        .finished();
   if (!meshing::is_triangle(type)) return Eigen::Vector3d(-1, 1, 0);
   return (Eigen::MatrixXd(6, 2) << 0, 0, 1, 0, 0, 1, 0.5, 0, 0.5, 0.5, 0, 0.5).finished();
 }
 
 /// Those of the integration points.
 Eigen::MatrixXd local_points(CellType type, int points) {
-  Eigen::MatrixXd local(points, meshing::is_triangle(type) ? 2 : 1);
+  Eigen::MatrixXd local(points, local_dimension(type));
   for (int p = 0; p < points; ++p) {
     const auto i = static_cast<std::size_t>(p);
-    if (!meshing::is_triangle(type))
+    if (meshing::is_tetrahedron(type))
+      local.row(p) = fem::tetrahedron_rule().at(i).local.transpose();
+    else if (!meshing::is_triangle(type))
       local(p, 0) = fem::meridian_rule(points)[i].xi;
     else
       local.row(p) << fem::triangle_rule(points)[i].xi, fem::triangle_rule(points)[i].eta;
@@ -86,7 +100,7 @@ std::vector<Points> points_of_cells(const meshing::CellBlock& film, const fem::S
 
 /// Whether local coordinates are in the element, or as good as in it.
 bool is_inside(CellType type, const Eigen::VectorXd& local) {
-  if (!meshing::is_triangle(type)) return std::abs(local[0]) <= 1 + close_by;
+  if (local_dimension(type) == 1) return std::abs(local[0]) <= 1 + close_by;
   return std::min(local.minCoeff(), 1 - local.sum()) >= -close_by;
 }
 
@@ -127,8 +141,9 @@ std::vector<ElementPoint> elements_at(const Eigen::Vector3d& point, const meshin
     const double size = (x.colwise() - x.col(0)).colwise().norm().maxCoeff();
     if ((x.col(0) - wanted).norm() > 2 * size) continue;
     // The nearest point of the element, by the Gauss-Newton method from its middle.
+    const int local_count = local_dimension(film.type);
     Eigen::VectorXd local =
-        meshing::is_triangle(film.type) ? Eigen::VectorXd::Constant(2, 1.0 / 3) : Eigen::VectorXd::Zero(1);
+        Eigen::VectorXd::Constant(local_count, local_count > 1 ? 1.0 / (local_count + 1) : 0.0);
     Eigen::Vector3d away;
     constexpr int iterations = 20; // sides are straight or nearly so: a few are enough
     for (int i = 0; i < iterations; ++i) {

@@ -346,7 +346,7 @@ void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<in
       cells.electrodes.push_back(electrodes[static_cast<std::size_t>(cell)]);
       cells.sections.push_back(section->second);
     }
-  cells.triangles = meshing::subset(film, cells.numbers);
+  cells.elements = meshing::subset(film, cells.numbers);
   model.blocks.push_back(fem::make_solid_block(mesh, std::move(cells), sections,
                                                potential ? potential_map(one, mesh) : std::vector<int>{},
                                                one.dimension));

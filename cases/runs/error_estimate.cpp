@@ -215,7 +215,8 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   const bool corners =
       one.any_geometry<Honeycomb>() || one.any_geometry<Strip>() || one.any_geometry<MeshFile>();
   const bool smooth =
-      !corners && (type == meshing::CellType::triangle6 || type == meshing::CellType::meridian3);
+      !corners && (type == meshing::CellType::triangle6 || type == meshing::CellType::meridian3 ||
+                   type == meshing::CellType::tetrahedron10);
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
     ErrorEstimate& estimate = estimates.quantities.emplace_back();

@@ -299,6 +299,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
   const auto quality = meshing::quality(device.mesh);
   summary["mesh"] = {{"nodes", quality.nodes},
                      {"triangles", quality.triangles},
+                     {"tetrahedra", quality.tetrahedra},
                      {"beams", quality.lines},
                      {"unknowns", device.model.dofs.free_count()},
                      {"smallest_angle_deg", quality.smallest_angle}};

@@ -141,8 +141,13 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.info("{} elements along the meridian, {} unknowns", device.mesh.film()->size(), unknowns);
   else
     log.info("{} {}, {} beams, {} unknowns{}", device.mesh.film()->size(),
-             quality.rods > 0 ? "rods" : "triangles", quality.lines, unknowns,
-             quality.triangles > 0 ? fmt::format("; smallest angle {:.1f} deg", quality.smallest_angle) : "");
+             quality.rods > 0         ? "rods"
+             : quality.tetrahedra > 0 ? "tetrahedra"
+                                      : "triangles",
+             quality.lines, unknowns,
+             quality.triangles + quality.tetrahedra > 0
+                 ? fmt::format("; smallest angle {:.1f} deg", quality.smallest_angle)
+                 : "");
   for (const std::string& warning : simulation.warnings()) log.warn("{}", warning);
   if (!recorder.journal().records.empty())
     log.info("resumed behind {} accepted states", recorder.journal().records.size());

@@ -16,12 +16,15 @@ std::vector<ElementCorners> element_corners(const meshing::Mesh& mesh) {
   using Shape = ElementCorners::Shape;
   std::vector<ElementCorners> all;
   for (const meshing::CellBlock& block : mesh.blocks) {
-    const Shape shape = meshing::is_triangle(block.type)   ? Shape::triangle
-                        : meshing::is_meridian(block.type) ? Shape::meridian
-                                                           : Shape::line;
+    const Shape shape = meshing::is_tetrahedron(block.type) ? Shape::tetrahedron
+                        : meshing::is_triangle(block.type)  ? Shape::triangle
+                        : meshing::is_meridian(block.type)  ? Shape::meridian
+                                                            : Shape::line;
+    const auto corners = static_cast<std::size_t>(meshing::corners_per_cell(block.type));
     for (int c = 0; c < block.size(); ++c) {
-      const auto nodes = block.cell(c);
-      all.push_back({shape, {nodes[0], nodes[1], shape == Shape::triangle ? nodes[2] : nodes[1]}});
+      ElementCorners element{shape, {}};
+      std::ranges::copy(block.cell(c).first(corners), element.node.begin());
+      all.push_back(element);
     }
   }
   return all;
@@ -56,8 +59,11 @@ bool is_turned_over(const std::vector<ElementCorners>& elements, const std::vect
     case ElementCorners::Shape::meridian: // beyond the axis it would go round the other way
       return std::min(place(to, node[0]).x(), place(to, node[1]).x()) < 0;
     case ElementCorners::Shape::triangle:
+    case ElementCorners::Shape::tetrahedron:
       break;
     }
+    if (corners.shape == ElementCorners::Shape::tetrahedron)
+      return side_turns(1, 2) || side_turns(0, 2) || side_turns(0, 3) || side_turns(1, 3) || side_turns(2, 3);
     const auto area = [&](const State& state) -> Eigen::Vector3d {
       return side(state, 0, 1).cross(side(state, 0, 2));
     };

@@ -11,9 +11,9 @@ namespace dielast::fem {
 
 /// Corner nodes of an element of film or of a wall.
 struct ElementCorners {
-  enum class Shape : std::uint8_t { line, meridian, triangle };
+  enum class Shape : std::uint8_t { line, meridian, triangle, tetrahedron };
   Shape shape{};
-  std::array<int, 3> node{}; ///< the third only of a triangle
+  std::array<int, 4> node{}; ///< the third of a triangle or tetrahedron, the fourth of a tetrahedron
 };
 
 /// Of all elements.

@@ -2,7 +2,6 @@
 #include "fem/solids/solid_block.hpp"
 
 #include "fem/films/membrane_block.hpp"
-#include "fem/films/triangle.hpp"
 #include "fem/solids/solid_elements.hpp"
 
 #include <Eigen/LU>
@@ -17,29 +16,33 @@
 
 namespace dielast::fem {
 
-Eigen::Matrix3d SolidElementState::deformation(const SolidPoint& at) const {
+template<class Element>
+Eigen::Matrix3d SolidElementState<Element>::deformation(const SolidPoint<Element>& at) const {
+  constexpr int dim = Element::dim;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
-  F.topLeftCorner<2, 2>() += displacement * at.gradient;
-  F(2, 2) += displacement.row(0) * at.hoop;
+  F.topLeftCorner<dim, dim>() += displacement * at.gradient;
+  if constexpr (dim == 2) F(2, 2) += displacement.row(0) * at.hoop;
   return F;
 }
 
-Eigen::Vector3d SolidElementState::field(const SolidPoint& at) const {
+template<class Element>
+Eigen::Vector3d SolidElementState<Element>::field(const SolidPoint<Element>& at) const {
   if (given_field) return *given_field;
   Eigen::Vector3d field = Eigen::Vector3d::Zero();
-  field.head<2>() = -at.gradient.transpose() * potential;
+  field.head<Element::dim>() = -at.gradient.transpose() * potential;
   return field;
 }
 
-SolidBlock::SolidBlock(const meshing::Mesh& mesh, const SolidCells& cells,
-                       const std::vector<SolidSection>& sections, std::vector<int> potentials,
-                       Dimension dimension)
-    : plane_(dimension == Dimension::axisymmetric ? revolution : plane_strain),
-      count_(cells.triangles.size()), nodes_(cells.triangles.nodes), numbers_(cells.numbers),
-      electrodes_(cells.electrodes), sections_(cells.sections), potentials_(std::move(potentials)) {
+template<class Element>
+SolidBlock<Element>::SolidBlock(const meshing::Mesh& mesh, const SolidCells& cells,
+                                const std::vector<SolidSection>& sections, std::vector<int> potentials,
+                                Dimension dimension)
+    : axes_(dimension == Dimension::axisymmetric ? revolution : as_drawn), count_(cells.elements.size()),
+      nodes_(cells.elements.nodes), numbers_(cells.numbers), electrodes_(cells.electrodes),
+      sections_(cells.sections), potentials_(std::move(potentials)) {
   for (const SolidSection& section : sections) {
     Part& part = parts_.emplace_back(Part{SolidResponse(section), section.thickness, section.width, {}, 0});
-    for (int i = 0; i < 3; ++i) part.normal[i] = section.normal[plane_.axis[static_cast<std::size_t>(i)]];
+    for (int i = 0; i < 3; ++i) part.normal[i] = section.normal[axes_.axis[static_cast<std::size_t>(i)]];
   }
   for (const int section : sections_) place_.push_back(parts_[static_cast<std::size_t>(section)].elements++);
   const materials::Material& first = sections.front().material;
@@ -49,36 +52,40 @@ SolidBlock::SolidBlock(const meshing::Mesh& mesh, const SolidCells& cells,
   for (int e = 0; e < count_; ++e) place_element(mesh, e);
 }
 
-void SolidBlock::place_element(const meshing::Mesh& mesh, int element) {
-  Eigen::Matrix<double, 2, nodes> X;
+template<class Element>
+void SolidBlock<Element>::place_element(const meshing::Mesh& mesh, int element) {
+  const auto fail = [&](const char* what) {
+    throw std::invalid_argument(std::string(Element::name) + " " +
+                                std::to_string(numbers_[static_cast<std::size_t>(element)]) + what);
+  };
+  Eigen::Matrix<double, dim, nodes> X;
   for (int a = 0; a < nodes; ++a)
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < dim; ++i)
       X(i, a) =
-          mesh.nodes[static_cast<std::size_t>(node(element, a))][plane_.axis[static_cast<std::size_t>(i)]];
+          mesh.nodes[static_cast<std::size_t>(node(element, a))][axes_.axis[static_cast<std::size_t>(i)]];
   for (int p = 0; p < points; ++p) {
-    const TrianglePoint& at = triangle_rule(points)[static_cast<std::size_t>(p)];
-    const Eigen::Matrix<double, nodes, 2> slope = shape_gradients<nodes>(at.xi, at.eta);
-    const Eigen::Vector<double, nodes> shape = shape_values<nodes>(at.xi, at.eta);
-    const Eigen::Matrix2d jacobian = X * slope;
-    const double det = jacobian.determinant(), radius = X.row(0) * shape;
-    if (!(det > 0))
-      throw std::invalid_argument("triangle " + std::to_string(numbers_[static_cast<std::size_t>(element)]) +
-                                  " is inverted or degenerate as drawn");
-    if (plane_.of_revolution && !(radius > 0))
-      throw std::invalid_argument("triangle " + std::to_string(numbers_[static_cast<std::size_t>(element)]) +
-                                  " of a solid of revolution is not at x > 0");
-    SolidPoint& place = geometry_[static_cast<std::size_t>(element * points + p)];
-    const double width = plane_.of_revolution ? 2 * std::numbers::pi * radius : part(element).width;
+    const Eigen::Matrix<double, nodes, dim> slope = Element::slope(p);
+    const Eigen::Matrix<double, dim, dim> jacobian = X * slope;
+    const double det = jacobian.determinant();
+    if (!(det > 0)) fail(" is inverted or degenerate as drawn");
+    Point& place = geometry_[static_cast<std::size_t>(element * points + p)];
     place.gradient = slope * jacobian.inverse();
-    place.hoop = plane_.of_revolution ? Eigen::Vector<double, nodes>(shape / radius)
-                                      : Eigen::Vector<double, nodes>(Eigen::Vector<double, nodes>::Zero());
-    place.pressure = shape_values<corners>(at.xi, at.eta);
-    place.volume = at.weight * det * width;
+    place.pressure = Element::template shape<corners>(p);
+    place.volume = Element::weight(p) * det;
+    if constexpr (dim == 2) {
+      const Eigen::Vector<double, nodes> shape = Element::template shape<nodes>(p);
+      const double radius = X.row(0) * shape;
+      if (axes_.of_revolution && !(radius > 0)) fail(" of a solid of revolution is not at x > 0");
+      place.volume *= axes_.of_revolution ? 2 * std::numbers::pi * radius : part(element).width;
+      place.hoop.setZero();
+      if (axes_.of_revolution) place.hoop = shape / radius;
+    }
   }
 }
 
 /// A corner has one pressure for each section and electrode of an element there.
-void SolidBlock::place_scalars(DofMap& dof_map) {
+template<class Element>
+void SolidBlock<Element>::place_scalars(DofMap& dof_map) {
   pressure_scalar_.assign(static_cast<std::size_t>(count_ * corners), none);
   std::map<std::array<int, 3>, int> pressures; // by node, section and electrode
   for (int e = 0; e < count_; ++e)
@@ -96,26 +103,29 @@ void SolidBlock::place_scalars(DofMap& dof_map) {
       scalar = dof_map.add_scalar(potential_unit_);
 }
 
-void SolidBlock::claim_dofs(DofMap& dof_map, Dimension /*that of the block*/) const {
+template<class Element>
+void SolidBlock<Element>::claim_dofs(DofMap& dof_map, Dimension /*that of the block*/) const {
   for (const int n : nodes_)
-    for (const int i : {0, 1}) dof_map.add(n, plane_.axis[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 0; i < dim; ++i) dof_map.add(n, axes_.axis[i]);
 }
 
-void SolidBlock::element_equations(int element, const DofMap& dof_map, std::span<int> equations) const {
+template<class Element>
+void SolidBlock<Element>::element_equations(int element, const DofMap& dof_map,
+                                            std::span<int> equations) const {
   std::size_t at = 0;
   const auto scalar = [&](int number) {
     return number == none ? DofMap::absent : dof_map.scalar_equation(number);
   };
   for (int a = 0; a < nodes; ++a)
-    for (const std::size_t i : {0, 1}) equations[at++] = dof_map.equation(node(element, a), plane_.axis[i]);
+    for (std::size_t i = 0; i < dim; ++i) equations[at++] = dof_map.equation(node(element, a), axes_.axis[i]);
   for (int a = 0; a < corners; ++a)
     equations[at++] = scalar(pressure_scalar_[static_cast<std::size_t>(element * corners + a)]);
-  for (int a = 0; a < nodes; ++a)
-    equations[at++] = has_potential() ? scalar(potential_scalar_[static_cast<std::size_t>(node(element, a))])
-                                      : DofMap::absent;
+  for (int a = 0; has_potential() && a < nodes; ++a)
+    equations[at++] = scalar(potential_scalar_[static_cast<std::size_t>(node(element, a))]);
 }
 
-double SolidBlock::potential_at(const State& state, int node) const {
+template<class Element>
+double SolidBlock<Element>::potential_at(const State& state, int node) const {
   const auto n = static_cast<std::size_t>(node);
   switch (const int known = potentials_[n]) {
   case NodePotential::follows:
@@ -127,11 +137,12 @@ double SolidBlock::potential_at(const State& state, int node) const {
   }
 }
 
-SolidElementState SolidBlock::at(const State& state, int element) const {
-  SolidElementState now;
+template<class Element>
+SolidElementState<Element> SolidBlock<Element>::at(const State& state, int element) const {
+  ElementState now;
   for (int a = 0; a < nodes; ++a) {
     const Eigen::Vector3d& u = state.displacement[static_cast<std::size_t>(node(element, a))];
-    for (const std::size_t i : {0, 1}) now.displacement(static_cast<int>(i), a) = u[plane_.axis[i]];
+    for (std::size_t i = 0; i < dim; ++i) now.displacement(static_cast<int>(i), a) = u[axes_.axis[i]];
     now.potential[a] = has_potential() ? potential_at(state, node(element, a)) : 0;
   }
   for (int a = 0; a < corners; ++a) {
@@ -146,61 +157,70 @@ SolidElementState SolidBlock::at(const State& state, int element) const {
   return now;
 }
 
-/// Variables of a point: C11, C22, C33, C12 (the others do not change), p, E1, E2.
-void SolidBlock::add_point(const SolidPoint& at, const Eigen::Matrix3d& F, const SolidDensity& density,
-                           Vector& residual, Matrix* tangent) const {
-  constexpr int in_plane = 4, variables = 7, pressure = 2 * nodes, potential = pressure + corners;
-  Eigen::Matrix<double, variables, dofs> B = Eigen::Matrix<double, variables, dofs>::Zero();
-  for (int a = 0; a < nodes; ++a) {
-    const double g1 = at.gradient(a, 0), g2 = at.gradient(a, 1);
-    for (int i = 0; i < 2; ++i) {
-      B(0, 2 * a + i) = 2 * F(i, 0) * g1;
-      B(1, 2 * a + i) = 2 * F(i, 1) * g2;
-      B(3, 2 * a + i) = F(i, 0) * g2 + F(i, 1) * g1;
-    }
-    B(2, 2 * a) = 2 * F(2, 2) * at.hoop[a];
-    B(5, potential + a) = -potential_unit_ * g1;
-    B(6, potential + a) = -potential_unit_ * g2;
+/// Of the components of C those that change: C11, C22, C33, C12, and in space C23, C13.
+template<class Element>
+void SolidBlock<Element>::add_point(const Point& at, const Eigen::Matrix3d& F, const SolidDensity& density,
+                                    Vector& residual, Matrix* tangent) const {
+  constexpr int strains = dim == 2 ? 4 : 6;
+  Eigen::Matrix<double, strains, motions> B = Eigen::Matrix<double, strains, motions>::Zero(); // dC/du
+  for (int c = 0; c < strains; ++c) {
+    const auto [j, k] = materials::solid_components[static_cast<std::size_t>(c)];
+    if (j >= dim) continue;
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < dim; ++i)
+        B(c, dim * a + i) = F(i, j) * at.gradient(a, k) + F(i, k) * at.gradient(a, j);
   }
-  B.block<1, corners>(4, pressure) = pressure_unit_ * at.pressure.transpose();
-  Eigen::Vector<double, variables> slope;
-  slope << density.in_C.head<in_plane>(), density.in_p, density.in_E.head<2>();
-  residual += at.volume * (B.transpose() * slope);
+  if constexpr (dim == 2)
+    for (int a = 0; a < nodes; ++a) B(2, 2 * a) = 2 * F(2, 2) * at.hoop[a];
+  const Eigen::Vector<double, corners> P = pressure_unit_ * at.pressure; // dp/d(unknowns)
+  const Eigen::Matrix<double, nodes, dim> E = -potential_unit_ * at.gradient;
+  residual.template head<motions>() += at.volume * (B.transpose() * density.in_C.head<strains>());
+  residual.template segment<corners>(motions) += at.volume * density.in_p * P;
+  if (has_potential()) residual.template tail<nodes>() += at.volume * (E * density.in_E.head<dim>());
   if (!tangent) return;
-  Eigen::Matrix<double, variables, variables> H = Eigen::Matrix<double, variables, variables>::Zero();
-  H.topLeftCorner<in_plane, in_plane>() = density.in_CC.topLeftCorner<in_plane, in_plane>();
-  H.block<in_plane, 1>(0, 4) = density.in_Cp.head<in_plane>();
-  H.block<1, in_plane>(4, 0) = density.in_Cp.head<in_plane>().transpose();
-  H(4, 4) = density.in_pp;
-  H.block<in_plane, 2>(0, 5) = density.in_CE.topLeftCorner<in_plane, 2>();
-  H.block<2, in_plane>(5, 0) = density.in_CE.topLeftCorner<in_plane, 2>().transpose();
-  H.bottomRightCorner<2, 2>() = density.in_EE.topLeftCorner<2, 2>();
-  const Eigen::Matrix<double, variables, dofs> HB = at.volume * (H * B);
-  tangent->noalias() += B.transpose() * HB;
-  Eigen::Matrix2d S; // second Piola-Kirchhoff
-  S << 2 * density.in_C[0], density.in_C[3], density.in_C[3], 2 * density.in_C[1];
-  const Eigen::Matrix<double, nodes, nodes> geometric =
-      at.volume * (at.gradient * S * at.gradient.transpose());
-  const Eigen::Matrix<double, nodes, nodes> hoop =
-      2 * at.volume * density.in_C[2] * (at.hoop * at.hoop.transpose());
+  const Eigen::Matrix<double, strains, motions> HB =
+      at.volume * (density.in_CC.topLeftCorner<strains, strains>() * B);
+  tangent->template topLeftCorner<motions, motions>().noalias() += B.transpose() * HB;
+  Eigen::Matrix<double, dim, dim> S; // second Piola-Kirchhoff
+  for (int c = 0; c < strains; ++c) {
+    const auto [i, j] = materials::solid_components[static_cast<std::size_t>(c)];
+    if (i < dim && j < dim) S(i, j) = S(j, i) = (i == j ? 2 : 1) * density.in_C[c];
+  }
+  const NodalMatrix geometric = at.volume * (at.gradient * S * at.gradient.transpose());
   for (int a = 0; a < nodes; ++a)
-    for (int b = 0; b < nodes; ++b) {
-      (*tangent)(2 * a, 2 * b) += geometric(a, b) + hoop(a, b);
-      (*tangent)(2 * a + 1, 2 * b + 1) += geometric(a, b);
-    }
+    for (int b = 0; b < nodes; ++b)
+      for (int i = 0; i < dim; ++i) (*tangent)(dim * a + i, dim * b + i) += geometric(a, b);
+  if constexpr (dim == 2)
+    for (int a = 0; a < nodes; ++a)
+      for (int b = 0; b < nodes; ++b)
+        (*tangent)(2 * a, 2 * b) += 2 * at.volume * density.in_C[2] * at.hoop[a] * at.hoop[b];
+  // Below the diagonal: what is above it is not read.
+  tangent->template block<corners, motions>(motions, 0) +=
+      (at.volume * P) * (density.in_Cp.head<strains>().transpose() * B);
+  tangent->template block<corners, corners>(motions, motions) +=
+      (at.volume * density.in_pp * P) * P.transpose();
+  if (!has_potential()) return;
+  tangent->template bottomLeftCorner<nodes, motions>() +=
+      (at.volume * E) * (density.in_CE.topLeftCorner<strains, dim>().transpose() * B);
+  tangent->template bottomRightCorner<nodes, nodes>() +=
+      at.volume * (E * density.in_EE.topLeftCorner<dim, dim>() * E.transpose());
 }
 
-Evaluation SolidBlock::evaluate(const State& state, int first, int last, const Scatter& scatter) const {
+template<class Element>
+Evaluation SolidBlock<Element>::evaluate(const State& state, int first, int last,
+                                         const Scatter& scatter) const {
   Evaluation result;
   std::array<double, dofs*(dofs + 1) / 2> packed;
+  const int used = dofs_per_element();
   for (int e = first; e < last; ++e) {
-    const SolidElementState now = at(state, e);
+    const ElementState now = at(state, e);
     Vector residual = Vector::Zero();
-    Matrix tangent = Matrix::Zero();
+    Matrix tangent;
+    if (scatter.tangent) tangent.setZero();
     for (int p = 0; p < points; ++p) {
-      const SolidPoint& here = point(e, p);
+      const Point& here = point(e, p);
       const Eigen::Matrix3d F = now.deformation(here);
-      if (!(F.topLeftCorner<2, 2>().determinant() > 0 && F(2, 2) > 0)) {
+      if (!(F.topLeftCorner<dim, dim>().determinant() > 0 && (dim == 3 || F(2, 2) > 0))) {
         result.feasible = false;
         continue;
       }
@@ -210,40 +230,50 @@ Evaluation SolidBlock::evaluate(const State& state, int first, int last, const S
       if (scatter.residual || scatter.tangent)
         add_point(here, F, density, residual, scatter.tangent ? &tangent : nullptr);
     }
-    if (scatter.residual) scatter.add_residual(e, std::span(residual.data(), dofs));
+    const auto size = static_cast<std::size_t>(used);
+    if (scatter.residual) scatter.add_residual(e, std::span(residual.data(), size));
     if (!scatter.tangent) continue;
     std::size_t k = 0;
-    for (int i = 0; i < dofs; ++i)
+    for (int i = 0; i < used; ++i)
       for (int j = 0; j <= i; ++j) packed[k++] = tangent(i, j);
-    scatter.add_tangent(e, packed);
+    scatter.add_tangent(e, std::span(packed).first(k));
   }
   if (!std::isfinite(result.energy)) result.feasible = false; // beyond a stretch limit
   return result;
 }
 
-/// Consistent.
-void SolidBlock::add_mass(int element, std::span<double> packed) const {
+/// Consistent; of tetrahedra with right sums of rows only, which is what weights are made of.
+template<class Element>
+void SolidBlock<Element>::add_mass(int element, std::span<double> packed) const {
   for (int p = 0; p < points; ++p) {
-    const TrianglePoint& where = triangle_rule(points)[static_cast<std::size_t>(p)];
-    const Eigen::Vector<double, nodes> shape = shape_values<nodes>(where.xi, where.eta);
+    const Eigen::Vector<double, nodes> shape = Element::template shape<nodes>(p);
     const double mass = part(element).response.material().density * point(element, p).volume;
     for (int a = 0; a < nodes; ++a)
       for (int b = 0; b <= a; ++b)
-        for (int i = 0; i < 2; ++i) {
-          const int row = 2 * a + i, column = 2 * b + i;
+        for (int i = 0; i < dim; ++i) {
+          const int row = dim * a + i, column = dim * b + i;
           packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] += mass * shape[a] * shape[b];
         }
   }
 }
 
+template class SolidBlock<SolidTriangle>;
+template class SolidBlock<SolidTetrahedron>;
+template struct SolidElementState<SolidTriangle>;
+template struct SolidElementState<SolidTetrahedron>;
+
 std::unique_ptr<ElementBlock> make_solid_block(const meshing::Mesh& mesh, SolidCells cells,
                                                const std::vector<SolidSection>& sections,
                                                std::vector<int> potentials, Dimension dimension) {
-  if (cells.triangles.type != meshing::CellType::triangle6 || cells.triangles.size() == 0)
-    throw std::invalid_argument("a solid is made of 6-node triangles");
-  if (dimension == Dimension::spatial)
+  using meshing::CellType;
+  const bool of_triangles = cells.elements.type == CellType::triangle6;
+  if (!(of_triangles || cells.elements.type == CellType::tetrahedron10) || cells.elements.size() == 0)
+    throw std::invalid_argument("a solid is made of 6-node triangles or 10-node tetrahedra");
+  if (of_triangles && dimension == Dimension::spatial)
     throw std::invalid_argument("a solid of triangles is in plane strain or of revolution");
-  const auto count = static_cast<std::size_t>(cells.triangles.size());
+  if (!of_triangles && dimension != Dimension::spatial)
+    throw std::invalid_argument("a solid of tetrahedra is in space");
+  const auto count = static_cast<std::size_t>(cells.elements.size());
   if (cells.electrodes.size() != count || cells.sections.size() != count)
     throw std::invalid_argument("a solid needs one electrode number and one section for each element");
   if (!potentials.empty() && potentials.size() != mesh.nodes.size())
@@ -254,7 +284,11 @@ std::unique_ptr<ElementBlock> make_solid_block(const meshing::Mesh& mesh, SolidC
     cells.numbers.resize(count);
     std::iota(cells.numbers.begin(), cells.numbers.end(), 0);
   }
-  return std::make_unique<SolidBlock>(mesh, cells, sections, std::move(potentials), dimension);
+  if (of_triangles)
+    return std::make_unique<SolidBlock<SolidTriangle>>(mesh, cells, sections, std::move(potentials),
+                                                       dimension);
+  return std::make_unique<SolidBlock<SolidTetrahedron>>(mesh, cells, sections, std::move(potentials),
+                                                        dimension);
 }
 
 } // namespace dielast::fem

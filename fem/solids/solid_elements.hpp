@@ -1,57 +1,96 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fem/films/triangle.hpp"
 #include "fem/model/element_block.hpp"
 #include "fem/solids/solid_block.hpp"
 #include "fem/solids/solid_response.hpp"
+#include "fem/solids/tetrahedron.hpp"
 #include "meshing/mesh.hpp"
 
 #include <array>
 #include <optional>
+#include <type_traits>
 
 namespace dielast::fem {
 
-/// A plane of the drawing in which a solid is meshed, and what happens across it. Local axes 1 and 2 lie in
-/// the plane, 3 is across it: thickness of plane strain, hoop of a solid of revolution.
-struct SolidPlane {
-  std::array<int, 3> axis; ///< x, y, z (0..2) of the local axes
-  bool of_revolution;      ///< 1 is the radius
+/// Which of x, y, z (0..2) the local axes 1, 2, 3 of an element are. Those of triangles lie 1 and 2 in the
+/// plane of the drawing, 3 across it: thickness of plane strain, hoop of a solid of revolution.
+struct SolidAxes {
+  std::array<int, 3> axis;
+  bool of_revolution; ///< 1 is the radius
 };
-constexpr SolidPlane plane_strain{{0, 1, 2}, false}, revolution{{0, 2, 1}, true};
+constexpr SolidAxes as_drawn{{0, 1, 2}, false}, revolution{{0, 2, 1}, true};
+
+/// 6-node triangles, integrated with degree 4.
+struct SolidTriangle {
+  static constexpr int dim = 2, nodes = 6, corners = 3, points = 6;
+  static constexpr const char* name = "triangle";
+  static const TrianglePoint& at(int point) { return triangle_rule(points)[static_cast<std::size_t>(point)]; }
+  static double weight(int point) { return at(point).weight; }
+  template<int Nodes>
+  static Eigen::Vector<double, Nodes> shape(int point) {
+    return shape_values<Nodes>(at(point).xi, at(point).eta);
+  }
+  static Eigen::Matrix<double, nodes, dim> slope(int point) {
+    return shape_gradients<nodes>(at(point).xi, at(point).eta);
+  }
+};
+
+/// 10-node tetrahedra, integrated with degree 2: what quadratic displacements need for their full order.
+struct SolidTetrahedron {
+  static constexpr int dim = 3, nodes = 10, corners = 4, points = 4;
+  static constexpr const char* name = "tetrahedron";
+  static const TetrahedronPoint& at(int point) { return tetrahedron_rule()[static_cast<std::size_t>(point)]; }
+  static double weight(int point) { return at(point).weight; }
+  template<int Nodes>
+  static Eigen::Vector<double, Nodes> shape(int point) {
+    return tetrahedron_shape<Nodes>(at(point).local);
+  }
+  static Eigen::Matrix<double, nodes, dim> slope(int point) {
+    return tetrahedron_slope<nodes>(at(point).local);
+  }
+};
 
 /// One integration point of an element as drawn.
+template<class Element>
 struct SolidPoint {
-  static constexpr int nodes = 6, corners = 3;
+  static constexpr int hoops = Element::dim == 2 ? Element::nodes : 0;
 
-  Eigen::Matrix<double, nodes, 2> gradient; ///< of the shape functions, 1/m
-  Eigen::Vector<double, nodes> hoop;        ///< shape functions over the radius, 1/m; 0 in plane strain
-  Eigen::Vector<double, corners> pressure;  ///< shape functions of the pressure
-  double volume = 0;                        ///< that it stands for, m^3
+  Eigen::Matrix<double, Element::nodes, Element::dim> gradient; ///< of the shape functions, 1/m
+  Eigen::Vector<double, hoops> hoop; ///< shape functions over the radius, 1/m; 0 in plane strain
+  Eigen::Vector<double, Element::corners> pressure; ///< shape functions of the pressure
+  double volume = 0;                                ///< that it stands for, m^3
 };
 
 /// An element in a state.
+template<class Element>
 struct SolidElementState {
-  Eigen::Matrix<double, 2, SolidPoint::nodes> displacement; ///< m
-  Eigen::Vector<double, SolidPoint::corners> pressure;      ///< Pa
-  Eigen::Vector<double, SolidPoint::nodes> potential;       ///< V
-  std::optional<Eigen::Vector3d> given_field;               ///< E0 of layers, local axes, V/m
+  Eigen::Matrix<double, Element::dim, Element::nodes> displacement; ///< m
+  Eigen::Vector<double, Element::corners> pressure;                 ///< Pa
+  Eigen::Vector<double, Element::nodes> potential;                  ///< V
+  std::optional<Eigen::Vector3d> given_field;                       ///< E0 of layers, local axes, V/m
   /// F, local axes.
-  Eigen::Matrix3d deformation(const SolidPoint& at) const;
+  Eigen::Matrix3d deformation(const SolidPoint<Element>& at) const;
   /// E0, local axes, V/m.
-  Eigen::Vector3d field(const SolidPoint& at) const;
+  Eigen::Vector3d field(const SolidPoint<Element>& at) const;
 };
 
 /// See make_solid_block().
+template<class Element>
 class SolidBlock final : public ElementBlock {
  public:
-  static constexpr int nodes = SolidPoint::nodes, corners = SolidPoint::corners, points = 6;
-  static constexpr int dofs = 2 * nodes + corners + nodes; ///< displacements, pressures, potentials
+  static constexpr int dim = Element::dim, nodes = Element::nodes, corners = Element::corners,
+                       points = Element::points;
+  /// Displacements, pressures, potentials where they are unknowns.
+  static constexpr int motions = dim * nodes, potential_place = motions + corners,
+                       dofs = potential_place + nodes;
 
   SolidBlock(const meshing::Mesh& mesh, const SolidCells& cells, const std::vector<SolidSection>& sections,
              std::vector<int> potentials, Dimension dimension);
 
   int element_count() const override { return count_; }
-  int dofs_per_element() const override { return dofs; }
+  int dofs_per_element() const override { return has_potential() ? dofs : potential_place; }
   void place_scalars(DofMap& dofs) override;
   void claim_dofs(DofMap& dofs, Dimension dimension) const override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
@@ -70,8 +109,11 @@ class SolidBlock final : public ElementBlock {
 
  private:
   static constexpr int none = -1; ///< no scalar
+  using Point = SolidPoint<Element>;
+  using ElementState = SolidElementState<Element>;
   using Vector = Eigen::Vector<double, dofs>;
   using Matrix = Eigen::Matrix<double, dofs, dofs>;
+  using NodalMatrix = Eigen::Matrix<double, nodes, nodes>;
 
   /// The potentials of this block's nodes in equilibrium, those of electrodes and ground being given per
   /// node, V; with the charges per node that this takes, C.
@@ -81,18 +123,18 @@ class SolidBlock final : public ElementBlock {
   NodalField solve_field(const State& state, std::vector<double> given) const;
   void place_element(const meshing::Mesh& mesh, int element);
   int node(int element, int a) const { return nodes_[static_cast<std::size_t>(element * nodes + a)]; }
-  const SolidPoint& point(int element, int p) const {
+  const Point& point(int element, int p) const {
     return geometry_[static_cast<std::size_t>(element * points + p)];
   }
   bool has_potential() const { return !potentials_.empty(); }
   int electrode(int element) const { return electrodes_[static_cast<std::size_t>(element)]; }
   double potential_at(const State& state, int node) const;
-  SolidElementState at(const State& state, int element) const;
+  ElementState at(const State& state, int element) const;
   /// Adds volume * (derivatives of the potential) to residual and tangent; the tangent where it is wanted.
-  void add_point(const SolidPoint& at, const Eigen::Matrix3d& F, const SolidDensity& density,
-                 Vector& residual, Matrix* tangent) const;
+  void add_point(const Point& at, const Eigen::Matrix3d& F, const SolidDensity& density, Vector& residual,
+                 Matrix* tangent) const;
   /// Minus the second derivatives of the energy in the nodes' potentials: positive semi-definite, F.
-  Eigen::Matrix<double, nodes, nodes> capacitances(const State& state, int element) const;
+  NodalMatrix capacitances(const State& state, int element) const;
 
   /// A part of one material.
   struct Part {
@@ -107,7 +149,7 @@ class SolidBlock final : public ElementBlock {
   /// Number of an integration point within its part.
   int place(int element, int p) const { return place_[static_cast<std::size_t>(element)] * points + p; }
 
-  SolidPlane plane_;
+  SolidAxes axes_;
   std::vector<Part> parts_;
   int count_;
   std::vector<int> nodes_;
@@ -116,7 +158,7 @@ class SolidBlock final : public ElementBlock {
   std::vector<int> sections_;   ///< of the elements
   std::vector<int> place_;      ///< of the elements in their parts
   std::vector<int> potentials_; ///< of the mesh's nodes: an electrode or a NodePotential; empty: given field
-  std::vector<SolidPoint> geometry_;      ///< `points` per element
+  std::vector<Point> geometry_; ///< `points` per element
   double pressure_unit_, potential_unit_; ///< Pa, V: see DofMap::add_scalar
   std::vector<int> pressure_scalar_;      ///< `corners` per element
   std::vector<int> potential_scalar_;     ///< per node of the mesh

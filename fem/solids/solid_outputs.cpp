@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/films/membrane_block.hpp"
-#include "fem/films/triangle.hpp"
 #include "fem/solids/solid_elements.hpp"
 
 #include <Eigen/LU>
 
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 namespace dielast::fem {
 
-void SolidBlock::sample(const State& state, Samples& samples) const {
+template<class Element>
+void SolidBlock<Element>::sample(const State& state, Samples& samples) const {
   constexpr double none_here = std::numeric_limits<double>::quiet_NaN();
   Eigen::Matrix3d in_space = Eigen::Matrix3d::Zero(); // columns: the local axes
-  for (int i = 0; i < 3; ++i) in_space(plane_.axis[static_cast<std::size_t>(i)], i) = 1;
+  for (int i = 0; i < 3; ++i) in_space(axes_.axis[static_cast<std::size_t>(i)], i) = 1;
   const auto turned = [&](const Eigen::Matrix3d& tensor) -> Eigen::Matrix3d {
     return in_space * tensor * in_space.transpose();
   };
   for (int e = 0; e < count_; ++e) {
-    const SolidElementState now = at(state, e);
+    const ElementState now = at(state, e);
     for (int p = 0; p < points; ++p) {
-      const SolidPoint& here = point(e, p);
+      const Point& here = point(e, p);
       const Eigen::Matrix3d F = now.deformation(here), C = F.transpose() * F;
       const Eigen::Vector3d E0 = now.field(here);
       const SolidDensity density =
@@ -43,8 +44,7 @@ void SolidBlock::sample(const State& state, Samples& samples) const {
       s.breakdown_field = part(e).response.material().dielectric.breakdown_field_at(
           J * J * towards.dot(C.inverse() * towards)); // square of the area's stretch
       if (has_potential()) {
-        const TrianglePoint& where = triangle_rule(points)[static_cast<std::size_t>(p)];
-        s.voltage = now.potential.dot(shape_values<nodes>(where.xi, where.eta));
+        s.voltage = now.potential.dot(Element::template shape<nodes>(p));
       } else if (electrode(e) != passive) {
         s.electrode = electrode(e);
         s.voltage = state.voltage[static_cast<std::size_t>(s.electrode)];
@@ -57,21 +57,23 @@ void SolidBlock::sample(const State& state, Samples& samples) const {
   }
 }
 
-void SolidBlock::add_charges(const State& state, const DofMap* dof_map, Charges& charges) const {
-  constexpr int potential = 2 * nodes + corners;
-  std::array<int, dofs> equations;
+template<class Element>
+void SolidBlock<Element>::add_charges(const State& state, const DofMap* dof_map, Charges& charges) const {
+  constexpr int potential = potential_place;
+  std::array<int, dofs> all_equations;
+  const std::span equations = std::span(all_equations).first(static_cast<std::size_t>(dofs_per_element()));
   for (int e = 0; e < count_; ++e) {
     std::vector<int> local; // potentials of electrodes
     for (int a = 0; has_potential() && a < nodes; ++a)
       if (potentials_[static_cast<std::size_t>(node(e, a))] >= 0) local.push_back(a);
     const bool layers = !has_potential() && electrode(e) != passive;
     if (local.empty() && !layers) continue;
-    const SolidElementState now = at(state, e);
+    const ElementState now = at(state, e);
     Vector first = Vector::Zero(); // of the energy, or of minus the charge of layers
     Matrix second = Matrix::Zero();
     double slope = 0, curvature = 0; // of the energy in the voltage of layers
     for (int p = 0; p < points; ++p) {
-      const SolidPoint& here = point(e, p);
+      const Point& here = point(e, p);
       const Eigen::Matrix3d F = now.deformation(here);
       const SolidDensity electric = part(e).response.electric(F.transpose() * F, now.field(here));
       if (!layers) {
@@ -108,11 +110,12 @@ void SolidBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
   }
 }
 
-void SolidBlock::add_energies(const State& state, EnergyParts& parts) const {
+template<class Element>
+void SolidBlock<Element>::add_energies(const State& state, EnergyParts& parts) const {
   for (int e = 0; e < count_; ++e) {
-    const SolidElementState now = at(state, e);
+    const ElementState now = at(state, e);
     for (int p = 0; p < points; ++p) {
-      const SolidPoint& here = point(e, p);
+      const Point& here = point(e, p);
       const Eigen::Matrix3d F = now.deformation(here);
       const EnergyParts density =
           part(e).response.energies(state, place(e, p), F.transpose() * F, here.pressure.dot(now.pressure));
@@ -123,37 +126,61 @@ void SolidBlock::add_energies(const State& state, EnergyParts& parts) const {
   }
 }
 
-void SolidBlock::add_relaxation(const State& /*state*/, const RateWeight& /*weight*/,
-                                const Scatter& /*scatter*/) const {
+template<class Element>
+void SolidBlock<Element>::add_relaxation(const State& /*state*/, const RateWeight& /*weight*/,
+                                         const Scatter& /*scatter*/) const {
   if (history_size() > 0) throw std::domain_error("the branches of solids cannot be linearised");
 }
 
-int SolidBlock::history_size() const {
+template<class Element>
+int SolidBlock<Element>::history_size() const {
   int size = 0;
   for (const Part& part : parts_) size += part.response.history_size(part.elements * points);
   return size;
 }
 
-void SolidBlock::place_history(int first) {
+template<class Element>
+void SolidBlock<Element>::place_history(int first) {
   for (Part& part : parts_) {
     part.response.place_history(first);
     first += part.response.history_size(part.elements * points);
   }
 }
 
-void SolidBlock::start_history(std::vector<double>& all) const {
+template<class Element>
+void SolidBlock<Element>::start_history(std::vector<double>& all) const {
   for (const Part& part : parts_) part.response.start_history(part.elements * points, all);
 }
 
-void SolidBlock::advance_history(const State& state, std::vector<double>& all) const {
+template<class Element>
+void SolidBlock<Element>::advance_history(const State& state, std::vector<double>& all) const {
   if (history_size() == 0) return;
   for (int e = 0; e < count_; ++e) {
-    const SolidElementState now = at(state, e);
+    const ElementState now = at(state, e);
     for (int p = 0; p < points; ++p) {
       const Eigen::Matrix3d F = now.deformation(point(e, p));
       part(e).response.advance_history(state, place(e, p), F.transpose() * F, all);
     }
   }
 }
+
+template void SolidBlock<SolidTriangle>::sample(const State&, Samples&) const;
+template void SolidBlock<SolidTriangle>::add_charges(const State&, const DofMap*, Charges&) const;
+template void SolidBlock<SolidTriangle>::add_energies(const State&, EnergyParts&) const;
+template void SolidBlock<SolidTriangle>::add_relaxation(const State&, const RateWeight&,
+                                                        const Scatter&) const;
+template int SolidBlock<SolidTriangle>::history_size() const;
+template void SolidBlock<SolidTriangle>::place_history(int);
+template void SolidBlock<SolidTriangle>::start_history(std::vector<double>&) const;
+template void SolidBlock<SolidTriangle>::advance_history(const State&, std::vector<double>&) const;
+template void SolidBlock<SolidTetrahedron>::sample(const State&, Samples&) const;
+template void SolidBlock<SolidTetrahedron>::add_charges(const State&, const DofMap*, Charges&) const;
+template void SolidBlock<SolidTetrahedron>::add_energies(const State&, EnergyParts&) const;
+template void SolidBlock<SolidTetrahedron>::add_relaxation(const State&, const RateWeight&,
+                                                           const Scatter&) const;
+template int SolidBlock<SolidTetrahedron>::history_size() const;
+template void SolidBlock<SolidTetrahedron>::place_history(int);
+template void SolidBlock<SolidTetrahedron>::start_history(std::vector<double>&) const;
+template void SolidBlock<SolidTetrahedron>::advance_history(const State&, std::vector<double>&) const;
 
 } // namespace dielast::fem

@@ -7,22 +7,22 @@
 
 namespace dielast::fem {
 
-Eigen::Matrix<double, SolidBlock::nodes, SolidBlock::nodes> SolidBlock::capacitances(const State& state,
-                                                                                     int element) const {
-  Eigen::Matrix<double, nodes, nodes> sum = Eigen::Matrix<double, nodes, nodes>::Zero();
-  const SolidElementState now = at(state, element);
+template<class Element>
+auto SolidBlock<Element>::capacitances(const State& state, int element) const -> NodalMatrix {
+  NodalMatrix sum = NodalMatrix::Zero();
+  const ElementState now = at(state, element);
   for (int p = 0; p < points; ++p) {
-    const SolidPoint& here = point(element, p);
+    const Point& here = point(element, p);
     const Eigen::Matrix3d F = now.deformation(here);
-    const Eigen::Matrix2d in_EE = part(element)
-                                      .response.electric(F.transpose() * F, Eigen::Vector3d::Zero())
-                                      .in_EE.topLeftCorner<2, 2>();
-    sum -= here.volume * (here.gradient * in_EE * here.gradient.transpose());
+    const SolidDensity electric = part(element).response.electric(F.transpose() * F, Eigen::Vector3d::Zero());
+    sum -=
+        here.volume * (here.gradient * electric.in_EE.topLeftCorner<dim, dim>() * here.gradient.transpose());
   }
   return sum;
 }
 
-SolidBlock::NodalField SolidBlock::solve_field(const State& state, std::vector<double> given) const {
+template<class Element>
+auto SolidBlock<Element>::solve_field(const State& state, std::vector<double> given) const -> NodalField {
   std::vector<int> unknown(potentials_.size(), none);
   int count = 0;
   for (const int n : nodes_)
@@ -31,7 +31,7 @@ SolidBlock::NodalField SolidBlock::solve_field(const State& state, std::vector<d
       u = count++;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
-  std::vector<Eigen::Matrix<double, nodes, nodes>> elements;
+  std::vector<NodalMatrix> elements;
   elements.reserve(static_cast<std::size_t>(count_));
   for (int e = 0; e < count_; ++e) {
     const auto& A = elements.emplace_back(capacitances(state, e));
@@ -65,7 +65,8 @@ SolidBlock::NodalField SolidBlock::solve_field(const State& state, std::vector<d
   return field;
 }
 
-void SolidBlock::balance_field(State& state) const {
+template<class Element>
+void SolidBlock<Element>::balance_field(State& state) const {
   if (!has_potential()) return;
   std::vector<double> given(potentials_.size());
   for (const int n : nodes_)
@@ -77,7 +78,8 @@ void SolidBlock::balance_field(State& state) const {
       state.scalar[static_cast<std::size_t>(potential_scalar_[n])] = field.potential[n];
 }
 
-double SolidBlock::screened_capacitance(const State& state, std::size_t electrode) const {
+template<class Element>
+double SolidBlock<Element>::screened_capacitance(const State& state, std::size_t electrode) const {
   if (!has_potential()) return 0;
   const auto on_electrode = [&](std::size_t n) { return potentials_[n] == static_cast<int>(electrode); };
   std::vector<double> unit(potentials_.size());
@@ -94,5 +96,10 @@ double SolidBlock::screened_capacitance(const State& state, std::size_t electrod
   }
   return fixed - relaxed;
 }
+
+template void SolidBlock<SolidTriangle>::balance_field(State&) const;
+template double SolidBlock<SolidTriangle>::screened_capacitance(const State&, std::size_t) const;
+template void SolidBlock<SolidTetrahedron>::balance_field(State&) const;
+template double SolidBlock<SolidTetrahedron>::screened_capacitance(const State&, std::size_t) const;
 
 } // namespace dielast::fem

@@ -39,10 +39,12 @@ std::optional<CellType> cell_type(const GmshContents::Elements& elements) {
   if (elements.dimension == 1 && elements.nodes_each == 3) return CellType::line3;
   if (elements.dimension == 2 && elements.type == "Triangle 3") return CellType::triangle3;
   if (elements.dimension == 2 && elements.type == "Triangle 6") return CellType::triangle6;
+  if (elements.dimension == 3 && elements.type == "Tetrahedron 4") return CellType::tetrahedron4;
+  if (elements.dimension == 3 && elements.type == "Tetrahedron 10") return CellType::tetrahedron10;
   return std::nullopt;
 }
 
-bool has_triangles(const CellBlock& block) { return is_triangle(block.type); }
+int dimension_of(CellType type) { return is_tetrahedron(type) ? 3 : is_triangle(type) ? 2 : 1; }
 
 void require(bool holds) {
   if (!holds) throw MeshError("what gmsh finds in it does not fit together; it is damaged, write it again");
@@ -74,8 +76,13 @@ class Converter {
     check(contents_);
     add_cells();
     number_nodes();
-    for (CellBlock& block : mesh_.blocks) turn_counter_clockwise(block);
+    for (CellBlock& block : mesh_.blocks) {
+      turn_counter_clockwise(block);
+      turn_outwards(block);
+    }
     for (const GmshContents::PhysicalGroup& group : contents_.groups) add_place(group);
+    if (block_of(3) != mesh_.blocks.end() && block_of(3)->type == CellType::tetrahedron4)
+      add_middle_nodes(mesh_); // solids need them
     add_node_sets(mesh_);
     if (!mesh_.node_sets.contains("film")) add_film();
   }
@@ -89,12 +96,13 @@ class Converter {
       if (elements.dimension == 0) continue;
       const auto type = cell_type(elements);
       if (!type)
-        throw MeshError(fmt::format(
-            "it has elements of the type \"{}\", but only triangles (3 or 6 nodes) and lines (2 or 3 "
-            "nodes) are known; mesh surfaces only, without recombination, of order 1 or 2",
-            elements.type));
+        throw MeshError(
+            fmt::format("it has elements of the type \"{}\", but only tetrahedra (4 or 10 nodes), triangles "
+                        "(3 or 6 nodes) "
+                        "and lines (2 or 3 nodes) are known; mesh without recombination, of order 1 or 2",
+                        elements.type));
       require(elements.nodes_each == nodes_per_cell(*type));
-      orders.insert(*type == CellType::line2 || *type == CellType::triangle3 ? 1 : 2);
+      orders.insert(nodes_per_cell(*type) == corners_per_cell(*type) ? 1 : 2);
       auto block = std::ranges::find(mesh_.blocks, *type, &CellBlock::type);
       if (block == mesh_.blocks.end()) block = mesh_.blocks.insert(block, {*type, {}});
       // Tags for now; number_nodes() replaces them.
@@ -103,7 +111,7 @@ class Converter {
       for (std::size_t first = 0; first + each <= elements.nodes.size(); first += each)
         cells.push_back(add_cell(*block, std::span(elements.nodes).subspan(first, each)));
     }
-    if (std::ranges::none_of(mesh_.blocks, has_triangles))
+    if (std::ranges::all_of(mesh_.blocks, [](const CellBlock& b) { return is_line(b.type); }))
       throw MeshError(
           "it has no triangles; mesh the surfaces, and put them into a physical group or save all elements");
     if (orders.size() > 1)
@@ -138,8 +146,29 @@ class Converter {
       for (int& node : block.nodes) node = node_number_.at(static_cast<std::size_t>(node));
   }
 
+  std::vector<CellBlock>::iterator block_of(int dimension) {
+    return std::ranges::find(mesh_.blocks, dimension,
+                             [](const CellBlock& block) { return dimension_of(block.type); });
+  }
+
+  /// Of tetrahedra; gmsh numbers the last two middle nodes the other way round.
+  void turn_outwards(CellBlock& block) const {
+    if (!is_tetrahedron(block.type)) return;
+    const int n = nodes_per_cell(block.type);
+    for (int c = 0; c < block.size(); ++c) {
+      int* const cell = block.nodes.data() + c * n;
+      if (n == 10) std::swap(cell[8], cell[9]);
+      const auto x = [&](int k) -> const Eigen::Vector3d& { return mesh_.nodes[cell[k]]; };
+      if ((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) >= 0) continue;
+      std::swap(cell[0], cell[1]);
+      if (n == 4) continue;
+      std::swap(cell[5], cell[6]);
+      std::swap(cell[7], cell[8]);
+    }
+  }
+
   void turn_counter_clockwise(CellBlock& block) const {
-    if (!has_triangles(block)) return;
+    if (!is_triangle(block.type)) return;
     const int n = nodes_per_cell(block.type);
     for (int c = 0; c < block.size(); ++c) {
       int* const cell = block.nodes.data() + c * n;
@@ -169,9 +198,7 @@ class Converter {
                                   dimension_names[group.dimension], name));
     std::ranges::sort(set.cells);
     set.cells.erase(std::unique(set.cells.begin(), set.cells.end()), set.cells.end());
-    const auto block = std::ranges::find_if(
-        mesh_.blocks, [&](const CellBlock& b) { return has_triangles(b) == (group.dimension == 2); });
-    set.block = static_cast<int>(block - mesh_.blocks.begin());
+    set.block = static_cast<int>(block_of(group.dimension) - mesh_.blocks.begin());
     mesh_.cell_sets[name] = std::move(set);
   }
 
@@ -190,7 +217,8 @@ class Converter {
   }
 
   void add_film() {
-    const auto block = std::ranges::find_if(mesh_.blocks, has_triangles);
+    auto block = block_of(3);
+    if (block == mesh_.blocks.end()) block = block_of(2);
     CellSet film{static_cast<int>(block - mesh_.blocks.begin()),
                  std::vector<int>(static_cast<std::size_t>(block->size()))};
     std::iota(film.cells.begin(), film.cells.end(), 0);

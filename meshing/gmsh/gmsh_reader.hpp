@@ -8,12 +8,13 @@
 
 namespace dielast::meshing {
 
-/// Reads a mesh file of gmsh (MSH 4.1 or 2.2), coordinates in m: 3- or 6-node triangles and 2- or 3-node
-/// lines, all of one order. Nodes without a cell are dropped; clockwise triangles are turned round.
+/// Reads a mesh file of gmsh (MSH 4.1 or 2.2), coordinates in m: 4- or 10-node tetrahedra, 3- or 6-node
+/// triangles and 2- or 3-node lines, all of one order. Nodes without a cell are dropped; clockwise triangles
+/// are turned round, and where there are 4-node tetrahedra all cells get middle nodes.
 ///
-/// Places are the physical groups of points, lines and surfaces, by name; one without a name is called
-/// "surface 3" after its tag. `film` (all triangles) is added unless the file has a place of that name.
-/// Throws MeshError saying what to change.
+/// Places are the physical groups of points, lines, surfaces and volumes, by name; one without a name is
+/// called "surface 3" after its tag. `film` (all tetrahedra, without any all triangles) is added unless the
+/// file has a place of that name. Throws MeshError saying what to change.
 Mesh read_gmsh(const std::filesystem::path& path);
 
 /// The mesh of what gmsh has found in a file, which is not believed: a damaged file may have made gmsh write

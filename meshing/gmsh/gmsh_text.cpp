@@ -10,7 +10,8 @@ namespace dielast::meshing {
 
 namespace {
 
-/// gmsh's number of a cell type, and its dimension. Both number middle nodes in the same order.
+/// gmsh's number of a cell type, and its dimension. Both number middle nodes in the same order, but for the
+/// last two of a tetrahedron.
 struct ElementType {
   int number, dimension;
 };
@@ -24,6 +25,10 @@ ElementType element_type(CellType type) {
     return {8, 1};
   case CellType::triangle3:
     return {2, 2};
+  case CellType::tetrahedron4:
+    return {4, 3};
+  case CellType::tetrahedron10:
+    return {11, 3};
   default:
     return {9, 2};
   }
@@ -39,7 +44,9 @@ std::string gmsh_text(const Mesh& mesh) {
   std::vector<std::string> elements;
   const auto add = [&](ElementType type, std::size_t group, std::span<const int> nodes) {
     std::string line = fmt::format("{} {} 2 {} {}", elements.size() + 1, type.number, group, group);
-    for (const int node : nodes) line += fmt::format(" {}", node + 1);
+    std::vector<int> own(nodes.begin(), nodes.end());
+    if (own.size() == 10) std::swap(own[8], own[9]);
+    for (const int node : own) line += fmt::format(" {}", node + 1);
     elements.push_back(std::move(line));
   };
   fmt::format_to(out, "{}\n", mesh.node_sets.size());

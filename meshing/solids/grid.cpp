@@ -8,9 +8,6 @@
 
 namespace dielast::meshing {
 
-namespace {
-
-/// The places and the middles between them.
 std::vector<double> with_middles(const std::vector<double>& lines) {
   std::vector<double> all{lines.front()};
   for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -19,8 +16,6 @@ std::vector<double> with_middles(const std::vector<double>& lines) {
   }
   return all;
 }
-
-} // namespace
 
 std::vector<double> graded_line(const std::vector<double>& breaks, const std::vector<double>& fine,
                                 double finest, double coarsest) {

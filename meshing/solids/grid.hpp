@@ -13,6 +13,9 @@ namespace dielast::meshing {
 std::vector<double> graded_line(const std::vector<double>& breaks, const std::vector<double>& fine,
                                 double finest, double coarsest);
 
+/// The places and the middles between them.
+std::vector<double> with_middles(const std::vector<double>& lines);
+
 /// A grid of quadrilaterals between the lines u and v, each split into two 6-node triangles with the nodes at
 /// place(u, v), counter-clockwise where (u, v) is.
 class TriangleGrid {

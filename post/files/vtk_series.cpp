@@ -38,6 +38,10 @@ int vtk_type(meshing::CellType type) {
     return VTK_TRIANGLE;
   case meshing::CellType::triangle6:
     return VTK_QUADRATIC_TRIANGLE;
+  case meshing::CellType::tetrahedron4:
+    return VTK_TETRA;
+  case meshing::CellType::tetrahedron10:
+    return VTK_QUADRATIC_TETRA;
   case meshing::CellType::line2:
   case meshing::CellType::line3:
   case meshing::CellType::meridian2:

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/pictures/film_raster.hpp"
 
+#include "meshing/solids/sides.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace dielast::post {
 
@@ -93,24 +96,29 @@ Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<doub
   const NodeValues values(mesh, panel);
   const Palette palette = panel.values.empty() ? Palette(plain_film) : Palette(range);
   std::size_t number = 0;
+  const auto draw = [&](std::size_t of, std::span<const int> nodes) {
+    std::array<Eigen::Vector3d, 6> x;
+    std::array<double, 6> value{};
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      x[a] = place(panel.positions[static_cast<std::size_t>(nodes[a])]);
+      value[a] = values.at(of, nodes[a]);
+    }
+    if (nodes.size() == 3)
+      raster.draw({Corner{x[0].head<2>(), x[0].z(), value[0]}, Corner{x[1].head<2>(), x[1].z(), value[1]},
+                   Corner{x[2].head<2>(), x[2].z(), value[2]}},
+                  palette, light_on(x, place.light));
+    else
+      draw_triangle(raster, x, value, parts_of_side, palette, light_on(x, place.light));
+  };
   for (const CellBlock& block : mesh.blocks) {
     if (is_line(block.type)) continue;
-    for (int cell = 0; cell < block.size(); ++cell, ++number) {
-      if (!is_triangle(block.type)) continue;
-      const auto nodes = block.cell(cell);
-      std::array<Eigen::Vector3d, 6> x;
-      std::array<double, 6> value{};
-      for (std::size_t a = 0; a < nodes.size(); ++a) {
-        x[a] = place(panel.positions[static_cast<std::size_t>(nodes[a])]);
-        value[a] = values.at(number, nodes[a]);
-      }
-      if (nodes.size() == 3)
-        raster.draw({Corner{x[0].head<2>(), x[0].z(), value[0]}, Corner{x[1].head<2>(), x[1].z(), value[1]},
-                     Corner{x[2].head<2>(), x[2].z(), value[2]}},
-                    palette, light_on(x, place.light));
-      else
-        draw_triangle(raster, x, value, parts_of_side, palette, light_on(x, place.light));
-    }
+    if (block.type == meshing::CellType::tetrahedron10)
+      for (const auto& [cell, nodes] : meshing::outer_sides(block))
+        draw(number + static_cast<std::size_t>(cell), nodes);
+    if (is_triangle(block.type))
+      for (int cell = 0; cell < block.size(); ++cell)
+        draw(number + static_cast<std::size_t>(cell), block.cell(cell));
+    number += static_cast<std::size_t>(block.size());
   }
   return raster;
 }

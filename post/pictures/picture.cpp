@@ -71,7 +71,7 @@ void stroke_rods(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel,
   for (const CellBlock& block : mesh.blocks) {
     if (is_line(block.type)) continue;
     for (int cell = 0; cell < block.size(); ++cell, ++number) {
-      if (is_triangle(block.type)) continue;
+      if (is_triangle(block.type) || is_tetrahedron(block.type)) continue;
       add_path(cr, block, cell, panel.positions);
       set_colour(cr, panel.values.empty()
                          ? plain_film

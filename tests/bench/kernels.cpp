@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Assembly alone: time per element of residual and tangent, planar and in space, with one and two threads.
+// Assembly alone: time per element of residual and tangent, planar and in space, of films and of tetrahedra,
+// with one and two threads.
 
 #include "tests/bench/models.hpp"
 
@@ -30,11 +31,15 @@ void planar_residual(benchmark::State& bench) { assemble(bench, partial_electrod
 void planar_tangent(benchmark::State& bench) { assemble(bench, partial_electrode_disc(66), What::tangent); }
 void spatial_residual(benchmark::State& bench) { assemble(bench, plate_diaphragm(3), What::residual); }
 void spatial_tangent(benchmark::State& bench) { assemble(bench, plate_diaphragm(3), What::tangent); }
+void solid_residual(benchmark::State& bench) { assemble(bench, stack_on_table(3), What::residual); }
+void solid_tangent(benchmark::State& bench) { assemble(bench, stack_on_table(3), What::tangent); }
 
 BENCHMARK(planar_residual)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(planar_tangent)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(spatial_residual)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(spatial_tangent)->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK(solid_residual)->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK(solid_tangent)->Arg(1)->Arg(2)->UseRealTime();
 
 } // namespace
 

@@ -26,4 +26,8 @@ Task partial_electrode_disc(int rings);
 /// displacement.
 Task plate_diaphragm(int k);
 
+/// The incompressible stack of gallery/stack_on_table in space, 750 V at once. `across` = 3, 4 give 65 000
+/// and 130 000 unknowns. Result: the rise of the upper electrode's first corner.
+Task stack_on_table(int across);
+
 } // namespace dielast::bench

@@ -63,9 +63,11 @@ void run(benchmark::State& bench, Task (*make_task)(int)) {
 
 void disc(benchmark::State& bench) { run(bench, partial_electrode_disc); }
 void diaphragm(benchmark::State& bench) { run(bench, plate_diaphragm); }
+void stack(benchmark::State& bench) { run(bench, stack_on_table); }
 
 BENCHMARK(disc)->Arg(21)->Arg(66)->Arg(129)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(diaphragm)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(stack)->Arg(3)->Arg(4)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 } // namespace
 

@@ -36,7 +36,7 @@ meshing::Mesh curved_mesh(Dimension dimension, int n = 2) {
 std::unique_ptr<Model> solid_model(const meshing::Mesh& mesh, const std::vector<SolidSection>& sections,
                                    bool potential, Dimension dimension) {
   SolidCells cells{mesh.blocks[0], {}, {}};
-  for (int e = 0; e < cells.triangles.size(); ++e) {
+  for (int e = 0; e < cells.elements.size(); ++e) {
     cells.electrodes.push_back(e % 3 == 0 ? passive : 0);
     cells.sections.push_back(e % static_cast<int>(sections.size()));
   }
