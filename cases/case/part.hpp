@@ -34,6 +34,7 @@ struct Film {
                           ///< that of layers of `thickness`, stacked along the height
   double width = 0;       ///< of a solid in plane strain, across the plane, m
   std::optional<double> bulk_modulus{}; ///< of a solid, Pa; absent: incompressible
+  std::optional<int> stacked_along{};   ///< of a solid's layers: x, y or z (0..2); absent: along the height
 
   bool is_solid() const { return section == FilmSection::solid; }
 };
@@ -176,15 +177,17 @@ struct Line {
   std::array<double, 3> from{}, to{}; ///< m
 };
 
-/// [slab]: a rectangle of solid, in plane strain or of revolution about z
+/// [slab]: a rectangle of solid, in plane strain or of revolution about z; with a width a block in space
 struct Slab {
   double length = 0, height = 0;                    ///< along x, and along y or z, m
   double inner_radius = 0;                          ///< of revolution: where it begins, m
   std::optional<std::array<double, 2>> electrode{}; ///< from where to where along x, m; absent: all of it
   double cover_thickness = 0;                       ///< without field below and above the electrode, m
+  std::optional<double> width{}; ///< of a block, along z about z = 0, m; absent: a drawing in its plane
+  std::optional<double> electrode_width{}; ///< of that, about z = 0, m; absent: all of it
 };
 
-/// [hollow_sphere]: of solid, as drawn
+/// [hollow_sphere]: of solid, as drawn; of revolution, or in space its eighth at x, y, z >= 0
 struct HollowSphere {
   double inner_radius = 0, outer_radius = 0; ///< m
 };
@@ -202,7 +205,9 @@ struct MeshOptions {
   double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
   int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
   int across = 0; ///< elements from side to side of a strip, across the height of a slab, or a sphere's wall
-  int quadrature = 3; ///< integration points of a 6-node triangle: 3 or 6
+  int quadrature = 3;           ///< integration points of a 6-node triangle: 3 or 6
+  std::optional<double> size{}; ///< largest side of tetrahedra within a user's own surface, m; absent: a
+                                ///< tenth of its extent
 };
 
 /// A film, rods of it, or bars, with a mesh of their own or in a place of the unnamed part's. The part

@@ -8,7 +8,6 @@
 #include "fem/elements/distance_block.hpp"
 #include "fem/elements/point_mass_block.hpp"
 #include "meshing/mesh_error.hpp"
-#include "meshing/solids/sides.hpp"
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
@@ -183,8 +182,7 @@ void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
   const std::size_t port = model.electrodes.size();
   model.chambers = {{"chamber", one.chamber->bulk_modulus}};
   if (!one.chamber->place.empty()) {
-    model.blocks.push_back(fem::make_pressure_block(
-        mesh, meshing::sides_at(mesh, one.chamber->place, meshing::CellType::meridian3), port));
+    model.blocks.push_back(fem::make_pressure_block(mesh, wall_of_chamber(one, mesh), port));
     return;
   }
   model.blocks.push_back(fem::make_pressure_block(mesh, *mesh.film(), port));
@@ -315,7 +313,9 @@ Device build_device(const Case& one) {
   const bool of_solid = one.any_film([](const Film& f) { return f.is_solid(); });
   if (meshing::is_triangle(film->type) && !of_solid) require_flat_films(mesh, parts, model.extent);
   const auto elements = static_cast<double>(film->size());
-  model.length_scale = model.extent / (meshing::is_meridian(film->type) ? elements : std::sqrt(elements));
+  model.length_scale = model.extent / (meshing::is_meridian(film->type)      ? elements
+                                       : meshing::is_tetrahedron(film->type) ? std::cbrt(elements)
+                                                                             : std::sqrt(elements));
   try {
     add_films(one, mesh, parts, model);
     add_solids(one, mesh, parts, model);

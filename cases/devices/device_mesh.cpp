@@ -40,13 +40,17 @@ std::vector<int> cells_in(const meshing::Mesh& mesh, const meshing::CellBlock& b
   return {cells.begin(), cells.end()};
 }
 
-/// A user's mesh in m, of its lines only those along which there are bars: others only name places.
+/// A user's mesh in m, of its lines only those along which there are bars, and of triangles none where there
+/// are tetrahedra: others only name places.
 meshing::Mesh film_and_bars(meshing::Mesh mesh, double unit, const std::vector<std::string>& bars) {
   for (auto& x : mesh.nodes) x *= unit;
+  const bool in_space = std::ranges::any_of(
+      mesh.blocks, [](const meshing::CellBlock& block) { return meshing::is_tetrahedron(block.type); });
   for (int b = static_cast<int>(mesh.blocks.size()) - 1; b >= 0; --b) {
     meshing::CellBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
-    if (!meshing::is_line(block.type)) continue;
-    const std::vector<int> kept = cells_in(mesh, block, bars);
+    const bool surface = in_space && meshing::is_triangle(block.type);
+    if (!surface && !meshing::is_line(block.type)) continue;
+    const std::vector<int> kept = surface ? std::vector<int>{} : cells_in(mesh, block, bars);
     std::vector<int> number(static_cast<std::size_t>(block.size()), -1);
     for (std::size_t k = 0; k < kept.size(); ++k)
       number[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
@@ -136,10 +140,14 @@ meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_orde
             const meshing::SlabShape shape{s.length, s.height, of_revolution ? s.inner_radius : 0.0,
                                            s.electrode.value_or(std::array{0.0, s.length}),
                                            s.cover_thickness};
+            if (s.width && dimension == fem::Dimension::spatial)
+              return meshing::block_mesh({shape, *s.width, s.electrode_width.value_or(*s.width)},
+                                         options.across, options.grading);
             return meshing::slab_mesh(shape, options.across, options.grading, of_revolution);
           },
           [&](const HollowSphere& h) {
-            return meshing::hollow_sphere_mesh(h.inner_radius, h.outer_radius, options.across);
+            return (of_revolution ? meshing::hollow_sphere_mesh : meshing::sphere_eighth_mesh)(
+                h.inner_radius, h.outer_radius, options.across);
           },
           [&](const MeshFile& file) {
             meshing::Mesh mesh = meshing::read_gmsh(file.path);

@@ -7,6 +7,7 @@
 #include "fem/shells/shell_block.hpp"
 #include "fem/solids/solid_block.hpp"
 #include "meshing/mesh_error.hpp"
+#include "meshing/solids/sides.hpp"
 
 #include <fmt/format.h>
 
@@ -61,10 +62,13 @@ std::vector<int> potential_map(const Case& one, const meshing::Mesh& mesh) {
 }
 
 /// A part that is meshed across its thickness.
-fem::SolidSection solid_section(const Film& film, fem::Dimension dimension) {
+fem::SolidSection solid_section(const Case& one, const Part& part) {
+  const Film& film = *part.film;
   fem::SolidSection section{.material = film.material, .width = film.width, .thickness = film.thickness};
   if (film.bulk_modulus) section.bulk_modulus = *film.bulk_modulus;
-  section.normal = Eigen::Vector3d::Unit(dimension == fem::Dimension::axisymmetric ? 2 : 1);
+  const bool along_z = one.dimension == fem::Dimension::axisymmetric ||
+                       (one.dimension == fem::Dimension::spatial && !one.any_geometry<Slab>());
+  section.normal = Eigen::Vector3d::Unit(film.stacked_along.value_or(along_z ? 2 : 1));
   return section;
 }
 
@@ -332,7 +336,7 @@ void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<in
   for (std::size_t p = 0; p < one.parts.size(); ++p)
     if (const auto& film = one.parts[p].film; film && film->is_solid()) {
       section_of[static_cast<int>(p)] = static_cast<int>(sections.size());
-      sections.push_back(solid_section(*film, one.dimension));
+      sections.push_back(solid_section(one, one.parts[p]));
       potential = film->potential;
     }
   if (sections.empty()) return;
@@ -350,6 +354,17 @@ void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<in
   model.blocks.push_back(fem::make_solid_block(mesh, std::move(cells), sections,
                                                potential ? potential_map(one, mesh) : std::vector<int>{},
                                                one.dimension));
+}
+
+meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh) {
+  const std::string& place = one.chamber->place;
+  if (one.dimension != fem::Dimension::spatial)
+    return meshing::sides_at(mesh, place, meshing::CellType::meridian3);
+  meshing::CellBlock faces = meshing::faces_at(mesh, place);
+  if (!one.geometry<HollowSphere>() && !meshing::is_closed(faces))
+    throw meshing::MeshError(
+        fmt::format("chamber: the surface \"{}\" has an edge; a chamber in a solid is closed", place));
+  return faces;
 }
 
 Bars bars(const Case& one, const meshing::Mesh& mesh) {

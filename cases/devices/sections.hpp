@@ -21,6 +21,10 @@ void add_capacitors(const Case& one, fem::Model& model);
 /// Adds one block of all solids, likewise.
 void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model);
 
+/// The surface of a solid on which the chamber presses. In space it must be closed, or be so with its mirror
+/// images: otherwise its volume would depend on where its edge is. Throws MeshError where it is not.
+meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh);
+
 /// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws MeshError for a place without
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);

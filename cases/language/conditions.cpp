@@ -200,6 +200,10 @@ Condition of_revolution() {
                  [](const Case& one) { return one.dimension == fem::Dimension::axisymmetric; });
 }
 
+Condition in_space() {
+  return on_case("model = \"3d\"", [](const Case& one) { return one.dimension == fem::Dimension::spatial; });
+}
+
 Condition plane_strain() {
   return on<Film>("section = \"solid\" in a planar model", [](const Case& one, const Film& film) {
     return film.is_solid() && one.dimension == fem::Dimension::planar;

@@ -31,6 +31,7 @@ Condition moves_along_it();   ///< of a quantity's direction
 Condition an_electrode_keeps_off_walls();
 Condition solid(); ///< the film's own section is one
 Condition of_revolution();
+Condition in_space();
 Condition plane_strain(); ///< likewise, of a planar model
 
 } // namespace when

@@ -126,12 +126,14 @@ void check_solid(SectionReader& reader, const Node& tree, const Case& one, const
   const Part* meshed = part.has_mesh() ? &part : one.unnamed();
   if (!meshed) return; // reported elsewhere
   const bool own_mesh = std::holds_alternative<MeshFile>(meshed->geometry) && !of_revolution;
-  const bool in_thick_mesh = std::holds_alternative<Slab>(meshed->geometry) ||
-                             std::holds_alternative<HollowSphere>(meshed->geometry);
-  if (!own_mesh && !in_thick_mesh)
-    report("section", "a solid is a [slab], a [hollow_sphere], or a planar mesh of your own");
-  if (one.dimension == fem::Dimension::spatial)
-    report("section", "solids are in plane strain (model = \"planar\") or of revolution");
+  const auto* slab = std::get_if<Slab>(&meshed->geometry);
+  if (!own_mesh && !slab && !std::holds_alternative<HollowSphere>(meshed->geometry))
+    report("section", "a solid is a [slab], a [hollow_sphere], or a mesh of your own");
+  if (one.dimension == fem::Dimension::spatial && slab && !slab->width)
+    report("section", "a slab in space has a width: slab.width");
+  if (film.stacked_along && !fem::moves(one.dimension, *film.stacked_along))
+    report("stacked_along", "the layers are stacked in the plane that is drawn: x and y of a planar model, x "
+                            "and z of one of revolution");
   if (std::holds_alternative<HollowSphere>(part.geometry) && !film.potential)
     report("field", "a hollow sphere is charged between its surfaces: field = \"potential\"");
   if (film.prestretch != std::array{1.0, 1.0}) report("prestretch", "a solid is drawn free of stress");
@@ -143,12 +145,15 @@ void check_solid(SectionReader& reader, const Node& tree, const Case& one, const
       }))
     report("material", "a solid's dashpots have no axes: dashpot = \"log\"");
   if (meshed->mesh.order != 2) report("section", "a solid is made of 6-node triangles");
-  if (std::ranges::any_of(one.steps, &Step::inertia) ||
-      (is_linearised(one) && (!film.material.branches.empty() || film.material.viscosity > 0)))
-    report("section", "solids move without inertia; their branches know of no harmonic response");
+  if (std::ranges::any_of(one.steps, &Step::inertia) || is_linearised(one) ||
+      has_step(one, {StepKind::modes}))
+    report("section", "solids move without inertia, and know of no modes and no harmonic response");
+  if (std::ranges::any_of(one.steps,
+                          [](const Step& step) { return step.on_instability == OnInstability::jump; }))
+    report("section", "solids do not jump: on_instability = \"stop\" or \"follow\"");
   for (const Quantity& quantity : one.quantities)
-    if (quantity.kind == QuantityKind::nominal_stress || quantity.kind == QuantityKind::radial_stretch ||
-        quantity.kind == QuantityKind::stretch)
+    if (quantity.kind == QuantityKind::natural_frequency || quantity.kind == QuantityKind::nominal_stress ||
+        quantity.kind == QuantityKind::radial_stretch || quantity.kind == QuantityKind::stretch)
       report("section",
              fmt::format("quantity \"{}\" is of films that are membranes or shells", quantity.name));
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {

@@ -350,8 +350,9 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
   const bool sphere = one.geometry<HollowSphere>();
   const bool roll = one.geometry<Roll>();
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
-  if (sphere && !of_revolution)
-    report_at(reader, tree, "model", "a hollow sphere is of revolution: model = \"axisymmetric\"");
+  if (sphere && one.dimension == fem::Dimension::planar)
+    report_at(reader, tree, "model",
+              "a hollow sphere is of revolution, or its eighth in space: model = \"axisymmetric\" or \"3d\"");
   if (roll && !of_revolution)
     report_at(reader, tree, "model", "a roll is a film of revolution: model = \"axisymmetric\"");
   if (balloon && !of_revolution)

@@ -3,6 +3,7 @@
 
 #include "cases/tables/templates.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dielast::cases {
@@ -58,8 +59,23 @@ void add_solid_defaults(Node& tree) {
     if (!film || !film->is(Node::Kind::table)) return;
     if (!film->find("section")) film->add("section", parse_value("\"solid\"", source));
     if (sphere && !film->find("field")) film->add("field", parse_value("\"potential\"", source));
+    const Node* slab = part.find("slab");
+    if (!slab || !slab->is(Node::Kind::table) || !slab->find("width")) return;
+    if (!tree.find("model")) tree.add("model", parse_value("\"3d\"", source));
+    if (!part.find("mesh")) part.add("mesh", Node{.kind = Node::Kind::table, .source = source});
+    if (Node* mesh = part.find("mesh"); mesh->is(Node::Kind::table) && !mesh->find("across"))
+      mesh->add("across", parse_value("4", source)); // in space there are many more elements
   };
   complete(tree);
+  const Node* model = tree.find("model");
+  if (Node* supports = tree.find("support");
+      sphere && model && model->is(Node::Kind::text) && model->text == "3d" && supports &&
+      supports->is(Node::Kind::list) && std::ranges::none_of(supports->items, [](const Node& support) {
+        return support.source.is_written();
+      })) // the planes that part an eighth from the others
+    for (const char* support :
+         {"{ place = \"side_x\", fix = [\"x\"] }", "{ place = \"side_y\", fix = [\"y\"] }"})
+      supports->items.push_back(parse_value(support, source));
   if (Node* parts = tree.find("part"))
     for (Node& part : parts->items) complete(part);
 }

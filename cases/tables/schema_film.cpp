@@ -221,8 +221,9 @@ Section film_section() {
             {"shell", "it resists bending, and its nodes turn; in space, of 6-node triangles",
              FilmSection::shell},
             {"solid",
-             "it is meshed: in plane strain (model = \"planar\") or of revolution, of 6-node triangles; the "
-             "default of a [slab] and a [hollow_sphere]",
+             "it is meshed: in plane strain (model = \"planar\") or of revolution of 6-node triangles, in "
+             "space "
+             "of 10-node tetrahedra; the default of a [slab] and a [hollow_sphere]",
              FilmSection::solid}},
            to(&Film::section), "what the film's thickness does")
           .otherwise("membrane"),
@@ -236,6 +237,11 @@ Section film_section() {
             true}},
           to(&Film::potential), "where the field of a solid comes from")
           .otherwise("layers")
+          .only_with(when::solid()),
+      word("stacked_along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Film::stacked_along),
+           "direction in which the layers of a solid are stacked; without it along the height: y in plane "
+           "strain and in a [slab], z otherwise")
+          .optional()
           .only_with(when::solid()),
       measure("width", "m", to(&Film::width), "of a solid in plane strain: across the plane")
           .above(0)

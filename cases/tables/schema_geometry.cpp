@@ -192,8 +192,9 @@ Section patch_section() {
 Section slab_section() {
   Section section;
   section.name = "slab";
-  section.meaning = "rectangle of solid, as high along y as its layers are stacked: in plane strain; or of "
-                    "revolution about z, as high along z: a disc, a ring, a tube";
+  section.meaning =
+      "rectangle of solid, as high along y as its layers are stacked: in plane strain; or of "
+      "revolution about z, as high along z: a disc, a ring, a tube; with a width in space: a block";
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<Slab>();
   section.keys = {
@@ -214,6 +215,17 @@ Section slab_section() {
               "height without electrodes at the bottom, and at the top")
           .at_least(0)
           .otherwise("0 m"),
+      measure("width", "m", to(&Slab::width),
+              "in space: along z, about z = 0; with it the default is model = \"3d\"")
+          .above(0)
+          .at_most(10)
+          .optional()
+          .only_with(when::in_space()),
+      measure("electrode_width", "m", to(&Slab::electrode_width),
+              "in space: of the electrode, about z = 0; without it that of the slab")
+          .above(0)
+          .optional()
+          .only_with(when::in_space()),
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& slab = *static_cast<const Slab*>(object);
@@ -222,6 +234,8 @@ Section slab_section() {
       return Conflict{"electrode", "must lead from the left to the right, within the slab's length"};
     if (2 * slab.cover_thickness >= slab.height)
       return Conflict{"cover_thickness", "must be below half of the height"};
+    if (slab.electrode_width && slab.electrode_width > slab.width)
+      return Conflict{"electrode_width", "must be at most the slab's width"};
     return std::nullopt;
   };
   return section;
@@ -230,7 +244,8 @@ Section slab_section() {
 Section hollow_sphere_section() {
   Section section;
   section.name = "hollow_sphere";
-  section.meaning = "sphere of solid about a hollow, of revolution about z";
+  section.meaning = "sphere of solid about a hollow, of revolution about z; in space (model = \"3d\") its "
+                    "eighth at x, y, z >= 0";
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<HollowSphere>();
   section.keys = {

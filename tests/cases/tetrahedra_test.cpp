@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Solids in space as a user writes them.
+#include "cases/readers/reader.hpp"
+#include "meshing/gmsh/gmsh_text.hpp"
+#include "meshing/mesh_error.hpp"
+#include "meshing/solids/slab.hpp"
+#include "tests/cases/path_cases.hpp"
+#include "tests/cases/values_at_end.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+constexpr double mu = 40e3, eps = 4e-11;
+
+class Tetrahedra : public Paths {
+ protected:
+  Case read(const std::string& text) {
+    write("solid.toml", text + "\n[output]\nerror_estimate = false\n");
+    return read_case(directory / "solid.toml");
+  }
+  std::map<std::string, double> values(const std::string& text) { return test::values_at_end(read(text)); }
+};
+
+std::string film(const std::string& thickness, const std::string& rest = "") {
+  return fmt::format(
+      "[film]\nthickness = \"{}\"\n{}\n[film.material]\nshear_modulus = \"{} Pa\"\npermittivity "
+      "= \"{} F/m\"\n",
+      thickness, rest, mu, eps);
+}
+
+// ../shared/validation/thick_shells.json: an eighth of it.
+TEST_F(Tetrahedra, eighth_of_a_thick_sphere_has_the_exact_radii_and_capacitance) {
+  const Case one =
+      read("model = \"3d\"\n" + film("2 mm") +
+           "[hollow_sphere]\ninner_radius = \"10 mm\"\nouter_radius = \"12 mm\"\n[mesh]\nacross = "
+           "2\n[chamber]\nat = \"inner\"\npressure = \"4 kPa\"\n[drive]\nvoltage = \"20 kV\"\n"
+           "[[step]]\nkind = \"pressure\"\nincrements = 2\n[[step]]\nkind = "
+           "\"voltage\"\nincrements = 2\n");
+  const auto found = test::values_at_end(one);
+  EXPECT_NEAR(found.at("inner_radius"), 11.224103931699284e-3, 1e-4 * 11.2e-3);
+  EXPECT_NEAR(found.at("outer_radius"), 12.890637452975843e-3, 1e-4 * 12.9e-3);
+  EXPECT_NEAR(8 * found.at("capacitance"), 4.363971194858246e-11, 2e-4 * 4.36e-11);
+  EXPECT_NEAR(found.at("electrical_work") + found.at("mechanical_work"), found.at("stored_energy"),
+              1e-8 * found.at("stored_energy"));
+}
+
+std::string stack(const std::string& more) {
+  std::string text = film("50 um") +
+                     "[slab]\nlength = \"6 mm\"\nheight = \"0.6 mm\"\nelectrode = [\"1.5 mm\", \"4.5 mm\"]\n"
+                     "cover_thickness = \"50 um\"\n" +
+                     more + "[drive]\nvoltage = \"300 V\"\n[[step]]\nkind = \"voltage\"\nincrements = 1\n";
+  for (const auto& [name, x] : {std::pair{"swells", 1.0}, {"sinks", 2.0}})
+    text +=
+        fmt::format("[[quantity]]\nname = \"{}\"\nkind = \"displacement\"\npoint = [\"{} mm\", \"0.6 mm\", "
+                    "\"0 mm\"]\nalong = \"y\"\n",
+                    name, x);
+  return text;
+}
+
+/// Its sides held it is the stack in plane strain, and free its middle nearly so.
+TEST_F(Tetrahedra, middle_of_a_stack_is_in_plane_strain) {
+  const auto plane =
+      values(stack("[mesh]\nacross = 3\n[[support]]\nplace = \"bottom\"\nfix = [\"x\", \"y\"]\n"));
+  ASSERT_GT(plane.at("swells"), 1e-7);
+  ASSERT_LT(plane.at("sinks"), -1e-7);
+  const std::string block = "width = \"9 mm\"\n[mesh]\nacross = 3\n[[support]]\nplace = \"bottom\"\nfix = "
+                            "[\"x\", \"y\", \"z\"]\n";
+  const auto free = values(stack(block));
+  const auto held =
+      values(stack(block + "[[support]]\nplace = \"front\"\nfix = [\"z\"]\n[[support]]\nplace = "
+                           "\"back\"\nfix = [\"z\"]\n"));
+  for (const char* name : {"swells", "sinks"}) {
+    EXPECT_NEAR(held.at(name), plane.at(name), 0.01 * std::abs(plane.at(name))) << name;
+    EXPECT_NEAR(free.at(name), plane.at(name), 0.05 * std::abs(plane.at(name))) << name;
+  }
+  EXPECT_NEAR(held.at("capacitance"), plane.at("capacitance") * 9e-3, 1e-5 * held.at("capacitance"));
+}
+
+/// See two_layers_have_the_force_and_capacitance_of_the_closed_form of plane strain.
+TEST_F(Tetrahedra, two_layers_have_the_force_and_capacitance_of_the_closed_form) {
+  constexpr double mu2 = 100e3, eps2 = 8e-11, H = 0.5e-3, voltage = 10e3, l = 1.1, W = 2e-3;
+  const auto found = values(
+      film("2 mm", "field = \"potential\"") +
+      fmt::format(
+          "[part.core]\nplace = \"electrode\"\n[part.core.film]\nthickness = \"2 mm\"\nfield = "
+          "\"potential\"\n[part.core.film.material]\nshear_modulus = \"{} Pa\"\npermittivity = \"{} "
+          "F/m\"\n[slab]\nlength = \"5 mm\"\nheight = \"1 mm\"\nwidth = \"2 mm\"\ncover_thickness = \"0.25 "
+          "mm\"\n[mesh]\nacross = 2\n"
+          "[[electrode]]\nname = \"film\"\nplace = \"top\"\nground = \"bottom\"\n"
+          "[[support]]\nplace = \"left\"\nfix = [\"x\"]\n[[support]]\nplace = \"bottom\"\nfix = "
+          "[\"y\"]\n[[support]]\nplace = \"front\"\nfix = [\"z\"]\n[[support]]\nplace = \"back\"\nfix = "
+          "[\"z\"]\n"
+          "[[support]]\nplace = \"right\"\ndisplacement = {{ x = \"0.5 mm\" }}\n"
+          "[drive]\nvoltage = \"{} V\"\n[[step]]\nkind = \"move\"\n[[step]]\nkind = "
+          "\"voltage\"\nincrements = 4\n[[quantity]]\n"
+          "name = \"pull\"\nkind = \"force\"\nof = \"right\"\nalong = \"x\"\n",
+          mu2, eps2, voltage));
+  const double per_area = 1 / (H / eps + H / eps2); // F/m^2 as drawn
+  EXPECT_NEAR(found.at("capacitance"), per_area * l * l * 5e-3 * W, 1e-8 * found.at("capacitance"));
+  const double charge = per_area * voltage;
+  const double force =
+      W * (H * (mu + mu2) * (l - 1 / (l * l * l)) - H * l * charge * charge * (1 / eps + 1 / eps2));
+  EXPECT_NEAR(found.at("pull"), force, 1e-8 * std::abs(force));
+}
+
+std::string own_mesh(const std::string& rest) {
+  return "model = \"3d\"\n" + film("0.1 mm", "section = \"solid\"\n" + rest) +
+         "[mesh]\nfile = \"own.msh\"\nunit = \"1 m\"\n[[electrode]]\nname = \"film\"\nplace = \"electrode\"\n"
+         "[[support]]\nplace = \"bottom\"\nfix = [\"x\", \"y\", \"z\"]\n[drive]\nvoltage = \"500 V\"\n"
+         "[[step]]\nkind = \"voltage\"\nincrements = 1\n[[quantity]]\nname = \"swelling\"\nkind = "
+         "\"swelling\"\nof = \"top\"\nalong = \"y\"\n";
+}
+
+/// A mesh of one's own, and the direction in which its layers are stacked.
+TEST_F(Tetrahedra, own_mesh_is_as_good_as_a_slab) {
+  write("own.msh",
+        meshing::gmsh_text(meshing::block_mesh({{4e-3, 0.6e-3, 0, {1e-3, 3e-3}, 0.1e-3}, 3e-3, 2e-3}, 3, 6)));
+  const auto slab = values(
+      film("0.1 mm") + "[slab]\nlength = \"4 mm\"\nheight = \"0.6 mm\"\nwidth = \"3 mm\"\nelectrode = [\"1 "
+                       "mm\", \"3 mm\"]\nelectrode_width = \"2 mm\"\ncover_thickness = \"0.1 "
+                       "mm\"\n[mesh]\nacross = 3\n[[support]]\nplace = \"bottom\"\nfix = [\"x\", \"y\", "
+                       "\"z\"]\n[drive]\nvoltage = \"500 V\"\n[[step]]\nkind = \"voltage\"\nincrements = "
+                       "1\n[[quantity]]\nname = \"swelling\"\nkind = \"swelling\"\nof = \"top\"\nalong = "
+                       "\"y\"\n");
+  ASSERT_GT(slab.at("swelling"), 1e-8);
+  const auto own = values(own_mesh("stacked_along = \"y\""));
+  EXPECT_NEAR(own.at("swelling"), slab.at("swelling"), 1e-6 * slab.at("swelling"));
+  EXPECT_NEAR(own.at("capacitance"), slab.at("capacitance"), 1e-6 * slab.at("capacitance"));
+  const auto across = values(own_mesh("")); // along z: the layers stand on their edges
+  EXPECT_GT(std::abs(across.at("swelling") / slab.at("swelling") - 1), 0.1);
+}
+
+void expect_error(const std::function<void()>& act, const std::string& part) {
+  try {
+    act();
+    ADD_FAILURE() << "accepted; expected: " << part;
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(Tetrahedra, refuse_what_solids_do_not_do) {
+  const std::string slab = "[slab]\nlength = \"4 mm\"\nheight = \"1 mm\"\n";
+  const std::string drive = "[drive]\nvoltage = \"500 V\"\n";
+  expect_error([&] { read("model = \"3d\"\n" + film("1 mm") + slab + drive); }, "slab.width");
+  expect_error([&] { read(film("1 mm") + slab + "width = \"2 mm\"\nelectrode_width = \"3 mm\"\n" + drive); },
+               "electrode_width");
+  expect_error([&] { read(film("1 mm", "stacked_along = \"z\"") + slab + drive); }, "stacked in the plane");
+  const std::string block = slab + "width = \"2 mm\"\n";
+  for (const char* step : {"kind = \"modes\"", "kind = \"harmonic\"\nfrom = \"1 Hz\"\nto = \"10 Hz\"",
+                           "kind = \"transient\"\nduration = \"1 s\"\ninertia = true"})
+    expect_error(
+        [&] {
+          read(film("1 mm") + "density = \"1000 kg/m3\"\n" + block + drive +
+               "[[step]]\nkind = \"voltage\"\n[[step]]\n" + step + "\n");
+        },
+        "without inertia");
+  expect_error(
+      [&] {
+        read(film("1 mm") + block + drive + "[[step]]\nkind = \"voltage\"\non_instability = \"jump\"\n");
+      },
+      "solids do not jump");
+  const Case open = read(film("1 mm") + block +
+                         "[[support]]\nplace = \"bottom\"\nfix = [\"x\", \"y\", \"z\"]\n"
+                         "[chamber]\nat = \"top\"\npressure = \"1 kPa\"\n" +
+                         drive + "[[step]]\nkind = \"pressure\"\n");
+  expect_error([&] { build_device(open); }, "has an edge");
+  write("own.msh",
+        meshing::gmsh_text(meshing::block_mesh({{4e-3, 1e-3, 0, {0, 4e-3}, 0}, 3e-3, 3e-3}, 1, 6)));
+  std::string membrane = own_mesh("");
+  membrane.replace(membrane.find("section = \"solid\""), 17, "");
+  const Case tetrahedral_film = read(membrane);
+  EXPECT_THROW(build_device(tetrahedral_film), meshing::MeshError);
+}
+
+/// A thin clamped disc whose electrode ends inside, with the potential as unknown, against the membrane. Its
+/// difference is that of the fringe, and goes with the thickness.
+TEST_F(Tetrahedra, thin_disc_with_fringes_is_the_membrane) {
+  constexpr double radius = 10e-3, electrode = 4e-3;
+  const auto membrane = values(fmt::format(
+      "model = \"axisymmetric\"\n{}[disc]\nradius = \"{} m\"\nelectrode_radius = \"{} m\"\n[mesh]\nrings = "
+      "100\n[[support]]\nplace = \"film\"\nfix = [\"z\"]\n[[support]]\nplace = \"rim\"\nfix = [\"x\", "
+      "\"z\"]\n[drive]\nvoltage = \"10 kV\"\n[[step]]\nkind = \"voltage\"\nincrements = 4\n",
+      film("1 mm"), radius, electrode));
+  const double expected = membrane.at("electrode_radius") - electrode;
+  ASSERT_GT(expected, 0.01 * electrode);
+  double difference = 1;
+  for (const int part : {20, 40, 80}) { // thickness over radius
+    const double H = radius / part;
+    // Its upper half: the middle is the ground.
+    const auto solid = values(fmt::format(
+        "model = \"axisymmetric\"\n{}[slab]\nlength = \"{} m\"\nheight = \"{} m\"\nelectrode = [\"0 m\", "
+        "\"{} m\"]\n[mesh]\nacross = 3\n[[electrode]]\nname = \"film\"\nplace = \"upper_electrode\"\nground "
+        "= \"bottom\"\n[[support]]\nplace = \"bottom\"\nfix = [\"z\"]\n[[support]]\nplace = "
+        "\"right\"\nfix = [\"x\"]\n[drive]\nvoltage = \"{} V\"\n[[step]]\nkind = \"voltage\"\nincrements = "
+        "4\n[[quantity]]\nname = \"edge\"\nkind = \"displacement\"\npoint = [\"{} m\", \"0 m\", \"0 "
+        "m\"]\nalong = \"x\"\n",
+        film(fmt::format("{} m", H), "field = \"potential\""), radius, H / 2, electrode, 10e3 * H / 1e-3 / 2,
+        electrode));
+    const double now = std::abs(solid.at("edge") / expected - 1);
+    EXPECT_LT(now, 0.8 * difference) << part;
+    difference = now;
+  }
+  EXPECT_LT(difference, 0.01);
+}
+
+} // namespace
+} // namespace dielast::cases
