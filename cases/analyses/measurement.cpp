@@ -4,6 +4,7 @@
 #include "cases/analyses/analysis.hpp"
 #include "cases/case/quantities.hpp"
 #include "fem/linear/modal.hpp"
+#include "fem/model/contact_block.hpp"
 
 #include <fmt/format.h>
 
@@ -129,8 +130,7 @@ const std::vector<char>& Measurement::film_at(const std::string& place) const {
 Eigen::Vector3d Measurement::position(const std::string& place, const fem::State& state) const {
   const auto& nodes = device_.mesh.node_sets.at(place);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int n : nodes)
-    sum += device_.mesh.nodes[static_cast<std::size_t>(n)] + state.displacement[static_cast<std::size_t>(n)];
+  for (const int n : nodes) sum += at(n, state);
   return sum / static_cast<double>(nodes.size());
 }
 
@@ -144,8 +144,7 @@ double Measurement::length(const Quantity& quantity, const fem::State& state) co
   }
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const int n : device_.mesh.node_sets.at(quantity.of)) {
-    const Eigen::Vector3d x =
-        device_.mesh.nodes[static_cast<std::size_t>(n)] + state.displacement[static_cast<std::size_t>(n)];
+    const Eigen::Vector3d x = at(n, state);
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
@@ -260,10 +259,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     const Eigen::Vector3d centre = position(quantity.of, state);
     const auto& nodes = device_.mesh.node_sets.at(quantity.of);
     double sum = 0;
-    for (const int n : nodes)
-      sum += (device_.mesh.nodes[static_cast<std::size_t>(n)] +
-              state.displacement[static_cast<std::size_t>(n)] - centre)
-                 .norm();
+    for (const int n : nodes) sum += (at(n, state) - centre).norm();
     return sum / static_cast<double>(nodes.size());
   }
   case QuantityKind::force: {
@@ -277,6 +273,8 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     }
     return component(sum, quantity.along);
   }
+  case QuantityKind::contact_force:
+    return fem::contact_force(device_.model, state);
   case QuantityKind::stretch: {
     const double drawn = length(quantity, device_.model.initial_state());
     return length(quantity, state) / drawn * prestretch_.at(quantity.name);

@@ -90,6 +90,12 @@ struct Contact {
   double thickness = 0; ///< of the barrier: the gap at which it sets in, m
 };
 
+/// [table]: a rigid plane on which a surface of a solid lies, and from which it may lift
+struct Table {
+  std::string place;   ///< the surface
+  double friction = 0; ///< Coulomb's coefficient
+};
+
 /// [[spring]]: a linear spring between the centroids of two places, tension stiffness (distance -
 /// free_length)
 struct Spring {
@@ -190,6 +196,7 @@ enum class QuantityKind {
   radius,
   force,
   moment,
+  contact_force,
   nominal_stress,
   capacitance,
   charge,
@@ -302,6 +309,7 @@ struct Case {
   Gravity gravity;
   std::optional<Chamber> chamber;
   std::optional<Contact> contact;
+  std::optional<Table> table;
   std::vector<Spring> springs;
   std::vector<Linkage> linkages;
   std::vector<Step> steps;

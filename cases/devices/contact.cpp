@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
+#include "fem/elements/plane_contact_block.hpp"
 #include "fem/elements/wall_contact.hpp"
 #include "fem/elements/wall_contact_block.hpp"
 #include "meshing/mesh_error.hpp"
+#include "meshing/solids/sides.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <optional>
 
 namespace dielast::cases {
 
-void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  if (!one.contact) return;
+namespace {
+
+/// What a contact does as the mesh is drawn.
+fem::Evaluation as_drawn(const fem::ElementBlock& block, const meshing::Mesh& mesh) {
+  fem::State state;
+  state.displacement.assign(mesh.nodes.size(), Eigen::Vector3d::Zero());
+  return block.evaluate(state, 0, block.element_count(), {});
+}
+
+void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   const meshing::CellBlock& lines = *mesh.walls();
   const std::vector<double> widths = bars(one, mesh).widths;
   const fem::WallContactSearch walls(mesh, lines, widths);
@@ -44,8 +56,10 @@ void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
         const double touching =
             (widths[static_cast<std::size_t>(line)] + widths[static_cast<std::size_t>(meeting.front())]) / 2;
         const auto own = lines.cell(line);
-        const int middle = own.size() == 3 ? own[2] : fem::ContactPair::straight;
-        pairs.push_back({node, {own[0], own[1], middle}, touching, stands_for});
+        pairs.push_back({node,
+                         {own[0], own[1], own.size() == 3 ? own[2] : fem::ContactPair::straight},
+                         touching,
+                         stands_for});
       }
   }
   const Beam& wall = std::get<Honeycomb>(one.unnamed()->geometry).wall;
@@ -53,13 +67,41 @@ void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
   // A gap of half the barrier's thickness carries about what strains a wall across itself by 1 %.
   model.blocks.push_back(fem::make_wall_contact_block(
       mesh, std::move(pairs), {thickness, 0.01 * wall.material.youngs_modulus * wall.height / thickness}));
-  fem::State state;
-  state.displacement.assign(mesh.nodes.size(), Eigen::Vector3d::Zero());
-  const fem::ElementBlock& block = *model.blocks.back();
-  const fem::Evaluation drawn = block.evaluate(state, 0, block.element_count(), {});
+  const fem::Evaluation drawn = as_drawn(*model.blocks.back(), mesh);
   if (!drawn.feasible || drawn.energy > 0)
     throw meshing::MeshError(fmt::format(
         "walls of a cell are closer as drawn than the {:.6g} mm of contact.thickness", 1e3 * thickness));
+}
+
+/// The plane is where the barrier of the surface's lowest node begins.
+void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  const int up = of_revolution ? 2 : 1;
+  const double thickness = one.contact->thickness;
+  const Film& film = *one.unnamed()->film;
+  const meshing::CellBlock sides = meshing::sides_at(mesh, one.table->place, meshing::CellType::meridian3);
+  fem::PlaneContact contact =
+      fem::surface_of(mesh, sides, of_revolution ? std::nullopt : std::optional(film.width));
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const int node : contact.nodes)
+    lowest = std::min(lowest, mesh.nodes[static_cast<std::size_t>(node)][up]);
+  const double modulus = 3 * materials::initial_shear_modulus(film.material.law);
+  contact.normal = Eigen::Vector3d::Unit(up);
+  contact.origin = (lowest - thickness) * contact.normal;
+  // A gap of half the barrier's thickness bears about 1 % of Young's modulus.
+  contact.barrier = {.thickness = thickness, .stiffness = 0.01 * modulus / thickness, .foot = 1};
+  contact.friction = one.table->friction;
+  model.blocks.push_back(fem::make_plane_contact_block(mesh, std::move(contact)));
+}
+
+} // namespace
+
+void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  if (!one.contact) return;
+  if (one.table)
+    add_table(one, mesh, model);
+  else
+    add_walls(one, mesh, model);
 }
 
 } // namespace dielast::cases

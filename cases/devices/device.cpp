@@ -340,7 +340,7 @@ Device build_device(const Case& one) {
   tie_fins(fins, mesh, model.dofs);
   clamp_under_walls(one, mesh, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
-  const bool free_body = one.supports.empty() && one.bodies.empty();
+  const bool free_body = one.supports.empty() && one.bodies.empty() && !one.table;
   if (free_body) pin(mesh, dimension, model.dofs);
   if (dimension == fem::Dimension::axisymmetric)
     for (int n = 0; n < mesh.node_count(); ++n)

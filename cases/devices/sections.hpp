@@ -29,8 +29,8 @@ meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh);
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
-/// Adds what keeps the walls of a lattice's cells apart, where the case has [contact]. Throws MeshError where
-/// they are closer as drawn than the barrier reaches.
+/// Adds what keeps the walls of a lattice's cells, or a solid and its table, apart, where the case has
+/// [contact]. Throws MeshError where walls are closer as drawn than the barrier reaches.
 void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
 /// The bar along each line of the mesh.

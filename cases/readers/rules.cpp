@@ -249,12 +249,6 @@ void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   need(StepKind::inflate, "volume", one.chamber && one.chamber->volume);
 }
 
-void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
-  if (!one.contact) return;
-  if (!one.geometry<Honeycomb>() || one.dimension != fem::Dimension::planar)
-    report_at(reader, tree, "contact", "is between the walls of a planar [honeycomb]");
-}
-
 /// Linear models have no unknowns for the voltages along a sheet.
 void check_sheets(SectionReader& reader, const Node& tree, const Case& one) {
   if (!is_linearised(one)) return;
@@ -283,6 +277,8 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
     if (quantity.kind == QuantityKind::current && !one.circuits.contains(quantity.of))
       reader.warn(source, key,
                   "has no value here: the current is that through a [circuit], and there is none");
+    if (quantity.kind == QuantityKind::contact_force && !one.contact)
+      reader.report(source, key, "nothing touches; add [contact]");
     if (quantity.kind == QuantityKind::natural_frequency && !has_mass(one))
       reader.warn(source, key, "has no value here: nothing has a mass");
     for (const auto& [name, step] : {std::pair{"at", quantity.at}, {"since", quantity.since}})

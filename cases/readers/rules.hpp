@@ -18,6 +18,9 @@ void check_regions(SectionReader& reader, const Node& tree, const Case& one);
 /// Walls and the gap beside them must leave something of a honeycomb's cells.
 void check_surroundings_of_walls(SectionReader& reader, const Node& tree, const Case& one);
 
+/// What touches must be there, and slide as it can.
+void check_contact(SectionReader& reader, const Node& tree, const Case& one);
+
 void check_pivot(SectionReader& reader, const Node& tree, const Case& one);
 
 } // namespace dielast::cases

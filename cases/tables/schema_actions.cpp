@@ -294,14 +294,30 @@ Section contact_section() {
   Section section;
   section.name = "contact";
   section.meaning =
-      "walls of a [honeycomb] that touch are kept apart, without friction, by a barrier (Li et al. "
-      "2020); in the plane";
+      "what touches is kept apart by a barrier (Li et al. 2020): walls of a planar [honeycomb], without "
+      "friction, and a solid on a [table]";
   section.presence = Section::Presence::optional;
   section.access = present(&Case::contact);
   section.keys = {measure("thickness", "m", to(&Contact::thickness),
-                          "gap between the walls' faces at which the barrier sets in; it is never closed")
+                          "gap between faces at which the barrier sets in; it is never closed")
                       .above(0)
                       .at_most(0.1)};
+  return section;
+}
+
+Section table_section() {
+  Section section;
+  section.name = "table";
+  section.meaning = "a rigid plane across the height on which a solid lies: its surface touches as drawn, "
+                    "sinks in by less than contact.thickness, and may lift";
+  section.presence = Section::Presence::optional;
+  section.access = present(&Case::table);
+  section.keys = {text("at", to(&Table::place), "the surface that lies on it").refers_to(Reference::place),
+                  number("friction", to(&Table::friction),
+                         "Coulomb's coefficient; the normal force is that of the increment before")
+                      .at_least(0)
+                      .at_most(100)
+                      .otherwise("0")};
   return section;
 }
 
@@ -327,10 +343,10 @@ Section drive_section() {
 } // namespace
 
 std::vector<Section> action_sections() {
-  return {electrode_section(),  support_section(), load_section(),    spring_section(),
-          linkage_section(),    drive_section(),   circuit_section(), plate_section(),
-          point_mass_section(), body_section(),    fin_section(),     weight_section(),
-          pivot_section(),      gravity_section(), chamber_section(), contact_section()};
+  return {electrode_section(), support_section(), load_section(),  spring_section(),     linkage_section(),
+          drive_section(),     circuit_section(), plate_section(), point_mass_section(), body_section(),
+          fin_section(),       weight_section(),  pivot_section(), gravity_section(),    chamber_section(),
+          table_section(),     contact_section()};
 }
 
 } // namespace dielast::cases

@@ -63,6 +63,8 @@ Section quantity_section() {
             "of small vibrations about the state, branches relaxed; none where it is "
             "not at rest (rad/s)",
             QuantityKind::natural_frequency},
+           {"contact force", "sum of the normal forces where walls touch or a solid lies on a [table] (N)",
+            QuantityKind::contact_force},
            {"radial stretch", "stretch of the film along the radius, mean at an edge (-)",
             QuantityKind::radial_stretch},
            {"energy", "part of the energy balance (J)", QuantityKind::energy},

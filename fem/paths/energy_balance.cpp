@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/energy_balance.hpp"
 
+#include "fem/model/contact_block.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -96,7 +98,7 @@ void EnergyBalance::account(const EnergyPoint& point) {
   const Integral electrical = interval.over(&EnergyPoint::electrical);
   const Integral mechanical = interval.over(&EnergyPoint::mechanical);
   const double change = total(point.energy) - stored();
-  double heat = 0, leak_through_sheet = 0, doubt = 0;
+  double heat = point.friction - record_.points.back().friction, leak_through_sheet = 0, doubt = 0;
   const bool flows = point.flow != 0 || point.sheet.coordinate != record_.points.back().sheet.coordinate;
   if (interval.duration() > 0) {
     const Integral flow = interval.over(EnergyPoint::dashpots);
@@ -106,8 +108,8 @@ void EnergyBalance::account(const EnergyPoint& point) {
     const Integral resisted = interval.over(&EnergyPoint::resistance);
     const Integral leaked = interval.over(EnergyPoint::leak);
     leak_through_sheet = interval.over(EnergyPoint::leak_through_sheet).value;
-    heat = (fine ? flow.value : std::max(0.0, point.flow)) + std::max(0.0, damped.value) +
-           std::max(0.0, conducted.value + leak_through_sheet);
+    heat += (fine ? flow.value : std::max(0.0, point.flow)) + std::max(0.0, damped.value) +
+            std::max(0.0, conducted.value + leak_through_sheet);
     record_.work.resistance +=
         std::max(0.0, resisted.value + interval.over(EnergyPoint::leak_through_resistance).value);
     record_.work.leak += std::max(0.0, leaked.value);
@@ -257,6 +259,7 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
     }
   }
   point.energy = model.energies(state);
+  point.friction = friction_heat(model, state);
   point.power[EnergyPoint::dashpots] = point.energy.dissipation;
   return point;
 }

@@ -27,7 +27,8 @@ struct EnergyPoint {
   /// sheets on its way there, and in the resistance behind its source.
   enum Power { dashpots, dampers, leak, leak_through_sheet, leak_through_resistance, power_count };
   std::array<double, power_count> power{};
-  double flow = 0; ///< heat of the dashpots since the point before, see flow_heat(), J
+  double flow = 0;     ///< heat of the dashpots since the point before, see flow_heat(), J
+  double friction = 0; ///< heat of sliders since the beginning, J
   EnergyParts energy;
 };
 

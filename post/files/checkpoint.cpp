@@ -131,6 +131,7 @@ json archive(const fem::EnergyPoint& point) {
           {"resistance", archive(point.resistance)},
           {"sheet", archive(point.sheet)},
           {"power", post::pack(point.power)},
+          {"friction", point.friction},
           {"energy", post::pack(std::array{e.elastic, e.branches, e.electric, e.kinetic, e.regularised,
                                            e.dissipation})}};
 }
@@ -143,6 +144,7 @@ fem::EnergyPoint restore_point(const json& archived, const StateSizes& sizes) {
   point.length = place[0];
   point.time = place[1];
   point.moves = archived.at("moves");
+  point.friction = archived.at("friction");
   point.mechanical = restore_conjugates(archived.at("mechanical"), sizes.equations + sizes.chambers);
   point.electrical = restore_conjugates(archived.at("electrical"), sizes.electrodes);
   point.resistance = restore_conjugates(archived.at("resistance"), sizes.electrodes);

@@ -65,6 +65,51 @@ TEST_F(Contacts, change_nothing_where_walls_do_not_touch) {
     EXPECT_NEAR(with.at(name), without.at(name), 1e-9 * std::abs(without.at(name))) << name;
 }
 
+/// A slab of film's material on a table; 1000 kg/m^3.
+std::string slab(const std::string& rest, const std::string& friction = "0") {
+  return "[film]\nthickness = \"1 mm\"\nwidth = \"10 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+         "permittivity = \"4e-11 F/m\"\ndensity = \"1000 kg/m^3\"\n"
+         "[slab]\nlength = \"10 mm\"\nheight = \"1 mm\"\n[mesh]\nacross = 2\n"
+         "[gravity]\ndirection = [0, -1, 0]\nfilm = true\nacceleration = \"10 m/s^2\"\n"
+         "[contact]\nthickness = \"1 um\"\n[table]\nat = \"bottom\"\nfriction = " +
+         friction +
+         "\n[drive]\nvoltage = \"10 kV\"\n[output]\nerror_estimate = false\n"
+         "[[quantity]]\nname = \"weight\"\nkind = \"contact force\"\n"
+         "[[quantity]]\nname = \"length\"\nkind = \"growth\"\nof = \"film\"\nalong = \"x\"\nsince = "
+         "\"weight\"\n"
+         "[[quantity]]\nname = \"heat\"\nkind = \"energy\"\nof = \"dissipated\"\n" +
+         rest;
+}
+
+const std::string weight_and_voltage =
+    "[[step]]\nkind = \"weight\"\n[[step]]\nkind = \"voltage\"\nincrements = 5\n";
+
+/// Free to slide, the slab stretches as in plane strain: mu (l^2 - 1/l^2) = eps (l E)^2, and the table bears
+/// its weight, 1 mN.
+TEST_F(Contacts, slab_on_a_table_without_friction_stretches_freely) {
+  const auto end =
+      test::values_at_end(read(slab("[[support]]\nplace = \"left\"\nfix = [\"x\"]\n" + weight_and_voltage)));
+  EXPECT_NEAR(end.at("weight"), 1e-3, 1e-7);
+  const double l = 1 + end.at("length"), field = 10e3 / 1e-3;
+  EXPECT_NEAR(40e3 * (l * l - 1 / (l * l)), 4e-11 * l * l * field * field, 0.01 * 4e-11 * field * field);
+  EXPECT_EQ(end.at("heat"), 0);
+}
+
+/// More friction, less stretch; what slides makes heat. A slab that weighs a hundred times as much, so that
+/// friction may hold it.
+TEST_F(Contacts, friction_of_a_table_holds_a_slab) {
+  const auto at_end = [&](const std::string& friction) {
+    std::string text = slab(weight_and_voltage, friction);
+    text.replace(text.find("10 m/s^2"), 8, "1000 m/s^2");
+    return test::values_at_end(read(text));
+  };
+  const auto little = at_end("0.05"), much = at_end("0.5");
+  EXPECT_NEAR(little.at("weight"), 0.1, 1e-4);
+  EXPECT_NEAR(much.at("weight"), 0.1, 1e-4);
+  EXPECT_GT(little.at("heat"), 0);
+  EXPECT_LT(much.at("length"), 0.8 * little.at("length"));
+}
+
 TEST_F(Contacts, refuse_walls_that_touch_as_drawn) {
   EXPECT_THROW(build_device(read(honeycomb(63, contact))), meshing::MeshError);
 }

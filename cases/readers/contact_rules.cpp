@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+/// What slides has no way back, and no time of its own.
+void check_friction(SectionReader& reader, const Node& tree, const Case& one) {
+  const Node* steps = tree.find("step");
+  for (std::size_t s = 0; steps && s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    const auto report = [&](const char* message) {
+      reader.report(steps->items.at(s).source, fmt::format("step[{}]", s + 1), message);
+    };
+    if (step.duration || step.is_analysis())
+      report("friction of the [table] is for ramps that take no time");
+    else if (step.response == Response::instantaneous)
+      report("friction of the [table] flows with the branches; use response = \"relaxed\"");
+    if (step.on_instability != OnInstability::stop)
+      report("no path is followed or jumped along with friction of the [table]");
+  }
+}
+
+} // namespace
+
+void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
+  const auto report = [&](const char* section, const char* message) {
+    reader.report(tree.find(section)->source, section, message);
+  };
+  if (one.table && !(one.unnamed() && one.unnamed()->film && one.unnamed()->film->is_solid()))
+    report("table", "only for solids, with [film] at the top of the file");
+  if (one.table && !one.contact) report("table", "needs [contact], which says how thick its barrier is");
+  if (one.contact && !one.table && (!one.geometry<Honeycomb>() || one.dimension != fem::Dimension::planar))
+    report("contact", "is between the walls of a planar [honeycomb], or a solid and a [table]");
+  if (!one.table) return;
+  if (one.table->friction > 0) return check_friction(reader, tree, one);
+  if (one.dimension == fem::Dimension::planar &&
+      std::ranges::none_of(one.supports, [](const Support& support) { return support.fixed[0]; }))
+    report("table", "without friction nothing keeps the solid from sliding away; fix x of a "
+                    "place");
+}
+
+} // namespace dielast::cases
