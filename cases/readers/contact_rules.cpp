@@ -33,6 +33,8 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
   };
   if (one.table && !(one.unnamed() && one.unnamed()->film && one.unnamed()->film->is_solid()))
     report("table", "only for solids, with [film] at the top of the file");
+  if (one.table && one.dimension == fem::Dimension::spatial)
+    report("table", "for solids in plane strain and of revolution");
   if (one.table && !one.contact) report("table", "needs [contact], which says how thick its barrier is");
   if (one.contact && !one.table && (!one.geometry<Honeycomb>() || one.dimension != fem::Dimension::planar))
     report("contact", "is between the walls of a planar [honeycomb], or a solid and a [table]");
