@@ -102,7 +102,7 @@ struct Block {
       if (x.y() > 1 - 1e-9) mesh.node_sets["top"].push_back(n);
     }
     SolidCells cells{mesh.blocks[0], {}, {}};
-    cells.electrodes.assign(static_cast<std::size_t>(cells.triangles.size()), passive);
+    cells.electrodes.assign(static_cast<std::size_t>(cells.elements.size()), passive);
     cells.sections.assign(cells.electrodes.size(), 0);
     const SolidSection section{.material = test::vhb().material, .thickness = 1};
     bottom = surface_of(mesh, meshing::sides_at(mesh, "bottom", meshing::CellType::meridian3), 1);

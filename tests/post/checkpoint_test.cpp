@@ -50,8 +50,9 @@ fem::RampProgress sample_progress(int points = 3) {
     state.source = {uniform(random), 0};
     state.sheet_drop = vector(3);
     if (p > 0)
-      state.motion = std::make_shared<const fem::Motion>(fem::Motion{
-          vector(equations), vector(equations), vector(equations), vector(equations), uniform(random)});
+      state.motion = std::make_shared<const fem::Motion>(fem::Motion{vector(equations), vector(equations),
+                                                                     vector(equations), vector(equations),
+                                                                     vector(equations), uniform(random)});
     progress.points.push_back({uniform(random), state});
   }
   return progress;
