@@ -28,7 +28,9 @@ TEST_F(Faults, ARunKilledBetweenItsLastFilesIsCompletedByResume) {
 
 // A run that would take days said nothing of it. The clock runs ahead here.
 TEST_F(Faults, LongStepsSayHowLongTheyTake) {
-  const Ended ended = with_disk(1000000000, words("run", "out"));
+  std::vector<std::string> command = words("run", "out");
+  for (const char* word : {"--set", "step.voltage.increments=30"}) command.emplace_back(word);
+  const Ended ended = with_disk(1000000000, command);
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_NE(ended.out.find("; at this pace the step takes "), std::string::npos) << ended.out;
 }

@@ -33,7 +33,7 @@ struct Indenter {
     grid.name_nodes("top", [](double, double v) { return v == size; });
     mesh = grid.take();
     SolidCells cells{mesh.blocks[0], {}, {}};
-    cells.electrodes.assign(static_cast<std::size_t>(cells.triangles.size()), passive);
+    cells.electrodes.assign(static_cast<std::size_t>(cells.elements.size()), passive);
     cells.sections.assign(cells.electrodes.size(), 0);
     const SolidSection section{.material = {.law = materials::NeoHookean{mu}}, .thickness = 1};
     contact = surface_of(mesh, meshing::sides_at(mesh, "bottom", meshing::CellType::meridian3),
