@@ -134,6 +134,22 @@ std::vector<double> history_row(const post::StepRecord& record, const std::vecto
 /// How an electrode's voltage is called in tables and series.
 std::string table_name(std::string_view of) { return fmt::format("{}.csv", of); }
 
+json archive(const post::SeriesStep& step, const fem::State& state) {
+  json names = json::array();
+  std::vector<double> values{step.time, step.load_factor};
+  for (const auto& number : step.numbers) names.push_back(number.name), values.push_back(number.value);
+  return {
+      {"name", step.name}, {"names", names}, {"values", post::pack(values)}, {"state", post::archive(state)}};
+}
+
+post::SeriesStep restore_series_step(const json& archived) {
+  const json& names = archived.at("names");
+  const std::vector<double> values = post::unpack(archived.at("values"), names.size() + 2);
+  post::SeriesStep step{values[0], archived.at("name"), values[1]};
+  for (std::size_t n = 0; n < names.size(); ++n) step.numbers.push_back({names[n], values[n + 2]});
+  return step;
+}
+
 } // namespace
 
 Recorder::Recorder(const Case& one, Simulation& simulation, post::ResultsFolder& folder, bool resume)
@@ -236,7 +252,7 @@ void Recorder::record(const Frame& frame) {
   if (series_) {
     if (waiting_ && waiting_->step.name != record.step) write_waiting();
     waiting_ = {series_step(series_time(record), record.step, record.load_factor, record.voltages),
-                frame.measured.state.displacement, frame.measured.state.rotation, frame.measured.samples};
+                frame.measured.state, frame.measured.samples};
     for (std::size_t q = 0; q < case_.quantities.size(); ++q)
       waiting_->step.numbers.push_back(
           {fmt::format("{} [{}]", case_.quantities[q].name, unit_of(case_.quantities[q], case_.quantities)),
@@ -270,7 +286,8 @@ void Recorder::record(const Frame& frame) {
 
 void Recorder::write_waiting() {
   if (series_ && waiting_)
-    series_->write(waiting_->step, {waiting_->displacement, waiting_->rotation, waiting_->samples});
+    series_->write(waiting_->step,
+                   {waiting_->state.displacement, waiting_->state.rotation, waiting_->samples});
   waiting_.reset();
 }
 
@@ -306,6 +323,7 @@ void Recorder::save_checkpoint() {
        {"steps_ended", steps_ended_},
        {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
        {"series", entries(series_)},
+       {"waiting", waiting_ ? archive(waiting_->step, waiting_->state) : json(nullptr)},
        {"modes_series", entries(modes_)},
        {"journal",
         {{"records", records},
@@ -365,6 +383,10 @@ void Recorder::restore_checkpoint() try {
   folder_.begin(std::move(kept));
   if (!case_.fields) return;
   open_series(series_, "", saved.at("series"));
+  if (const json& waiting = saved.at("waiting"); !waiting.is_null()) {
+    waiting_ = {restore_series_step(waiting), post::restore_state(waiting.at("state"), sizes), {}};
+    waiting_->samples = device.model.sample(waiting_->state);
+  }
   if (journal_.modes > 0) open_series(modes_, critical_name, saved.at("modes_series"));
 } catch (const json::exception&) {
   throw FileError((folder_ / checkpoint_name).string() + ": damaged; run again without --resume");

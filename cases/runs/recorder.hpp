@@ -71,8 +71,7 @@ class Recorder {
   /// A state of the series that is written where no other of its step follows.
   struct WaitingState {
     post::SeriesStep step;
-    std::vector<Eigen::Vector3d> displacement;
-    std::vector<Eigen::Quaterniond> rotation;
+    fem::State state;
     fem::Samples samples;
   };
   double series_time(const post::StepRecord& record);

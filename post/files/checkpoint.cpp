@@ -49,6 +49,8 @@ json archive(const fem::Motion& motion) {
           {"step", motion.step}};
 }
 
+} // namespace
+
 json archive(const fem::State& state) {
   std::vector<double> rotations;
   rotations.reserve(4 * state.rotation.size());
@@ -70,6 +72,8 @@ json archive(const fem::State& state) {
           {"motion", state.motion ? archive(*state.motion) : json(nullptr)}};
 }
 
+namespace {
+
 std::shared_ptr<const fem::History> restore_history(const json& archived, std::size_t size) {
   if (archived.is_null() != (size == 0)) mismatch();
   if (archived.is_null()) return nullptr;
@@ -88,6 +92,8 @@ std::shared_ptr<const fem::Motion> restore_motion(const json& archived, std::siz
                                                          part("acceleration"), part("unbalanced"),
                                                          part("acceleration_now"), archived.at("step")});
 }
+
+} // namespace
 
 fem::State restore_state(const json& archived, const StateSizes& sizes) {
   fem::State state;
@@ -115,6 +121,8 @@ fem::State restore_state(const json& archived, const StateSizes& sizes) {
   state.motion = restore_motion(archived.at("motion"), sizes.equations);
   return state;
 }
+
+namespace {
 
 json archive(const fem::Conjugates& pair) { return {pack(pair.force), pack(pair.coordinate)}; }
 

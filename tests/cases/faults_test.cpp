@@ -35,6 +35,12 @@ TEST_F(Faults, LongStepsSayHowLongTheyTake) {
   EXPECT_NE(ended.out.find("; at this pace the step takes "), std::string::npos) << ended.out;
 }
 
+// The last state of a step waits for the next one before it is written; a checkpoint in between keeps it.
+TEST_F(Faults, ASeriesOfLastStatesSurvivesKills) {
+  write("run.toml", small_honeycomb + "[output]\nerror_estimate = false\nstates = \"last\"\n");
+  EXPECT_GT(kill_and_resume("run", 5, 9), 3);
+}
+
 TEST_F(Faults, AFullDiskIsToldAndResumeGoesOn) { fill_the_disk("run", 3); }
 
 TEST_F(Faults, DamagedCheckpointsChangeNoResult) { damage_checkpoints(12); }
