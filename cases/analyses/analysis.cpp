@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/analyses/analysis.hpp"
 
+#include "cases/analyses/positions.hpp"
 #include "cases/case/quantities.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/paths/instability.hpp"
@@ -261,43 +262,29 @@ Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::S
     const auto& nodes = device.mesh.node_sets.at(place);
     for (const int node : nodes) add(node, gradient / static_cast<double>(nodes.size()));
   };
-  const auto position = [&](int node) -> Eigen::Vector3d {
-    return device.mesh.nodes[static_cast<std::size_t>(node)] +
-           state.displacement[static_cast<std::size_t>(node)];
-  };
-  const auto centre = [&](const std::string& place) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    const auto& nodes = device.mesh.node_sets.at(place);
-    for (const int node : nodes) sum += position(node);
-    return Eigen::Vector3d(sum / static_cast<double>(nodes.size()));
-  };
   if (quantity.kind == QuantityKind::distance) {
-    const Eigen::Vector3d apart = centre(quantity.between[1]) - centre(quantity.between[0]);
-    Eigen::Vector3d along = apart.normalized();
-    if (quantity.along) { // positive as drawn
-      const auto mean = [&](const std::string& place) {
-        double sum = 0;
-        const auto& nodes = device.mesh.node_sets.at(place);
-        for (const int node : nodes)
-          sum += device.mesh.nodes[static_cast<std::size_t>(node)][*quantity.along];
-        return sum / static_cast<double>(nodes.size());
-      };
+    const auto apart = [&](const fem::State& at) -> Eigen::Vector3d {
+      return centroid(device.mesh, quantity.between[1], at) - centroid(device.mesh, quantity.between[0], at);
+    };
+    Eigen::Vector3d along = apart(state).normalized();
+    if (quantity.along) // positive as drawn
       along = Eigen::Vector3d::Unit(*quantity.along) *
-              (mean(quantity.between[1]) < mean(quantity.between[0]) ? -1 : 1);
-    }
+              (apart(device.model.initial_state())[*quantity.along] < 0 ? -1 : 1);
     add_mean(quantity.between[1], along);
     add_mean(quantity.between[0], -along);
   } else if (quantity.kind == QuantityKind::radius && one.dimension == fem::Dimension::axisymmetric) {
     add_mean(quantity.of, Eigen::Vector3d::UnitX());
   } else if (quantity.kind == QuantityKind::radius) {
-    const Eigen::Vector3d middle = centre(quantity.of);
+    const Eigen::Vector3d middle = centroid(device.mesh, quantity.of, state);
     const auto& nodes = device.mesh.node_sets.at(quantity.of);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const int node : nodes) {
       const Eigen::Vector3d outwards =
-          (position(node) - middle).normalized() / static_cast<double>(nodes.size());
+          (position(device.mesh, node, state) - middle).normalized() / static_cast<double>(nodes.size());
       add(node, outwards);
-      add_mean(quantity.of, -outwards); // the middle moves with the nodes
+      sum += outwards;
     }
+    add_mean(quantity.of, -sum); // the middle moves with the nodes
   } else {
     add_mean(quantity.of,
              quantity.along == along_gravity ? one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along));

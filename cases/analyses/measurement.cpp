@@ -2,6 +2,7 @@
 #include "cases/analyses/measurement.hpp"
 
 #include "cases/analyses/analysis.hpp"
+#include "cases/analyses/positions.hpp"
 #include "cases/case/quantities.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/model/contact_block.hpp"
@@ -127,24 +128,19 @@ const std::vector<char>& Measurement::film_at(const std::string& place) const {
   return near;
 }
 
-Eigen::Vector3d Measurement::position(const std::string& place, const fem::State& state) const {
-  const auto& nodes = device_.mesh.node_sets.at(place);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int n : nodes) sum += at(n, state);
-  return sum / static_cast<double>(nodes.size());
-}
-
 double Measurement::length(const Quantity& quantity, const fem::State& state) const {
   if (!quantity.between[0].empty()) {
     const auto between = [&](const fem::State& at) {
-      return component(position(quantity.between[1], at) - position(quantity.between[0], at), quantity.along);
+      return component(centroid(device_.mesh, quantity.between[1], at) -
+                           centroid(device_.mesh, quantity.between[0], at),
+                       quantity.along);
     };
     // Positive as drawn; negative when the places have passed each other.
     return between(device_.model.initial_state()) < 0 ? -between(state) : between(state);
   }
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const int n : device_.mesh.node_sets.at(quantity.of)) {
-    const Eigen::Vector3d x = at(n, state);
+    const Eigen::Vector3d x = position(device_.mesh, n, state);
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
@@ -160,7 +156,8 @@ double Measurement::displacement(const Quantity& quantity, const fem::State& sta
       moved +=
           at.shape[static_cast<Eigen::Index>(a)] * state.displacement[static_cast<std::size_t>(nodes[a])];
   } else {
-    moved = position(quantity.of, state) - position(quantity.of, device_.model.initial_state());
+    moved = centroid(device_.mesh, quantity.of, state) -
+            centroid(device_.mesh, quantity.of, device_.model.initial_state());
   }
   return quantity.along == along_gravity ? moved.dot(case_.gravity.down()) : component(moved, quantity.along);
 }
@@ -255,11 +252,12 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     return device_.model.dofs.is_held(e) ? measured.reaction[e] : 0.0;
   }
   case QuantityKind::radius: {
-    if (case_.dimension == fem::Dimension::axisymmetric) return position(quantity.of, state).x();
-    const Eigen::Vector3d centre = position(quantity.of, state);
+    if (case_.dimension == fem::Dimension::axisymmetric)
+      return centroid(device_.mesh, quantity.of, state).x();
+    const Eigen::Vector3d centre = centroid(device_.mesh, quantity.of, state);
     const auto& nodes = device_.mesh.node_sets.at(quantity.of);
     double sum = 0;
-    for (const int n : nodes) sum += (at(n, state) - centre).norm();
+    for (const int n : nodes) sum += (position(device_.mesh, n, state) - centre).norm();
     return sum / static_cast<double>(nodes.size());
   }
   case QuantityKind::force: {

@@ -71,12 +71,6 @@ class Measurement {
                                        const fem::Samples& drawn) const;
   FinLoad fin_load(const Quantity& quantity, const fem::State& state) const;
   std::size_t electrode(const std::string& name) const;
-  /// Where a node is, m.
-  Eigen::Vector3d at(int node, const fem::State& state) const {
-    const auto n = static_cast<std::size_t>(node);
-    return device_.mesh.nodes[n] + state.displacement[n];
-  }
-  Eigen::Vector3d position(const std::string& place, const fem::State& state) const;
   /// Which triangles belong to a place: its own, or those with a node there.
   const std::vector<char>& film_at(const std::string& place) const;
 

@@ -14,8 +14,6 @@ namespace dielast::cases {
 
 namespace {
 
-Eigen::Vector3d point(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
-
 /// The nodes of its places, each once.
 std::set<int> nodes_of(const Body& body, const meshing::Mesh& mesh) {
   std::set<int> nodes;
@@ -27,7 +25,7 @@ std::set<int> nodes_of(const Body& body, const meshing::Mesh& mesh) {
 }
 
 Eigen::Vector3d centre_of(const Body& body, const meshing::Mesh& mesh) {
-  if (body.centre) return point(*body.centre);
+  if (body.centre) return Eigen::Vector3d(body.centre->data());
   const std::set<int> nodes = nodes_of(body, mesh);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int node : nodes) sum += mesh.nodes[static_cast<std::size_t>(node)];
@@ -63,7 +61,7 @@ std::vector<BodyNodes> add_body_nodes(const Case& one, meshing::Mesh& mesh) {
   };
   for (const Body& body : one.bodies) {
     const Eigen::Vector3d centre = centre_of(body, mesh);
-    BodyNodes nodes{add(body.pivot ? point(*body.pivot) : centre), {}, body.damping_rate};
+    BodyNodes nodes{add(body.pivot ? Eigen::Vector3d(body.pivot->data()) : centre), {}, body.damping_rate};
     for (const auto& [from_centre, mass] : equivalent_masses(body, one.dimension == fem::Dimension::planar))
       nodes.masses.emplace_back(add(centre + from_centre), mass);
     mesh.node_sets[body.name] = {nodes.master};

@@ -10,8 +10,6 @@ namespace dielast::cases {
 
 namespace {
 
-Eigen::Vector3d point(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
-
 Eigen::Vector3d across(const FinPoints& fin, const fem::State& state) {
   return state.rotation[static_cast<std::size_t>(fin.master)] * Eigen::Vector3d::Unit(fin.along);
 }
@@ -25,15 +23,15 @@ std::vector<FinPoints> add_fin_nodes(const Case& one, meshing::Mesh& mesh) {
       {{0.5 - inner, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + inner, 5.0 / 18}}};
   std::vector<FinPoints> fins;
   for (const Fin& fin : one.fins) {
-    FinPoints& points = fins.emplace_back(FinPoints{.master = mesh.node_sets.at(fin.body).front(),
-                                                    .along = fin.along,
-                                                    .length = point(fin.to) - point(fin.from)});
+    const Eigen::Vector3d front(fin.from.data()), end(fin.to.data());
+    FinPoints& points = fins.emplace_back(
+        FinPoints{.master = mesh.node_sets.at(fin.body).front(), .along = fin.along, .length = end - front});
     const double length = points.length.norm();
     const double mass = fin.added_mass_coefficient * fin.fluid_density * std::numbers::pi / 4 * fin.height *
                         fin.height * length;
     const double drag = fin.drag_coefficient * fin.fluid_density / 2 * fin.height * length;
     for (const auto& [at, weight] : gauss) {
-      mesh.nodes.push_back(point(fin.from) + at * points.length);
+      mesh.nodes.push_back(front + at * points.length);
       points.points.push_back({mesh.node_count() - 1, weight * mass, weight * drag});
     }
   }
