@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace dielast::cases {
 
@@ -57,6 +58,15 @@ class Pictures {
     return image({.wall_width = wall_width_, .panels = {panel(state, {})}, .width = 800}, caption, false,
                  "mode " + state.title);
   }
+  /// The device as drawn with these of its places.
+  post::Image places(std::vector<post::Mark> marks) const {
+    return image({.wall_width = wall_width_,
+                  .panels = {panel({.displacement = std::vector<Eigen::Vector3d>(device_.mesh.nodes.size(),
+                                                                                 Eigen::Vector3d::Zero())},
+                                   {})},
+                  .marks = std::move(marks)},
+                 "As drawn.", true, "places");
+  }
   bool are_profiles() const { return meridian_; }
 
  private:
@@ -83,6 +93,21 @@ class Pictures {
   std::vector<int> regions_;
 };
 
+/// Places of the mesh that the case's quantities, supports and loads name: not the whole of it.
+std::vector<post::Mark> named_places(const Case& one, const meshing::Mesh& mesh) {
+  std::set<std::string> names;
+  for (const Quantity& quantity : one.quantities)
+    names.insert({quantity.between[0], quantity.between[1], quantity.of, quantity.place});
+  for (const Support& support : one.supports) names.insert(support.place);
+  for (const Load& load : one.loads) names.insert(load.place);
+  std::vector<post::Mark> marks;
+  for (const std::string& name : names)
+    if (const auto place = mesh.node_sets.find(name);
+        place != mesh.node_sets.end() && place->second.size() < mesh.nodes.size() / 2)
+      marks.push_back({name, place->second});
+  return marks;
+}
+
 /// Largest less smallest.
 double spread(const std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -99,7 +124,7 @@ Snapshot without_passive(Snapshot snapshot) {
 
 } // namespace
 
-std::vector<post::Section> picture_sections(const Device& device, const Journal& journal) {
+std::vector<post::Section> picture_sections(const Case& one, const Device& device, const Journal& journal) {
   const auto& all = journal.snapshots;
   const Snapshot& last = all.back();
   const Pictures pictures(device, last);
@@ -145,6 +170,8 @@ std::vector<post::Section> picture_sections(const Device& device, const Journal&
          {pictures.image({&charged}, &Snapshot::field, "True electric field", "V/m",
                          "What the film must bear; film without a field is grey.", "electric field")}});
   }
+  if (auto marks = named_places(one, device.mesh); !pictures.are_profiles() && !marks.empty())
+    sections.push_back({"Places", {pictures.places(std::move(marks))}});
   return sections;
 }
 

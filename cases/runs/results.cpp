@@ -324,7 +324,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
     for (const std::string& warning : results.warnings)
       report.sections.back().blocks.push_back(post::Paragraph{warning});
   }
-  for (post::Section& section : picture_sections(device, journal))
+  for (post::Section& section : picture_sections(one, device, journal))
     report.sections.push_back(std::move(section));
 
   for (const Analysis& analysis : journal.analyses) report.sections.push_back(analysis_section(analysis));

@@ -46,8 +46,9 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
 nlohmann::json summary_json(const Case& one, const Device& device, const Results& results,
                             const Journal& journal);
 
-/// Pictures of the shape before and after the last step, of modes, and of the field that drives the film.
-std::vector<post::Section> picture_sections(const Device& device, const Journal& journal);
+/// Pictures of the shape before and after the last step, of modes, of the field that drives the film, and of
+/// the places that the case names.
+std::vector<post::Section> picture_sections(const Case& one, const Device& device, const Journal& journal);
 
 /// report.html: what a person wants to see of a run.
 post::Report run_report(const Case& one, const Device& device, const Results& results, const Journal& journal,

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -96,6 +97,49 @@ void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, do
   }
 }
 
+/// The name stands beside the mark's outermost dot, below names that would overlap it. `to_px`: from
+/// positions in the view to the canvas.
+template<class ToPixels>
+void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const Panel& panel,
+                const Eigen::Vector2d& centre, const ToPixels& to_px) {
+  constexpr double dot = 5, size = 18, line = 24;
+  constexpr std::array<Colour, 6> colours{{{0.76, 0.16, 0.24},
+                                           {0.15, 0.39, 0.66},
+                                           {0.10, 0.50, 0.29},
+                                           {0.56, 0.29, 0.66},
+                                           {0.66, 0.38, 0.0},
+                                           {0.11, 0.14, 0.18}}};
+  std::vector<Box> taken;
+  for (std::size_t m = 0; m < marks.size(); ++m) {
+    const auto at = [&](int node) -> Eigen::Vector2d {
+      return panel.positions[static_cast<std::size_t>(node)].head<2>();
+    };
+    set_colour(cr, colours[m % colours.size()]);
+    for (const int node : marks[m].nodes) {
+      const Eigen::Vector2d p = to_px(at(node));
+      cairo_arc(cr, p.x(), p.y(), dot, 0, 2 * std::numbers::pi);
+      cairo_fill(cr);
+    }
+    const int outermost = *std::ranges::max_element(
+        marks[m].nodes, {}, [&](int node) { return (at(node) - centre).squaredNorm(); });
+    Eigen::Vector2d beside = to_px(at(outermost)) + Eigen::Vector2d(2 * dot, size / 3);
+    cairo_set_font_size(cr, size);
+    cairo_text_extents_t extents;
+    cairo_text_extents(cr, marks[m].name.c_str(), &extents);
+    const auto box = [&] {
+      return Box(beside - Eigen::Vector2d(0, size), beside + Eigen::Vector2d(extents.x_advance, line - size));
+    };
+    while (std::ranges::any_of(taken, [&](const Box& other) { return other.intersects(box()); }))
+      beside.y() += line;
+    taken.push_back(box());
+    constexpr double halo = 2;
+    for (const double dx : {-halo, 0.0, halo})
+      for (const double dy : {-halo, 0.0, halo})
+        draw_text(cr, marks[m].name, beside.x() + dx, beside.y() + dy, size, {1, 1, 1});
+    draw_text(cr, marks[m].name, beside.x(), beside.y(), size, colours[m % colours.size()]);
+  }
+}
+
 /// Draws a panel with its box centred in the rectangle at (left, top), y upwards.
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
                 std::pair<double, double> range, const Eigen::Vector3d& light, double scale, int finer,
@@ -121,6 +165,10 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
   stroke_rods(cr, mesh, panel, range);
   stroke_walls(cr, mesh, panel, std::max(picture.wall_width, 1 / scale));
   cairo_restore(cr);
+  const Eigen::Vector2d middle(left + std::ceil(width) / 2, top + std::ceil(height) / 2);
+  draw_marks(cr, picture.marks, panel, box.center(), [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
+    return middle + scale * (x - box.center()).cwiseProduct(Eigen::Vector2d(1, -1));
+  });
 }
 
 std::pair<double, double> value_range(const Picture& picture) {
@@ -168,6 +216,8 @@ void check(const meshing::Mesh& mesh, const Picture& picture) {
         (!panel.values.empty() && panel.values.size() != triangles) ||
         (!panel.regions.empty() && panel.regions.size() != triangles))
       throw std::invalid_argument("a panel needs a position per node, a value and a region per triangle");
+  for (const Mark& mark : picture.marks)
+    if (mark.nodes.empty()) throw std::invalid_argument("a mark needs a node");
 }
 
 void require_drawn(cairo_status_t status) {

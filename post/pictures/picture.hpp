@@ -21,6 +21,12 @@ struct Panel {
       regions{}; ///< one per triangle, from 0: values are smoothed within them; empty: one region
 };
 
+/// Nodes with a name, shown by dots and the name beside them.
+struct Mark {
+  std::string name;
+  std::vector<int> nodes;
+};
+
 /// Panels side by side, with one scale of length and one of colour, so that they can be compared.
 struct Picture {
   std::string title{};
@@ -28,7 +34,8 @@ struct Picture {
   std::string unit{};     ///< of `values`, SI; "1" when it has none
   double wall_width = 0;  ///< drawn true to scale, m
   std::vector<Panel> panels{};
-  int width = 1600; ///< px; the height follows from the shapes
+  std::vector<Mark> marks{}; ///< in every panel
+  int width = 1600;          ///< px; the height follows from the shapes
 };
 
 // None of these needs a display. Each throws std::invalid_argument when a panel does not fit the mesh and for

@@ -134,6 +134,21 @@ TEST(Picture, WallsHaveTheirTrueWidth) {
   EXPECT_NEAR(static_cast<double>(pixels.count(0xff292e38)), area, 0.03 * area);
 }
 
+TEST(Picture, MarksNodesWithTheirNames) {
+  const meshing::Mesh mesh = grid_mesh(1);
+  Picture picture{.panels = {{"", mesh.nodes, {}}}, .width = 600};
+  constexpr std::uint32_t red = 0xffc2293d;
+  EXPECT_EQ(Pixels(render_png(mesh, picture)).count(red), 0);
+  picture.marks = {{"corner", {1}}, {"side", {0, 2, 3}}};
+  const Pixels pixels(render_png(mesh, picture));
+  EXPECT_GT(pixels.count(red), 50);
+  // The second mark's dots lie over the first one's, at both ends of the diagonal.
+  for (const auto& [x, y] : {std::pair{44, 44 + 512}, std::pair{44 + 512, 44}})
+    EXPECT_TRUE(alike(pixels.colours[static_cast<std::size_t>(y * pixels.width + x)], 0xff2663a8)) << x;
+  picture.marks = {{"nothing", {}}};
+  EXPECT_THROW(render_png(mesh, picture), std::invalid_argument);
+}
+
 TEST(Picture, SurvivesUniformAndMissingValues) {
   const meshing::Mesh mesh = grid_mesh(1);
   for (const double value : {0.0, 5.0, std::nan("")})
