@@ -42,6 +42,7 @@ td.good, td.warning, td.bad { font-weight: 600; }
 .card .value { overflow-wrap: anywhere; font-size: 19px; font-weight: 600; font-variant-numeric: tabular-nums; }
 .card .note { color: var(--soft); font-size: 12.5px; }
 th.sorts { cursor: pointer; }
+.csv { font-size: 12.5px; }
 .scroll { overflow-x: auto; margin: 0 0 14px; }
 table { border-collapse: collapse; min-width: 55%; font-size: 14px; font-variant-numeric: tabular-nums; }
 th { text-align: left; color: var(--soft); font-weight: 600; font-size: 13px; border-bottom: 2px solid var(--line); }
@@ -64,7 +65,7 @@ figure img { width: 100%; height: auto; border: 1px solid var(--line); border-ra
 nav { margin: 18px 0 0; font-size: 13.5px; display: flex; flex-wrap: wrap; gap: 4px 16px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
 footer { margin-top: 44px; padding-top: 14px; border-top: 1px solid var(--line); color: var(--soft); font-size: 13px; }
-@media print { nav, .controls { display: none; } main { max-width: none; padding: 0; } h2 { break-after: avoid; } tr { break-inside: avoid; }
+@media print { nav, .controls, .csv { display: none; } main { max-width: none; padding: 0; } h2 { break-after: avoid; } tr { break-inside: avoid; }
   pre { white-space: pre-wrap; } .card, pre, .status { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 @media (max-width: 560px) { .images { grid-template-columns: 1fr; } }
 )";

@@ -45,8 +45,25 @@ for (const table of document.querySelectorAll("table")) {
 }
 )js";
 
-constexpr std::string_view slides = R"js(
+constexpr std::string_view made = R"js(
 const made = (name, parent, settings) => parent.appendChild(Object.assign(document.createElement(name), settings));
+)js";
+
+/// Each table as a CSV file, as it is sorted.
+constexpr std::string_view csv = R"js(
+for (const table of document.querySelectorAll("table")) {
+  const title = table.closest("section").querySelector("h2").textContent;
+  const link = made("a", table.parentElement, { className: "csv", textContent: "CSV", href: "#",
+                                                download: title.toLowerCase().replace(/[^a-z0-9]+/g, "_") + ".csv" });
+  link.addEventListener("click", () => {
+    const quoted = cell => `"${cell.textContent.trim().replaceAll('"', '""')}"`;
+    const lines = [...table.rows].map(row => [...row.cells].map(quoted).join(","));
+    link.href = "data:text/csv;charset=utf-8," + encodeURIComponent(lines.join("\r\n") + "\r\n");
+  });
+}
+)js";
+
+constexpr std::string_view slides = R"js(
 for (const figure of document.querySelectorAll("figure.slides")) {
   const pictures = [...figure.querySelectorAll("img")], last = pictures.length - 1;
   const row = made("div", figure, { className: "controls" });
@@ -165,7 +182,7 @@ std::string report_script() {
     colours += fmt::format("{}[{:.1f}, {:.1f}, {:.1f}]", i > 0 ? ", " : "", 255 * colour.red,
                            255 * colour.green, 255 * colour.blue);
   }
-  return fmt::format("{}{}const colours = [{}];{}", sorting, slides, colours, readings);
+  return fmt::format("{}{}{}{}const colours = [{}];{}", sorting, made, csv, slides, colours, readings);
 }
 
 } // namespace dielast::post
