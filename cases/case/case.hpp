@@ -253,6 +253,16 @@ struct Quantity {
   bool standard = false; ///< brought by the geometry's template, not written by the user
 };
 
+/// [[profile]]: how the nodes of a place have moved
+struct Profile {
+  std::string name;
+  std::string of;      ///< the place
+  int along = 0;       ///< 0, 1, 2 = x, y, z
+  std::string since{}; ///< the step at whose end it is zero; empty: the mesh as drawn
+};
+/// Of its file, without the ending.
+inline std::string profile_name(const Profile& profile) { return "profile_" + profile.name; }
+
 /// [[check]]
 struct Check {
   std::string quantity;
@@ -314,6 +324,7 @@ struct Case {
   std::vector<Linkage> linkages;
   std::vector<Step> steps;
   std::vector<Quantity> quantities; ///< the template's and the user's
+  std::vector<Profile> profiles;
   std::vector<Check> checks;
   int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
   SolverOptions solver;

@@ -26,12 +26,6 @@ struct Place {
   Source source;
 };
 
-/// Items of a list that the user has written; those of the template stand in front.
-std::size_t written_items(const Node& list) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(list.items, [](const Node& item) { return item.source.is_written(); }));
-}
-
 Place place_of_step(const Node& tree, std::size_t number) {
   const Node& item = tree.find("step")->items.at(number);
   return {item.source.line > 0 ? fmt::format("step[{}]", number + 1) : "step", item.source};
@@ -261,57 +255,6 @@ void check_sheets(SectionReader& reader, const Node& tree, const Case& one) {
           "it out, or follow a sine in a step of kind \"transient\"");
 }
 
-/// What is measured must be there.
-void check_quantities(SectionReader& reader, const Node& tree, const Case& one) {
-  const Node* list = tree.find("quantity");
-  const std::size_t standard = list ? list->items.size() - written_items(*list) : 0;
-  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
-    if (!list || q >= list->items.size() || !list->items[q].source.is_written()) continue;
-    const Quantity& quantity = one.quantities[q];
-    const Source& source = list->items[q].source;
-    const std::string key = fmt::format("quantity[{}]", q - standard + 1);
-    const bool of_chamber = quantity.kind == QuantityKind::pressure ||
-                            quantity.kind == QuantityKind::volume ||
-                            quantity.kind == QuantityKind::pumped_volume;
-    if (of_chamber && !one.chamber) reader.report(source, key, "there is no chamber; add [chamber]");
-    if (quantity.kind == QuantityKind::current && !one.circuits.contains(quantity.of))
-      reader.warn(source, key,
-                  "has no value here: the current is that through a [circuit], and there is none");
-    if (quantity.kind == QuantityKind::contact_force && !one.contact)
-      reader.report(source, key, "nothing touches; add [contact]");
-    if (quantity.kind == QuantityKind::natural_frequency && !has_mass(one))
-      reader.warn(source, key, "has no value here: nothing has a mass");
-    for (const auto& [name, step] : {std::pair{"at", quantity.at}, {"since", quantity.since}})
-      if (const auto named = std::ranges::find(one.steps, step, &Step::name);
-          named != one.steps.end() && named->is_analysis())
-        reader.report(
-            list->items[q].find(name)->source, key + "." + name,
-            fmt::format("found \"{}\": a step of this kind leaves the state as it is; name the step "
-                        "before it",
-                        step));
-  }
-}
-
-/// Files are named after steps and columns after quantities: none may take the name of one that is there.
-void check_names(SectionReader& reader, const Node& tree, const Case& one) {
-  for (std::size_t s = 0; s < one.steps.size(); ++s) {
-    const std::string& name = one.steps[s].name;
-    if (!one.steps[s].is_analysis() || (name != history_name && name != critical_name)) continue;
-    const Node& item = tree.find("step")->items.at(s);
-    reader.report(item.find("name")->source, place_of_step(tree, s).key + ".name",
-                  fmt::format("found \"{}\": a file of the results has this name; choose another", name));
-  }
-  const Node* list = tree.find("quantity");
-  const std::size_t standard = list ? list->items.size() - written_items(*list) : 0;
-  const std::vector<post::Column> columns = history_columns(one);
-  for (std::size_t q = 0; list && q < list->items.size(); ++q) {
-    const std::string& name = one.quantities[q].name;
-    if (list->items[q].source.is_written() && std::ranges::count(columns, name, &post::Column::name) > 1)
-      reader.report(list->items[q].find("name")->source, fmt::format("quantity[{}].name", q - standard + 1),
-                    fmt::format("found \"{}\": a column of the history has this name; choose another", name));
-  }
-}
-
 /// What moves along an axis needs a model that moves along it.
 void check_axes(SectionReader& reader, const Node& tree, const Case& one) {
   constexpr std::array names{"x", "y", "z"};
@@ -336,6 +279,7 @@ void check_axes(SectionReader& reader, const Node& tree, const Case& one) {
   };
   check_list("spring", one.springs);
   check_list("linkage", one.linkages);
+  check_list("profile", one.profiles);
 }
 
 /// What moves out of its plane, or has none.
@@ -382,8 +326,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_chamber(reader, tree, one);
   check_contact(reader, tree, one);
   check_sheets(reader, tree, one);
-  check_quantities(reader, tree, one);
-  check_names(reader, tree, one);
+  check_results(reader, tree, one);
   check_axes(reader, tree, one);
   check_dimension(reader, tree, one);
   check_parts(reader, tree, one);

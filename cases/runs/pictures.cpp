@@ -65,7 +65,7 @@ class Pictures {
                                                                                  Eigen::Vector3d::Zero())},
                                    {})},
                   .marks = std::move(marks)},
-                 "As drawn.", true, "places");
+                 "As drawn.", false, "places");
   }
   bool are_profiles() const { return meridian_; }
 
@@ -98,6 +98,7 @@ std::vector<post::Mark> named_places(const Case& one, const meshing::Mesh& mesh)
   std::set<std::string> names;
   for (const Quantity& quantity : one.quantities)
     names.insert({quantity.between[0], quantity.between[1], quantity.of, quantity.place});
+  for (const Profile& profile : one.profiles) names.insert(profile.of);
   for (const Support& support : one.supports) names.insert(support.place);
   for (const Load& load : one.loads) names.insert(load.place);
   std::vector<post::Mark> marks;

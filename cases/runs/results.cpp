@@ -226,6 +226,23 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
   return results;
 }
 
+std::vector<std::optional<ProfileTable>> profiles_of(const Case& one, const Device& device,
+                                                     const Outcome& outcome, const Journal& journal) {
+  const auto& snapshots = journal.snapshots;
+  std::vector<std::optional<ProfileTable>> tables;
+  for (const Profile& profile : one.profiles) {
+    const auto since = profile.since.empty() ? snapshots.begin()
+                                             : std::ranges::find(snapshots, profile.since, &Snapshot::title);
+    const bool under_way = outcome.ending != Ending::complete && since + 1 == snapshots.end();
+    if (since == snapshots.end() || under_way)
+      tables.emplace_back();
+    else
+      tables.push_back(
+          profile_table(device.mesh, profile, since->displacement, snapshots.back().displacement));
+  }
+  return tables;
+}
+
 json summary_json(const Case& one, const Device& device, const Results& results, const Journal& journal) {
   const auto number = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
   nlohmann::ordered_json summary{{"program", "dielast " DIELAST_VERSION},
@@ -326,6 +343,13 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   }
   for (post::Section& section : picture_sections(one, device, journal))
     report.sections.push_back(std::move(section));
+
+  post::Section profiles{"Profiles", {}};
+  std::vector<post::Plot> profile_plots;
+  for (std::size_t p = 0; p < one.profiles.size(); ++p)
+    if (results.profiles[p]) profile_plots.push_back(results.profiles[p]->plot(one.profiles[p]));
+  for (post::Image& image : post::draw(profile_plots)) profiles.blocks.push_back(std::move(image));
+  if (!profiles.blocks.empty()) report.sections.push_back(std::move(profiles));
 
   for (const Analysis& analysis : journal.analyses) report.sections.push_back(analysis_section(analysis));
 

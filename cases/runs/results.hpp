@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cases/analyses/profile.hpp"
 #include "cases/runs/error_estimate.hpp"
 #include "cases/runs/recorder.hpp"
 #include "post/pictures/report_tables.hpp"
@@ -32,6 +33,7 @@ struct Results {
   std::vector<EventRemark> event_remarks;
   double time_error = 0; ///< see Simulation::time_error()
   std::vector<Margin> margins;
+  std::vector<std::optional<ProfileTable>> profiles{}; ///< see profiles_of()
 
   bool checks_passed() const;
 };
@@ -39,6 +41,10 @@ struct Results {
 /// Values and checks of a run.
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
                         const Estimates& estimates, std::vector<Margin> margins = {});
+
+/// The case's profiles in the last state; none where the run ended before the step since which one is taken.
+std::vector<std::optional<ProfileTable>> profiles_of(const Case& one, const Device& device,
+                                                     const Outcome& outcome, const Journal& journal);
 
 /// summary.json: status, quantities.<name>.{value, unit, error_estimate, error_remark}, checks, events,
 /// warnings, mesh.

@@ -167,9 +167,10 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.info("error estimate: the case once more with other elements and time steps");
     estimates = estimate_errors(one, simulation, recorder.journal().records, settings.threads);
   }
-  const Results results =
+  Results results =
       collect_results(one, simulation, outcome, estimates,
                       margins_of(one, simulation, recorder.journal(), outcome, settings.threads));
+  results.profiles = profiles_of(one, device, outcome, recorder.journal());
 
   log.info("results");
   for (const post::QuantityRow& row : results.quantities)
@@ -204,6 +205,9 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     post::write_report(folder, report);
   else
     folder.write("report.html", report.html());
+  for (std::size_t p = 0; p < one.profiles.size(); ++p)
+    if (results.profiles[p])
+      folder.write(profile_name(one.profiles[p]) + ".csv", results.profiles[p]->csv(one.profiles[p]));
   folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
   folder.set_complete(static_cast<int>(code));
   std::filesystem::remove(folder / checkpoint_name);

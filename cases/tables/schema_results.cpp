@@ -193,6 +193,23 @@ Section quantity_section() {
   return section;
 }
 
+Section profile_section() {
+  Section section = list_section(
+      "profile",
+      "how the nodes of a place have moved at the end: the table profile_<name>.csv, and a curve on the page",
+      each(&Case::profiles));
+  section.keys = {
+      text("name", to(&Profile::name), "its name in results").distinct(),
+      text("of", to(&Profile::of), "the place, such as a side or a surface").refers_to(Reference::place),
+      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Profile::along),
+           "component of the displacement"),
+      text("since", to(&Profile::since), "step at whose end it is zero; without it the mesh as drawn")
+          .optional()
+          .refers_to(Reference::step),
+  };
+  return section;
+}
+
 Section check_section() {
   Section section = list_section("check", "an expected result; a run that misses it ends with exit code 5",
                                  each(&Case::checks));
@@ -321,7 +338,7 @@ Section linearise_section() {
 } // namespace
 
 std::vector<Section> result_sections() {
-  return {quantity_section(), check_section(),     solver_section(),
+  return {quantity_section(), profile_section(),   check_section(), solver_section(),
           output_section(),   linearise_section(), study_section()};
 }
 

@@ -24,13 +24,17 @@ void set_colour(cairo_t* cr, const Colour& colour) {
   cairo_set_source_rgb(cr, colour.red, colour.green, colour.blue);
 }
 
-void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, const Colour& colour,
-               Align align, cairo_font_weight_t weight) {
+double text_width(cairo_t* cr, const std::string& text, double size, cairo_font_weight_t weight) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, weight);
   cairo_set_font_size(cr, size);
   cairo_text_extents_t extents;
   cairo_text_extents(cr, text.c_str(), &extents);
-  const double shift = align == Align::centre ? extents.x_advance / 2 : 0;
+  return extents.x_advance;
+}
+
+void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, const Colour& colour,
+               Align align, cairo_font_weight_t weight) {
+  const double width = text_width(cr, text, size, weight), shift = align == Align::centre ? width / 2 : 0;
   set_colour(cr, colour);
   cairo_move_to(cr, x - shift, y);
   cairo_show_text(cr, text.c_str());

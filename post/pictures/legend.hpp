@@ -18,6 +18,10 @@ void set_colour(cairo_t* cr, const Colour& colour);
 
 enum class Align { left, centre };
 
+/// Sets the font; returns how far the text goes.
+double text_width(cairo_t* cr, const std::string& text, double size,
+                  cairo_font_weight_t weight = CAIRO_FONT_WEIGHT_NORMAL);
+
 /// Text with its baseline at y.
 void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, const Colour& colour,
                Align align = Align::left, cairo_font_weight_t weight = CAIRO_FONT_WEIGHT_NORMAL);

@@ -97,11 +97,11 @@ void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, do
   }
 }
 
-/// The name stands beside the mark's outermost dot, below names that would overlap it. `to_px`: from
-/// positions in the view to the canvas.
+/// The name stands beside the mark's outermost dot, on its left where it would not end before `right`, and
+/// below names that it would overlap. `to_px`: from positions in the view to the canvas.
 template<class ToPixels>
 void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const Panel& panel,
-                const Eigen::Vector2d& centre, const ToPixels& to_px) {
+                const Eigen::Vector2d& centre, double right, const ToPixels& to_px) {
   constexpr double dot = 5, size = 18, line = 24;
   constexpr std::array<Colour, 6> colours{{{0.76, 0.16, 0.24},
                                            {0.15, 0.39, 0.66},
@@ -122,12 +122,11 @@ void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const Panel& panel,
     }
     const int outermost = *std::ranges::max_element(
         marks[m].nodes, {}, [&](int node) { return (at(node) - centre).squaredNorm(); });
+    const double advance = text_width(cr, marks[m].name, size);
     Eigen::Vector2d beside = to_px(at(outermost)) + Eigen::Vector2d(2 * dot, size / 3);
-    cairo_set_font_size(cr, size);
-    cairo_text_extents_t extents;
-    cairo_text_extents(cr, marks[m].name.c_str(), &extents);
+    if (beside.x() + advance > right) beside.x() -= 4 * dot + advance;
     const auto box = [&] {
-      return Box(beside - Eigen::Vector2d(0, size), beside + Eigen::Vector2d(extents.x_advance, line - size));
+      return Box(beside - Eigen::Vector2d(0, size), beside + Eigen::Vector2d(advance, line - size));
     };
     while (std::ranges::any_of(taken, [&](const Box& other) { return other.intersects(box()); }))
       beside.y() += line;
@@ -166,9 +165,10 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
   stroke_walls(cr, mesh, panel, std::max(picture.wall_width, 1 / scale));
   cairo_restore(cr);
   const Eigen::Vector2d middle(left + std::ceil(width) / 2, top + std::ceil(height) / 2);
-  draw_marks(cr, picture.marks, panel, box.center(), [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
-    return middle + scale * (x - box.center()).cwiseProduct(Eigen::Vector2d(1, -1));
-  });
+  draw_marks(cr, picture.marks, panel, box.center(), left + width + margin,
+             [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
+               return middle + scale * (x - box.center()).cwiseProduct(Eigen::Vector2d(1, -1));
+             });
 }
 
 std::pair<double, double> value_range(const Picture& picture) {

@@ -76,6 +76,43 @@ TEST_F(Outputs, SlidesAndFiguresAreOfRunsThatKeepAllStates) {
   EXPECT_TRUE(content("all/figure_shape.svg").starts_with("<?xml"));
 }
 
+// A table of the place's nodes along its length: since the drawing or since a step, and none where that step
+// has not come to its end.
+TEST_F(Outputs, ProfilesTellHowTheNodesOfAPlaceHaveMoved) {
+  write("own.toml", small_honeycomb + "[[profile]]\nname = \"rise\"\nof = \"walls\"\nalong = \"y\"\n"
+                                      "[[profile]]\nname = \"opening\"\nof = \"walls\"\nalong = \"y\"\n"
+                                      "since = \"release\"\n"
+                                      "[[profile]]\nname = \"nothing\"\nof = \"walls\"\nalong = \"y\"\n"
+                                      "since = \"voltage\"\n"
+                                      "[[quantity]]\nname = \"most\"\nkind = \"swelling\"\nof = "
+                                      "\"walls\"\nalong = \"y\"\n[output]\nerror_estimate = false\n");
+  const auto displacements = [&](const std::string& file) {
+    const auto rows = table_of(directory / file);
+    EXPECT_EQ(rows.at(0).at(0), "x [m]") << file;
+    std::vector<double> values;
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+      values.push_back(std::stod(rows[r].at(3)));
+      EXPECT_LE(std::stod(rows[std::max<std::size_t>(r - 1, 1)][0]), std::stod(rows[r][0])) << file;
+    }
+    return values;
+  };
+  ASSERT_EQ(dielast({"run", "own.toml", "-o", "out"}).exit_code, 0);
+  ASSERT_EQ(dielast({"run", "own.toml", "-o", "uncharged", "--set", "drive.voltage=1 mV"}).exit_code, 0);
+  const std::vector<double> rise = displacements("out/profile_rise.csv"),
+                            opening = displacements("out/profile_opening.csv"),
+                            released = displacements("uncharged/profile_rise.csv");
+  const double most = json_of("out/summary.json")["quantities"]["most"]["value"];
+  EXPECT_NEAR(std::ranges::max(rise), most, 1e-12 * most);
+  ASSERT_EQ(opening.size(), rise.size());
+  for (std::size_t i = 0; i < rise.size(); ++i) EXPECT_NEAR(opening[i], rise[i] - released[i], 1e-6 * most);
+  EXPECT_EQ(std::ranges::max(displacements("out/profile_nothing.csv")), 0);
+  EXPECT_NE(content("out/report.html").find("<h2>Profiles</h2>"), std::string::npos);
+
+  ASSERT_EQ(dielast({"run", "own.toml", "-o", "early", "--set", "drive.voltage=30 kV"}).exit_code, 4);
+  EXPECT_TRUE(exists(directory / "early/profile_opening.csv"));
+  EXPECT_FALSE(exists(directory / "early/profile_nothing.csv"));
+}
+
 // A quantity that is known at rest alone is no curve over time, and what happens before time passes is not
 // squeezed into its first moment.
 TEST_F(Outputs, CurvesOverTimeBeginWhereTimeDoes) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/quantities.hpp"
+#include "cases/language/conditions.hpp"
+#include "cases/readers/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+/// Items of a list that the user has written; those of the template stand in front.
+std::size_t written_items(const Node& list) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(list.items, [](const Node& item) { return item.source.is_written(); }));
+}
+
+/// A state is read at the end of a step that leads to one.
+void check_step_with_end(SectionReader& reader, const Case& one, const Node* written, const std::string& key,
+                         const std::string& step) {
+  const auto named = std::ranges::find(one.steps, step, &Step::name);
+  if (named != one.steps.end() && named->is_analysis())
+    reader.report(written->source, key,
+                  fmt::format("found \"{}\": a step of this kind leaves the state as it is; name the step "
+                              "before it",
+                              step));
+}
+
+/// What is measured must be there.
+void check_quantities(SectionReader& reader, const Node& tree, const Case& one) {
+  const Node* list = tree.find("quantity");
+  const std::size_t standard = list ? list->items.size() - written_items(*list) : 0;
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    if (!list || q >= list->items.size() || !list->items[q].source.is_written()) continue;
+    const Quantity& quantity = one.quantities[q];
+    const Source& source = list->items[q].source;
+    const std::string key = fmt::format("quantity[{}]", q - standard + 1);
+    const bool of_chamber = quantity.kind == QuantityKind::pressure ||
+                            quantity.kind == QuantityKind::volume ||
+                            quantity.kind == QuantityKind::pumped_volume;
+    if (of_chamber && !one.chamber) reader.report(source, key, "there is no chamber; add [chamber]");
+    if (quantity.kind == QuantityKind::current && !one.circuits.contains(quantity.of))
+      reader.warn(source, key,
+                  "has no value here: the current is that through a [circuit], and there is none");
+    if (quantity.kind == QuantityKind::contact_force && !one.contact)
+      reader.report(source, key, "nothing touches; add [contact]");
+    if (quantity.kind == QuantityKind::natural_frequency && !has_mass(one))
+      reader.warn(source, key, "has no value here: nothing has a mass");
+    check_step_with_end(reader, one, list->items[q].find("at"), key + ".at", quantity.at);
+    check_step_with_end(reader, one, list->items[q].find("since"), key + ".since", quantity.since);
+  }
+  list = tree.find("profile");
+  for (std::size_t p = 0; p < one.profiles.size(); ++p)
+    check_step_with_end(reader, one, list->items[p].find("since"), fmt::format("profile[{}].since", p + 1),
+                        one.profiles[p].since);
+}
+
+/// Files are named after steps and columns after quantities: none may take the name of one that is there.
+void check_names(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const std::string& name = one.steps[s].name;
+    const bool taken = name == history_name || name == critical_name ||
+                       std::ranges::find(one.profiles, name, profile_name) != one.profiles.end();
+    if (!one.steps[s].is_analysis() || !taken) continue;
+    const Node& item = tree.find("step")->items.at(s);
+    reader.report(item.find("name")->source, fmt::format("step[{}].name", s + 1),
+                  fmt::format("found \"{}\": a file of the results has this name; choose another", name));
+  }
+  const Node* list = tree.find("quantity");
+  const std::size_t standard = list ? list->items.size() - written_items(*list) : 0;
+  const std::vector<post::Column> columns = history_columns(one);
+  for (std::size_t q = 0; list && q < list->items.size(); ++q) {
+    const std::string& name = one.quantities[q].name;
+    if (list->items[q].source.is_written() && std::ranges::count(columns, name, &post::Column::name) > 1)
+      reader.report(list->items[q].find("name")->source, fmt::format("quantity[{}].name", q - standard + 1),
+                    fmt::format("found \"{}\": a column of the history has this name; choose another", name));
+  }
+}
+
+} // namespace
+
+void check_results(SectionReader& reader, const Node& tree, const Case& one) {
+  check_quantities(reader, tree, one);
+  check_names(reader, tree, one);
+}
+
+} // namespace dielast::cases
