@@ -362,11 +362,13 @@ Outcome StepRun::failure(const Trouble& trouble) const {
             fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
                         "of another branch beyond it.{}{}\"jump\"",
                         load_text(last(), reached), more, timed() ? "" : "\"follow\" or ")};
-  return {Ending::gave_up, "no equilibrium",
-          fmt::format("step \"{}\" stopped at {}: no equilibrium found at {}, and the "
-                      "increments are smaller than solver.smallest_increment. A finer mesh may help{}",
-                      step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
-                      timed() ? "; or let the step go on with on_instability = \"jump\"" : "")};
+  return {
+      Ending::gave_up, "no equilibrium",
+      fmt::format("step \"{}\" stopped at {}: no equilibrium found at {}, and the "
+                  "increments are smaller than solver.smallest_increment. A finer mesh may help, a smaller "
+                  "solver.smallest_increment or more solver.max_iterations{}",
+                  step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
+                  timed() ? "; or let the step go on with on_instability = \"jump\"" : "")};
 }
 
 } // namespace dielast::cases

@@ -23,6 +23,8 @@ constexpr double smallest_bracket = 1e-9; ///< over the first
 constexpr double least_reach = 1e-3;      ///< part of the way to a trial
 constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcation
 constexpr int most_trials = 80;
+/// Of the tolerance, and of the first bracket: how far beyond one that has closed the eigenvalue may vanish.
+constexpr double far = 100, close = 1e-2;
 /// Part of the way to the extrapolated critical load that the next trial goes.
 constexpr double approach = 0.9;
 
@@ -187,6 +189,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
                                                     const NewtonOptions& options, double tolerance) {
   std::vector<LoadPoint> points;
   int modes = -1;
+  bool another = false; // what is at s_beyond is an equilibrium, but a less stable one or not of this path
   const auto attempt = [&](State trial, double s) {
     path.apply(trial, s);
     if (equilibrium.solve(trial, options).outcome != Outcome::converged) return false;
@@ -194,7 +197,10 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     if (!mode) return false;
     // of the tangent in the state itself, where Newton's method may know that of a step before
     const int unstable = equilibrium.tangent().unstable_modes();
-    if (modes >= 0 && unstable > modes) return false;
+    if (modes >= 0 && unstable > modes) {
+      another = true;
+      return false;
+    }
     const double length = points.empty() ? s - s_beyond : s - points.back().s;
     Eigen::VectorXd slope = slope_at(equilibrium, path, trial, s, -length);
     if (!points.empty()) {
@@ -202,8 +208,10 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
       const Model& model = equilibrium.model();
       if (is_turned_over(model.corners, model.drawn, last.state, trial) ||
           !is_joined(equilibrium, path, {last.state, last.s, last.slope}, {trial, s, slope},
-                     Steadiness::kinked()))
+                     Steadiness::kinked())) {
+        another = true;
         return false;
+      }
     }
     modes = unstable;
     points.push_back({s, std::move(trial), std::move(*mode), std::move(slope)});
@@ -212,6 +220,14 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   if (!attempt(state, s_before)) return std::nullopt;
   Instability kind{};
   double critical_load = s_beyond;
+  const double width = std::abs(s_beyond - s_before);
+  // Where the eigenvalue will vanish, extrapolated from the last two points.
+  const auto extrapolated = [&] {
+    const LoadPoint &last = points.back(), &former = points[points.size() - 2];
+    const double exponent = kind == Instability::limit_point ? 2 : 1;
+    const auto remains = [&](const LoadPoint& p) { return std::pow(std::abs(p.mode.eigenvalue), exponent); };
+    return last.s + remains(last) * (last.s - former.s) / (remains(former) - remains(last));
+  };
   for (int trial = 0; trial < most_trials && std::abs(s_beyond - points.back().s) > tolerance; ++trial) {
     const LoadPoint& last = points.back();
     double s = (last.s + s_beyond) / 2;
@@ -219,30 +235,35 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     if (points.size() > 1) {
       const LoadPoint& former = points[points.size() - 2];
       kind = classify(equilibrium, path, last.state, last.s, last.mode);
-      const double exponent = kind == Instability::limit_point ? 2 : 1;
-      const auto remains = [&](const LoadPoint& p) {
-        return std::pow(std::abs(p.mode.eigenvalue), exponent);
-      };
-      const double estimate =
-          last.s + remains(last) * (last.s - former.s) / (remains(former) - remains(last));
+      const double estimate = extrapolated();
       const bool inside = (estimate - last.s) * (s_beyond - estimate) > 0;
       if (inside) {
         critical_load = estimate;
         if (std::abs(critical_load - last.s) < tolerance) break;
         s = last.s + approach * (critical_load - last.s);
-        const auto place = [&](double at) { return -std::pow(std::abs(critical_load - at), 1 / exponent); };
+        const double root = kind == Instability::limit_point ? 0.5 : 1;
+        const auto place = [&](double at) { return -std::pow(std::abs(critical_load - at), root); };
         const PathPoint past[] = {{place(former.s), former.state}, {place(last.s), last.state}};
         start = extrapolate(past, place(s));
         equilibrium.model().dofs.carry(start);
       }
     }
-    if (!attempt(std::move(start), s) && !attempt(points.back().state, s)) s_beyond = critical_load = s;
+    const bool before = std::exchange(another, false);
+    if (attempt(std::move(start), s) || attempt(points.back().state, s))
+      another = before;
+    else
+      s_beyond = critical_load = s;
   }
   const LoadPoint& last = points.back();
   if (std::min(std::abs(s_beyond - last.s), std::abs(critical_load - last.s)) > tolerance)
     return std::nullopt;
   kind = classify(equilibrium, path, last.state, last.s, last.mode);
-  return CriticalPoint{kind, critical_load, last.state, last.mode};
+  CriticalPoint critical{kind, critical_load, last.state, last.mode};
+  const bool vanishes =
+      points.size() > 1 && std::abs(extrapolated() - last.s) < std::max(far * tolerance, close * width);
+  // That Newton's method finds nothing beyond proves nothing: it may have had too few iterations.
+  if (!vanishes && !another && (attempt(points.back().state, s_beyond) || !another)) return std::nullopt;
+  return critical;
 }
 
 std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, const LoadPath& path,

@@ -48,6 +48,17 @@ TEST_F(Events, WallsTouchOnReleaseOfNearlyClosedCells) {
     EXPECT_FALSE(contact_on_release(angle)) << angle;
 }
 
+// Newton's method that is not let go on finds nothing, but no stiffness vanishes there.
+TEST_F(Events, TooFewIterationsAreNoCriticalPoint) {
+  for (const char* most : {"1", "2", "3"}) {
+    const auto all = events({std::string("solver.max_iterations=") + most, "solver.smallest_increment=1"});
+    EXPECT_EQ(exit_code, 4) << most;
+    EXPECT_FALSE(of_kind(all, "limit point")) << most << all.dump(1);
+    EXPECT_FALSE(of_kind(all, "bifurcation")) << most << all.dump(1);
+    EXPECT_TRUE(of_kind(all, "no equilibrium")) << most << all.dump(1);
+  }
+}
+
 TEST_F(Events, LossOfTensionAndBreakdownAreToldOnceWithTheirPlace) {
   // both before the limit point: breakdown of a thin film, loss of tension of one that was stretched little
   for (const auto& [prestretch, kind] : {std::pair{"4.5", "breakdown"}, {"2", "loss of tension"}}) {
