@@ -49,18 +49,20 @@ void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
       for (const int end : {own[0], own[1]}) length[end] += own.size() == 3 ? whole / 6 : whole / 2;
       if (own.size() == 3) length[own[2]] += whole * 4 / 6;
     }
-    for (const auto& [node, stands_for] : length)
+    for (const auto& [node, stands_for] : length) {
+      const std::vector<int>& meeting = lines_at.at(node);
+      std::map<int, int> beams_at; // how many that it may touch have this end
       for (const int line : around) {
-        const std::vector<int>& meeting = lines_at.at(node);
         if (!std::ranges::all_of(meeting, [&](int other) { return walls.may_touch(line, other); })) continue;
         const double touching =
             (widths[static_cast<std::size_t>(line)] + widths[static_cast<std::size_t>(meeting.front())]) / 2;
+        constexpr int none = fem::ContactPair::none;
         const auto own = lines.cell(line);
-        pairs.push_back({node,
-                         {own[0], own[1], own.size() == 3 ? own[2] : fem::ContactPair::straight},
-                         touching,
-                         stands_for});
+        pairs.push_back({node, {own[0], own[1], own.size() == 3 ? own[2] : none}, touching, stands_for});
+        for (const int end : {own[0], own[1]})
+          if (++beams_at[end] > 1) pairs.push_back({node, {end, none, none}, touching, -stands_for});
       }
+    }
   }
   const Beam& wall = std::get<Honeycomb>(one.unnamed()->geometry).wall;
   const double thickness = one.contact->thickness;

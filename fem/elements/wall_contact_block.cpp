@@ -18,21 +18,24 @@ using Eigen::Vector2d;
 /// The node, the beam's ends and its middle.
 using Positions = std::array<Vector2d, 4>;
 
-/// A beam's centreline between its ends, s = 0..1: a parabola through its middle, or straight.
+/// A beam's centreline between its ends, s = 0..1: a parabola through its middle, or straight; or its first
+/// end.
 class Centreline {
  public:
-  explicit Centreline(bool curved) : curved_(curved) {}
+  enum class Shape { parabola, straight, point };
+  explicit Centreline(Shape shape) : shape_(shape) {}
 
   /// Of the ends and the middle; T: double or a dual number.
   template<class T>
   std::array<T, 3> shape(const T& s) const {
-    if (!curved_) return {1.0 - s, s, T(0.0)};
+    if (shape_ == Shape::point) return {T(1.0), T(0.0), T(0.0)};
+    if (shape_ == Shape::straight) return {1.0 - s, s, T(0.0)};
     return {(1.0 - s) * (1.0 - 2.0 * s), s * (2.0 * s - 1.0), 4.0 * s * (1.0 - s)};
   }
   /// Of Bezier's control polygon, in whose hull the line is: its ends and this.
   Vector2d control(const Positions& x) const {
     const Vector2d mean = (x[1] + x[2]) / 2;
-    return curved_ ? Vector2d(2 * x[3] - mean) : mean;
+    return shape_ == Shape::parabola ? Vector2d(2 * x[3] - mean) : mean;
   }
   Vector2d at(const Positions& x, double s) const {
     const std::array<double, 3> N = shape(s);
@@ -42,11 +45,12 @@ class Centreline {
   double nearest(const Positions& x) const;
 
  private:
-  bool curved_;
+  Shape shape_;
 };
 
 double Centreline::nearest(const Positions& x) const {
-  if (!curved_) {
+  if (shape_ == Shape::point) return 0;
+  if (shape_ == Shape::straight) {
     const Vector2d along = x[2] - x[1];
     return std::clamp((x[0] - x[1]).dot(along) / along.squaredNorm(), 0.0, 1.0);
   }
@@ -133,7 +137,11 @@ class WallContactBlock final : public ContactBlock {
 
  private:
   const ContactPair& pair(int element) const { return pairs_[static_cast<std::size_t>(element)]; }
-  static Centreline line(const ContactPair& one) { return Centreline(one.beam[2] != ContactPair::straight); }
+  static Centreline line(const ContactPair& one) {
+    using Shape = Centreline::Shape;
+    const bool point = one.beam[1] == ContactPair::none, straight = one.beam[2] == ContactPair::none;
+    return Centreline(point ? Shape::point : straight ? Shape::straight : Shape::parabola);
+  }
   static std::array<int, 4> nodes(const ContactPair& one) {
     return {one.node, one.beam[0], one.beam[1], one.beam[2]};
   }
@@ -141,7 +149,7 @@ class WallContactBlock final : public ContactBlock {
     Positions x;
     const std::array<int, 4> all = nodes(one);
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto n = static_cast<std::size_t>(std::max(all[i], 0));
+      const auto n = static_cast<std::size_t>(all[i] == ContactPair::none ? one.beam[0] : all[i]);
       x[i] = (drawn_[n] + state.displacement[n]).head<2>();
     }
     return x;

@@ -24,7 +24,7 @@ struct Walls {
     mesh.blocks = {{meshing::CellType::line2, {0, 1, 2, 3}}};
     model = test::free_model(
         4, true, make_beam_block(mesh, mesh.blocks[0], test::uneven_section(), Eigen::Vector3d::UnitZ()),
-        make_wall_contact_block(mesh, {{2, {0, 1, ContactPair::straight}, width, 0.7}}, {thickness, 5}));
+        make_wall_contact_block(mesh, {{2, {0, 1, ContactPair::none}, width, 0.7}}, {thickness, 5}));
   }
   Evaluation drawn() const { return model->blocks[1]->evaluate(model->initial_state(), 0, 1, {}); }
 };
@@ -89,6 +89,47 @@ TEST(WallContactBlock, gap_is_that_to_the_bent_centreline) {
   EXPECT_NEAR(walls.energy(), 5 * 0.7 * 0.1 * 0.1 * std::log(2.0), 1e-12);
   EXPECT_NEAR(contact_force(*walls.model, walls.model->initial_state()),
               5 * 0.7 * (0.2 * std::log(2.0) + 0.1), 1e-12);
+}
+
+/// A wall of two beams with an angle between them, (-1, bend) to (0, 0) to (1, bend), above which there is a
+/// node.
+struct Bend {
+  meshing::Mesh mesh;
+  std::unique_ptr<Model> model;
+
+  Bend(double bend, const Eigen::Vector2d& tip) {
+    mesh.nodes = {{-1, bend, 0}, {0, 0, 0}, {1, bend, 0}, {tip.x(), tip.y(), 0}, {tip.x(), tip.y() + 1, 0}};
+    mesh.blocks = {{meshing::CellType::line2, {0, 1, 1, 2, 3, 4}}};
+    constexpr int none = ContactPair::none;
+    model = test::free_model(
+        5, true, make_beam_block(mesh, mesh.blocks[0], test::uneven_section(), Eigen::Vector3d::UnitZ()),
+        make_wall_contact_block(
+            mesh,
+            {{3, {0, 1, none}, width, 0.7}, {3, {1, 2, none}, width, 0.7}, {3, {1, none, none}, width, -0.7}},
+            {thickness, 5}));
+  }
+  double energy() const { return model->blocks[1]->evaluate(model->initial_state(), 0, 3, {}).energy; }
+};
+
+/// Along a straight wall the barrier does not tell where a beam ends, nor around a corner.
+TEST(WallContactBlock, end_that_two_beams_share_counts_once) {
+  const double one = 5 * 0.7 * 0.15 * 0.15 * std::log(4.0), above = width + 0.05;
+  for (const double x : {-0.4, -0.1, -0.01, 0.0, 0.03, 0.2})
+    EXPECT_NEAR(Bend(0, {x, above}).energy(), one, 1e-12) << x;
+  for (const double angle : {-0.3, 0.0, 0.2})
+    EXPECT_NEAR(Bend(-0.5, {above * std::sin(angle), above * std::cos(angle)}).energy(), one, 1e-12) << angle;
+  EXPECT_GT(Bend(0.5, {0, 0.4}).energy(), 0); // in a corner both beams push
+}
+
+TEST(WallContactBlock, residual_and_tangent_at_a_shared_end_are_the_derivatives_of_the_energy) {
+  std::mt19937 random(4);
+  for (const Eigen::Vector2d& tip : {Eigen::Vector2d(0.05, 0.34), {-0.05, 0.36}, {0.3, 0.2}}) {
+    const Bend walls(-0.5, tip);
+    ASSERT_GT(walls.energy(), 0);
+    State state = walls.model->initial_state();
+    for (auto& u : state.displacement) u.head<2>() = test::random_vector(random, 2, 0.005);
+    test::expect_consistent_derivatives(*walls.model, state, 0.02, 1e-7);
+  }
 }
 
 /// The way of a wall through another ends before their faces meet; beside it, or away from it, it is free.
