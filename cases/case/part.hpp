@@ -205,7 +205,8 @@ struct MeshOptions {
   double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
   int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
   int across = 0; ///< elements from side to side of a strip, across the height of a slab, or a sphere's wall
-  int quadrature = 3; ///< integration points of a 6-node triangle: 3 or 6
+  int quadrature = 3;           ///< integration points of a 6-node triangle: 3 or 6
+  std::optional<double> size{}; ///< of tetrahedra in a user's own surface, m; absent: a tenth of its extent
 };
 
 /// A film, rods of it, or bars, with a mesh of their own or in a place of the unnamed part's. The part

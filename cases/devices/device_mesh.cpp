@@ -12,7 +12,9 @@
 #include "meshing/refine.hpp"
 #include "meshing/regions/region_mesh.hpp"
 #include "meshing/rings.hpp"
+#include "meshing/solids/fill.hpp"
 #include "meshing/solids/slab.hpp"
+#include "meshing/solids/surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +70,15 @@ meshing::Mesh film_and_bars(meshing::Mesh mesh, double unit, const std::vector<s
     for (auto& [name, set] : mesh.cell_sets) set.block -= set.block > b;
   }
   return mesh;
+}
+
+/// What a user's surface bounds, in the file's unit (m). `size`: of tetrahedra, m.
+meshing::Mesh filled_surface(const std::string& path, std::optional<double> size, double unit) {
+  const meshing::Surface surface = meshing::read_surface(path);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : surface.points) box.extend(x);
+  constexpr double parts = 10; // of its extent, where nothing is said
+  return meshing::filled(surface, size ? *size / unit : box.diagonal().norm() / parts);
 }
 
 /// A disc or an annulus in which regions are drawn.
@@ -150,9 +161,12 @@ meshing::Mesh mesh_of(const Part& part, fem::Dimension dimension, int patch_orde
                 h.inner_radius, h.outer_radius, options.across);
           },
           [&](const MeshFile& file) {
-            meshing::Mesh mesh = meshing::read_gmsh(file.path);
+            const double unit = options.unit.value_or(1);
+            meshing::Mesh mesh = meshing::is_surface_file(file.path)
+                                     ? filled_surface(file.path, options.size, unit)
+                                     : meshing::read_gmsh(file.path);
             for (int i = 0; i < options.refine; ++i) mesh = meshing::refined(std::move(mesh));
-            return film_and_bars(std::move(mesh), options.unit.value_or(1), bars);
+            return film_and_bars(std::move(mesh), unit, bars);
           },
       },
       part.geometry);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/language/conditions.hpp"
 
+#include "meshing/solids/surface.hpp"
+
 #include <algorithm>
 
 namespace dielast::cases {
@@ -202,6 +204,13 @@ Condition of_revolution() {
 
 Condition in_space() {
   return on_case("model = \"3d\"", [](const Case& one) { return one.dimension == fem::Dimension::spatial; });
+}
+
+Condition fills_a_surface() {
+  return on<Part>("a file of a surface: .stl, .ply or .off", [](const Case&, const Part& part) {
+    const auto* file = std::get_if<MeshFile>(&part.geometry);
+    return file && meshing::is_surface_file(file->path);
+  });
 }
 
 Condition plane_strain() {

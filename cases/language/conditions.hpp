@@ -32,7 +32,8 @@ Condition an_electrode_keeps_off_walls();
 Condition solid(); ///< the film's own section is one
 Condition of_revolution();
 Condition in_space();
-Condition plane_strain(); ///< likewise, of a planar model
+Condition fills_a_surface(); ///< the part's mesh file is one
+Condition plane_strain();    ///< the section is a solid, of a planar model
 
 } // namespace when
 

@@ -303,9 +303,19 @@ Section mesh_section() {
   section.access = same_object();
   section.selector = "geometry";
   section.keys = {
-      text("file", mesh_file(),
-           "the user's own gmsh mesh (MSH 4.1 or 2.2), beside the case file; physical names are places")
+      text(
+          "file", mesh_file(),
+          "the user's own gmsh mesh (MSH 4.1 or 2.2), beside the case file; physical names are places; or a "
+          "closed surface (.stl, .ply, .off), which is filled with tetrahedra: places face_1, face_2 ... end "
+          "where its triangles meet at more than 30 deg, x_min ... z_max lie in the sides of the box around "
+          "it")
           .only({"file"}),
+      measure("size", "m", mesh_option(&MeshOptions::size),
+              "of a surface: longest side, nearly, of its tetrahedra; without it a tenth of its extent")
+          .above(0)
+          .optional()
+          .only({"file"})
+          .only_with(when::fills_a_surface()),
       measure(
           "unit", "m", mesh_option(&MeshOptions::unit),
           "what one unit of length of the file stands for; without it 1 m, and a warning says how large the "

@@ -319,7 +319,8 @@ std::span<const Template> templates() {
                {{"line", "the beams"}, {"start", "where it starts"}, {"end", "where it ends"}},
                "",
                ""},
-      Template{"file", "your own gmsh mesh: [mesh] file = \"...\"", {}, file_defaults, ""},
+      Template{
+          "file", "your own gmsh mesh, or a closed surface: [mesh] file = \"...\"", {}, file_defaults, ""},
   };
   return table;
 }

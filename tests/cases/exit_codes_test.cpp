@@ -119,6 +119,20 @@ TEST_F(ExitCodes, ThreeForABrokenMesh) {
   }
 }
 
+TEST_F(ExitCodes, ThreeForASurfaceThatBoundsNoVolume) {
+  write("solid.toml", "model = \"3d\"\n[film]\nthickness = \"1 mm\"\nsection = \"solid\"\n[film.material]\n"
+                      "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[mesh]\nfile = "
+                      "\"open.off\"\nunit = \"1 mm\"\n");
+  write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
+  const std::string message = "error: " + (directory / "open.off").string() +
+                              ": it is open: 3 edges belong to one triangle only; close its holes\n";
+  for (const char* command : {"run", "check", "mesh"}) {
+    const Ended ended = dielast({command, "solid.toml"});
+    EXPECT_EQ(ended.exit_code, 3) << command;
+    EXPECT_EQ(ended.err, message);
+  }
+}
+
 TEST_F(ExitCodes, FourBeyondTheLimitPointAndEveryAcceptedStateIsKept) {
   const Ended ended = dielast({"run", "small.toml", "--set", "drive.voltage=30 kV"});
   EXPECT_EQ(ended.exit_code, 4);

@@ -18,6 +18,7 @@ using Names = std::set<std::string>;
 const std::map<std::string, std::vector<std::string>> libraries{
     {"Eigen", {"Eigen/", "Eigen3::"}},
     {"CGAL", {"CGAL/", "CGAL::"}},
+    {"TetGen", {"tetgen.h", "${TETGEN_LIBRARY}"}},
     {"gmsh", {"gmsh.h", "${GMSH_LIBRARY}"}},
     {"fmt", {"fmt/", "fmt::"}},
     {"nlohmann-json", {"nlohmann/", "nlohmann_json::"}},
