@@ -191,12 +191,13 @@ PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sid
   const auto at = [&](int node) -> const Vector3d& { return mesh.nodes[static_cast<std::size_t>(node)]; };
   std::map<int, double> areas;
   for (int side = 0; side < sides.size(); ++side) {
-    const auto own = sides.cell(side); // ends, middle
+    const auto own = sides.cell(side); // ends, and a middle
     const double length = (at(own[1]) - at(own[0])).norm();
     const auto across = [&](int node) { return width.value_or(2 * std::numbers::pi * at(node).x()); };
-    for (std::size_t i = 0; i < 3; ++i)
-      areas[own[i]] +=
-          length * std::max((i == 2 ? 4.0 : 1.0) / 6 * across(own[i]), least_share * across(own[2]));
+    const double end_share = own.size() == 3 ? 1.0 / 6 : 1.0 / 2,
+                 mean = (across(own[0]) + across(own[1])) / 2;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      areas[own[i]] += length * std::max((i == 2 ? 4.0 / 6 : end_share) * across(own[i]), least_share * mean);
   }
   PlaneContact surface;
   for (const auto& [node, area] : areas) {

@@ -11,7 +11,7 @@
 
 namespace dielast::fem {
 
-/// A surface that may touch a rigid plane.
+/// A surface that may touch a rigid plane, or where it is of revolution a rigid cylinder.
 struct PlaneContact {
   std::vector<int> nodes;
   std::vector<double> areas;                         ///< undeformed, that each node stands for, m^2
@@ -21,8 +21,9 @@ struct PlaneContact {
   double friction = 0;                               ///< Coulomb's coefficient; 0: it slides freely
 };
 
-/// The surface that 3-node sides of solids make: each node stands for what Simpson's rule gives it. `width`:
-/// of plane strain, m; nothing: of revolution about x = 0.
+/// The surface that sides of solids, or films of revolution, make: each node stands for what Simpson's rule
+/// gives it, on 2-node sides the trapezoidal rule. `width`: of plane strain, m; nothing: of revolution about
+/// x = 0, where a plane across the radius is a cylinder.
 PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sides,
                         std::optional<double> width);
 

@@ -2,7 +2,9 @@
 #include "fem/elements/plane_contact_block.hpp"
 
 #include "fem/elements/point_mass_block.hpp"
+#include "fem/films/membrane_block.hpp"
 #include "fem/solids/solid_block.hpp"
+#include "meshing/meridian.hpp"
 #include "meshing/solids/sides.hpp"
 #include "tests/fem/derivative_contract.hpp"
 #include "tests/fem/sample_meshes.hpp"
@@ -12,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 namespace dielast::fem {
@@ -220,6 +223,68 @@ TEST(PlaneContact, bounce_conserves_the_energy) {
   EXPECT_LT(lowest, 0.01);                               // it has touched the barrier
   EXPECT_GT(fall + run.end().displacement[0].y(), 0.05); // and is on its way back
   EXPECT_LT(worst, 1e-6);
+}
+
+/// A tube of film of fixed length on a core, prestretched along it and around it, its ends free to grow.
+struct Tube {
+  static constexpr double radius = 5e-3, length = 20e-3, along = 2, around = 0.75, thickness = 1e-6;
+
+  explicit Tube(int order) : mesh(meshing::roll_meridian(length, radius, length, 6, order)) {
+    const MembraneSection section = test::vhb(along, around);
+    PlaneContact core = surface_of(mesh, mesh.blocks[0], std::nullopt);
+    core.normal = Eigen::Vector3d::UnitX();
+    core.origin = {radius - thickness, 0, 0};
+    core.barrier = {thickness, mu * section.thickness / radius / thickness, 1};
+    model = test::unnumbered_model(
+        mesh.node_count(), Dimension::axisymmetric,
+        make_membrane_block(mesh, mesh.blocks[0], section,
+                            std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0),
+                            Dimension::axisymmetric, order + 1),
+        make_plane_contact_block(mesh, std::move(core)));
+    for (const char* end : {"lower_end", "upper_end"}) model->dofs.hold(mesh.node_sets.at(end).front(), 2);
+    model->dofs.number();
+    model->extent = length;
+    model->length_scale = length / 6;
+  }
+  /// Tension around the core per length along it, N/m, of neo-Hookean film at the hoop stretch around * s.
+  static double tension(double s, double voltage) {
+    const double l1 = along, l2 = around * s, l3 = 1 / (l1 * l2), film = 1e-3 * l3;
+    return film * (mu * (l2 * l2 - l3 * l3) - 4e-11 * std::pow(voltage / film, 2));
+  }
+
+  meshing::Mesh mesh;
+  std::unique_ptr<Model> model;
+};
+
+/// Pressed by the tension around it, the core bears tension over radius everywhere. Charged until that would
+/// be compression, the film leaves it for the radius at which nothing is left around it, and nothing pulls.
+TEST(PlaneContact, film_presses_on_its_core_and_lifts_where_it_would_pull) {
+  constexpr double pi = std::numbers::pi, lifts = 10e3;
+  for (const int order : {1, 2}) {
+    Tube tube(order);
+    Equilibrium equilibrium(*tube.model, 1);
+    State state = tube.model->initial_state();
+    for (const double voltage : {0.0, 4e3, 6e3, lifts, 4e3}) {
+      SCOPED_TRACE(voltage);
+      state.voltage = {voltage};
+      ASSERT_EQ(equilibrium.solve(state, {.tolerance = 1e-12, .max_iterations = 100}).outcome,
+                Outcome::converged);
+      const double wider = state.displacement[0].x() / Tube::radius;
+      for (const auto& u : state.displacement) EXPECT_NEAR(u.x() / Tube::radius, wider, 1e-9);
+      if (voltage < lifts) {
+        EXPECT_LT(wider, 0);
+        EXPECT_GT(wider, -Tube::thickness / Tube::radius);
+        EXPECT_NEAR(contact_force(*tube.model, state),
+                    2 * pi * Tube::length * Tube::tension(1 + wider, voltage),
+                    1e-8 * 2 * pi * Tube::length * Tube::tension(1, 0));
+      } else {
+        EXPECT_LT(Tube::tension(1, voltage), 0); // a core that held would pull
+        const double c = 4e-11 * std::pow(voltage * Tube::along / 1e-3, 2) / mu;
+        EXPECT_NEAR(Tube::around * (1 + wider), std::pow((1 - c) * Tube::along * Tube::along, -0.25), 1e-9);
+        EXPECT_EQ(contact_force(*tube.model, state), 0);
+      }
+    }
+  }
 }
 
 } // namespace
