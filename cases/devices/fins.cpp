@@ -34,6 +34,14 @@ std::vector<FinPoints> add_fin_nodes(const Case& one, meshing::Mesh& mesh) {
       mesh.nodes.push_back(front + at * points.length);
       points.points.push_back({mesh.node_count() - 1, weight * mass, weight * drag});
     }
+    const Eigen::Vector3d half =
+        fin.height / 2 * points.length.normalized().cross(Eigen::Vector3d::Unit(fin.along));
+    const auto corner = [&mesh](const Eigen::Vector3d& x) {
+      mesh.nodes.push_back(x);
+      return mesh.node_count() - 1;
+    };
+    points.corners = {corner(point(fin.from) + half), corner(point(fin.from) - half),
+                      corner(point(fin.to) - half), corner(point(fin.to) + half)};
   }
   return fins;
 }
@@ -49,9 +57,11 @@ std::vector<std::unique_ptr<fem::ElementBlock>> fluid_around(const std::vector<F
 
 void tie_fins(const std::vector<FinPoints>& fins, const meshing::Mesh& mesh, fem::DofMap& dofs) {
   const auto drawn = [&mesh](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
-  for (const FinPoints& fin : fins)
-    for (const FinPoints::Point& at : fin.points)
-      dofs.tie({at.node, fin.master, drawn(at.node) - drawn(fin.master)});
+  for (const FinPoints& fin : fins) {
+    const auto tie = [&](int node) { dofs.tie({node, fin.master, drawn(node) - drawn(fin.master)}); };
+    for (const FinPoints::Point& at : fin.points) tie(at.node);
+    for (const int node : fin.corners) tie(node);
+  }
 }
 
 FinLoad load_on(const FinPoints& fin, const fem::Model& model, const fem::State& state) {

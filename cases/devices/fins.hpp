@@ -21,6 +21,7 @@ struct FinPoints {
   int along = 1;          ///< the axis across it, as drawn
   Eigen::Vector3d length; ///< from its front to its trailing end, as drawn, m
   std::vector<Point> points{};
+  std::array<int, 4> corners{}; ///< nodes around it, for drawing
 };
 
 /// What the fluid does with a fin as it moves.
@@ -30,10 +31,10 @@ struct FinLoad {
   double power = 0;  ///< given to the fluid, W
 };
 
-/// Adds the points of all fins to the mesh, behind the nodes of the bodies.
+/// Adds the points and corners of all fins to the mesh, behind the nodes of the bodies.
 std::vector<FinPoints> add_fin_nodes(const Case& one, meshing::Mesh& mesh);
 std::vector<std::unique_ptr<fem::ElementBlock>> fluid_around(const std::vector<FinPoints>& fins);
-/// Ties their points to the masters of their bodies.
+/// Ties them to the masters of their bodies.
 void tie_fins(const std::vector<FinPoints>& fins, const meshing::Mesh& mesh, fem::DofMap& dofs);
 
 /// Nothing in a state without inertia.

@@ -23,6 +23,7 @@ class Pictures {
         wall_width_(device.bars.widths.empty() ? 0 : std::ranges::max(device.bars.widths)) {
     // Thickness and field jump at the electrode's edge: they are not smoothed across it.
     for (const double field : last.field) regions_.push_back(field != 0);
+    for (const FinPoints& fin : device.fins) fins_.push_back(fin.corners);
   }
 
   post::Panel panel(const Snapshot& snapshot, const std::vector<double>& values) const {
@@ -42,21 +43,24 @@ class Pictures {
   post::Image image(const std::vector<const Snapshot*>& states, std::vector<double> Snapshot::*values,
                     const std::string& quantity, const std::string& unit, const std::string& caption,
                     const std::string& name) const {
-    post::Picture picture{.quantity = quantity, .unit = unit, .wall_width = wall_width_};
+    post::Picture picture{.quantity = quantity, .unit = unit, .wall_width = wall_width_, .fins = fins_};
     for (const Snapshot* state : states) picture.panels.push_back(panel(*state, state->*values));
     return image(std::move(picture), caption, true, name);
   }
   /// One at a time.
   post::Slides slides(const std::vector<Snapshot>& states, const ShapeField& shown) const {
-    post::Picture picture{
-        .quantity = shown.meaning, .unit = shown.unit, .wall_width = wall_width_, .width = 900};
+    post::Picture picture{.quantity = shown.meaning,
+                          .unit = shown.unit,
+                          .wall_width = wall_width_,
+                          .fins = fins_,
+                          .width = 900};
     for (const Snapshot& state : states) picture.panels.push_back(panel(state, state.shape));
     return post::draw_slides(device_.mesh, std::move(picture));
   }
   /// A small picture without colours.
   post::Image shape(const Snapshot& state, const std::string& caption) const {
-    return image({.wall_width = wall_width_, .panels = {panel(state, {})}, .width = 800}, caption, false,
-                 "mode " + state.title);
+    return image({.wall_width = wall_width_, .fins = fins_, .panels = {panel(state, {})}, .width = 800},
+                 caption, false, "mode " + state.title);
   }
   /// The device as drawn with these of its places.
   post::Image places(std::vector<post::Mark> marks) const {
@@ -91,6 +95,7 @@ class Pictures {
   bool meridian_, solid_of_revolution_;
   double wall_width_;
   std::vector<int> regions_;
+  std::vector<std::array<int, 4>> fins_;
 };
 
 /// Places of the mesh that the case's quantities, supports and loads name: not the whole of it.

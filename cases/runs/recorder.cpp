@@ -25,6 +25,7 @@ post::SeriesModel series_model(const Case& one, const Device& device) {
   post::SeriesModel model{device.mesh,       device.bars.widths, device.bars.heights,
                           device.film_parts, device.bars.parts,  {}};
   for (const Part& part : one.parts) model.parts.push_back(part.name.empty() ? "unnamed" : part.name);
+  for (const FinPoints& fin : device.fins) model.fins.push_back(fin.corners);
   return model;
 }
 

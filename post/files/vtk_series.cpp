@@ -24,6 +24,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 namespace dielast::post {
@@ -70,49 +71,34 @@ vtkNew<vtkFloatArray> cell_array(const std::string& name, std::span<const std::s
 
 } // namespace
 
-/// The grid of the film or of the walls, built once; a step exchanges its points and its data.
+/// The grid of the film, of the walls or of fins, built once; a step exchanges its points and its data.
 class VtkSeries::PartFile {
  public:
   PartFile(const SeriesModel& model, const meshing::CellBlock& block)
-      : part_(part_of(block.type)), cell_count_(block.size()) {
+      : part_(part_of(block.type)), name_(part_ == Part::film ? "film" : "walls"), cell_count_(block.size()) {
     if (part_ == Part::walls)
       add_bars(Bars(model.mesh, block, model.bar_widths, model.bar_heights));
     else if (meshing::is_meridian(block.type))
       add_surface(Revolution(model.mesh, block));
     else
       add_cells(model.mesh, block);
-    for (const TurnedNode& point : points_) drawn_.push_back(point(model.mesh.nodes));
-    for (const BarPoint& point : edges_) drawn_.push_back(point.place(model.mesh.nodes));
-    prepare(place_, "Points");
-    vtkNew<vtkPoints> points;
-    points->SetData(place_);
-    grid_->SetPoints(points);
-
-    prepare(displacement_, "displacement [m]");
-    grid_->GetPointData()->SetVectors(displacement_);
-    prepare(mode_, "mode");
     add_parts(part_ == Part::walls ? model.bar_parts : model.film_parts, model.parts);
-
-    time_->SetName("TimeValue");
-    time_->SetNumberOfTuples(1);
-    grid_->GetFieldData()->AddArray(time_);
-    step_->SetName("step");
-    step_->SetNumberOfValues(1);
-    grid_->GetFieldData()->AddArray(step_);
-    load_factor_->SetName("load_factor");
-    load_factor_->SetNumberOfTuples(1);
-    grid_->GetFieldData()->AddArray(load_factor_);
-
-    writer_->SetInputData(grid_);
-    writer_->SetDataModeToAppended();
-    writer_->EncodeAppendedDataOff();
-    writer_->SetCompressorTypeToLZ4();
-    writer_->SetCompressionLevel(1);
-    // Through memory, as VTK does not say why a file could not be written.
-    writer_->WriteToOutputStringOn();
+    begin(model.mesh);
+  }
+  /// Of fins, without fields.
+  explicit PartFile(const SeriesModel& model) : name_("fins") {
+    for (const std::array<int, 4>& fin : model.fins) {
+      std::vector<vtkIdType> corners;
+      for (const int node : fin) {
+        corners.push_back(static_cast<vtkIdType>(points_.size()));
+        points_.push_back({node});
+      }
+      add_cell(VTK_QUAD, corners, 0);
+    }
+    begin(model.mesh);
   }
 
-  std::string_view name() const { return part_ == Part::film ? "film" : "walls"; }
+  std::string_view name() const { return name_; }
 
   std::string content(const SeriesStep& step, const SeriesState& state, const SeriesMode& mode) {
     move(state);
@@ -133,7 +119,7 @@ class VtkSeries::PartFile {
     }
     if (part_ == Part::film)
       set_cell_data(state.samples.film, film_fields());
-    else
+    else if (part_ == Part::walls)
       set_cell_data(state.samples.walls, wall_fields());
     grid_->Modified();
     // A file must not tell of the one before: ranges that writing cached are dropped.
@@ -150,6 +136,38 @@ class VtkSeries::PartFile {
   }
 
  private:
+  /// What every grid has, once its points and cells are known.
+  void begin(const meshing::Mesh& mesh) {
+    for (const TurnedNode& point : points_) drawn_.push_back(point(mesh.nodes));
+    for (const BarPoint& point : edges_) drawn_.push_back(point.place(mesh.nodes));
+    prepare(place_, "Points");
+    vtkNew<vtkPoints> points;
+    points->SetData(place_);
+    grid_->SetPoints(points);
+
+    prepare(displacement_, "displacement [m]");
+    grid_->GetPointData()->SetVectors(displacement_);
+    prepare(mode_, "mode");
+
+    time_->SetName("TimeValue");
+    time_->SetNumberOfTuples(1);
+    grid_->GetFieldData()->AddArray(time_);
+    step_->SetName("step");
+    step_->SetNumberOfValues(1);
+    grid_->GetFieldData()->AddArray(step_);
+    load_factor_->SetName("load_factor");
+    load_factor_->SetNumberOfTuples(1);
+    grid_->GetFieldData()->AddArray(load_factor_);
+
+    writer_->SetInputData(grid_);
+    writer_->SetDataModeToAppended();
+    writer_->EncodeAppendedDataOff();
+    writer_->SetCompressorTypeToLZ4();
+    writer_->SetCompressionLevel(1);
+    // Through memory, as VTK does not say why a file could not be written.
+    writer_->WriteToOutputStringOn();
+  }
+
   void add_cells(const meshing::Mesh& mesh, const meshing::CellBlock& block) {
     std::vector<int> nodes = block.nodes;
     std::sort(nodes.begin(), nodes.end());
@@ -232,8 +250,9 @@ class VtkSeries::PartFile {
     }
   }
 
-  Part part_;
-  int cell_count_;                     ///< of the mesh's block
+  std::optional<Part> part_; ///< nothing: of fins
+  const char* name_;
+  int cell_count_ = 0;                 ///< of the mesh's block
   std::vector<TurnedNode> points_;     ///< of the grid, where it is of film
   std::vector<BarPoint> edges_;        ///< of the grid, where it is of walls
   std::vector<Eigen::Vector3d> drawn_; ///< the grid's points, m
@@ -256,6 +275,7 @@ VtkSeries::VtkSeries(ResultsFolder& folder, std::string name, const SeriesModel&
     for (const meshing::CellBlock& block : model.mesh.blocks)
       if (part_of(block.type) == part && block.size() > 0)
         parts_.push_back(std::make_unique<PartFile>(model, block));
+  if (!model.fins.empty()) parts_.push_back(std::make_unique<PartFile>(model));
 
   write_list();
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,6 +34,7 @@ struct SeriesModel {
   std::span<const double> bar_widths{}, bar_heights{}; ///< per line, see Bars
   std::span<const int> film_parts{}, bar_parts{};      ///< per cell and line; empty: all are of part 0
   std::vector<std::string> parts{};                    ///< their names
+  std::vector<std::array<int, 4>> fins{};              ///< flat fins, the nodes of their corners
 };
 
 /// A state of it.
@@ -48,8 +50,8 @@ struct SeriesMode {
 };
 
 /// The ParaView series of a run: per accepted step `<name>_film_0000.vtu` and, where the mesh has lines,
-/// `<name>_walls_0000.vtu` (binary, compressed), and `<name>.pvd` that lists them by time with the blocks
-/// film and walls.
+/// `<name>_walls_0000.vtu`, with fins `<name>_fins_0000.vtu` (binary, compressed), and `<name>.pvd` that
+/// lists them by time with the blocks film, walls and fins.
 ///
 /// Points are where the mesh's nodes are in that state; point data "displacement [m]", by which they have
 /// moved since drawn. Walls are solids with their sections (post/bars.hpp), films of revolution surfaces

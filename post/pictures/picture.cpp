@@ -27,7 +27,7 @@ using meshing::CellType;
 using Box = Eigen::AlignedBox2d;
 
 constexpr double margin = 44, gap = 40, legend_height = 96, tallest_panel = 1400; // px
-constexpr Colour wall_colour{0.16, 0.18, 0.22};
+constexpr Colour wall_colour{0.16, 0.18, 0.22}, fin_colour{0.72, 0.76, 0.80};
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
@@ -49,8 +49,10 @@ void add_path(cairo_t* cr, const CellBlock& block, int cell, const std::vector<E
   cairo_line_to(cr, at(n[1]).x(), at(n[1]).y());
 }
 
-Box extent(const meshing::Mesh& mesh, const Panel& panel, double wall_width) {
+Box extent(const meshing::Mesh& mesh, const Picture& picture, const Panel& panel, double wall_width) {
   Box box;
+  for (const std::array<int, 4>& fin : picture.fins)
+    for (const int node : fin) box.extend(panel.positions[static_cast<std::size_t>(node)].head<2>());
   for (const CellBlock& block : mesh.blocks)
     for (const int node : block.nodes) box.extend(panel.positions[static_cast<std::size_t>(node)].head<2>());
   if (box.isEmpty()) throw std::invalid_argument("nothing to draw");
@@ -65,9 +67,9 @@ constexpr int of_pages = 2, of_slides = 1, of_files = 1;
 constexpr double rod_width = 0.01;
 
 /// Rods have no section in the mesh.
-void stroke_rods(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel,
+void stroke_rods(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
                  std::pair<double, double> range) {
-  cairo_set_line_width(cr, rod_width * extent(mesh, panel, 0).sizes().norm());
+  cairo_set_line_width(cr, rod_width * extent(mesh, picture, panel, 0).sizes().norm());
   std::size_t number = 0;
   for (const CellBlock& block : mesh.blocks) {
     if (is_line(block.type)) continue;
@@ -139,11 +141,28 @@ void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const Panel& panel,
   }
 }
 
+/// Fins seen from their edge are lines.
+void fill_fins(cairo_t* cr, const Picture& picture, const Panel& panel, double width) {
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_width(cr, width);
+  for (const std::array<int, 4>& fin : picture.fins) {
+    for (const int node : fin) {
+      const Eigen::Vector3d& at = panel.positions[static_cast<std::size_t>(node)];
+      cairo_line_to(cr, at.x(), at.y());
+    }
+    cairo_close_path(cr);
+    set_colour(cr, fin_colour);
+    cairo_fill_preserve(cr);
+    set_colour(cr, wall_colour);
+    cairo_stroke(cr);
+  }
+}
+
 /// Draws a panel with its box centred in the rectangle at (left, top), y upwards.
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
                 std::pair<double, double> range, const Eigen::Vector3d& light, double scale, int finer,
                 double left, double top, double width, double height) {
-  const Box box = extent(mesh, panel, picture.wall_width);
+  const Box box = extent(mesh, picture, panel, picture.wall_width);
   const Eigen::Vector2d size(std::ceil(width) * finer, std::ceil(height) * finer);
   const Placement place{scale * finer, {box.center().x(), box.center().y(), 0}, size, light};
   Raster film = film_raster(mesh, panel, range, place);
@@ -161,7 +180,8 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
   cairo_translate(cr, std::ceil(width) / 2, std::ceil(height) / 2);
   cairo_scale(cr, scale, -scale);
   cairo_translate(cr, -box.center().x(), -box.center().y());
-  stroke_rods(cr, mesh, panel, range);
+  fill_fins(cr, picture, panel, std::max(picture.wall_width, 1 / scale));
+  stroke_rods(cr, mesh, picture, panel, range);
   stroke_walls(cr, mesh, panel, std::max(picture.wall_width, 1 / scale));
   cairo_restore(cr);
   const Eigen::Vector2d middle(left + std::ceil(width) / 2, top + std::ceil(height) / 2);
@@ -244,7 +264,7 @@ class Drawing {
     panel_width_ = (picture.width - 2 * margin - gap * (panels - 1)) / panels;
     Eigen::Vector2d largest(1e-12, 1e-12);
     for (const Panel& panel : picture.panels)
-      largest = largest.cwiseMax(extent(mesh, panel, picture.wall_width).sizes());
+      largest = largest.cwiseMax(extent(mesh, picture, panel, picture.wall_width).sizes());
     scale_ = std::min(panel_width_ / largest.x(), tallest_panel / largest.y());
     panel_height_ = largest.y() * scale_;
     const bool titled =

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,10 @@ struct Mark {
 /// Panels side by side, with one scale of length and one of colour, so that they can be compared.
 struct Picture {
   std::string title{};
-  std::string quantity{}; ///< what the colours mean, e.g. "True electric field"
-  std::string unit{};     ///< of `values`, SI; "1" when it has none
-  double wall_width = 0;  ///< drawn true to scale, m
+  std::string quantity{};                 ///< what the colours mean, e.g. "True electric field"
+  std::string unit{};                     ///< of `values`, SI; "1" when it has none
+  double wall_width = 0;                  ///< drawn true to scale, m
+  std::vector<std::array<int, 4>> fins{}; ///< flat, the nodes of their corners
   std::vector<Panel> panels{};
   std::vector<Mark> marks{}; ///< in every panel
   int width = 1600;          ///< px; the height follows from the shapes
