@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/case/identify_spec.hpp"
+#include "cases/case/rational_spec.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,20 @@ namespace dielast::cases {
 
 std::string Unknown::assignment(double value) const {
   return fmt::format("{}={}{}{}", key, value, unit.empty() ? "" : " ", unit);
+}
+
+const char* unit_of(MeasuredResponse response) {
+  switch (response) {
+  case MeasuredResponse::displacement:
+    return "m/V^2";
+  case MeasuredResponse::impedance:
+    return "Ohm";
+  case MeasuredResponse::admittance:
+    return "S";
+  case MeasuredResponse::none:
+    break;
+  }
+  return "1";
 }
 
 std::size_t Identification::fitted_numbers() const {

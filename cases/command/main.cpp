@@ -4,6 +4,7 @@
 #include "cases/devices/device.hpp"
 #include "cases/fits/fit.hpp"
 #include "cases/fits/identify.hpp"
+#include "cases/fits/rational.hpp"
 #include "cases/manual/describe.hpp"
 #include "cases/manual/json_schema.hpp"
 #include "cases/readers/fit_reader.hpp"
@@ -106,6 +107,9 @@ ExitCode study(const Arguments& arguments) {
 }
 
 ExitCode fit(const Arguments& arguments) {
+  if (cases::is_rational_fit(arguments.case_file))
+    return run_rational_fits(cases::read_rational_fits(arguments.case_file),
+                             {arguments.output("-fit"), arguments.resume});
   if (cases::is_identification(arguments.case_file))
     return run_identification(cases::read_identification(arguments.case_file),
                               {arguments.output("-fit"), arguments.resume}, arguments.threads);

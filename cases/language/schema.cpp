@@ -214,6 +214,7 @@ const Section& case_schema() {
     for (Section& section : result_sections()) root.sections.push_back(std::move(section));
     for (Section& section : fit_sections()) root.sections.push_back(std::move(section));
     root.sections.push_back(identify_section());
+    root.sections.push_back(rational_section());
     return root;
   }();
   return schema;

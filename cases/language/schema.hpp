@@ -325,5 +325,6 @@ std::vector<Section> result_sections(); ///< quantity, check, solver, output, li
 Section study_section();
 std::vector<Section> fit_sections(); ///< fit, test
 Section identify_section();          ///< what fits a whole device
+Section rational_section();          ///< of RationalFits
 
 } // namespace dielast::cases

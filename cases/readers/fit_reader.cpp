@@ -112,6 +112,7 @@ void refuse_fit(const Node& tree) {
   };
   for (const char* name : own_sections) refuse(name, "this file is a fit of a material: use `dielast fit`");
   refuse("identify", "this file identifies a device: use `dielast fit`");
+  refuse("rational", "this file fits measured responses: use `dielast fit`");
 }
 
 Fit read_fit(const std::filesystem::path& path) {

@@ -49,28 +49,26 @@ class Columns {
   std::vector<Diagnostic>& wrong_;
 };
 
-void read_response(DeviceTest& test, const CsvTable& csv, const Columns& columns,
-                   std::vector<Diagnostic>& wrong) {
+FrequencyTable read_response(MeasuredResponse response, const CsvTable& csv, const Columns& columns,
+                             std::vector<Diagnostic>& wrong) {
   constexpr double degree = std::numbers::pi / 180;
   const std::size_t before = wrong.size();
-  const char* unit = test.response == MeasuredResponse::displacement ? "m/V^2"
-                     : test.response == MeasuredResponse::impedance  ? "Ohm"
-                                                                     : "S";
-  test.against = "frequency";
-  test.x = columns.values("frequency", "1/s");
+  const char* unit = unit_of(response);
+  FrequencyTable table{columns.values("frequency", "1/s"), {}};
   const bool polar = columns.find("real") < 0;
   const std::vector<double> first = columns.values(polar ? "magnitude" : "real", unit);
   const std::vector<double> second =
       columns.values(polar ? "phase" : "imaginary", polar ? std::string_view("rad") : std::string_view(unit));
-  if (wrong.size() > before) return;
+  if (wrong.size() > before) return table;
   const bool degrees =
       polar && split_unit(csv.names[static_cast<std::size_t>(columns.find("phase"))]).unit.empty();
-  for (std::size_t i = 0; i < test.x.size(); ++i) {
-    test.measured.push_back(polar ? std::polar(first[i], degrees ? second[i] * degree : second[i])
-                                  : std::complex(first[i], second[i]));
-    if (!(test.x[i] > 0) || test.measured.back() == 0.0)
+  for (std::size_t i = 0; i < table.hertz.size(); ++i) {
+    table.value.push_back(polar ? std::polar(first[i], degrees ? second[i] * degree : second[i])
+                                : std::complex(first[i], second[i]));
+    if (!(table.hertz[i] > 0) || table.value.back() == 0.0)
       wrong.push_back({{csv.file, csv.lines[i], 1}, "", "a response is above 0, at a frequency above 0"});
   }
+  return table;
 }
 
 void read_quantity(DeviceTest& test, const CsvTable& csv, const Columns& columns, const Case& one,
@@ -95,21 +93,18 @@ void read_quantity(DeviceTest& test, const CsvTable& csv, const Columns& columns
     wrong.push_back({{csv.file, csv.header_line, 1}, "", "nothing other than 0 was measured"});
 }
 
-void load(DeviceTest& test, const std::filesystem::path& folder, const Written& written, const Case& one,
-          std::vector<Diagnostic>& wrong) {
+/// Hands the table in a test's file to `take`, with its columns.
+template<class Take>
+void load(const std::filesystem::path& file, const std::filesystem::path& folder, const Written& written,
+          std::vector<Diagnostic>& wrong, Take take) {
   const std::size_t before = wrong.size();
   try {
-    const CsvTable csv = read_csv(folder / test.file, 1, wrong);
-    if (wrong.size() > before) return;
-    const Columns columns(csv, written, wrong);
-    if (test.is_response())
-      read_response(test, csv, columns, wrong);
-    else
-      read_quantity(test, csv, columns, one, wrong);
+    const CsvTable csv = read_csv(folder / file, 1, wrong);
+    if (wrong.size() == before) take(csv, Columns(csv, written, wrong));
   } catch (const FileError& error) {
     wrong.push_back({written.table.find("file")->source, written.path + ".file",
-                     fmt::format("found {}: {}", toml_string(test.file.string()),
-                                 std::filesystem::exists(folder / test.file)
+                     fmt::format("found {}: {}", toml_string(file.string()),
+                                 std::filesystem::exists(folder / file)
                                      ? error.what()
                                      : "no such file; the path starts at this file's folder")});
   }
@@ -219,14 +214,53 @@ Identification read_identification(const std::filesystem::path& path) {
     read_settings(tests.items[t], asked.tests[t]);
     Node with = base;
     for (const std::string& setting : asked.tests[t].settings) apply_override(with, setting);
-    load(asked.tests[t], path.parent_path(), {tests.items[t], fmt::format("identify.test[{}]", t + 1)},
-         interpret(with, asked.base), wrong);
+    DeviceTest& test = asked.tests[t];
+    const Case changed = interpret(with, asked.base);
+    load(test.file, path.parent_path(), {tests.items[t], fmt::format("identify.test[{}]", t + 1)}, wrong,
+         [&](const CsvTable& csv, const Columns& columns) {
+           if (!test.is_response()) return read_quantity(test, csv, columns, changed, wrong);
+           FrequencyTable table = read_response(test.response, csv, columns, wrong);
+           test.against = "frequency";
+           test.x = std::move(table.hertz);
+           test.measured = std::move(table.value);
+         });
   }
   if (wrong.empty() && reader.diagnostics().empty() && asked.fitted_numbers() <= asked.unknowns.size())
     reader.report(section.find("unknowns")->source, "identify.unknowns",
                   fmt::format("there are {} unknowns, and the fitted tests have {} numbers; more are needed",
                               asked.unknowns.size(), asked.fitted_numbers()));
   wrong.insert(wrong.end(), reader.diagnostics().begin(), reader.diagnostics().end());
+  if (!wrong.empty()) throw CaseError(wrong);
+  return asked;
+}
+
+bool is_rational_fit(const std::filesystem::path& path) { return read_tree(path).find("rational"); }
+
+RationalFits read_rational_fits(const std::filesystem::path& path) {
+  const Node tree = read_tree(path);
+  RationalFits asked{.title = path.stem().string(), .source = path, .fits = {}};
+  Section root;
+  root.access = same_object();
+  root.keys = {text("title", to(&RationalFits::title), "title of the report").optional()};
+  root.sections = {rational_section()};
+  root.sections.front().presence = Section::Presence::list;
+  SectionReader reader({.folder = path.parent_path()});
+  reader.read_table(root, tree, &asked, "");
+  if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
+  std::vector<Diagnostic> wrong;
+  for (std::size_t i = 0; i < asked.fits.size(); ++i) {
+    RationalFit& fit = asked.fits[i];
+    const Written written{tree.find("rational")->items[i], fmt::format("rational[{}]", i + 1)};
+    const std::size_t before = wrong.size();
+    load(fit.file, path.parent_path(), written, wrong, [&](const CsvTable& csv, const Columns& columns) {
+      fit.measured = read_response(fit.response, csv, columns, wrong);
+    });
+    if (const std::size_t numbers = 2 * fit.measured.hertz.size();
+        wrong.size() == before && static_cast<int>(numbers) <= fit.unknowns())
+      wrong.push_back({written.table.source, written.path,
+                       fmt::format("there are {} unknowns, and {} has {} numbers; more are needed",
+                                   fit.unknowns(), fit.file.string(), numbers)});
+  }
   if (!wrong.empty()) throw CaseError(wrong);
   return asked;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/case/identify_spec.hpp"
+#include "cases/case/rational_spec.hpp"
 
 namespace dielast::cases {
 
@@ -11,5 +11,9 @@ bool is_identification(const std::filesystem::path& path);
 /// Reads and validates an identification, its case and the tables that it names. Throws FileError or
 /// CaseError.
 Identification read_identification(const std::filesystem::path& path);
+
+/// Whether the file has sections [[rational]].
+bool is_rational_fit(const std::filesystem::path& path);
+RationalFits read_rational_fits(const std::filesystem::path& path); ///< likewise
 
 } // namespace dielast::cases

@@ -1,8 +1,64 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/case/identify_spec.hpp"
-#include "cases/language/schema.hpp"
+#include "cases/case/rational_spec.hpp"
+#include "cases/tables/motion_keys.hpp"
 
 namespace dielast::cases {
+namespace {
+
+std::vector<Choice> responses() {
+  return {{"displacement", "of the harmonic step's quantity per squared volt of the source (m/V^2)",
+           MeasuredResponse::displacement},
+          {"impedance", "that the source sees (Ohm)", MeasuredResponse::impedance},
+          {"admittance", "that the source sees (S)", MeasuredResponse::admittance}};
+}
+
+int place(CircuitElement element) { return static_cast<int>(element); }
+
+} // namespace
+
+Section rational_section() {
+  Section section =
+      list_section("rational",
+                   "a rational function of s, or the circuit of an electrode, fitted to a measured response "
+                   "without a case, by `dielast fit`",
+                   each(&RationalFits::fits));
+  section.presence = Section::Presence::separate;
+  section.keys = {
+      text("file", to(&RationalFit::file), "CSV file as of an [[identify.test]]"),
+      word("response", responses(), to(&RationalFit::response), "what was measured"),
+      integer("poles", to_part<RationalFit>([](auto& fit) -> auto& { return fit.order.poles; }),
+              "degree of the denominator")
+          .at_least(1)
+          .at_most(20),
+      integer("zeros", to_part<RationalFit>([](auto& fit) -> auto& { return fit.order.zeros; }),
+              "degree of the numerator")
+          .at_least(0)
+          .at_most(20)
+          .otherwise("0"),
+      word("circuit",
+           {{"resistance", "in series, of leads and electrodes", place(CircuitElement::resistance)},
+            {"leakage_resistance", "beside the capacitance, through the film",
+             place(CircuitElement::leakage_resistance)},
+            {"capacitance", "of the film", place(CircuitElement::capacitance)}},
+           flags(&RationalFit::elements), "the elements of an electrode's circuit, instead of a degree")
+          .values(1, 3)
+          .replacing("poles"),
+  };
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& fit = *static_cast<const RationalFit*>(object);
+    if (!fit.is_circuit()) {
+      if (fit.order.zeros <= fit.order.poles) return std::nullopt;
+      return Conflict{"zeros", "more zeros than poles: such a response grows with the frequency for ever"};
+    }
+    if (fit.order.zeros > 0) return Conflict{"zeros", "a circuit has its own"};
+    if (fit.response == MeasuredResponse::displacement)
+      return Conflict{"circuit", "it has an impedance or an admittance, and no displacement"};
+    if (!fit.elements[static_cast<std::size_t>(place(CircuitElement::capacitance))])
+      return Conflict{"circuit", "an electrode has a capacitance"};
+    return std::nullopt;
+  };
+  return section;
+}
 
 Section identify_section() {
   Section test =
@@ -12,12 +68,7 @@ Section identify_section() {
       text("quantity", to(&DeviceTest::quantity),
            "quantity of the case whose column the file has, against its first column: \"time\" or another "
            "column of the run's history, in which the run goes on only"),
-      word("response",
-           {{"displacement", "of the harmonic step's quantity per squared volt of the source (m/V^2)",
-             MeasuredResponse::displacement},
-            {"impedance", "that the source sees (Ohm)", MeasuredResponse::impedance},
-            {"admittance", "that the source sees (S)", MeasuredResponse::admittance}},
-           to(&DeviceTest::response),
+      word("response", responses(), to(&DeviceTest::response),
            "of the case's step of kind \"harmonic\", instead of a quantity: columns \"frequency\", and "
            "\"real\" and \"imaginary\" or \"magnitude\" and \"phase\"")
           .replacing("quantity"),

@@ -31,8 +31,9 @@ class BrokenCommand : public CommandTest, public testing::WithParamInterface<std
 
 TEST_P(BrokenCommand, SaysWhatIsWrongBeforeAnythingRuns) {
   const std::string text = text_of(folder / GetParam());
-  const bool is_study = header(text, "read") == std::vector<std::string>{"study"};
-  std::vector<std::string> words{is_study ? "study" : "run", GetParam(), "-o", directory / "results"};
+  const std::vector<std::string> read = header(text, "read"); // the command, other than "run"
+  std::vector<std::string> words{read.empty() ? "run" : read.front(), GetParam(), "-o",
+                                 directory / "results"};
   for (const std::string& assignment : header(text, "set")) {
     words.emplace_back("--set");
     words.push_back(assignment);

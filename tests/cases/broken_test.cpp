@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/identify_reader.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/readers/study_reader.hpp"
 
@@ -35,7 +36,7 @@ std::vector<std::string> header(const std::string& file, const std::string& key)
 
 /// Every file says what is wrong with it: "# expect: message" once per error, "# exit: code", and where
 /// needed
-/// "# set: key=value" and "# read: study".
+/// "# set: key=value" and "# read: study" or "# read: fit".
 class BrokenCase : public testing::TestWithParam<std::string> {};
 
 TEST_P(BrokenCase, IsReportedExactly) {
@@ -48,6 +49,8 @@ TEST_P(BrokenCase, IsReportedExactly) {
   try {
     if (header(file, "read") == std::vector<std::string>{"study"})
       read_study(file);
+    else if (header(file, "read") == std::vector<std::string>{"fit"})
+      read_rational_fits(file);
     else
       read_case(file, header(file, "set"));
   } catch (const CaseError& error) {

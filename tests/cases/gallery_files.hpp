@@ -18,7 +18,8 @@ inline std::vector<std::string> gallery_files(bool studies) {
     if (entry.path().extension() == ".toml") {
       const std::string text = text_of(entry.path());
       const bool fits =
-          text.find("\n[fit]") != std::string::npos || text.find("\n[identify]") != std::string::npos;
+          text.find("\n[fit]") != std::string::npos || text.find("\n[identify]") != std::string::npos ||
+          text.find("\n[[rational]]") != std::string::npos;
       if (!fits && (text.find("\n[study]") != std::string::npos) == studies)
         files.push_back(std::filesystem::relative(entry.path(), gallery));
     }
