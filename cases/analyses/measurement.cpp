@@ -2,6 +2,7 @@
 #include "cases/analyses/measurement.hpp"
 
 #include "cases/analyses/analysis.hpp"
+#include "cases/analyses/forces.hpp"
 #include "cases/analyses/positions.hpp"
 #include "cases/case/quantities.hpp"
 #include "fem/linear/modal.hpp"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace dielast::cases {
 
@@ -260,17 +260,10 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
     for (const int n : nodes) sum += (position(device_.mesh, n, state) - centre).norm();
     return sum / static_cast<double>(nodes.size());
   }
-  case QuantityKind::force: {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (int c = 0; c < 3; ++c) {
-      std::set<int> equations; // nodes that move as one share theirs
-      for (const int n : device_.mesh.node_sets.at(quantity.of))
-        equations.insert(device_.model.dofs.equation(n, c));
-      for (const int e : equations)
-        if (device_.model.dofs.is_held(e)) sum[c] += measured.reaction[e];
-    }
-    return component(sum, quantity.along);
-  }
+  case QuantityKind::force:
+    return component(support_force(device_, quantity.of, measured.reaction), quantity.along);
+  case QuantityKind::film_force:
+    return component(film_force(device_, quantity.of, state), quantity.along);
   case QuantityKind::contact_force:
     return fem::contact_force(device_.model, state);
   case QuantityKind::stretch: {

@@ -25,7 +25,7 @@ struct PointMass {
 };
 
 /// [[body]]: rigid, carries all nodes of its places. Its own place, called by its name, is the pivot, or
-/// without one the centre of mass.
+/// without one the centre of mass. In a model of revolution it moves along z alone.
 struct Body {
   std::string name;
   std::vector<std::string> places;

@@ -195,6 +195,7 @@ enum class QuantityKind {
   angle,
   radius,
   force,
+  film_force,
   moment,
   contact_force,
   nominal_stress,
@@ -238,9 +239,9 @@ struct Quantity {
   std::string name;
   QuantityKind kind{};
   std::array<std::string, 2> between; ///< distance, elongation, stretch: two places (their centroids)
-  std::string of; ///< size, growth, displacement, radius, force, nominal_stress, stiffness, radial_stretch: a
-                  ///< place; capacitance, charge, current: an electrode; value, extreme: a field;
-                  ///< fin_force, thrust, fin_power: a fin; peak, mean: another quantity
+  std::string of; ///< size, growth, displacement, radius, force, film_force, nominal_stress, stiffness,
+                  ///< radial_stretch: a place; capacitance, charge, current: an electrode; value, extreme: a
+                  ///< field; fin_force, thrust, fin_power: a fin; peak, mean: another quantity
   std::optional<int> along;                   ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
   std::string place;                          ///< value: over which it is the mean; coupling: where it pulls
   std::optional<std::array<double, 3>> point; ///< value, displacement: instead of a place, as drawn, m

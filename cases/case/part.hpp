@@ -163,13 +163,21 @@ struct Strip {
   double clamped_electrode() const { return electrode_length.value_or(length) - free_electrode(); }
 };
 
-/// [roll]: film wound around a core, a film of revolution about z. The prestretch is along the roll and
-/// around it.
+/// What the core of a roll does to the film's radius.
+enum class RollCore {
+  two_sided, ///< it keeps it, pressed or pulled
+  one_sided, ///< it carries pressure, not tension
+  none,      ///< nothing: the film is held at its ends only
+};
+
+/// [roll]: film wound around a core, along which it slides, between two end caps: a film of revolution about
+/// z. The prestretch is along the roll and around it.
 struct Roll {
   double length = 0;                        ///< before the prestretch, m
   double radius = 0;                        ///< of the film's middle as wound, m
   int turns = 1;                            ///< layers of film, each with the electrode's voltage across it
   std::optional<double> electrode_length{}; ///< in the middle, before the prestretch, m; absent: all
+  RollCore core{};
 };
 
 /// [line]: a straight rod, or a straight row of beams, as drawn

@@ -37,6 +37,7 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
   case QuantityKind::moment:
     return "N m";
   case QuantityKind::force:
+  case QuantityKind::film_force:
   case QuantityKind::contact_force:
     return "N";
   case QuantityKind::nominal_stress:
@@ -95,6 +96,8 @@ std::string meaning_of(const Quantity& q) {
     return fmt::format("moment of the support of {} on it{}{}", q.of, along, at);
   case QuantityKind::force:
     return fmt::format("force of the support {} on the device{}{}", q.of, along, at);
+  case QuantityKind::film_force:
+    return fmt::format("force of the film on {}{}{}", q.of, along, at);
   case QuantityKind::contact_force:
     return fmt::format("sum of the normal forces of contact{}", at);
   case QuantityKind::capacitance:

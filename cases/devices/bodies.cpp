@@ -33,11 +33,14 @@ Eigen::Vector3d centre_of(const Body& body, const meshing::Mesh& mesh) {
 }
 
 /// Point masses, from the centre, with the mass and the moments of a body: pairs on the axes, at the distance
-/// d at which nothing is left for the centre, 2 m d^2 = Ix + Iy + Iz. In the plane one pair has all.
-std::vector<std::pair<Eigen::Vector3d, double>> equivalent_masses(const Body& body, bool planar) {
+/// d at which nothing is left for the centre, 2 m d^2 = Ix + Iy + Iz. In the plane one pair has all; what is
+/// of revolution does not turn.
+std::vector<std::pair<Eigen::Vector3d, double>> equivalent_masses(const Body& body,
+                                                                  fem::Dimension dimension) {
   if (body.mass == 0) return {};
+  const bool planar = dimension == fem::Dimension::planar;
   const auto& [x, y, z] = body.inertia;
-  const double sum = planar ? z : (x + y + z) / 2;
+  const double sum = dimension == fem::Dimension::axisymmetric ? 0 : planar ? z : (x + y + z) / 2;
   if (sum == 0) return {{Eigen::Vector3d::Zero(), body.mass}};
   const double distance = std::sqrt(sum / body.mass);
   const std::array<double, 3> share =
@@ -62,7 +65,7 @@ std::vector<BodyNodes> add_body_nodes(const Case& one, meshing::Mesh& mesh) {
   for (const Body& body : one.bodies) {
     const Eigen::Vector3d centre = centre_of(body, mesh);
     BodyNodes nodes{add(body.pivot ? Eigen::Vector3d(body.pivot->data()) : centre), {}, body.damping_rate};
-    for (const auto& [from_centre, mass] : equivalent_masses(body, one.dimension == fem::Dimension::planar))
+    for (const auto& [from_centre, mass] : equivalent_masses(body, one.dimension))
       nodes.masses.emplace_back(add(centre + from_centre), mass);
     mesh.node_sets[body.name] = {nodes.master};
     all.push_back(std::move(nodes));
@@ -91,7 +94,8 @@ void tie_bodies(const Case& one, const std::vector<BodyNodes>& nodes, const mesh
     for (int c = 0; c < fem::DofMap::components; ++c) {
       if (!fem::moves(one.dimension, c)) continue;
       dofs.add(master, c);
-      if (body.fixed[static_cast<std::size_t>(c)] || (body.pivot && c < 3)) dofs.hold(master, c);
+      const bool on_axis = one.dimension == fem::Dimension::axisymmetric && c == 0; // its middle stays there
+      if (body.fixed[static_cast<std::size_t>(c)] || (body.pivot && c < 3) || on_axis) dofs.hold(master, c);
     }
     const auto tie = [&](int node) {
       const auto m = static_cast<std::size_t>(master), n = static_cast<std::size_t>(node);

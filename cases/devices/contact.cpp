@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace dielast::cases {
 
@@ -96,12 +97,40 @@ void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   model.blocks.push_back(fem::make_plane_contact_block(mesh, std::move(contact)));
 }
 
+/// The core is where the barrier of the film as drawn begins.
+void add_core(const Case& one, const Roll& roll, const meshing::Mesh& mesh, fem::Model& model) {
+  const Film& film = *one.unnamed()->film;
+  const double thickness = one.contact->thickness;
+  if (thickness >= roll.radius)
+    throw meshing::MeshError("there is no room for a core: contact.thickness is not below roll.radius");
+  fem::PlaneContact contact = fem::surface_of(mesh, *mesh.film(), std::nullopt);
+  contact.normal = Eigen::Vector3d::UnitX();
+  contact.origin = (roll.radius - thickness) * contact.normal;
+  const double modulus = 3 * materials::initial_shear_modulus(film.material.law);
+  const double wound = roll.turns * film.thickness / (film.prestretch[0] * film.prestretch[1]);
+  // A gap of half the barrier's thickness bears the film's tension around the core at 1.7 times its modulus.
+  contact.barrier = {
+      .thickness = thickness, .stiffness = modulus * wound / roll.radius / thickness, .foot = 1};
+  model.blocks.push_back(fem::make_plane_contact_block(mesh, std::move(contact)));
+}
+
 } // namespace
+
+void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  const auto* roll = one.geometry<Roll>();
+  if (!roll || roll->core != RollCore::two_sided) return;
+  std::set<int> carried; // by end caps, which keep their radius
+  for (const fem::Tie& tie : dofs.ties()) carried.insert(tie.node);
+  for (const int node : mesh.node_sets.at("film"))
+    if (!carried.contains(node)) dofs.hold(node, 0);
+}
 
 void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   if (!one.contact) return;
   if (one.table)
     add_table(one, mesh, model);
+  else if (const auto* roll = one.geometry<Roll>())
+    add_core(one, *roll, mesh, model);
   else
     add_walls(one, mesh, model);
 }

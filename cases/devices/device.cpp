@@ -339,6 +339,7 @@ Device build_device(const Case& one) {
   tie_bodies(one, bodies, mesh, model.dofs);
   tie_fins(fins, mesh, model.dofs);
   clamp_under_walls(one, mesh, model.dofs);
+  hold_radii(one, mesh, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty() && !one.table;
   if (free_body) pin(mesh, dimension, model.dofs);

@@ -29,9 +29,13 @@ meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh);
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
-/// Adds what keeps the walls of a lattice's cells, or a solid and its table, apart, where the case has
-/// [contact]. Throws MeshError where walls are closer as drawn than the barrier reaches.
+/// Adds what keeps the walls of a lattice's cells, a solid and its table, or a roll and its core apart, where
+/// the case has [contact]. Throws MeshError where walls are closer as drawn than the barrier reaches, or a
+/// core has no room.
 void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
+
+/// Holds what a roll's core keeps at its radius, whether pressed or pulled. To be called behind the ties.
+void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs);
 
 /// The bar along each line of the mesh.
 Bars bars(const Case& one, const meshing::Mesh& mesh);

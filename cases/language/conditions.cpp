@@ -100,6 +100,13 @@ Condition masses_matter() {
   });
 }
 
+Condition turns_matter() {
+  const Condition mass = masses_matter();
+  return {mass.needs + ", of what is not of revolution", [mass](const Case& one, const void* object) {
+            return one.dimension != fem::Dimension::axisymmetric && mass.met(one, object);
+          }};
+}
+
 Condition inertia() { return on_case("a step with inertia", has_inertia); }
 
 Condition dampers_matter() {

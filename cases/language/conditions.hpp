@@ -14,6 +14,7 @@ Condition time_passes();       ///< a step has a duration
 Condition without_duration();  ///< the key's own step has none
 Condition weight();            ///< gravity acts in a step
 Condition masses_matter();     ///< something has inertia, vibrates, or weighs
+Condition turns_matter();      ///< likewise, and bodies turn
 Condition inertia();           ///< something moves with inertia
 Condition dampers_matter();    ///< something moves with inertia, or is linearised
 Condition has_mass();          ///< something has one

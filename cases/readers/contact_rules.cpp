@@ -36,8 +36,15 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
   if (one.table && one.dimension == fem::Dimension::spatial)
     report("table", "for solids in plane strain and of revolution");
   if (one.table && !one.contact) report("table", "needs [contact], which says how thick its barrier is");
-  if (one.contact && !one.table && (!one.geometry<Honeycomb>() || one.dimension != fem::Dimension::planar))
-    report("contact", "is between the walls of a planar [honeycomb], or a solid and a [table]");
+  const auto* roll = one.geometry<Roll>();
+  const bool core = roll && roll->core == RollCore::one_sided;
+  if (core && !one.contact)
+    reader.report(tree.find("roll")->find("core")->source, "roll.core",
+                  "a one-sided core needs [contact], which says how thick its barrier is");
+  const bool walls = one.geometry<Honeycomb>() && one.dimension == fem::Dimension::planar;
+  if (one.contact && !one.table && !walls && !core)
+    report("contact", "is between the walls of a planar [honeycomb], a solid and a [table], or a [roll] and "
+                      "its one-sided core");
   if (!one.table) return;
   if (one.table->friction > 0) return check_friction(reader, tree, one);
   if (one.dimension == fem::Dimension::planar &&

@@ -43,6 +43,9 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
     if (quantity.kind == QuantityKind::current && !one.circuits.contains(quantity.of))
       reader.warn(source, key,
                   "has no value here: the current is that through a [circuit], and there is none");
+    if ((quantity.kind == QuantityKind::angle || quantity.kind == QuantityKind::moment) &&
+        one.dimension == fem::Dimension::axisymmetric)
+      reader.report(source, key, "in a model of revolution bodies move along z alone, and do not turn");
     if (quantity.kind == QuantityKind::contact_force && !one.contact)
       reader.report(source, key, "nothing touches; add [contact]");
     if (quantity.kind == QuantityKind::natural_frequency && !has_mass(one))

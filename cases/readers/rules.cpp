@@ -185,13 +185,9 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
 }
 
 void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
-  if (one.bodies.empty()) return;
-  const Node& written = *tree.find("body");
-  if (one.dimension == fem::Dimension::axisymmetric)
-    reader.report(written.source, "body",
-                  "in a model of revolution bodies move along z alone: use [plate], or model = \"3d\"");
-  if (one.chamber)
-    reader.report(written.source, "body",
+  const Node* written = tree.find("body");
+  if (one.chamber && !one.bodies.empty())
+    reader.report(written->source, "body",
                   "the chamber's volume under a body that tilts is not known; use [plate]");
   for (std::size_t f = 0; f < one.fins.size(); ++f)
     if (!fem::moves(one.dimension, one.fins[f].along))
@@ -199,17 +195,23 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
                     "a planar model does not move along z");
   for (std::size_t b = 0; b < one.bodies.size(); ++b) {
     const Body& body = one.bodies[b];
-    for (const std::string& place : body.places)
-      for (const Support& support : one.supports)
-        if (support.place == place)
-          reader.report(written.items[b].source, fmt::format("body[{}].places", b + 1),
-                        fmt::format("\"{}\" is held by a [[support]]; fix the body instead", place));
+    for (std::size_t s = 0; s < one.supports.size(); ++s)
+      if (const std::string& place = one.supports[s].place; std::ranges::count(body.places, place) > 0) {
+        const bool brought = !written->items[b].source.is_written(); // by the geometry
+        reader.report(brought ? tree.find("support")->items[s].source : written->items[b].source,
+                      brought ? fmt::format("support[{}].place", s + 1)
+                              : fmt::format("body[{}].places", b + 1),
+                      fmt::format("\"{}\" is {}; fix the body instead", place,
+                                  brought ? fmt::format("on the body \"{}\"", body.name)
+                                          : std::string("held by a [[support]]")));
+      }
     const bool spatial = one.dimension == fem::Dimension::spatial;
     const auto& moment = body.inertia;
-    const bool turns = spatial ? !(body.fixed[3] && body.fixed[4] && body.fixed[5]) : !body.fixed[5];
+    const bool turns = spatial ? !(body.fixed[3] && body.fixed[4] && body.fixed[5])
+                               : fem::moves(one.dimension, 5) && !body.fixed[5];
     const bool moves = has_step(one, {StepKind::modes}) || std::ranges::any_of(one.steps, &Step::inertia);
     if (body.mass > 0 && turns && moves && (spatial ? moment[0] + moment[1] + moment[2] : moment[2]) == 0)
-      reader.report(written.items[b].source, fmt::format("body[{}].inertia", b + 1),
+      reader.report(written->items[b].source, fmt::format("body[{}].inertia", b + 1),
                     "missing; what moves with inertia and can turn has moments of inertia");
   }
 }

@@ -65,6 +65,7 @@ class Pictures {
   /// The device as drawn with these of its places.
   post::Image places(std::vector<post::Mark> marks) const {
     return image({.wall_width = wall_width_,
+                  .fins = fins_,
                   .panels = {panel({.displacement = std::vector<Eigen::Vector3d>(device_.mesh.nodes.size(),
                                                                                  Eigen::Vector3d::Zero())},
                                    {})},

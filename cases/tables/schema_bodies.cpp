@@ -7,7 +7,8 @@ namespace dielast::cases {
 Section body_section() {
   Section section = list_section(
       "body",
-      "a rigid body that carries places of the film; its name is a place, too: its pivot or its centre",
+      "a rigid body that carries places of the film; its name is a place, too: its pivot or its centre. In a "
+      "model of revolution it moves along z alone",
       each(&Case::bodies));
   section.keys = {
       text("name", to(&Body::name), "its name").distinct(),
@@ -22,7 +23,7 @@ Section body_section() {
           .at_least(0)
           .otherwise("0 kg.m^2")
           .or_one_for_all()
-          .only_with(when::masses_matter()),
+          .only_with(when::turns_matter()),
       measure("centre", "m", to(&Body::centre), "of its mass, as drawn; without it the mean of its nodes")
           .values(3, 3)
           .optional(),

@@ -40,6 +40,7 @@ Section quantity_section() {
            {"angle", "rotation of a body about an axis (rad)", QuantityKind::angle},
            {"radius", "mean distance of a place's nodes from their centroid (m)", QuantityKind::radius},
            {"force", "reaction at a support while it holds (N)", QuantityKind::force},
+           {"film force", "with which the film pulls on a place (N)", QuantityKind::film_force},
            {"moment", "reaction about an axis where a body's rotation is fixed (N m)", QuantityKind::moment},
            {"nominal stress", "force over undeformed section, mean over the film at a place (Pa)",
             QuantityKind::nominal_stress},
@@ -63,7 +64,9 @@ Section quantity_section() {
             "of small vibrations about the state, branches relaxed; none where it is "
             "not at rest (rad/s)",
             QuantityKind::natural_frequency},
-           {"contact force", "sum of the normal forces where walls touch or a solid lies on a [table] (N)",
+           {"contact force",
+            "sum of the normal forces where walls touch, a solid lies on a [table], or a [roll] on its core "
+            "(N)",
             QuantityKind::contact_force},
            {"radial stretch", "stretch of the film along the radius, mean at an edge (-)",
             QuantityKind::radial_stretch},
@@ -87,8 +90,8 @@ Section quantity_section() {
           .only({"distance", "elongation", "stretch"})
           .refers_to(Reference::place),
       of("the place")
-          .only({"size", "growth", "displacement", "swelling", "radius", "nominal stress", "stiffness",
-                 "radial stretch"})
+          .only({"size", "growth", "displacement", "swelling", "radius", "film force", "nominal stress",
+                 "stiffness", "radial stretch"})
           .refers_to(Reference::place),
       of("the place of a support, or a body that is fixed")
           .only({"force"})
@@ -156,7 +159,7 @@ Section quantity_section() {
            "component; without it the magnitude")
           .optional()
           .only_with(when::moves_along_it())
-          .only({"distance", "elongation", "size", "growth", "force"}),
+          .only({"distance", "elongation", "size", "growth", "force", "film force"}),
       word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}, {"gravity", "as it pulls", along_gravity}},
            to(&Quantity::along), "component; without it the magnitude")
           .optional()

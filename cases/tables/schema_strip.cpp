@@ -65,6 +65,15 @@ Section roll_section() {
           .above(0)
           .at_most(1)
           .optional(),
+      word("core",
+           {{"two-sided", "it holds the film's radius, pressed or pulled", RollCore::two_sided},
+            {"one-sided",
+             "it carries pressure, not tension: the film lifts where nothing presses it; needs "
+             "[contact]",
+             RollCore::one_sided},
+            {"none", "the end caps alone hold the film", RollCore::none}},
+           to(&Roll::core), "what the film is wound around, along which it slides")
+          .otherwise("two-sided"),
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& roll = *static_cast<const Roll*>(object);

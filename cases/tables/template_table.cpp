@@ -100,7 +100,11 @@ step = [{ kind = "release" }, { kind = "voltage" }]
 
 constexpr std::string_view rolls_quantities = R"(
 quantity = [
-  { name = "tip_angle", kind = "angle", of = "tip", along = "z" }
+  { name = "tip_angle", kind = "angle", of = "tip", along = "z" },
+  { name = "upper_strain", kind = "elongation", between = ["upper.start", "upper.end"], along = "x", since = "release" },
+  { name = "lower_strain", kind = "elongation", between = ["lower.start", "lower.end"], along = "x", since = "release" },
+  { name = "upper_force", kind = "film force", of = "upper.end", along = "x" },
+  { name = "lower_force", kind = "film force", of = "lower.end", along = "x" }
 ]
 )";
 
@@ -124,13 +128,15 @@ quantity = [
 
 constexpr std::string_view roll_defaults = R"(
 electrode = [{ name = "film", place = "electrode" }]
-support = [{ place = "film", fix = ["x"] }, { place = "lower_end", fix = ["z"] }]
+body = [{ name = "lower_cap", places = ["lower_end"], fix = ["z"] }, { name = "upper_cap", places = ["upper_end"] }]
 step = [{ kind = "release" }, { kind = "voltage" }]
 )";
 
 constexpr std::string_view roll_quantities = R"(
 quantity = [
   { name = "length", kind = "distance", between = ["lower_end", "upper_end"], along = "z" },
+  { name = "strain", kind = "elongation", between = ["lower_end", "upper_end"], along = "z", since = "release" },
+  { name = "roll_force", kind = "film force", of = "lower_end", along = "z" },
   { name = "stroke", kind = "displacement", of = "upper_end", along = "z", since = "release" },
   { name = "stiffness", kind = "stiffness", of = "upper_end", along = "z" }
 ]
@@ -252,13 +258,15 @@ std::span<const Template> templates() {
           true},
       Template{
           "roll",
-          "film wound around a core that holds its radius, along which it slides; with a [[spring]] between "
-          "its ends a spring-rolled muscle",
+          "film wound around a core, along which it slides, between two end caps; with a [[spring]] between "
+          "these a spring-rolled muscle",
           {{"film", "the film"},
            {"electrode", "the film under the electrode"},
            {"passive", "the film beside it, if there is any"},
-           {"lower_end", "the end z = 0, held along z"},
-           {"upper_end", "the end that moves"}},
+           {"lower_end", "the end z = 0, on the body \"lower_cap\""},
+           {"upper_end", "the other end, on the body \"upper_cap\""},
+           {"lower_cap", "the end cap that is held"},
+           {"upper_cap", "the end cap that moves"}},
           roll_defaults,
           roll_quantities,
           "",

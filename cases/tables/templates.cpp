@@ -212,8 +212,9 @@ void add_motion_defaults(Node& tree) {
                               tree.find("roll") || tree.find("hollow_sphere")))
     tree.add("model", text_node("axisymmetric", source));
   Node* steps = tree.find("step");
-  if (!(tree.find("plate") || tree.find("point_mass") || tree.find("body")) || !steps ||
-      !steps->is(Node::Kind::list))
+  const Node* bodies = tree.find("body"); // the caps that a roll brings have no mass
+  const bool moving = bodies && (bodies->source.is_written() || !tree.find("roll"));
+  if (!(tree.find("plate") || tree.find("point_mass") || moving) || !steps || !steps->is(Node::Kind::list))
     return;
   for (Node& step : steps->items)
     if (const std::string kind = text_at(step, "kind");
