@@ -40,8 +40,7 @@ std::vector<FinPoints> add_fin_nodes(const Case& one, meshing::Mesh& mesh) {
       mesh.nodes.push_back(x);
       return mesh.node_count() - 1;
     };
-    points.corners = {corner(point(fin.from) + half), corner(point(fin.from) - half),
-                      corner(point(fin.to) - half), corner(point(fin.to) + half)};
+    points.corners = {corner(front + half), corner(front - half), corner(end - half), corner(end + half)};
   }
   return fins;
 }

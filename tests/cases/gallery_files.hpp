@@ -17,9 +17,9 @@ inline std::vector<std::string> gallery_files(bool studies) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(gallery))
     if (entry.path().extension() == ".toml") {
       const std::string text = text_of(entry.path());
-      const bool fits =
-          text.find("\n[fit]") != std::string::npos || text.find("\n[identify]") != std::string::npos ||
-          text.find("\n[[rational]]") != std::string::npos;
+      const bool fits = text.find("\n[fit]") != std::string::npos ||
+                        text.find("\n[identify]") != std::string::npos ||
+                        text.find("\n[[rational]]") != std::string::npos;
       if (!fits && (text.find("\n[study]") != std::string::npos) == studies)
         files.push_back(std::filesystem::relative(entry.path(), gallery));
     }
