@@ -146,6 +146,7 @@ void fill_fins(cairo_t* cr, const Picture& picture, const Panel& panel, double w
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_width(cr, width);
   for (const std::array<int, 4>& fin : picture.fins) {
+    cairo_new_path(cr);
     for (const int node : fin) {
       const Eigen::Vector3d& at = panel.positions[static_cast<std::size_t>(node)];
       cairo_line_to(cr, at.x(), at.y());

@@ -149,6 +149,18 @@ TEST(Picture, MarksNodesWithTheirNames) {
   EXPECT_THROW(render_png(mesh, picture), std::invalid_argument);
 }
 
+TEST(Picture, FinsAreDrawnToScale) {
+  meshing::Mesh mesh = grid_mesh(2);
+  const int first = mesh.node_count();
+  for (const auto& [x, y] : {std::pair{-0.05, 0.0}, {-0.1, 0.0}, {-0.1, 0.1}, {-0.05, 0.1}})
+    mesh.nodes.emplace_back(x, y, 0);
+  const Pixels pixels(render_png(mesh, {.fins = {{first, first + 1, first + 2, first + 3}},
+                                        .panels = {{"Text is drawn before it", mesh.nodes, {}}},
+                                        .width = 600}));
+  const double scale = (600 - 2 * 44) / 0.2, area = 0.05 * 0.1 * scale * scale;
+  EXPECT_NEAR(static_cast<double>(pixels.count(0xffb8c2cc)), area, 0.03 * area);
+}
+
 TEST(Picture, SurvivesUniformAndMissingValues) {
   const meshing::Mesh mesh = grid_mesh(1);
   for (const double value : {0.0, 5.0, std::nan("")})

@@ -241,6 +241,23 @@ TEST_F(VtkSeriesTest, AFilmOfRevolutionIsASurface) {
   }
 }
 
+TEST_F(VtkSeriesTest, FinsAreAPartOfTheirOwn) {
+  SeriesModel model{mesh, widths, heights, film_parts, bar_parts, {"unnamed", "ribs"}};
+  model.fins = {{3, 0, 1, 2}};
+  VtkSeries(*folder, "run", model).write({2.5, "release"}, state());
+  const auto grid = read("run_fins_0000.vtu");
+  ASSERT_EQ(grid->GetNumberOfCells(), 1);
+  EXPECT_EQ(grid->GetCellType(0), VTK_QUAD);
+  vtkNew<vtkIdList> points;
+  grid->GetCellPoints(0, points);
+  for (int i = 0; i < 4; ++i) {
+    const auto node = static_cast<std::size_t>(model.fins[0][static_cast<std::size_t>(i)]);
+    EXPECT_EQ(Eigen::Vector3d(grid->GetPoint(points->GetId(i))), mesh.nodes[node] + displacement[node]);
+  }
+  EXPECT_NE(content("run.pvd").find("part=\"2\" name=\"fins\" file=\"run_fins_0000.vtu\""),
+            std::string::npos);
+}
+
 TEST_F(VtkSeriesTest, EveryStepHasItsOwnValues) {
   VtkSeries steps = series();
   steps.write({0, "release"}, state());
