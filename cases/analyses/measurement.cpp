@@ -79,6 +79,10 @@ Measurement::Measurement(const Case& one, const Device& device) : case_(one), de
             {{case_.where(where), where, "there is no film; coordinates are those of the film as drawn"}});
       points_[quantity.name] = found.front();
     }
+    if (quantity.kind == QuantityKind::film_force && !std::ranges::count(film_at(quantity.of), 1)) {
+      const std::string where = fmt::format("quantity[{}].of", written);
+      throw CaseError({{case_.where(where), where, "no film meets this place, so none pulls on it"}});
+    }
     if (quantity.kind == QuantityKind::radial_stretch)
       readings_[quantity.name] = readings_at(quantity.of, device.mesh, drawn);
     if (quantity.kind == QuantityKind::stretch)

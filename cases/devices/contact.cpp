@@ -101,8 +101,6 @@ void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
 void add_core(const Case& one, const Roll& roll, const meshing::Mesh& mesh, fem::Model& model) {
   const Film& film = *one.unnamed()->film;
   const double thickness = one.contact->thickness;
-  if (thickness >= roll.radius)
-    throw meshing::MeshError("there is no room for a core: contact.thickness is not below roll.radius");
   fem::PlaneContact contact = fem::surface_of(mesh, *mesh.film(), std::nullopt);
   contact.normal = Eigen::Vector3d::UnitX();
   contact.origin = (roll.radius - thickness) * contact.normal;

@@ -30,8 +30,7 @@ meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh);
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
 /// Adds what keeps the walls of a lattice's cells, a solid and its table, or a roll and its core apart, where
-/// the case has [contact]. Throws MeshError where walls are closer as drawn than the barrier reaches, or a
-/// core has no room.
+/// the case has [contact]. Throws MeshError where walls are closer as drawn than the barrier reaches.
 void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
 /// Holds what a roll's core keeps at its radius, whether pressed or pulled. To be called behind the ties.

@@ -41,6 +41,9 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
   if (core && !one.contact)
     reader.report(tree.find("roll")->find("core")->source, "roll.core",
                   "a one-sided core needs [contact], which says how thick its barrier is");
+  if (core && one.contact && one.contact->thickness >= roll->radius)
+    reader.report(tree.find("contact")->find("thickness")->source, "contact.thickness",
+                  "it leaves no room for a core: it must be below roll.radius");
   const bool walls = one.geometry<Honeycomb>() && one.dimension == fem::Dimension::planar;
   if (one.contact && !one.table && !walls && !core)
     report("contact", "is between the walls of a planar [honeycomb], a solid and a [table], or a [roll] and "

@@ -121,6 +121,23 @@ TEST_F(FilmValues, BesideTheFilmOrOnAnEdgeOfAnElectrodeThereAreNone) {
             at(line, 9) + "quantity[1].place: " + two);
 }
 
+// A roll's end feels the film's tension; the node of the cap on which it ends has no film.
+TEST_F(FilmValues, FilmPullsWhereItEnds) {
+  const auto roll = [](const std::string& place) {
+    return "[film]\nthickness = \"1 mm\"\nprestretch = [2, 1]\n[film.material]\nshear_modulus = \"40 "
+           "kPa\"\nrelative_permittivity = 3\n"
+           "[roll]\nlength = \"20 mm\"\nradius = \"5 mm\"\n[[body]]\nname = \"caps\"\n"
+           "places = [\"lower_end\", \"upper_end\"]\nfix = [\"z\"]\n[[quantity]]\nname = \"pull\"\n"
+           "kind = \"film force\"\nalong = \"z\"\nof = \"" +
+           place + "\"\n[[step]]\nkind = \"release\"\n";
+  };
+  const double force = 2 * pi * 5e-3 * 1e-3 * 40e3 * (2 - std::pow(2, -3)); // over the unstretched section
+  EXPECT_NEAR(run(roll("lower_end")).last("pull"), force, 1e-9 * force);
+  EXPECT_NEAR(run(roll("upper_end")).last("pull"), -force, 1e-9 * force);
+  EXPECT_EQ(refusal(roll("caps")),
+            at(18, 6) + "quantity[1].of: no film meets this place, so none pulls on it");
+}
+
 // Clamped film that is all under voltage has nowhere to go: its tension falls everywhere alike.
 TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
   for (const std::string model : {"axisymmetric", "planar", "3d"}) {
