@@ -16,15 +16,6 @@ void ssyrk_(const char* uplo, const char* trans, const int* n, const int* k, con
             const float* A, const int* stride, const float* beta, float* C, const int* of_C);
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
             const double* A, const int* stride, const double* beta, double* C, const int* of_C);
-void sgemv_(const char* trans, const int* m, const int* n, const float* alpha, const float* A,
-            const int* stride, const float* x, const int* of_x, const float* beta, float* y, const int* of_y);
-void dgemv_(const char* trans, const int* m, const int* n, const double* alpha, const double* A,
-            const int* stride, const double* x, const int* of_x, const double* beta, double* y,
-            const int* of_y);
-void strsv_(const char* uplo, const char* trans, const char* diag, const int* n, const float* A,
-            const int* stride, float* x, const int* of_x);
-void dtrsv_(const char* uplo, const char* trans, const char* diag, const int* n, const double* A,
-            const int* stride, double* x, const int* of_x);
 }
 
 namespace dielast::fem::blas {
@@ -58,22 +49,6 @@ template<class Real>
 void minus_square(int n, int k, const Real* A, int stride, Real* C, int stride_C) {
   const Real minus = -1, zero = 0;
   of<Real>(ssyrk_, dsyrk_)("L", "N", &n, &k, &minus, A, &stride, &zero, C, &stride_C);
-}
-
-/// y = -A x + keep y, or y = -A^T x + keep y where `transposed`; A of m rows and n columns.
-template<class Real>
-void subtract_product(bool transposed, int m, int n, const Real* A, int stride, const Real* x, Real keep,
-                      Real* y) {
-  const Real minus = -1;
-  const int next = 1;
-  of<Real>(sgemv_, dgemv_)(transposed ? "T" : "N", &m, &n, &minus, A, &stride, x, &next, &keep, y, &next);
-}
-
-/// x <- L^-1 x, or x <- L^-T x where `transposed`.
-template<class Real>
-void divide(bool transposed, int n, const Real* L, int stride, Real* x) {
-  const int next = 1;
-  of<Real>(strsv_, dtrsv_)("L", transposed ? "T" : "N", "N", &n, L, &stride, x, &next);
 }
 
 } // namespace dielast::fem::blas

@@ -2,6 +2,7 @@
 #include "fem/algebra/multifrontal_cholesky.hpp"
 
 #include "fem/algebra/blas.hpp"
+#include "fem/algebra/panel.hpp"
 
 #include <algorithm>
 
@@ -16,7 +17,7 @@ constexpr std::size_t at(std::ptrdiff_t i) { return static_cast<std::size_t>(i);
 template<class Real>
 MultifrontalCholesky<Real>::MultifrontalCholesky(const Supernodes& supernodes)
     : nodes_(supernodes), values_(at(supernodes.start.back())), updates_(at(supernodes.update_size)),
-      x_(supernodes.permutation.size()), below_(supernodes.permutation.size()) {}
+      x_(supernodes.permutation.size()), of_rows_(supernodes.permutation.size()) {}
 
 template<class Real>
 typename MultifrontalCholesky<Real>::Front MultifrontalCholesky<Real>::front(int s) {
@@ -91,25 +92,22 @@ MultifrontalCholesky<Real>::smallest_pivot(const SparseSymmetric& matrix,
 template<class Real>
 void MultifrontalCholesky<Real>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   for (std::size_t k = 0; k < x_.size(); ++k) x_[k] = static_cast<Real>(b[nodes_.permutation[k]]);
+  const auto gathered = [this](int s) {
+    const int* const row = nodes_.rows_of(s);
+    for (int i = 0; i < nodes_.height(s); ++i) of_rows_[at(i)] = x_[at(row[i])];
+    return typename Panel<Real>::Vector(of_rows_.data(), nodes_.height(s));
+  };
+  const auto put_back = [this](int s, int rows) {
+    const int* const row = nodes_.rows_of(s);
+    for (int i = 0; i < rows; ++i) x_[at(row[i])] = of_rows_[at(i)];
+  };
   for (int s = 0; s < nodes_.count(); ++s) {
-    const Front own = front(s);
-    Real* const columns = x_.data() + nodes_.first_column[at(s)];
-    blas::divide(false, own.width, own.panel, own.height, columns);
-    if (own.below == 0) continue;
-    blas::subtract_product(false, own.below, own.width, own.panel + own.width, own.height, columns, Real(0),
-                           below_.data());
-    const int* const rows = nodes_.rows_of(s) + own.width;
-    for (int i = 0; i < own.below; ++i) x_[at(rows[i])] += below_[at(i)];
+    Panel<Real>(front(s).panel, nodes_.width(s), nodes_.height(s)).forward(gathered(s));
+    put_back(s, nodes_.height(s));
   }
   for (int s = nodes_.count() - 1; s >= 0; --s) {
-    const Front own = front(s);
-    Real* const columns = x_.data() + nodes_.first_column[at(s)];
-    const int* const rows = nodes_.rows_of(s) + own.width;
-    for (int i = 0; i < own.below; ++i) below_[at(i)] = x_[at(rows[i])];
-    if (own.below > 0)
-      blas::subtract_product(true, own.below, own.width, own.panel + own.width, own.height, below_.data(),
-                             Real(1), columns);
-    blas::divide(true, own.width, own.panel, own.height, columns);
+    Panel<Real>(front(s).panel, nodes_.width(s), nodes_.height(s)).backward(gathered(s));
+    put_back(s, nodes_.width(s));
   }
   x.resize(static_cast<Eigen::Index>(x_.size()));
   for (std::size_t k = 0; k < x_.size(); ++k) x[nodes_.permutation[k]] = x_[k];

@@ -44,7 +44,7 @@ class MultifrontalCholesky {
   const Supernodes& nodes_;
   std::vector<Real> values_;  ///< of L, panel by panel
   std::vector<Real> updates_; ///< what supernodes give to their parents
-  std::vector<Real> x_, below_;
+  std::vector<Real> x_, of_rows_;
 };
 
 extern template class MultifrontalCholesky<double>;

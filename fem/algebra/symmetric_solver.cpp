@@ -2,13 +2,15 @@
 #include "fem/algebra/symmetric_solver.hpp"
 
 #include "fem/algebra/blas.hpp"
-#include "fem/algebra/multifrontal_cholesky.hpp"
+#include "fem/algebra/kept_factor.hpp"
 #include "fem/algebra/one_thread.hpp"
 
 #include <dmumps_c.h>
 #include <sys/mman.h>
 
+#include <limits>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 namespace dielast::fem {
@@ -41,11 +43,13 @@ struct SymmetricSolver::Cholesky {
 
   bool decompose(const std::vector<double>& values) {
     const OneThread one_thread;
-    return factor.factor(values);
+    if (!factor) factor.emplace(supernodes);
+    return factor->factor(values);
   }
 
   Supernodes supernodes;
-  MultifrontalCholesky<double> factor{supernodes};
+  std::optional<MultifrontalCholesky<double>> factor;
+  std::optional<KeptFactor> kept;
 };
 
 struct SymmetricSolver::Indefinite {
@@ -117,9 +121,11 @@ bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
       shifted_[static_cast<std::size_t>(matrix_.column_start[static_cast<std::size_t>(c)])] += (*added)[c];
   }
   const std::vector<double>& values = added ? shifted_ : matrix_.values;
+  iterates_ = false;
+  ++work_.factorisations;
   definite_ = cholesky_ && cholesky_->decompose(values);
   if (definite_) {
-    const auto [relative, equation] = cholesky_->factor.smallest_pivot(matrix_, values);
+    const auto [relative, equation] = cholesky_->factor->smallest_pivot(matrix_, values);
     singular_equation_ = equation;
     return relative > singular_pivot;
   }
@@ -131,13 +137,40 @@ bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
 
 int SymmetricSolver::negative_pivots() const { return definite_ ? 0 : indefinite_->negative_pivots(); }
 
-void SymmetricSolver::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  if (matrix_.size == 0)
+bool SymmetricSolver::precondition() {
+  if (!cholesky_ || KeptFactor::cost(cholesky_->supernodes) < KeptFactor::least_cost) return factor();
+  if (!cholesky_->kept) cholesky_->kept.emplace(matrix_, cholesky_->supernodes);
+  if (!cholesky_->kept->prepare()) return factor();
+  definite_ = iterates_ = true;
+  return true;
+}
+
+void SymmetricSolver::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance) {
+  if (matrix_.size == 0) {
     x.resize(0);
-  else if (definite_)
-    cholesky_->factor.solve(b, x);
+    return;
+  }
+  if (iterates_) {
+    if (cholesky_->kept->solve(b, x, tolerance)) return;
+    if (!factor()) {
+      x.setConstant(b.size(), std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+  }
+  ++work_.solves;
+  if (definite_)
+    cholesky_->factor->solve(b, x);
   else
     indefinite_->solve(b, x);
+}
+
+SymmetricSolver::Work SymmetricSolver::work() const {
+  Work work = work_;
+  if (cholesky_ && cholesky_->kept) {
+    work.factorisations += cholesky_->kept->factorisations();
+    work.solves += cholesky_->kept->solves();
+  }
+  return work;
 }
 
 } // namespace dielast::fem

@@ -10,12 +10,14 @@
 
 namespace dielast::fem {
 
-/// Direct solver for symmetric matrices of one sparsity pattern. Positive definite ones are factored by a
-/// supernodal Cholesky decomposition (Chen, Davis, Hager & Rajamanickam 2008), others by a multifrontal LDL^T
-/// with Bunch-Kaufman-type pivoting that tells the inertia. Which one it was is hidden behind
-/// negative_pivots().
+/// Solver for symmetric matrices of one sparsity pattern. Positive definite ones are factored by
+/// MultifrontalCholesky, others by a multifrontal LDL^T with Bunch-Kaufman-type pivoting that tells the
+/// inertia. Which one it was is hidden behind negative_pivots(). Where it is known that a matrix is positive
+/// definite, KeptFactor saves most factorisations.
 class SymmetricSolver {
  public:
+  static constexpr double exact = 1e-10; ///< tolerance of solve()
+
   /// Analyses the pattern of `matrix` once; its values may change afterwards. `indefinite`: it is known never
   /// to be positive definite.
   explicit SymmetricSolver(const SparseSymmetric& matrix, bool indefinite = false);
@@ -30,8 +32,19 @@ class SymmetricSolver {
   int singular_equation() const { return singular_equation_; }
   /// Number of negative eigenvalues of the matrix last factored; 0 means positive definite.
   int negative_pivots() const;
-  /// x with A x = b, size entries each. Requires a successful factor().
-  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+  /// Instead of factor(), where the current values are known to be positive definite: solve() may do with the
+  /// factor of earlier ones.
+  [[nodiscard]] bool precondition();
+  /// x with A x = b, size entries each. Requires a successful factor() or precondition(). After the latter
+  /// the error in the norm of A is about `tolerance` times x; not a number where A was singular after all.
+  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance = exact);
+
+  /// What has been done since the solver was made.
+  struct Work {
+    int factorisations = 0;
+    int solves = 0; ///< with a factor, those of every iteration included
+  };
+  Work work() const;
 
  private:
   struct Cholesky;
@@ -40,8 +53,9 @@ class SymmetricSolver {
   std::unique_ptr<Cholesky> cholesky_;
   std::unique_ptr<Indefinite> indefinite_; ///< made when first needed
   std::vector<double> shifted_;            ///< values with something on the diagonal
-  bool definite_ = true;
+  bool definite_ = true, iterates_ = false;
   int singular_equation_ = -1;
+  Work work_;
 };
 
 } // namespace dielast::fem

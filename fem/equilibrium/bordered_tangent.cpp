@@ -28,7 +28,7 @@ bool any_follows(const State& state) {
 
 BorderedTangent::BorderedTangent(const Model& model, const Assembler& assembler,
                                  const Eigen::VectorXd& stiffness)
-    : model_(model), matrix_(assembler.matrix()), stiffness_(stiffness),
+    : model_(model), assembler_(assembler), matrix_(assembler.matrix()), stiffness_(stiffness),
       solver_(matrix_, model.dofs.scalar_count() > 0) {}
 
 void BorderedTangent::append_border(const Eigen::VectorXd& column, const Eigen::VectorXd& row,
@@ -128,8 +128,15 @@ bool BorderedTangent::factor(const State& state, const PathBorder* path, const E
   return lu_.isInvertible();
 }
 
-double BorderedTangent::solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g) {
-  solver_.solve(f, du);
+bool BorderedTangent::precondition(const State& state) {
+  if (!assembler_.convex() || any_follows(state)) return factor(state);
+  set_borders(state, nullptr);
+  negative_pivots_ = unstable_modes_ = 0;
+  return solver_.precondition();
+}
+
+double BorderedTangent::solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g, double tolerance) {
+  solver_.solve(f, du, tolerance);
   if (columns_.cols() == 0) return 0;
   Eigen::VectorXd right = -rows_.transpose() * du;
   if (paths_) right[0] += g;

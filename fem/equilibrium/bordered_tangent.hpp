@@ -40,18 +40,24 @@ class BorderedTangent {
   /// singular under this control.
   [[nodiscard]] bool factor(const State& state, const PathBorder* path = nullptr,
                             const Eigen::VectorXd* added = nullptr);
+  /// As factor(), for steps of Newton's method: where K is known to be positive definite and has no borders,
+  /// an earlier factor does, and solve() is as good as its tolerance.
+  [[nodiscard]] bool precondition(const State& state);
   /// Negative eigenvalues of K less those that the scalars of the model bring (see DofMap): unstable
   /// directions at fixed voltages.
   int negative_pivots() const { return negative_pivots_; }
   /// Those of K + B C^-1 B^T, likewise: unstable directions under the control of the state.
   int unstable_modes() const { return unstable_modes_; }
 
-  /// du for forces f; returns ds (0 without a path). Requires a successful factor().
-  double solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g = 0);
+  /// du for forces f; returns ds (0 without a path). Requires a successful factor() or precondition().
+  double solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g = 0,
+               double tolerance = SymmetricSolver::exact);
   /// dPhi of a port that follows, by the last solve().
   double voltage_step(std::size_t port) const;
   /// K^-1 B of a port that follows: displacements per voltage (pressure) at fixed other ones.
   Eigen::VectorXd response(std::size_t port) const;
+
+  SymmetricSolver::Work work() const { return solver_.work(); }
 
  private:
   void set_borders(const State& state, const PathBorder* path);
@@ -62,6 +68,7 @@ class BorderedTangent {
   void count_modes(bool shifted);
 
   const Model& model_;
+  const Assembler& assembler_;
   const SparseSymmetric& matrix_;
   const Eigen::VectorXd& stiffness_;
   SymmetricSolver solver_;

@@ -53,6 +53,14 @@ constexpr int patience(const NewtonOptions& options) { return std::max(10, optio
 constexpr int most_indefinite =
     6; ///< tangents in a row: by then the iteration wanders between unstable states
 
+/// Error of a step in the norm of the tangent, over the step. Where another step follows, less saves no
+/// iteration; the last one is to leave the digits that it would without an error. `residual`: relative.
+double tolerance_of_step(double residual, double tolerance) {
+  constexpr double inexact = 1e-3, left = 1e-2; // of the tolerance of the residual
+  const bool may_be_last = residual * residual <= tolerance;
+  return may_be_last ? std::clamp(left * tolerance / residual, SymmetricSolver::exact, inexact) : inexact;
+}
+
 } // namespace
 
 Equilibrium::Equilibrium(const Model& model, int threads)
@@ -152,6 +160,15 @@ double Equilibrium::step_size(const Eigen::VectorXd& step) const {
   return step.cwiseQuotient(weight_.head(step.size())).lpNorm<Eigen::Infinity>() / model_.extent;
 }
 
+bool Equilibrium::precondition(const State& state) {
+  {
+    const Stopwatch watch(timings_.tangent, model_);
+    assembler_.tangent(state);
+  }
+  const Stopwatch watch(timings_.factor, model_);
+  return tangent_.precondition(state);
+}
+
 bool Equilibrium::factor(const State& state, const PathBorder* path, const Eigen::VectorXd* added) {
   {
     const Stopwatch watch(timings_.tangent, model_);
@@ -172,28 +189,27 @@ double Equilibrium::backtrack(State& state, Balance& current, const Eigen::Vecto
   const auto chamber = model_.closed_chamber(state);
   Eigen::VectorXd response;
   if (chamber) response = tangent_.response(*chamber);
-  Balance there;
   double length = 1;
   for (int halving = 0; halving <= halvings; ++halving, length *= 0.5) {
-    State trial = state;
-    model_.dofs.advance(trial, step, length);
-    if (const double way = free_way(model_, state, trial); way < 1) {
+    trial_ = state;
+    model_.dofs.advance(trial_, step, length);
+    if (const double way = free_way(model_, state, trial_); way < 1) {
       length *= way;
-      trial = state;
-      model_.dofs.advance(trial, step, length);
+      trial_ = state;
+      model_.dofs.advance(trial_, step, length);
     }
     if (chamber) {
-      trial.voltage[*chamber] += length * tangent_.voltage_step(*chamber);
-      if (!model_.fill(trial, response)) continue;
+      trial_.voltage[*chamber] += length * tangent_.voltage_step(*chamber);
+      if (!model_.fill(trial_, response)) continue;
     }
-    balance(trial, there, Pressure::is_unknown);
-    if (!there.feasible) continue;
-    const double energy_change = there.energy - current.energy - length * dead_work -
-                                 model_.dofs.work_on_tied(state.dead_force, state, trial);
+    balance(trial_, there_, Pressure::is_unknown);
+    if (!there_.feasible) continue;
+    const double energy_change = there_.energy - current.energy - length * dead_work -
+                                 model_.dofs.work_on_tied(state.dead_force, state, trial_);
     const bool descends = definite && energy_change <= sufficient_decrease * length * slope;
-    if (!descends && !(there.norm < current.norm)) continue;
-    state = std::move(trial);
-    std::swap(current, there);
+    if (!descends && !(there_.norm < current.norm)) continue;
+    std::swap(state, trial_);
+    std::swap(current, there_);
     return length;
   }
   return 0;
@@ -261,7 +277,7 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     return result;
   };
   const auto factor_and_count = [&](const State& at) {
-    const bool regular = factor(at);
+    const bool regular = precondition(at);
     if (regular) {
       result.negative_pivots = tangent_.negative_pivots();
       result.unstable_modes = tangent_.unstable_modes();
@@ -298,7 +314,8 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     const auto find_step = [&](const State& at) {
       if (!factor_and_count(at)) return false;
       const Stopwatch watch(timings_.solve, model_);
-      tangent_.solve(-current.force.head(model_.dofs.free_count()), step);
+      right_ = -current.force.head(model_.dofs.free_count());
+      tangent_.solve(right_, step, 0, tolerance_of_step(result.residual, options.tolerance));
       return true;
     };
     // A flat film without tension has no stiffness across itself until it is loaded, or that of a rounding:

@@ -117,6 +117,8 @@ class Equilibrium {
   /// Tangent at `state`, factored; see BorderedTangent::factor.
   [[nodiscard]] bool factor(const State& state, const PathBorder* path = nullptr,
                             const Eigen::VectorXd* added = nullptr);
+  /// The same for solves only, as good as their tolerance: see BorderedTangent::precondition.
+  [[nodiscard]] bool precondition(const State& state);
   BorderedTangent& tangent() { return tangent_; }
   /// A positive weight per free equation that makes displacements comparable: the diagonal of the tangent as
   /// drawn (N/m, N m for rotations), not less than a small part of the largest.
@@ -154,6 +156,10 @@ class Equilibrium {
   BorderedTangent tangent_;
   std::optional<SheetConduction> conduction_; ///< where there are sheets
   std::optional<Balance> solved_;
+  // Workspace: Newton's method allocates in its first iteration only.
+  State trial_;
+  Balance there_;
+  Eigen::VectorXd right_;
   double energy_scale_ = 0;
   double round_off_ = 0;
   Timings timings_;

@@ -234,15 +234,14 @@ template<class Kinematics, class Law>
 template<bool with_tangent>
 Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, int first, int last,
                                                           const Scatter& scatter) const {
-  Evaluation result;
+  Evaluation result{.convex = with_tangent};
   Lanes energy{};
   const bool varies = sheets_.vary(state);
   for (int pack = first / lanes; pack * lanes < last; ++pack) {
     Lanes x[Nodes][Dim];
     gather(state, pack, x);
     const Lanes k = electric_modulus(state, pack);
-    Lanes residual[dofs] = {};
-    Lanes tangent[with_tangent ? packed_size : 1] = {};
+    Lanes residual[dofs] = {}, tangent[with_tangent ? packed_size : 1] = {};
     for (int p = 0; p < points_; ++p) {
       const Point& point = geometry_[static_cast<std::size_t>(pack * points_ + p)];
       const Deformation d = Kinematics::deformation(x, point);
@@ -254,8 +253,9 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
           potential(state, pack, p, d.C, varies ? under_sheets(state, pack, p, k) : k, lost);
       if (lost) result.feasible = false;
       energy += point.volume * stored.value;
-      Kinematics::template accumulate<with_tangent>(point, d, WeightedStress(point.volume, stored), residual,
-                                                    tangent);
+      const WeightedStress stress(point.volume, stored);
+      Kinematics::template accumulate<with_tangent>(point, d, stress, residual, tangent);
+      if constexpr (with_tangent) result.convex = result.convex && Kinematics::is_convex(point, d, stress);
     }
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
       const int element = pack * lanes + l;

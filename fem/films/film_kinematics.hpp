@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fem/films/convexity.hpp"
 #include "fem/films/lanes.hpp"
 #include "fem/films/membrane_section.hpp"
 #include "fem/films/meridian.hpp"
@@ -106,6 +107,11 @@ struct TriangleKinematics {
       return d.C.det();
   }
 
+  /// See Evaluation::convex.
+  static bool is_convex(const Point& point, const Deformation& d, const WeightedStress& stress) {
+    return costs_energy(d.C, point.volume, stress.S11, stress.S22, stress.S12, stress.D, Dim == 3);
+  }
+
   /// dC/du for component c of node a: of C11, C22, and C12 (as it stands in C, once).
   static void slope(const Point& point, const Deformation& d, int a, int c, Lanes (&row)[3]) {
     const auto& G = point.gradient[a];
@@ -204,6 +210,9 @@ struct MeridianKinematics {
   }
 
   static Lanes orientation(const Deformation& d) { return d.C.C11 * d.hoop; }
+
+  /// Not known: few unknowns are soon factored.
+  static bool is_convex(const Point&, const Deformation&, const WeightedStress&) { return false; }
 
   static void slope(const Point& point, const Deformation& d, int a, int c, Lanes (&row)[3]) {
     const auto& G = point.gradient[a];

@@ -55,6 +55,9 @@ struct RodKinematics {
 
   static Lanes orientation(const Deformation& d) { return d.C.C11; }
 
+  /// Not known: a rod gives way across itself.
+  static bool is_convex(const Point&, const Deformation&, const WeightedStress&) { return false; }
+
   static void slope(const Point& point, const Deformation& d, int a, int c, Lanes (&row)[3]) {
     row[0] = 2.0 * d.along[c] * point.gradient[a][0];
     row[1] = d.narrowing * row[0];

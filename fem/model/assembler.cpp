@@ -185,25 +185,25 @@ void Assembler::colour_chunks() {
 }
 
 Evaluation Assembler::run(const State& state, bool want_residual, bool want_tangent) {
-  Evaluation total;
-  std::vector<Evaluation> parts;
+  Evaluation total{.convex = true};
   for (const auto& colour : colours_) {
-    parts.assign(colour.size(), {});
+    parts_.assign(colour.size(), {});
     const auto evaluate = [&](std::size_t c) {
       const auto [block, first, last] = colour[c];
       const auto b = static_cast<std::size_t>(block);
       const Scatter scatter{equations_[b].data(), slots_[b].data(),
                             want_residual ? block_residual_[b].data() : nullptr,
                             want_tangent ? matrix_.values.data() : nullptr};
-      parts[c] = model_.blocks[b]->evaluate(state, first, last, scatter);
+      parts_[c] = model_.blocks[b]->evaluate(state, first, last, scatter);
     };
     if (threads_ > 1)
       in_parallel(arena_, colour.size(), evaluate);
     else
       for (std::size_t c = 0; c < colour.size(); ++c) evaluate(c);
-    for (const Evaluation& part : parts) {
+    for (const Evaluation& part : parts_) {
       total.energy += part.energy;
       total.feasible = total.feasible && part.feasible;
+      total.convex = total.convex && part.convex;
     }
   }
   return total;
@@ -227,8 +227,9 @@ std::vector<double> Assembler::relaxation(const State& state, const RateWeight& 
 
 void Assembler::tangent(const State& state) {
   std::fill(matrix_.values.begin(), matrix_.values.end(), 0.0);
+  convex_ = false; // tied nodes turn with their bodies, which may set energy free
   if (!reduction_) {
-    run(state, false, true);
+    convex_ = run(state, false, true).convex;
     add_inertia(state);
     return;
   }

@@ -27,6 +27,8 @@ class Assembler {
   const std::vector<Eigen::VectorXd>& block_residuals() const { return block_residual_; }
   /// Computes the tangent of the free equations, that of inertia included, read through matrix().
   void tangent(const State& state);
+  /// Whether the last tangent is known to be positive definite where the model is held: Evaluation::convex.
+  bool convex() const { return convex_; }
 
   /// What relaxed branches resist besides that, in the pattern of matrix(): see ElementBlock::add_relaxation.
   std::vector<double> relaxation(const State& state, const RateWeight& weight) const;
@@ -59,6 +61,8 @@ class Assembler {
   std::vector<std::vector<int>> slots_;
   std::vector<std::vector<Chunk>> colours_;
   std::vector<Eigen::VectorXd> block_residual_;
+  std::vector<Evaluation> parts_; ///< of the chunks of a colour
+  bool convex_ = false;
   std::vector<double> mass_, damping_; ///< values in the pattern of matrix_; empty without
 };
 

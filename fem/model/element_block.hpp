@@ -46,6 +46,9 @@ struct Scatter {
 struct Evaluation {
   double energy = 0;    ///< J
   bool feasible = true; ///< false: some element cannot be in this state (inverted, beyond a limit)
+  /// Where the tangent was wanted: it is known that every displacement but a translation costs energy, so
+  /// that a model of such blocks that is held has a positive definite tangent. False: not known.
+  bool convex = false;
 };
 
 /// What the electrodes hold at a state: Q_e = -dE/dPhi_e of the energy E(u, Phi) that the blocks give.

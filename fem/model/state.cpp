@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/model/state.hpp"
 
+#include <algorithm>
+
 namespace dielast::fem {
 
 Eigen::Quaterniond rotation_of(const Eigen::Vector3d& spin) {
@@ -31,6 +33,10 @@ State extrapolate(std::span<const PathPoint> points, double parameter) {
     for (std::size_t i = 0; i < points.size(); ++i)
       displacement += weight[i] * points[i].state.displacement[n];
     result.displacement[n] = displacement;
+    const auto is_last = [&](const PathPoint& p) {
+      return p.state.rotation[n].coeffs() == last.rotation[n].coeffs();
+    };
+    if (std::ranges::all_of(points, is_last)) continue; // nodes of films never turn
     Eigen::Vector3d spin = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       spin += weight[i] * spin_of(points[i].state.rotation[n] * last.rotation[n].conjugate());

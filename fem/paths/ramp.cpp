@@ -139,7 +139,7 @@ LoadPath Ramp::within(double s) const {
 Eigen::VectorXd Ramp::slope_of_start(const LoadPath& increment) {
   State start = last();
   increment.apply(start, setting_out());
-  if (!equilibrium_.factor(start)) return {};
+  if (!equilibrium_.precondition(start)) return {};
   if (progress_.unstable_modes < 0) progress_.unstable_modes = equilibrium_.tangent().unstable_modes();
   return slope_at(equilibrium_, increment, start, setting_out(), 1);
 }

@@ -55,6 +55,8 @@ void run(benchmark::State& bench, Task (*make_task)(int)) {
     bench.counters["all_ms"] = all * per_iteration;
     bench.counters["iterations"] = t.iterations;
     bench.counters["overhead"] = all / (t.factor + t.solve);
+    bench.counters["factors"] = equilibrium.tangent().work().factorisations;
+    bench.counters["solves"] = equilibrium.tangent().work().solves;
     bench.counters["unknowns"] = task.model.dofs.count();
     bench.counters["result_mm"] =
         1e3 * state.displacement[static_cast<std::size_t>(task.node)][task.component];

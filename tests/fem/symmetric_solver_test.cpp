@@ -2,6 +2,7 @@
 #include "fem/algebra/symmetric_solver.hpp"
 
 #include "fem/algebra/dense_algebra.hpp"
+#include "tests/fem/sample_matrices.hpp"
 #include "tests/fem/sample_models.hpp"
 
 #include <gtest/gtest.h>
@@ -122,6 +123,22 @@ TEST(SymmetricSolver, tells_where_a_pivot_vanished_and_takes_a_stiffness_there) 
     EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
     EXPECT_FALSE(solver.factor()) << "the spring is gone again";
   }
+}
+
+// Where a matrix is not what it was said to be, the solution is right, or none.
+TEST(SymmetricSolver, solves_what_only_seemed_positive_definite) {
+  SparseSymmetric matrix = test::grid(200, 1); // large enough for a factor to be kept
+  SymmetricSolver solver(matrix);
+  ASSERT_TRUE(solver.precondition());
+  matrix.values[static_cast<std::size_t>(matrix.column_start[1234])] = -5;
+  ASSERT_TRUE(solver.precondition());
+  EXPECT_EQ(solver.work().factorisations, 1);
+  std::mt19937 random(65);
+  const Eigen::VectorXd expected = test::random_vector(random, matrix.size);
+  Eigen::VectorXd x;
+  solver.solve(test::times(matrix, expected), x);
+  EXPECT_LT((x - expected).norm(), 1e-8 * expected.norm());
+  EXPECT_EQ(solver.negative_pivots(), 1);
 }
 
 } // namespace

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/algebra/kept_factor.hpp"
+
+#include "tests/fem/sample_matrices.hpp"
+#include "tests/fem/sample_models.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dielast::fem {
+namespace {
+
+/// Matrices on the way from one to another of its pattern.
+class Keeping : public testing::Test {
+ protected:
+  void go(double part) {
+    for (std::size_t k = 0; k < matrix.values.size(); ++k)
+      matrix.values[k] = first.values[k] + part * (last.values[k] - first.values[k]);
+  }
+  /// Error of a solution over the solution in the norm of the matrix; infinity where there is none.
+  double error(double tolerance, double scale = 1) {
+    std::mt19937 random(64);
+    const Eigen::VectorXd expected = scale * test::random_vector(random, matrix.size);
+    Eigen::VectorXd x;
+    if (!kept.solve(test::times(matrix, expected), x, tolerance)) return INFINITY;
+    const Eigen::VectorXd error = (x - expected) / scale, whole = expected / scale;
+    return std::sqrt(error.dot(test::times(matrix, error)) / whole.dot(test::times(matrix, whole)));
+  }
+
+  const SparseSymmetric first = test::grid(60, 1), last = test::grid(60, 2);
+  SparseSymmetric matrix = first;
+  Supernodes supernodes{matrix};
+  KeptFactor kept{matrix, supernodes};
+};
+
+TEST_F(Keeping, one_factor_solves_with_matrices_close_by) {
+  for (const double part : {0.0, 0.01, 0.02}) {
+    go(part);
+    ASSERT_TRUE(kept.prepare());
+    EXPECT_LT(error(1e-3), 1e-3) << part;
+    EXPECT_LT(error(1e-10), 1e-10) << part;
+  }
+  EXPECT_EQ(kept.factorisations(), 1);
+}
+
+TEST_F(Keeping, a_factor_of_a_matrix_far_away_is_replaced_on_the_way_to_the_solution) {
+  ASSERT_TRUE(kept.prepare());
+  EXPECT_LT(error(1e-3), 1e-3);
+  go(1);
+  ASSERT_TRUE(kept.prepare());
+  EXPECT_EQ(kept.factorisations(), 1);
+  EXPECT_LT(error(1e-10), 1e-10);
+  EXPECT_EQ(kept.factorisations(), 2);
+  ASSERT_TRUE(kept.prepare());
+  EXPECT_EQ(kept.factorisations(), 3) << "matrices that change so fast are factored at once";
+}
+
+TEST_F(Keeping, a_factor_is_replaced_when_its_iterations_have_cost_as_much) {
+  ASSERT_TRUE(kept.prepare());
+  EXPECT_LT(error(1e-3), 1e-3);
+  const int fresh = kept.solves();
+  int solves = 0;
+  go(0.1);
+  for (int repeat = 0; kept.factorisations() == 1 && repeat < 50; ++repeat) {
+    const int before = kept.solves();
+    EXPECT_LT(error(1e-3), 1e-3);
+    solves += kept.solves() - before - fresh;
+    ASSERT_TRUE(kept.prepare());
+  }
+  EXPECT_EQ(kept.factorisations(), 2);
+  EXPECT_GE(solves, KeptFactor::cost(supernodes));
+  EXPECT_LT(solves, KeptFactor::cost(supernodes) + 2 * fresh);
+}
+
+TEST_F(Keeping, small_and_large_forces_are_in_the_range_of_single_precision) {
+  ASSERT_TRUE(kept.prepare());
+  for (const double scale : {1e-60, 1e-30, 1e30, 1e60}) EXPECT_LT(error(1e-8, scale), 1e-8) << scale;
+  Eigen::VectorXd x;
+  ASSERT_TRUE(kept.solve(Eigen::VectorXd::Zero(matrix.size), x, 1e-3));
+  EXPECT_EQ(x.norm(), 0);
+}
+
+TEST_F(Keeping, an_indefinite_matrix_is_told) {
+  ASSERT_TRUE(kept.prepare());
+  matrix.values[static_cast<std::size_t>(matrix.column_start[1234])] = -5;
+  EXPECT_EQ(error(1e-3), INFINITY);
+  EXPECT_FALSE(kept.prepare());
+}
+
+// What a factor costs is counted: a grid of n x n has about n^3 operations and n^2 log n entries.
+TEST(KeptFactor, costs_more_iterations_in_larger_matrices) {
+  const auto cost = [](int side) { return KeptFactor::cost(Supernodes(test::grid(side, 1))); };
+  EXPECT_LT(cost(10), KeptFactor::least_cost);
+  EXPECT_GT(cost(200), KeptFactor::least_cost);
+  EXPECT_GT(cost(200), 1.3 * cost(60));
+}
+
+} // namespace
+} // namespace dielast::fem
