@@ -29,4 +29,13 @@ BeamSection rectangular_section(const ElasticSolid& solid, double width, double 
           .line_density = solid.density * area};
 }
 
+BeamSection two_faced_section(const ElasticSolid& solid, double width, double height, double gap) {
+  BeamSection section = rectangular_section(solid, width, height);
+  const double E = solid.youngs_modulus;
+  section.GJ = 2 * rectangular_section(solid, width, height / 2).GJ;
+  section.EI2 = E * width * (std::pow(height + gap, 3) - std::pow(gap, 3)) / 12;
+  section.half_height = (height + gap) / 2;
+  return section;
+}
+
 } // namespace dielast::materials

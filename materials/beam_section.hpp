@@ -49,4 +49,8 @@ struct BeamSection {
 /// torsion constant from its series (Timoshenko & Goodier, Theory of Elasticity, art. 109).
 BeamSection rectangular_section(const ElasticSolid& solid, double width, double height);
 
+/// Two bars of half the height, on either face of a layer of the thickness `gap` (m) that keeps their
+/// sections in one plane and has no stiffness of its own. They bend as one; each twists about its own axis.
+BeamSection two_faced_section(const ElasticSolid& solid, double width, double height, double gap);
+
 } // namespace dielast::materials

@@ -205,13 +205,12 @@ double Measurement::coupling(const Quantity& quantity, const Measured& measured)
   return force * quantity.length / drawn;
 }
 
-/// NaN where nothing has a mass, or the state is unstable or not at rest.
-double Measurement::natural_frequency(const Quantity& quantity, const Measured& measured) const {
+/// NaN where nothing has a mass, or the state is not at rest.
+double Measurement::modal_stiffness(const Quantity& quantity, const Measured& measured) const {
   if (!measured.may_rest || !unrest(measured.equilibrium, measured.state).empty()) return unknown;
   const auto modes = fem::vibration_modes(measured.equilibrium, measured.state, {.count = quantity.mode});
   if (!modes || std::ssize(*modes) < quantity.mode) return unknown;
-  const fem::VibrationMode& mode = (*modes)[static_cast<std::size_t>(quantity.mode) - 1];
-  return mode.stiffness > 0 ? mode.frequency() : unknown;
+  return (*modes)[static_cast<std::size_t>(quantity.mode) - 1].stiffness;
 }
 
 std::size_t Measurement::electrode(const std::string& name) const {
@@ -310,7 +309,9 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   case QuantityKind::coupling:
     return coupling(quantity, measured);
   case QuantityKind::natural_frequency:
-    return natural_frequency(quantity, measured);
+    return std::sqrt(modal_stiffness(quantity, measured)); // NaN where that is negative
+  case QuantityKind::modal_stiffness:
+    return modal_stiffness(quantity, measured);
   case QuantityKind::radial_stretch:
     return mean(readings_.at(quantity.name), measured.samples,
                 [](const fem::MembraneSample& sample, const FilmReading& reading) {

@@ -65,7 +65,7 @@ class Measurement {
   };
   Flexibility flexibility(const std::string& place, int along, const Measured& measured) const;
   double coupling(const Quantity& quantity, const Measured& measured) const;
-  double natural_frequency(const Quantity& quantity, const Measured& measured) const;
+  double modal_stiffness(const Quantity& quantity, const Measured& measured) const;
   /// Where a value of a field is read; `key`: the quantity's path.
   std::vector<FilmReading> readings_of(const Quantity& quantity, const std::string& key,
                                        const fem::Samples& drawn) const;

@@ -209,6 +209,7 @@ enum class QuantityKind {
   stiffness,
   coupling,
   natural_frequency,
+  modal_stiffness,
   radial_stretch,
   energy,
   value,
@@ -223,6 +224,11 @@ enum class QuantityKind {
 
 /// Where gravity pulls, as a direction of a quantity.
 constexpr int along_gravity = 3;
+
+/// Whether it is about small vibrations.
+constexpr bool is_of_vibration(QuantityKind kind) {
+  return kind == QuantityKind::natural_frequency || kind == QuantityKind::modal_stiffness;
+}
 
 /// A value that another quantity's course has, not the state alone.
 constexpr bool is_of_course(QuantityKind kind) {
@@ -246,7 +252,7 @@ struct Quantity {
   std::string place;                          ///< value: over which it is the mean; coupling: where it pulls
   std::optional<std::array<double, 3>> point; ///< value, displacement: instead of a place, as drawn, m
   double length = 0;                          ///< coupling: of the electrode, m
-  int mode = 1;                               ///< natural_frequency: its number, from the lowest
+  int mode = 1; ///< natural_frequency, modal_stiffness: its number, from the lowest
   post::Extreme extreme{};
   std::string at;    ///< the step at whose end summary.json reads it; empty: the last
   std::string since; ///< elongation, growth, displacement: the step at whose end it is zero; empty: the mesh

@@ -44,6 +44,7 @@ struct Beam {
   double width = 0, height = 0; ///< in the film's plane and normal to it, m
   std::string material_name;
   materials::ElasticSolid material;
+  double offset = 0; ///< of their axes from the lines, along the film's normal, m
 };
 
 /// [rod]: a film rolled or folded to a bar that pulls along itself, and is free across itself
@@ -59,6 +60,13 @@ enum class WallBond {
   width, ///< the film under a wall is clamped to it over its width
 };
 
+/// On which of the film's faces walls are printed.
+enum class WallPrint {
+  merged,     ///< on both, as if there were no film between
+  both_faces, ///< half of the height on each: they bend as one across the film, and each is twisted by itself
+  one_face,   ///< all of it above: rigid links lead from the film to the wall's axis
+};
+
 /// [honeycomb]: the geometry template of the unidirectional actuator
 struct Honeycomb {
   double angle = 0;         ///< interior angle at a cell's four equal vertices, rad
@@ -66,6 +74,7 @@ struct Honeycomb {
   double wall_length = 0;   ///< m
   Beam wall;
   WallBond wall_bond{};
+  WallPrint print{};
   double electrode_gap = 0; ///< from the wall, or its face where it is bonded over its width, m
 };
 

@@ -32,6 +32,8 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
     return "N/m";
   case QuantityKind::natural_frequency:
     return "rad/s";
+  case QuantityKind::modal_stiffness:
+    return "1/s^2";
   case QuantityKind::angle:
     return "rad";
   case QuantityKind::moment:
@@ -120,6 +122,8 @@ std::string meaning_of(const Quantity& q) {
         along, q.of, at);
   case QuantityKind::natural_frequency:
     return fmt::format("natural frequency number {}{}", q.mode, at);
+  case QuantityKind::modal_stiffness:
+    return fmt::format("square of natural frequency number {}, negative where it is unstable{}", q.mode, at);
   case QuantityKind::radial_stretch:
     return fmt::format("stretch along the radius at {}{}", q.of, at);
   case QuantityKind::peak:

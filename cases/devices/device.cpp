@@ -300,6 +300,7 @@ Device build_device(const Case& one) {
   const Eigen::Vector3d size = mesh.bounds().sizes(); // bodies have nodes of their own
   const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
   std::vector<FinPoints> fins = add_fin_nodes(one, mesh);
+  const std::vector<fem::Tie> links = set_off_bars(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
   model.extent = size.norm();
@@ -340,6 +341,7 @@ Device build_device(const Case& one) {
   tie_fins(fins, mesh, model.dofs);
   clamp_under_walls(one, mesh, model.dofs);
   hold_radii(one, mesh, model.dofs);
+  link_bars(links, dimension, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty() && !one.table;
   if (free_body) pin(mesh, dimension, model.dofs);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
 
-#include "fem/elements/beam_block.hpp"
 #include "fem/elements/capacitor_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/shells/shell_block.hpp"
@@ -12,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -98,55 +96,6 @@ RodWidths rod_widths(const Part& part) {
                     1e3 * electrode, 1e3 * length));
   const double charged = rod.layers * rod.electrode_width.value_or(rod.width) * electrode / length;
   return {charged, std::max(0.0, rod.layers * rod.width - charged)};
-}
-
-/// Hinge and ribbons. Ribbons that turn freely at their ends keep a trace of their bending stiffness.
-std::array<materials::BeamSection, 2> leaves(const Part& part) {
-  constexpr double trace = 1e-6;
-  const auto of = [](const Leaf& leaf) {
-    return materials::rectangular_section(leaf.beam.material, leaf.beam.width, leaf.beam.height);
-  };
-  materials::BeamSection hinge = of(*part.hinge), ribbon = of(*part.ribbon);
-  if (std::get<AntagonisticRolls>(part.geometry).ribbons == RibbonBending::with_hinge) {
-    hinge.EI3 += 2 * ribbon.EI3 * part.hinge->length / part.ribbon->length;
-    for (double* stiffness : {&ribbon.EI2, &ribbon.EI3, &ribbon.GJ}) *stiffness *= trace;
-  }
-  return {hinge, ribbon};
-}
-
-/// Lines of the mesh with the section of the bars along them, and the number of the part that they are of.
-using UseBars =
-    std::function<void(const std::vector<int>& lines, const materials::BeamSection&, std::size_t part)>;
-
-/// Calls `use` with the lines and the section of each lattice's walls, and of each part along lines of the
-/// mesh.
-void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh, const UseBars& use) {
-  std::set<int> taken;
-  const auto take = [&](std::size_t p, const std::string& place, const materials::BeamSection& section) {
-    const std::string& part = one.parts[p].name;
-    const std::vector<int>* lines = mesh.cells_of(place, mesh.walls());
-    if (!lines)
-      throw meshing::MeshError(
-          fmt::format("part \"{}\": the place \"{}\" has no lines in the mesh", part, place));
-    for (const int line : *lines)
-      if (!taken.insert(line).second)
-        throw meshing::MeshError(fmt::format("part \"{}\": a line of \"{}\" has a bar already", part, place));
-    use(*lines, section, p);
-  };
-  const auto take_beam = [&](std::size_t p, const std::string& place, const Beam& beam) {
-    take(p, place, materials::rectangular_section(beam.material, beam.width, beam.height));
-  };
-  for (std::size_t p = 0; p < one.parts.size(); ++p) {
-    const Part& part = one.parts[p];
-    if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
-      take_beam(p, part.called("walls"), lattice->wall);
-    if (std::holds_alternative<AntagonisticRolls>(part.geometry)) {
-      const auto [hinge, ribbon] = leaves(part);
-      take(p, "hinge", hinge);
-      for (const char* place : {"upper_ribbon", "lower_ribbon"}) take(p, place, ribbon);
-    }
-    if (part.beam) take_beam(p, part.has_mesh() ? part.called("line") : part.place, *part.beam);
-  }
 }
 
 } // namespace
@@ -262,14 +211,6 @@ void add_capacitors(const Case& one, fem::Model& model) {
   }
 }
 
-void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  for_each_set_of_bars(
-      one, mesh, [&](const std::vector<int>& lines, const materials::BeamSection& section, std::size_t) {
-        model.blocks.push_back(fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), lines), section,
-                                                    Eigen::Vector3d::UnitZ(), lines));
-      });
-}
-
 namespace {
 
 /// A wall as drawn: straight, between joints.
@@ -365,21 +306,6 @@ meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh) {
     throw meshing::MeshError(
         fmt::format("chamber: the surface \"{}\" has an edge; a chamber in a solid is closed", place));
   return faces;
-}
-
-Bars bars(const Case& one, const meshing::Mesh& mesh) {
-  const std::size_t count = mesh.walls() ? static_cast<std::size_t>(mesh.walls()->size()) : 0;
-  Bars bars{std::vector<double>(count), std::vector<double>(count), std::vector<int>(count)};
-  for_each_set_of_bars(
-      one, mesh, [&](const std::vector<int>& lines, const materials::BeamSection& section, std::size_t part) {
-        for (const int number : lines) {
-          const auto line = static_cast<std::size_t>(number);
-          bars.widths[line] = 2 * section.half_width;
-          bars.heights[line] = 2 * section.half_height;
-          bars.parts[line] = static_cast<int>(part);
-        }
-      });
-  return bars;
 }
 
 void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent) {

@@ -25,6 +25,13 @@ void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<in
 /// images: otherwise its volume would depend on where its edge is. Throws MeshError where it is not.
 meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh);
 
+/// Puts the bars whose axes lie beside the lines of the mesh on nodes of their own. Returns the rigid links
+/// by which the lines' nodes carry them. Throws MeshError as add_bars().
+std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh);
+
+/// Lets the nodes that carry them turn, as film alone does not, and ties the bars' nodes to them.
+void link_bars(const std::vector<fem::Tie>& links, fem::Dimension dimension, fem::DofMap& dofs);
+
 /// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws MeshError for a place without
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);

@@ -94,7 +94,7 @@ Condition weight() {
 Condition masses_matter() {
   return on_case("inertia, a step of kind \"modes\" or \"harmonic\", or a weight", [](const Case& one) {
     const bool vibrates = std::ranges::any_of(
-        one.quantities, [](const Quantity& q) { return q.kind == QuantityKind::natural_frequency; });
+        one.quantities, [](const Quantity& quantity) { return is_of_vibration(quantity.kind); });
     return vibrates || has_inertia(one) || is_linearised(one) || has_step(one, {StepKind::modes}) ||
            (one.gravity.film && has_step(one, {StepKind::weight}));
   });

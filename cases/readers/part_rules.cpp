@@ -152,7 +152,7 @@ void check_solid(SectionReader& reader, const Node& tree, const Case& one, const
                           [](const Step& step) { return step.on_instability == OnInstability::jump; }))
     report("section", "solids do not jump: on_instability = \"stop\" or \"follow\"");
   for (const Quantity& quantity : one.quantities)
-    if (quantity.kind == QuantityKind::natural_frequency || quantity.kind == QuantityKind::nominal_stress ||
+    if (is_of_vibration(quantity.kind) || quantity.kind == QuantityKind::nominal_stress ||
         quantity.kind == QuantityKind::radial_stretch || quantity.kind == QuantityKind::stretch)
       report("section",
              fmt::format("quantity \"{}\" is of films that are membranes or shells", quantity.name));

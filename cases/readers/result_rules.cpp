@@ -48,7 +48,7 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
       reader.report(source, key, "in a model of revolution bodies move along z alone, and do not turn");
     if (quantity.kind == QuantityKind::contact_force && !one.contact)
       reader.report(source, key, "nothing touches; add [contact]");
-    if (quantity.kind == QuantityKind::natural_frequency && !has_mass(one))
+    if (is_of_vibration(quantity.kind) && !has_mass(one))
       reader.warn(source, key, "has no value here: nothing has a mass");
     check_step_with_end(reader, one, list->items[q].find("at"), key + ".at", quantity.at);
     check_step_with_end(reader, one, list->items[q].find("since"), key + ".since", quantity.since);

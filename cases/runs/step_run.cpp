@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace dielast::cases {
@@ -18,8 +20,12 @@ namespace {
 constexpr int most_jumps = 100;
 /// Loads beyond a limit point at which the device jumps, as a part of the step.
 constexpr double beyond = 1e-6;
-/// Displacement along a mode at which another branch is looked for, over the model's extent.
-constexpr double branch_amplitude = 1e-3;
+/// Those beyond a bifurcation: the branch on which it lands may leave tangentially, and be one with the path
+/// within round-off until the loads have gone on.
+constexpr std::array further{1e-2, 1e-1};
+/// Displacements along a mode at which another branch is looked for, over the model's extent: those of thin
+/// films are less than their thickness.
+constexpr std::array branch_amplitudes{1e-3, 1e-4, 1e-5};
 /// Eigenvalue of the lowest mode, over the stiffness as drawn, below which a timed step has come to a limit.
 constexpr double critical_in_time = 1e-3;
 
@@ -192,8 +198,10 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   if (trouble.critical) announce(*trouble.critical, ends);
   const fem::ContinuationOptions arcs{.newton = options_.newton};
   if (switches) {
-    progress_.followed =
-        fem::switch_branch(equilibrium_, path_, *trouble.critical, branch_amplitude * model().extent, arcs);
+    for (const double amplitude : branch_amplitudes)
+      if (!progress_.followed)
+        progress_.followed =
+            fem::switch_branch(equilibrium_, path_, *trouble.critical, amplitude * model().extent, arcs);
     if (progress_.followed) return std::nullopt;
     accept_critical(*trouble.critical);
     return failure(trouble);
@@ -248,33 +256,48 @@ std::optional<Outcome> StepRun::follow() {
                                                              : "was left: that is the most")};
 }
 
-/// Where a film cannot be let go slowly, as its frame gives way under dead forces, it is let go at once.
+/// Where a film cannot be let go slowly, as its frame gives way under dead forces, it is let go at once: it
+/// follows the frame's pull, or where that keeps a symmetry that the device loses, the critical mode.
+std::vector<StepRun::Departure> StepRun::departures(const Trouble& trouble) {
+  const auto& critical = trouble.critical;
+  std::vector<Departure> all;
+  if (step_.kind == StepKind::release) {
+    fem::Balance pull;
+    fem::State released = loaded(last(), 1);
+    equilibrium_.balance(released, pull);
+    all.push_back({1, std::move(released), -pull.force.head(model().dofs.free_count())});
+    if (critical) all.push_back({1, loaded(critical->state, 1), critical->mode.direction});
+  } else if (critical) {
+    const bool branches_off = critical->kind == fem::Instability::bifurcation && !timed();
+    for (const double more : branches_off ? std::span<const double>(further) : std::span(&beyond, 1)) {
+      const double s = std::min(1.0, critical->load_factor + more);
+      all.push_back({s, loaded(critical->state, s), critical->mode.direction});
+    }
+  } else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(last(), progress_.ramp.load_factor))) {
+    const double s = trouble.ramp.failed_at;
+    all.push_back({s, loaded(last(), s), mode->direction});
+  }
+  return all;
+}
+
 std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   if (++progress_.jumps > most_jumps) return failure(trouble);
   fem::RampProgress& ramp = progress_.ramp;
-  fem::State state = last();
-  double s = trouble.ramp.failed_at;
-  Eigen::VectorXd direction;
-  if (step_.kind == StepKind::release) {
-    s = 1;
-    fem::Balance pull;
-    fem::State released = loaded(state, s);
-    equilibrium_.balance(released, pull);
-    direction = -pull.force.head(model().dofs.free_count());
-  } else if (trouble.critical) {
-    state = trouble.critical->state;
-    s = std::min(1.0, trouble.critical->load_factor + beyond);
-    direction = trouble.critical->mode.direction;
+  std::vector<Departure> ways = departures(trouble);
+  if (ways.empty()) return failure(trouble);
+  if (step_.kind != StepKind::release && trouble.critical)
     accept_critical(*trouble.critical); // an interrupt waits until the device has landed
-  } else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(state, ramp.load_factor))) {
-    direction = mode->direction;
-  } else {
-    return failure(trouble);
-  }
   const fem::State before = last();
-  state = loaded(std::move(state), s);
-  if (options_.inertia) state = fem::with_masses_held(equilibrium_, std::move(state));
-  const fem::JumpResult result = fem::jump(equilibrium_, state, direction, {.newton = options_.newton});
+  fem::JumpResult result{.end = fem::JumpEnd::stuck};
+  fem::State state;
+  double s = 0;
+  for (Departure& way : ways) {
+    s = way.load_factor;
+    state =
+        options_.inertia ? fem::with_masses_held(equilibrium_, std::move(way.state)) : std::move(way.state);
+    result = fem::jump(equilibrium_, state, way.direction, {.newton = options_.newton});
+    if (result.end != fem::JumpEnd::stuck) break;
+  }
   if (result.end != fem::JumpEnd::landed) {
     Outcome outcome = failure(trouble);
     outcome.message += fmt::format(". No stable state was found to jump to: the device {}",

@@ -72,6 +72,13 @@ class StepRun {
   bool accept_critical(const fem::CriticalPoint& critical);
   std::optional<Outcome> leave(const Trouble& trouble);
   std::optional<Outcome> follow();
+  /// Loads and a state from which to jump, along a direction in the free equations.
+  struct Departure {
+    double load_factor;
+    fem::State state;
+    Eigen::VectorXd direction;
+  };
+  std::vector<Departure> departures(const Trouble& trouble);
   std::optional<Outcome> jump(const Trouble& trouble);
   std::string load_text(const fem::State& at, double s) const;
   std::string load_text(double s) const;

@@ -20,6 +20,9 @@ Access geometry_of_type() {
           }};
 }
 
+/// Of a lattice's walls.
+Key wall_print();
+
 /// A named solid, or a table of its parameters. `beam(object)` returns a reference to the Beam in the object.
 template<class T, class Bars>
 Section bar_material_section(std::string name, Bars beam) {

@@ -64,6 +64,20 @@ Section leaf_section(std::string name, std::string meaning, std::optional<Leaf> 
 
 } // namespace
 
+Key wall_print() {
+  return word(
+             "wall_print",
+             {{"merged", "on both faces, one bar as if there were no film between", WallPrint::merged},
+              {"both faces",
+               "half of the height on each face: they bend as one across the film, and each twists by itself",
+               WallPrint::both_faces},
+              {"one face", "all of it on the upper face: the walls' axes lie above the film",
+               WallPrint::one_face}},
+             to(&Honeycomb::print), "on which faces of the film the walls are printed")
+      .otherwise("merged")
+      .only_with(when::in_space());
+}
+
 Section line_section() {
   Section section;
   section.name = "line";
@@ -104,6 +118,14 @@ Section beam_section() {
   section.keys = {
       measure("width", "m", to(&Beam::width), "width of a bar in the film's plane").above(0).at_most(1),
       measure("height", "m", to(&Beam::height), "height of a bar normal to the film").above(0).at_most(1),
+      measure(
+          "offset", "m", to(&Beam::offset),
+          "distance of the bars' axes from the lines, along z; rigid links lead there, as to bars that are "
+          "printed on one face of a film")
+          .at_least(-1)
+          .at_most(1)
+          .otherwise("0 m")
+          .only_with(when::in_space()),
   };
   section.sections.push_back(bar_material_section<Beam>(
       "material", [](auto& beam) -> auto& { return beam; }));

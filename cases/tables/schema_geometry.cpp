@@ -56,6 +56,7 @@ Section honeycomb_section() {
              WallBond::width}},
            to(&Honeycomb::wall_bond), "how walls hold the film")
           .otherwise("line"),
+      wall_print(),
       measure(
           "electrode_gap", "m", to(&Honeycomb::electrode_gap),
           "what the place \"electrode\" leaves free beside each wall: from its centreline, or from its face "

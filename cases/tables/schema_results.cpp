@@ -64,6 +64,10 @@ Section quantity_section() {
             "of small vibrations about the state, branches relaxed; none where it is "
             "not at rest (rad/s)",
             QuantityKind::natural_frequency},
+           {"modal stiffness",
+            "square of a natural frequency, of those nearest to zero: negative where the state is unstable "
+            "(1/s^2)",
+            QuantityKind::modal_stiffness},
            {"contact force",
             "sum of the normal forces where walls touch, a solid lies on a [table], or a [roll] on its core "
             "(N)",
@@ -178,7 +182,7 @@ Section quantity_section() {
           .at_least(1)
           .at_most(100)
           .otherwise("1")
-          .only({"natural frequency"}),
+          .only({"natural frequency", "modal stiffness"}),
       word("along", {{"x", "", 0}, {"y", "", 1}}, to(&Quantity::along), "direction in the film's plane")
           .only({"stretch", "nominal stress"}),
       text("since", to(&Quantity::since), "step at whose end it is zero; without it the mesh as drawn")

@@ -107,6 +107,7 @@ std::span<const Dimension> dimensions() {
       Dimension{"m^2", "an area", "10 mm^2", 1e3, "m^2", "mm^2 cm^2 m^2"},
       Dimension{"m^3", "a volume", "10 ml", 1e3, "m^3", "mm^3 cm^3 ml l m^3"},
       Dimension{"rad/s", "an angular frequency", "40 rad/s", 1e10, "rad/s", "rad/s"},
+      Dimension{"1/s^2", "a squared angular frequency", "100 1/s^2", 1e20, "1/s^2", "1/s^2"},
       Dimension{"Ohm", "a resistance", "2 MOhm", 1e18, "Ohm", "Ohm kOhm MOhm GOhm"},
       Dimension{"A", "a current", "1 mA", 1e6, "A", "uA mA A"},
       Dimension{"V", "a voltage", "5 kV", 1e6, "V", "V kV"},

@@ -163,9 +163,10 @@ void EnergyBalance::corner() {
 
 void EnergyBalance::add_after_jump(EnergyPoint point) {
   const EnergyPoint& before = record_.points.back();
-  // at the loads before it
   const auto done = [&](Conjugates EnergyPoint::*pair) {
-    return (before.*pair).force.dot((point.*pair).coordinate - (before.*pair).coordinate);
+    return ((before.*pair).force + (point.*pair).force)
+               .dot((point.*pair).coordinate - (before.*pair).coordinate) /
+           2;
   };
   const double electrical = done(&EnergyPoint::electrical), mechanical = done(&EnergyPoint::mechanical);
   record_.work.electrical += electrical;

@@ -64,7 +64,7 @@ class EnergyBalance {
   void add(EnergyPoint point);
   /// The path has a corner at the last state: no curvature is taken across it.
   void corner();
-  /// The next state was reached by a jump at fixed loads.
+  /// The next state was reached by a jump, at fixed loads or at loads that went on a little meanwhile.
   void add_after_jump(EnergyPoint point);
   /// The next state was reached by taking away a frame that did no work.
   void add_cut_free(EnergyPoint point);

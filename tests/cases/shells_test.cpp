@@ -59,12 +59,46 @@ TEST_F(Paths, a_clamped_disc_buckles_at_its_voltage) {
 TEST_F(Paths, a_clamped_disc_vibrates_as_a_plate) {
   const Run modes =
       run(clamped_disc("[drive]\nvoltage = \"1 V\"\n[[step]]\nkind = \"voltage\"\n[[quantity]]\n"
-                       "name = \"frequency\"\nkind = \"natural frequency\"\n"),
+                       "name = \"frequency\"\nkind = \"natural frequency\"\n[[quantity]]\n"
+                       "name = \"stiffness\"\nkind = \"modal stiffness\"\n"),
           "frequency");
   EXPECT_EQ(modes.outcome.ending, Ending::complete) << modes.outcome.message;
   const double expected =
       10.2158 / (radius * radius) * std::sqrt(modulus * thickness * thickness / 3 / density);
   EXPECT_NEAR(modes.rows.back().value, expected, 0.003 * expected);
+}
+
+/// The disc at 1.1 times its buckling voltage: what its step is told, and the quantities that are read.
+std::string beyond_buckling(const std::string& told) {
+  return clamped_disc(
+      fmt::format("[drive]\nvoltage = \"{} V\"\n[[step]]\nkind = \"voltage\"\nincrements = 4\n{}\n"
+                  "[[quantity]]\nname = \"stiffness\"\nkind = \"modal stiffness\"\n"
+                  "[[quantity]]\nname = \"rise\"\nkind = \"size\"\nof = \"film\"\nalong = \"z\"\n",
+                  1.1 * buckling_voltage(), told));
+}
+
+// Held flat by symmetry alone the disc is followed beyond its buckling voltage: the square of its lowest
+// frequency goes with 1 - (Phi/Phi_c)^2.
+TEST_F(Paths, the_modal_stiffness_of_a_disc_passes_zero_where_it_buckles) {
+  const Run flat = run(beyond_buckling("on_instability = \"follow\""), "stiffness");
+  EXPECT_EQ(flat.outcome.ending, Ending::complete) << flat.outcome.message;
+  ASSERT_GT(flat.rows.size(), 4u);
+  const double drawn = flat.rows[0].value;
+  EXPECT_NEAR(drawn, std::pow(10.2158 / (radius * radius), 2) * modulus * thickness * thickness / 3 / density,
+              0.006 * drawn);
+  for (const Row& row : flat.rows)
+    EXPECT_NEAR(row.value, drawn * (1 - std::pow(row.voltage / buckling_voltage(), 2)), 0.01 * drawn)
+        << row.voltage;
+  EXPECT_LT(flat.rows.back().value, -0.1 * drawn);
+}
+
+// The branch on which it buckles leaves the flat one tangentially: next to the critical voltage the two are
+// one but for round-off, and the disc has to be charged on until there is somewhere to jump to.
+TEST_F(Paths, a_disc_jumps_from_where_it_buckles_onto_its_dome) {
+  const Run domed = run(beyond_buckling("on_instability = \"jump\""), "rise");
+  EXPECT_EQ(domed.outcome.ending, Ending::complete) << domed.outcome.message;
+  EXPECT_GT(domed.rows.back().value, 0.1 * thickness);
+  EXPECT_EQ(domed.rows.back().unstable_modes, 0);
 }
 
 } // namespace

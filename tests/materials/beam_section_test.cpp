@@ -53,5 +53,17 @@ TEST(RectangularSection, torsion_constant_converges_to_its_limits) {
   EXPECT_NEAR(strip, (1 - 0.6302497 * 1e-3) / 3, 1e-9);
 }
 
+TEST(TwoFacedSection, bars_on_either_face_bend_as_one_and_twist_one_by_one) {
+  const double w = 0.8e-3, h = 2e-3, gap = 0.1e-3;
+  const BeamSection merged = rectangular_section(tpu, w, h), one = rectangular_section(tpu, w, h / 2),
+                    both = two_faced_section(tpu, w, h, gap);
+  EXPECT_DOUBLE_EQ(both.EA, merged.EA);
+  EXPECT_DOUBLE_EQ(both.EI3, merged.EI3);
+  EXPECT_DOUBLE_EQ(both.GJ, 2 * one.GJ);
+  const double arm = (h / 2 + gap) / 2; // of a bar's axis
+  EXPECT_NEAR(both.EI2, 2 * (one.EI2 + one.EA * arm * arm), 1e-12 * both.EI2);
+  EXPECT_DOUBLE_EQ(both.half_height, (h + gap) / 2);
+}
+
 } // namespace
 } // namespace dielast::materials

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bars beside the film: printed on one face, or on both.
+#include "cases/readers/reader.hpp"
+#include "tests/cases/scratch.hpp"
+#include "tests/cases/values_at_end.hpp"
+
+#include <fmt/format.h>
+
+namespace dielast::cases {
+namespace {
+
+class Bars : public test::ScratchTest {
+ protected:
+  std::map<std::string, double> run(const std::string& text) const {
+    write("case.toml", text);
+    return test::values_at_end(read_case(directory / "case.toml"));
+  }
+};
+
+constexpr double length = 0.1, width = 4e-3, height = 2e-3, modulus = 78e6;
+
+/// A cantilever beside a film that has nothing to do with it, pulled along a line below its axis.
+std::string pulled_cantilever(double offset, double force) {
+  return fmt::format(R"(
+model = "3d"
+[film]
+thickness = "1 mm"
+[film.material]
+shear_modulus = "45 kPa"
+relative_permittivity = 4
+[patch]
+length = "10 mm"
+[part.bar.line]
+from = [0, "50 mm", 0]
+to = ["{} m", "50 mm", 0]
+[part.bar.beam]
+width = "{} m"
+height = "{} m"
+offset = "{} m"
+[[support]]
+place = "film"
+fix = ["z"]
+[[support]]
+place = "bar.start"
+fix = ["x", "y", "z", "turn_x", "turn_y", "turn_z"]
+[[load]]
+place = "bar.end"
+force = ["{} N", 0, 0]
+[[step]]
+kind = "force"
+increments = 1
+[[quantity]]
+name = "rise"
+kind = "displacement"
+of = "bar.end"
+along = "z"
+[[quantity]]
+name = "stretch"
+kind = "displacement"
+of = "bar.end"
+along = "x"
+)",
+                     length, width, height, offset, force);
+}
+
+// The pull F at the distance e below the axis bends the bar by the moment F e: its end rises by F e L^2/(2 E
+// I) and turns by F e L/(E I), which takes the line's end along by e times that.
+TEST_F(Bars, ABarBesideItsLineBendsUnderAPullAlongTheLine) {
+  const double force = 1e-6, EI = modulus * width * height * height * height / 12;
+  for (const double offset : {3e-3, -3e-3}) {
+    const auto found = run(pulled_cantilever(offset, force));
+    const double up = force * offset * length * length / (2 * EI);
+    EXPECT_NEAR(found.at("rise"), up, 1e-4 * std::abs(up));
+    const double along = force * length / (modulus * width * height) + force * offset * offset * length / EI;
+    EXPECT_NEAR(found.at("stretch"), along, 1e-4 * along);
+  }
+  EXPECT_EQ(run(pulled_cantilever(0, force)).at("rise"), 0);
+}
+
+std::string released_cells(const std::string& walls) {
+  return R"toml(
+model = "3d"
+[film]
+material = "VHB 4910 (honeycomb)"
+thickness = "1 mm"
+prestretch = [3.0, 3.0]
+[honeycomb]
+angle = "120 deg"
+columns = [2, 1]
+wall_length = "8 mm"
+wall_width = "0.8 mm"
+)toml" + walls +
+         R"toml(
+[mesh]
+wall_elements = 2
+[drive]
+voltage = "1 kV"
+[[step]]
+kind = "release"
+on_bifurcation = "switch"
+[[quantity]]
+name = "depth"
+kind = "size"
+of = "walls"
+along = "z"
+[[quantity]]
+name = "twist"
+kind = "modal stiffness"
+)toml";
+}
+
+TEST_F(Bars, WallsOnOneFaceCurlAndWallsOnBothStayFlat) {
+  const auto curled = run(released_cells("wall_height = \"2 mm\"\nwall_print = \"one face\"\n"));
+  EXPECT_GT(curled.at("depth"), 1e-4);
+  EXPECT_GT(curled.at("twist"), 0);
+  for (const std::string print : {"merged", "both faces"}) {
+    const auto flat = run(released_cells("wall_height = \"2 mm\"\nwall_print = \"" + print + "\"\n"));
+    EXPECT_LT(flat.at("depth"), 1e-12) << print;
+    EXPECT_GT(flat.at("twist"), 0) << print;
+    EXPECT_NEAR(flat.at("released_length_x"), curled.at("released_length_x"),
+                0.1 * curled.at("released_length_x"));
+  }
+}
+
+} // namespace
+} // namespace dielast::cases
