@@ -266,7 +266,10 @@ std::vector<StepRun::Departure> StepRun::departures(const Trouble& trouble) {
     fem::State released = loaded(last(), 1);
     equilibrium_.balance(released, pull);
     all.push_back({1, std::move(released), -pull.force.head(model().dofs.free_count())});
-    if (critical) all.push_back({1, loaded(critical->state, 1), critical->mode.direction});
+    if (critical)
+      all.push_back({1, loaded(critical->state, 1), critical->mode.direction});
+    else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(last(), progress_.ramp.load_factor)))
+      all.push_back({1, loaded(last(), 1), mode->direction});
   } else if (critical) {
     const bool branches_off = critical->kind == fem::Instability::bifurcation && !timed();
     for (const double more : branches_off ? std::span<const double>(further) : std::span(&beyond, 1)) {
