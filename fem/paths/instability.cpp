@@ -23,8 +23,8 @@ constexpr double smallest_bracket = 1e-9; ///< over the first
 constexpr double least_reach = 1e-3;      ///< part of the way to a trial
 constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcation
 constexpr int most_trials = 80;
-/// Of the tolerance, and of the first bracket: how far beyond one that has closed the eigenvalue may vanish.
-constexpr double far = 100, close = 1e-2;
+/// Part of the step beyond a bracket that has closed, in which the eigenvalue must vanish.
+constexpr double near = 1e-2;
 /// Part of the way to the extrapolated critical load that the next trial goes.
 constexpr double approach = 0.9;
 
@@ -220,7 +220,6 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   if (!attempt(state, s_before)) return std::nullopt;
   Instability kind{};
   double critical_load = s_beyond;
-  const double width = std::abs(s_beyond - s_before);
   // Where the eigenvalue will vanish, extrapolated from the last two points.
   const auto extrapolated = [&] {
     const LoadPoint &last = points.back(), &former = points[points.size() - 2];
@@ -259,8 +258,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     return std::nullopt;
   kind = classify(equilibrium, path, last.state, last.s, last.mode);
   CriticalPoint critical{kind, critical_load, last.state, last.mode};
-  const bool vanishes =
-      points.size() > 1 && std::abs(extrapolated() - last.s) < std::max(far * tolerance, close * width);
+  const bool vanishes = points.size() > 1 && std::abs(extrapolated() - last.s) < near;
   // That Newton's method finds nothing beyond proves nothing: it may have had too few iterations.
   if (!vanishes && !another && (attempt(points.back().state, s_beyond) || !another)) return std::nullopt;
   return critical;
