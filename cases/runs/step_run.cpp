@@ -109,11 +109,12 @@ bool StepRun::follows() const {
   return step_.on_instability == OnInstability::follow && step_.on_bifurcation == OnBifurcation::follow;
 }
 
-/// The critical point between the last accepted state and the load factor s.
-std::optional<fem::CriticalPoint> StepRun::locate(double s) const {
+/// The critical point between the last accepted state and the load factor s, where Newton's method has found
+/// `another` state, less stable or not of this path, or none.
+std::optional<fem::CriticalPoint> StepRun::locate(double s, bool another) const {
   const double reached = progress_.ramp.load_factor;
   return fem::locate_by_load_control(equilibrium_, path_, loaded(last(), reached), reached, s,
-                                     options_.newton);
+                                     options_.newton, another);
 }
 
 /// The last accepted state, where it is about to lose its stability at the pace of the step; with inertia,
@@ -144,7 +145,7 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
   const fem::RampProgress beyond_it = progress_.ramp;
   if (now.points.size() > 1) progress_.ramp.points.pop_back();
   progress_.ramp.load_factor = increment.load_factor - increment.length;
-  if (lost) trouble.critical = timed() ? limit_in_time() : locate(increment.load_factor);
+  if (lost) trouble.critical = timed() ? limit_in_time() : locate(increment.load_factor, true);
   if (leaves && (trouble.critical || stops())) {
     leaving_ = std::move(trouble);
     return false;
@@ -182,7 +183,9 @@ Outcome StepRun::run() {
       trouble.critical = limit_in_time();
     } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows() &&
                !equilibrium_.is_slack(last())) {
-      trouble.critical = locate(trouble.ramp.failed_at);
+      const fem::Outcome found = trouble.ramp.failure.outcome;
+      const bool another = found == fem::Outcome::converged || found == fem::Outcome::off_path;
+      trouble.critical = locate(trouble.ramp.failed_at, another);
     }
     if (const auto outcome = leave(trouble)) return *outcome;
   }
@@ -266,10 +269,7 @@ std::vector<StepRun::Departure> StepRun::departures(const Trouble& trouble) {
     fem::State released = loaded(last(), 1);
     equilibrium_.balance(released, pull);
     all.push_back({1, std::move(released), -pull.force.head(model().dofs.free_count())});
-    if (critical)
-      all.push_back({1, loaded(critical->state, 1), critical->mode.direction});
-    else if (const auto mode = fem::lowest_mode(equilibrium_, loaded(last(), progress_.ramp.load_factor)))
-      all.push_back({1, loaded(last(), 1), mode->direction});
+    if (critical) all.push_back({1, loaded(critical->state, 1), critical->mode.direction});
   } else if (critical) {
     const bool branches_off = critical->kind == fem::Instability::bifurcation && !timed();
     for (const double more : branches_off ? std::span<const double>(further) : std::span(&beyond, 1)) {

@@ -66,7 +66,7 @@ class StepRun {
   bool on_ramp(const fem::RampProgress& now, const fem::Increment& increment);
   bool stops() const { return step_.on_instability == OnInstability::stop && !options_.inertia; }
   bool follows() const;
-  std::optional<fem::CriticalPoint> locate(double s) const;
+  std::optional<fem::CriticalPoint> locate(double s, bool another) const;
   std::optional<fem::CriticalPoint> limit_in_time() const;
   void announce(const fem::CriticalPoint& critical, bool ends);
   bool accept_critical(const fem::CriticalPoint& critical);

@@ -25,6 +25,8 @@ constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcat
 constexpr int most_trials = 80;
 /// Part of the step beyond a bracket that has closed, in which the eigenvalue must vanish.
 constexpr double near = 1e-2;
+constexpr double vanished = 1e-5;  ///< eigenvalue of a state from which no path leads on
+constexpr double tolerance = 1e-7; ///< of a critical load factor
 /// Part of the way to the extrapolated critical load that the next trial goes.
 constexpr double approach = 0.9;
 
@@ -186,10 +188,9 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
 
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
                                                     const State& state, double s_before, double s_beyond,
-                                                    const NewtonOptions& options, double tolerance) {
+                                                    const NewtonOptions& options, bool another) {
   std::vector<LoadPoint> points;
   int modes = -1;
-  bool another = false; // what is at s_beyond is an equilibrium, but a less stable one or not of this path
   const auto attempt = [&](State trial, double s) {
     path.apply(trial, s);
     if (equilibrium.solve(trial, options).outcome != Outcome::converged) return false;
@@ -247,19 +248,15 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
         equilibrium.model().dofs.carry(start);
       }
     }
-    const bool before = std::exchange(another, false);
-    if (attempt(std::move(start), s) || attempt(points.back().state, s))
-      another = before;
-    else
-      s_beyond = critical_load = s;
+    if (!attempt(std::move(start), s) && !attempt(points.back().state, s)) s_beyond = critical_load = s;
   }
   const LoadPoint& last = points.back();
   if (std::min(std::abs(s_beyond - last.s), std::abs(critical_load - last.s)) > tolerance)
     return std::nullopt;
   kind = classify(equilibrium, path, last.state, last.s, last.mode);
   CriticalPoint critical{kind, critical_load, last.state, last.mode};
-  const bool vanishes = points.size() > 1 && std::abs(extrapolated() - last.s) < near;
-  // That Newton's method finds nothing beyond proves nothing: it may have had too few iterations.
+  const bool vanishes = points.size() > 1 ? std::abs(extrapolated() - last.s) < near
+                                          : std::abs(last.mode.eigenvalue) < vanished;
   if (!vanishes && !another && (attempt(points.back().state, s_beyond) || !another)) return std::nullopt;
   return critical;
 }

@@ -48,13 +48,14 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
                                     const NewtonOptions& options);
 
 /// The same by load control alone: `state` is converged at load factor s_before; at s_beyond Newton's method
-/// fails, or ends in a less stable state or in one that is not joined with those before (see is_joined()).
-/// Near a limit point the eigenvalue goes with the square root of the distance in s, near a bifurcation with
-/// the distance: extrapolated, that says where to go next. Ends when the critical load factor is known to
-/// `tolerance`.
+/// fails, or has found `another` state: less stable, or not joined with those before (see is_joined()). Near
+/// a limit point the eigenvalue goes with the square root of the distance in s, near a bifurcation with the
+/// distance: extrapolated, that says where to go next. Ends when the critical load factor is known to 1e-7.
+/// Nothing, too, where Newton's method fails without another state and without the eigenvalue vanishing: it
+/// may have had too few iterations.
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
                                                     const State& state, double s_before, double s_beyond,
-                                                    const NewtonOptions& options, double tolerance = 1e-7);
+                                                    const NewtonOptions& options, bool another = false);
 
 /// First point on the path that branches off: displaced from the critical state by `amplitude` (m, its sign
 /// chooses the side) along the mode, where the load factor follows. Heads away from the bifurcation.
