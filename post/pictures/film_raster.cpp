@@ -53,13 +53,17 @@ class NodeValues {
   std::vector<std::pair<double, int>> sums_; ///< by region and node
 };
 
-/// Light comes along z, so that flat film has its full colours.
+/// What lies across the light has its full colours.
 constexpr double darkest = 0.55;
 
-/// Of px, y downwards.
-double light_on(const std::array<Eigen::Vector3d, 6>& x, const Eigen::Vector3d& towards) {
-  const Eigen::Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
-  const Eigen::Vector3d light(towards.x(), -towards.y(), towards.z());
+/// Corners in px, y downwards.
+double light_on(const std::array<Corner, 3>& triangle, const Placement& place) {
+  const auto at = [&](std::size_t i) {
+    const Corner& corner = triangle[i];
+    return Eigen::Vector3d(corner.place.x(), corner.place.y(), place.relief * corner.depth);
+  };
+  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
+  const Eigen::Vector3d light(place.light.x(), -place.light.y(), place.light.z());
   return darkest + (1 - darkest) * std::abs(normal.dot(light)) / std::max(normal.norm(), 1e-300);
 }
 
@@ -67,7 +71,8 @@ constexpr int parts_of_side = 3;
 
 /// A triangle of six nodes, perhaps with curved sides, as `parts`^2 flat ones.
 void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
-                   const std::array<double, 6>& value, int parts, const Palette& palette, double light) {
+                   const std::array<double, 6>& value, int parts, const Palette& palette,
+                   const Placement& place) {
   const auto corner = [&](int i, int j) {
     const double r = static_cast<double>(i) / parts, s = static_cast<double>(j) / parts, t = 1 - r - s;
     const std::array<double, 6> N{t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1),
@@ -80,11 +85,13 @@ void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
     }
     return Corner{p.head<2>(), p.z(), v};
   };
+  const auto draw = [&](const std::array<Corner, 3>& part) {
+    raster.draw(part, palette, light_on(part, place));
+  };
   for (int j = 0; j < parts; ++j)
     for (int i = 0; i < parts - j; ++i) {
-      raster.draw({corner(i, j), corner(i + 1, j), corner(i, j + 1)}, palette, light);
-      if (i + j + 1 < parts)
-        raster.draw({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}, palette, light);
+      draw({corner(i, j), corner(i + 1, j), corner(i, j + 1)});
+      if (i + j + 1 < parts) draw({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
     }
 }
 
@@ -103,12 +110,13 @@ Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<doub
       x[a] = place(panel.positions[static_cast<std::size_t>(nodes[a])]);
       value[a] = values.at(of, nodes[a]);
     }
-    if (nodes.size() == 3)
-      raster.draw({Corner{x[0].head<2>(), x[0].z(), value[0]}, Corner{x[1].head<2>(), x[1].z(), value[1]},
-                   Corner{x[2].head<2>(), x[2].z(), value[2]}},
-                  palette, light_on(x, place.light));
-    else
-      draw_triangle(raster, x, value, parts_of_side, palette, light_on(x, place.light));
+    if (nodes.size() == 3) {
+      const auto corner = [&](std::size_t i) { return Corner{x[i].head<2>(), x[i].z(), value[i]}; };
+      const std::array<Corner, 3> triangle{corner(0), corner(1), corner(2)};
+      raster.draw(triangle, palette, light_on(triangle, place));
+    } else {
+      draw_triangle(raster, x, value, parts_of_side, palette, place);
+    }
   };
   for (const CellBlock& block : mesh.blocks) {
     if (is_line(block.type)) continue;

@@ -19,6 +19,7 @@ struct Placement {
   Eigen::Vector3d centre; ///< in the middle of the canvas
   Eigen::Vector2d size;   ///< of the canvas
   Eigen::Vector3d light;  ///< unit vector towards it
+  double relief = 1;      ///< by which heights are exaggerated where light falls on them
 
   Eigen::Vector3d operator()(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d p = scale * (x - centre);

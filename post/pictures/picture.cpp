@@ -159,13 +159,22 @@ void fill_fins(cairo_t* cr, const Picture& picture, const Panel& panel, double w
   }
 }
 
+/// A device that is not flat is seen from aside and above; otherwise along z, what is nearly flat in a light
+/// from aside that shows its relief.
+struct View {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< rows: right, up and towards the viewer
+  Eigen::Vector3d light = Eigen::Vector3d::UnitZ();   ///< towards it, in these axes
+  double relief = 1;                                  ///< see Placement
+};
+
 /// Draws a panel with its box centred in the rectangle at (left, top), y upwards.
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
-                std::pair<double, double> range, const Eigen::Vector3d& light, double scale, int finer,
-                double left, double top, double width, double height) {
+                std::pair<double, double> range, const View& view, double scale, int finer, double left,
+                double top, double width, double height) {
   const Box box = extent(mesh, picture, panel, picture.wall_width);
   const Eigen::Vector2d size(std::ceil(width) * finer, std::ceil(height) * finer);
-  const Placement place{scale * finer, {box.center().x(), box.center().y(), 0}, size, light};
+  const Placement place{
+      scale * finer, {box.center().x(), box.center().y(), 0}, size, view.light, view.relief};
   Raster film = film_raster(mesh, panel, range, place);
   const Surface surface(cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(film.pixels()),
                                                             CAIRO_FORMAT_ARGB32, film.width(), film.height(),
@@ -208,20 +217,20 @@ std::pair<double, double> value_range(const Picture& picture) {
   return range;
 }
 
-/// A device that is not flat is seen from aside and above, along z otherwise: rows are right, up and towards
-/// the viewer.
-Eigen::Matrix3d view_of(const Picture& picture) {
-  constexpr double flat = 0.02; ///< height over width
-  constexpr double turned = 0.45, raised = 0.5;
+View view_of(const Picture& picture) {
+  constexpr double flat = 0.02, even = 1e-6; ///< height over width
+  constexpr double turned = 0.45, raised = 0.5, shown = 0.1;
   Eigen::AlignedBox3d box;
   for (const Panel& panel : picture.panels)
     for (const Eigen::Vector3d& x : panel.positions) box.extend(x);
-  if (box.isEmpty() || box.sizes().z() <= flat * box.sizes().head<2>().norm())
-    return Eigen::Matrix3d::Identity();
+  const double height = box.isEmpty() ? 0 : box.sizes().z() / box.sizes().head<2>().norm();
+  if (!(height > even)) return {};
+  if (height <= flat) return {.light = Eigen::Vector3d(-1, 1, 1).normalized(), .relief = shown / height};
   const double c = std::cos(turned), s = std::sin(turned), up = std::sin(raised), aside = std::cos(raised);
-  Eigen::Matrix3d axes;
-  axes << c, s, 0, -s * up, c * up, aside, s * aside, -c * aside, up;
-  return axes;
+  View view;
+  view.axes << c, s, 0, -s * up, c * up, aside, s * aside, -c * aside, up;
+  view.light = view.axes.col(2);
+  return view;
 }
 
 void check(const meshing::Mesh& mesh, const Picture& picture) {
@@ -257,10 +266,9 @@ class Drawing {
   /// Moves the picture's positions into the view.
   Drawing(const meshing::Mesh& mesh, Picture& picture, std::size_t together)
       : mesh_(mesh), picture_(picture), range_((check(mesh, picture), value_range(picture))) {
-    const Eigen::Matrix3d view = view_of(picture);
-    light_ = view.col(2);
+    view_ = view_of(picture);
     for (Panel& panel : picture.panels)
-      for (Eigen::Vector3d& x : panel.positions) x = view * x;
+      for (Eigen::Vector3d& x : panel.positions) x = view_.axes * x;
     const auto panels = static_cast<double>(together);
     panel_width_ = (picture.width - 2 * margin - gap * (panels - 1)) / panels;
     Eigen::Vector2d largest(1e-12, 1e-12);
@@ -316,7 +324,7 @@ class Drawing {
     double left = margin;
     for (const Panel& panel : panels) {
       draw_text(cr, panel.title, left + panel_width_ / 2, panel_title_, 20, faint_ink, Align::centre);
-      draw_panel(cr, mesh_, picture_, panel, range_, light_, scale_, finer, left, panel_top_, panel_width_,
+      draw_panel(cr, mesh_, picture_, panel, range_, view_, scale_, finer, left, panel_top_, panel_width_,
                  panel_height_);
       left += panel_width_ + gap;
     }
@@ -330,7 +338,7 @@ class Drawing {
   const meshing::Mesh& mesh_;
   const Picture& picture_;
   std::pair<double, double> range_;
-  Eigen::Vector3d light_; ///< towards it
+  View view_;
   double scale_ = 1, panel_width_ = 0, panel_height_ = 0, panel_title_ = 0, panel_top_ = 0, legend_top_ = 0;
   bool coloured_ = false;
 };

@@ -134,6 +134,24 @@ TEST(Picture, WallsHaveTheirTrueWidth) {
   EXPECT_NEAR(static_cast<double>(pixels.count(0xff292e38)), area, 0.03 * area);
 }
 
+// A ridge of a thousandth of the width: its sides are lit from aside, differently. Flat film has its full
+// colours.
+TEST(Picture, LightShowsTheReliefOfNearlyFlatFilm) {
+  const meshing::Mesh mesh = grid_mesh(2);
+  std::vector<Eigen::Vector3d> ridge = mesh.nodes;
+  for (auto& x : ridge)
+    if (std::abs(x.x() - 0.05) < 1e-9) x.z() = 1e-4;
+  constexpr std::uint32_t plain = 0xffdbe3eb;
+  const auto sides = [&](const std::vector<Eigen::Vector3d>& positions) {
+    const Pixels pixels(render_png(mesh, {.panels = {{"", positions, {}}}, .width = 600}));
+    const auto at = [&](int x) { return pixels.colours[static_cast<std::size_t>(200 * pixels.width + x)]; };
+    return std::pair{at(180), at(420)};
+  };
+  const auto [left, right] = sides(ridge);
+  EXPECT_FALSE(alike(left, right));
+  EXPECT_EQ(sides(mesh.nodes), (std::pair{plain, plain}));
+}
+
 TEST(Picture, MarksNodesWithTheirNames) {
   const meshing::Mesh mesh = grid_mesh(1);
   Picture picture{.panels = {{"", mesh.nodes, {}}}, .width = 600};
