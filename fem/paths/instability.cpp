@@ -25,8 +25,8 @@ constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcat
 constexpr int most_trials = 80;
 /// Part of the step beyond a bracket that has closed, in which the eigenvalue must vanish.
 constexpr double near = 1e-2;
-constexpr double vanished = 1e-5;  ///< eigenvalue of a state from which no path leads on
-constexpr double tolerance = 1e-7; ///< of a critical load factor
+constexpr double vanished = 1e-5;       ///< eigenvalue of a state from which no path leads on
+constexpr double load_tolerance = 1e-7; ///< of a critical load factor
 /// Part of the way to the extrapolated critical load that the next trial goes.
 constexpr double approach = 0.9;
 
@@ -228,7 +228,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     const auto remains = [&](const LoadPoint& p) { return std::pow(std::abs(p.mode.eigenvalue), exponent); };
     return last.s + remains(last) * (last.s - former.s) / (remains(former) - remains(last));
   };
-  for (int trial = 0; trial < most_trials && std::abs(s_beyond - points.back().s) > tolerance; ++trial) {
+  for (int trial = 0; trial < most_trials && std::abs(s_beyond - points.back().s) > load_tolerance; ++trial) {
     const LoadPoint& last = points.back();
     double s = (last.s + s_beyond) / 2;
     State start = last.state;
@@ -239,7 +239,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
       const bool inside = (estimate - last.s) * (s_beyond - estimate) > 0;
       if (inside) {
         critical_load = estimate;
-        if (std::abs(critical_load - last.s) < tolerance) break;
+        if (std::abs(critical_load - last.s) < load_tolerance) break;
         s = last.s + approach * (critical_load - last.s);
         const double root = kind == Instability::limit_point ? 0.5 : 1;
         const auto place = [&](double at) { return -std::pow(std::abs(critical_load - at), root); };
@@ -251,7 +251,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     if (!attempt(std::move(start), s) && !attempt(points.back().state, s)) s_beyond = critical_load = s;
   }
   const LoadPoint& last = points.back();
-  if (std::min(std::abs(s_beyond - last.s), std::abs(critical_load - last.s)) > tolerance)
+  if (std::min(std::abs(s_beyond - last.s), std::abs(critical_load - last.s)) > load_tolerance)
     return std::nullopt;
   kind = classify(equilibrium, path, last.state, last.s, last.mode);
   CriticalPoint critical{kind, critical_load, last.state, last.mode};

@@ -156,8 +156,8 @@ Mesh filled(const Surface& surface, double size) {
     std::ranges::sort(corners);
     put(fmt::format("face_{}", surface.face[triangles.at(corners)] + 1));
     for (int c = 0; c < 3; ++c)
-      for (const auto& [name, at] : {std::pair{"min", box.min()[c]}, {"max", box.max()[c]}})
-        if (std::ranges::all_of(side.nodes, [&](int node) {
+      for (const auto& [name, end] : {std::pair{"min", box.min()[c]}, {"max", box.max()[c]}})
+        if (std::ranges::all_of(side.nodes, [&, at = end](int node) {
               return std::abs(mesh.nodes[static_cast<std::size_t>(node)][c] - at) <= within;
             }))
           put(fmt::format("{}_{}", "xyz"[c], name));
