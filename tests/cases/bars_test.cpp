@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bars beside the film: printed on one face, or on both.
-#include "cases/readers/reader.hpp"
-#include "tests/cases/scratch.hpp"
-#include "tests/cases/values_at_end.hpp"
+#include "tests/cases/case_test.hpp"
 
 #include <fmt/format.h>
 
 namespace dielast::cases {
 namespace {
 
-class Bars : public test::ScratchTest {
- protected:
-  std::map<std::string, double> run(const std::string& text) const {
-    write("case.toml", text);
-    return test::values_at_end(read_case(directory / "case.toml"));
-  }
-};
+class Bars : public test::CaseTest {};
 
 constexpr double length = 0.1, width = 4e-3, height = 2e-3, modulus = 78e6;
 
@@ -68,13 +60,13 @@ along = "x"
 TEST_F(Bars, ABarBesideItsLineBendsUnderAPullAlongTheLine) {
   const double force = 1e-6, EI = modulus * width * height * height * height / 12;
   for (const double offset : {3e-3, -3e-3}) {
-    const auto found = run(pulled_cantilever(offset, force));
+    const auto found = values(pulled_cantilever(offset, force));
     const double up = force * offset * length * length / (2 * EI);
     EXPECT_NEAR(found.at("rise"), up, 1e-4 * std::abs(up));
     const double along = force * length / (modulus * width * height) + force * offset * offset * length / EI;
     EXPECT_NEAR(found.at("stretch"), along, 1e-4 * along);
   }
-  EXPECT_EQ(run(pulled_cantilever(0, force)).at("rise"), 0);
+  EXPECT_EQ(values(pulled_cantilever(0, force)).at("rise"), 0);
 }
 
 std::string released_cells(const std::string& walls) {
@@ -110,11 +102,11 @@ kind = "modal stiffness"
 }
 
 TEST_F(Bars, WallsOnOneFaceCurlAndWallsOnBothStayFlat) {
-  const auto curled = run(released_cells("wall_height = \"2 mm\"\nwall_print = \"one face\"\n"));
+  const auto curled = values(released_cells("wall_height = \"2 mm\"\nwall_print = \"one face\"\n"));
   EXPECT_GT(curled.at("depth"), 1e-4);
   EXPECT_GT(curled.at("twist"), 0);
   for (const std::string print : {"merged", "both faces"}) {
-    const auto flat = run(released_cells("wall_height = \"2 mm\"\nwall_print = \"" + print + "\"\n"));
+    const auto flat = values(released_cells("wall_height = \"2 mm\"\nwall_print = \"" + print + "\"\n"));
     EXPECT_LT(flat.at("depth"), 1e-12) << print;
     EXPECT_GT(flat.at("twist"), 0) << print;
     EXPECT_NEAR(flat.at("released_length_x"), curled.at("released_length_x"),

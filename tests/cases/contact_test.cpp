@@ -4,7 +4,6 @@
 #include "fem/elements/wall_contact.hpp"
 #include "meshing/mesh_error.hpp"
 #include "tests/cases/path_cases.hpp"
-#include "tests/cases/values_at_end.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,13 +27,7 @@ const std::string contact = "[contact]\nthickness = \"0.1 mm\"\n";
 
 const std::string release = "[[step]]\nkind = \"release\"\n";
 
-class Contacts : public Paths {
- protected:
-  Case read(const std::string& text) {
-    write("contact.toml", text);
-    return read_case(directory / "contact.toml");
-  }
-};
+class Contacts : public Paths {};
 
 /// Without the barrier the walls cross; with it their faces stay apart in every accepted state.
 TEST_F(Contacts, keep_the_walls_of_a_collapsing_honeycomb_apart) {
@@ -59,8 +52,8 @@ TEST_F(Contacts, keep_the_walls_of_a_collapsing_honeycomb_apart) {
 
 /// Where walls do not touch the barrier changes nothing.
 TEST_F(Contacts, change_nothing_where_walls_do_not_touch) {
-  const auto without = test::values_at_end(read(honeycomb(90, "")));
-  const auto with = test::values_at_end(read(honeycomb(90, contact)));
+  const auto without = values(honeycomb(90, ""));
+  const auto with = values(honeycomb(90, contact));
   for (const char* name : {"eps_x", "eps_y", "released_length_x", "stored_energy"})
     EXPECT_NEAR(with.at(name), without.at(name), 1e-9 * std::abs(without.at(name))) << name;
 }
@@ -87,8 +80,7 @@ const std::string weight_and_voltage =
 /// Free to slide, the slab stretches as in plane strain: mu (l^2 - 1/l^2) = eps (l E)^2, and the table bears
 /// its weight, 1 mN.
 TEST_F(Contacts, slab_on_a_table_without_friction_stretches_freely) {
-  const auto end =
-      test::values_at_end(read(slab("[[support]]\nplace = \"left\"\nfix = [\"x\"]\n" + weight_and_voltage)));
+  const auto end = values(slab("[[support]]\nplace = \"left\"\nfix = [\"x\"]\n" + weight_and_voltage));
   EXPECT_NEAR(end.at("weight"), 1e-3, 1e-7);
   const double l = 1 + end.at("length"), field = 10e3 / 1e-3;
   EXPECT_NEAR(40e3 * (l * l - 1 / (l * l)), 4e-11 * l * l * field * field, 0.01 * 4e-11 * field * field);
@@ -101,7 +93,7 @@ TEST_F(Contacts, friction_of_a_table_holds_a_slab) {
   const auto at_end = [&](const std::string& friction) {
     std::string text = slab(weight_and_voltage, friction);
     text.replace(text.find("10 m/s^2"), 8, "1000 m/s^2");
-    return test::values_at_end(read(text));
+    return values(text);
   };
   const auto little = at_end("0.05"), much = at_end("0.5");
   EXPECT_NEAR(little.at("weight"), 0.1, 1e-4);

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cases of several parts: films of their own, places of one mesh, bars along lines.
-#include "cases/readers/reader.hpp"
 #include "cases/readers/resolved.hpp"
 #include "cases/runs/simulation.hpp"
 #include "meshing/gmsh/gmsh_text.hpp"
 #include "meshing/honeycomb_mesh.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/middle_nodes.hpp"
-#include "tests/cases/scratch.hpp"
-#include "tests/cases/values_at_end.hpp"
+#include "tests/cases/case_test.hpp"
 
 #include <boost/math/tools/roots.hpp>
 #include <fmt/format.h>
@@ -20,14 +18,8 @@
 namespace dielast::cases {
 namespace {
 
-class Parts : public test::ScratchTest {
+class Parts : public test::CaseTest {
  protected:
-  Case read(const std::string& text) const {
-    write("case.toml", text);
-    return read_case(directory / "case.toml");
-  }
-  /// Values of the quantities at the end of a run that ends well.
-  std::map<std::string, double> run(const std::string& text) const { return test::values_at_end(read(text)); }
   std::string mesh_error(const std::string& text) const {
     try {
       build_device(read(text));
@@ -113,9 +105,9 @@ TEST_F(Parts, AntagonisticPatchesAreInTheBalanceOfTheirClosedForms) {
     EXPECT_NEAR(found.at("right_stretch_x"), stretch_of_right(x), 1e-8 * x);
     EXPECT_NEAR(found.at("left_stress_x") * 1e-3 * 10e-3, found.at("right_stress_x") * 0.5e-3 * 12e-3, 1e-9);
   };
-  expect(run(antagonists), 6e3, 0);
-  expect(run(antagonists +
-             "[[step]]\nname = \"other\"\nkind = \"voltage\"\nelectrode = \"right\"\nincrements = 3\n"),
+  expect(values(antagonists), 6e3, 0);
+  expect(values(antagonists +
+                "[[step]]\nname = \"other\"\nkind = \"voltage\"\nelectrode = \"right\"\nincrements = 3\n"),
          6e3, 3e3);
 }
 
@@ -211,7 +203,7 @@ TEST_F(Parts, TwoThicknessesInOneStripCarryOneForce) {
         "[\"{} mm\", \"3 mm\", \"0 mm\"]\n",
         name, x);
   };
-  const auto found = run(two_thicknesses + at("thin", "7") + at("thick", "22"));
+  const auto found = values(two_thicknesses + at("thin", "7") + at("thick", "22"));
   const auto thin = [](double l) { return 0.5e-3 * 8e-3 * 40e3 * (l - std::pow(l, -3)); };
   const auto thick = [](double l) {
     return 1e-3 * 8e-3 * 60e3 * (l - std::pow(l, -3)) / (1 - (l * l + 1 / (l * l) - 2) / 20);
@@ -252,9 +244,9 @@ TEST_F(Parts, BarsAlongLinesOfAFileAreTheWallsOfTheTemplate) {
              "increments = 2\n",
       lattice = "[honeycomb]\nangle = \"150 deg\"\ncolumns = [2, 1, 2]\nwall_length = \"8 mm\"\n"
                 "wall_width = \"0.8 mm\"\nwall_height = \"2 mm\"\n[mesh]\nwall_elements = 4\n";
-  const auto expected = run(film + lattice);
+  const auto expected = values(film + lattice);
   write("lattice.msh", meshing::gmsh_text(build_mesh(read(film + lattice))));
-  const auto found = run(film + R"toml(
+  const auto found = values(film + R"toml(
 [mesh]
 file = "lattice.msh"
 unit = "1 m"
@@ -282,23 +274,22 @@ since = "release"
 
 // Turned round, a patch is pulled and stretched the other way, and says the numbers of the one that is not.
 TEST_F(Parts, ATurnedPatchIsTheSamePatch) {
-  const auto values = [&](const std::string& at, const std::string& drive) {
-    return run("[part.p]\n" + at +
-               "[part.p.film]\nthickness = \"1 mm\"\nprestretch = [1.5, 1.2]\n[part.p.film.material]\n"
-               "shear_modulus = \"50 kPa\"\nrelative_permittivity = 4\n[part.p.patch]\nlength = \"20 "
-               "mm\"\nwidth = \"10 mm\"\n" +
-               drive);
+  const auto patch = [&](const std::string& at, const std::string& drive) {
+    return values("[part.p]\n" + at +
+                  "[part.p.film]\nthickness = \"1 mm\"\nprestretch = [1.5, 1.2]\n[part.p.film.material]\n"
+                  "shear_modulus = \"50 kPa\"\nrelative_permittivity = 4\n[part.p.patch]\nlength = \"20 "
+                  "mm\"\nwidth = \"10 mm\"\n" +
+                  drive);
   };
   for (const char* drive : {"stretch_x = 2\nstretch_y = 1.1\n[[step]]\nkind = \"move\"\n",
                             "stress_x = \"60 kPa\"\nstress_y = \"-5 kPa\"\n[[step]]\nkind = \"force\"\n"}) {
-    const auto straight = values("", drive),
-               turned = values("at = [0.1, 0, 0]\nturned = \"180 deg\"\n", drive);
+    const auto straight = patch("", drive), turned = patch("at = [0.1, 0, 0]\nturned = \"180 deg\"\n", drive);
     for (const char* name : {"p_stretch_x", "p_stretch_y", "p_stress_x", "p_stress_y"})
       EXPECT_NEAR(turned.at(name), straight.at(name), 1e-9 * std::abs(straight.at(name)) + 1e-6)
           << name << drive;
   }
   EXPECT_NEAR(
-      values("turned = \"180 deg\"\n", "stretch_x = 2\n[[step]]\nkind = \"move\"\n").at("p_stretch_x"), 2,
+      patch("turned = \"180 deg\"\n", "stretch_x = 2\n[[step]]\nkind = \"move\"\n").at("p_stretch_x"), 2,
       1e-12);
 }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/readers/reader.hpp"
 #include "cases/runs/results.hpp"
 #include "cases/runs/simulation.hpp"
-#include "tests/cases/scratch.hpp"
+#include "tests/cases/case_test.hpp"
 
 namespace dielast::cases {
 
 /// Cases of which a test looks at the rows of one quantity and at how the run ended.
-class Paths : public test::ScratchTest {
+class Paths : public test::CaseTest {
  protected:
   struct Row {
     double load_factor, time, voltage, value;
@@ -23,8 +22,7 @@ class Paths : public test::ScratchTest {
   };
   /// Rows carry the quantity of this name.
   Run run(const std::string& text, const std::string& name) {
-    write("path.toml", text);
-    const Case one = read_case(directory / "path.toml");
+    const Case one = read(text);
     std::size_t q = 0;
     while (one.quantities.at(q).name != name) ++q;
     Simulation simulation(one, 1);

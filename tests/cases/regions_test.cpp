@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Regions drawn in discs and annuli, electrodes on them, and a plate that tilts on a pivot.
 #include "cases/case/quantities.hpp"
-#include "cases/readers/reader.hpp"
 #include "cases/readers/resolved.hpp"
 #include "cases/runs/simulation.hpp"
-#include "tests/cases/scratch.hpp"
-#include "tests/cases/values_at_end.hpp"
+#include "tests/cases/case_test.hpp"
 
 #include <fmt/format.h>
 
@@ -32,14 +30,7 @@ const std::string disc = film + "[disc]\nradius = \"30 mm\"\n[mesh]\nrings = 8\n
 const std::string annulus =
     film + "[annulus]\ninner_radius = \"12.7 mm\"\nouter_radius = \"68.58 mm\"\n[mesh]\nrings = 8\n";
 
-class Regions : public test::ScratchTest {
- protected:
-  Case read(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    write("case.toml", text);
-    return read_case(directory / "case.toml", overrides);
-  }
-  std::map<std::string, double> run(const std::string& text) const { return test::values_at_end(read(text)); }
-};
+class Regions : public test::CaseTest {};
 
 std::vector<std::string> electrodes_of(const Case& one) {
   std::vector<std::string> names;
@@ -96,7 +87,7 @@ y = ["-4 mm", "0 mm", "4 mm"]
                                             {"bar", 11 * 5},
                                             {"wedge", 16}};
   for (const char* model : {"planar", "3d"}) {
-    const auto values = run(fmt::format("model = \"{}\"\n", model) + disc + drawn);
+    const auto values = this->values(fmt::format("model = \"{}\"\n", model) + disc + drawn);
     for (const auto& [name, area] : areas) {
       const double expected = 4e-11 * area * 1e-6 / 0.25e-3;
       EXPECT_NEAR(values.at("capacitance_" + name), expected, 1e-5 * expected) << model << " " << name;
@@ -193,7 +184,7 @@ TEST_F(Regions, APlateOnALowPivotTiltsAsTheClosedFormSays) {
   const double a = 12.7e-3, b = 68.58e-3, d = 0.05e-3, tension = 40e3 * 1e-3 * (4 - 1 / 16.0) / 4;
   const double K = 2 * pi * tension * a * a * b * b / (b * b - a * a);
   const double charge = 4e-11 * 1e6 / 0.25e-3; // eps V^2 / h
-  const auto values = run(manipulator + "[pivot]\nheight = \"0.05 mm\"\n");
+  const auto values = this->values(manipulator + "[pivot]\nheight = \"0.05 mm\"\n");
   const double tilt = std::sqrt(2.0) * charge * d * a / (std::log(b / a) * K);
   EXPECT_NEAR(values.at("tilt_x"), tilt, 0.01 * tilt);
   EXPECT_NEAR(values.at("tilt_y"), 0, 1e-6 * tilt);

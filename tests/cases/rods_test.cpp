@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rods of film: against closed forms, a patch in uniaxial tension, and the antagonistic rolls' reduced model.
-#include "cases/readers/reader.hpp"
 #include "cases/runs/simulation.hpp"
 #include "meshing/mesh_error.hpp"
-#include "tests/cases/scratch.hpp"
-#include "tests/cases/values_at_end.hpp"
+#include "tests/cases/case_test.hpp"
 
 #include <fmt/format.h>
 
@@ -14,14 +12,7 @@
 namespace dielast::cases {
 namespace {
 
-class Rods : public test::ScratchTest {
- protected:
-  /// Values of the quantities at the end of a run that ends well.
-  std::map<std::string, double> run(const std::string& text) const {
-    write("case.toml", text);
-    return test::values_at_end(read_case(directory / "case.toml"));
-  }
-};
+class Rods : public test::CaseTest {};
 
 /// Two layers of 0.1 x 141 mm, of which 125.83 x 15 mm under the electrode; 21 mm long, prestretched by 1.05.
 std::string roll(const std::string& rest) {
@@ -63,7 +54,7 @@ double force_of(double stretch, double voltage) {
 }
 
 TEST_F(Rods, PullByTheirLawLessTheField) {
-  const auto held = run(roll(R"toml(
+  const auto held = values(roll(R"toml(
 [drive]
 voltage = "1200 V"
 [[support]]
@@ -84,7 +75,7 @@ along = "x"
 }
 
 TEST_F(Rods, LengthenUntilTheyBalanceALoad) {
-  const auto loaded = run(roll(R"toml(
+  const auto loaded = values(roll(R"toml(
 [drive]
 voltage = "2 kV"
 [[load]]
@@ -131,8 +122,8 @@ kind = "hold"
 duration = "5 s"
 )toml";
   const auto patch =
-      run(material + "[patch]\nlength = \"10 mm\"\nwidth = \"20 mm\"\nstretch_x = 1.8\n" + steps);
-  const auto rod = run("model = \"planar\"\n" + material + R"toml(
+      values(material + "[patch]\nlength = \"10 mm\"\nwidth = \"20 mm\"\nstretch_x = 1.8\n" + steps);
+  const auto rod = values("model = \"planar\"\n" + material + R"toml(
 [line]
 to = ["10 mm", 0, 0]
 [rod]

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solids as a user writes them: [slab] and [hollow_sphere].
-#include "cases/readers/reader.hpp"
 #include "tests/cases/path_cases.hpp"
-#include "tests/cases/values_at_end.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,8 +15,7 @@ constexpr double mu = 40e3, eps = 4e-11;
 class Solids : public Paths {
  protected:
   std::map<std::string, double> values(const std::string& text) {
-    write("solid.toml", text + "\n[output]\nerror_estimate = false\n");
-    return test::values_at_end(read_case(directory / "solid.toml"));
+    return CaseTest::values(text + "\n[output]\nerror_estimate = false\n");
   }
 };
 

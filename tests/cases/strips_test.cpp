@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Strips and stacks: what layers, covers, margins and strays must do, whatever the numbers.
-#include "cases/readers/reader.hpp"
-#include "tests/cases/scratch.hpp"
-#include "tests/cases/values_at_end.hpp"
+#include "tests/cases/case_test.hpp"
 
 namespace dielast::cases {
 namespace {
@@ -27,12 +25,8 @@ voltage = "1 kV"
 across = 4
 )toml";
 
-class Strips : public test::ScratchTest {
+class Strips : public test::CaseTest {
  protected:
-  std::map<std::string, double> run(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    write("case.toml", text);
-    return test::values_at_end(read_case(directory / "case.toml", overrides));
-  }
   void expect_alike(const std::map<std::string, double>& one, const std::map<std::string, double>& other) {
     for (const char* name : {"extension", "stroke", "strain", "coupling"})
       EXPECT_NEAR(one.at(name), other.at(name), 1e-9 * std::abs(other.at(name))) << name;
@@ -40,8 +34,8 @@ class Strips : public test::ScratchTest {
 };
 
 TEST_F(Strips, LayersAreOneThickFilmUnderTheSameField) {
-  const auto layers = run(stack);
-  const auto thick = run(stack, {"strip.layers=1", "film.thickness=0.5 mm", "drive.voltage=10 kV"});
+  const auto layers = values(stack);
+  const auto thick = values(stack, {"strip.layers=1", "film.thickness=0.5 mm", "drive.voltage=10 kV"});
   expect_alike(layers, thick);
   EXPECT_NEAR(layers.at("capacitance"), 100 * thick.at("capacitance"), 1e-9 * layers.at("capacitance"));
   EXPECT_NEAR(layers.at("natural_frequency"), thick.at("natural_frequency"), 1e-6);
@@ -49,8 +43,8 @@ TEST_F(Strips, LayersAreOneThickFilmUnderTheSameField) {
 }
 
 TEST_F(Strips, CoversCarryWithoutAField) {
-  const auto bare = run(stack, {"drive.voltage=0"});
-  const auto covered = run(stack, {"drive.voltage=0", "strip.cover_thickness=50 um", "weight.mass=60 g"});
+  const auto bare = values(stack, {"drive.voltage=0"});
+  const auto covered = values(stack, {"drive.voltage=0", "strip.cover_thickness=50 um", "weight.mass=60 g"});
   EXPECT_NEAR(covered.at("extension"), bare.at("extension"), 1e-12);
   EXPECT_NEAR(covered.at("stiffness"), 1.2 * bare.at("stiffness"), 1e-6);
   EXPECT_NEAR(covered.at("capacitance"), bare.at("capacitance"), 1e-20);
@@ -58,8 +52,8 @@ TEST_F(Strips, CoversCarryWithoutAField) {
 }
 
 TEST_F(Strips, AnElectrodeInTheClampsHasACapacitanceOnly) {
-  const auto even = run(stack, {"strip.electrode_width=10 mm"});
-  const auto longer = run(stack, {"strip.electrode_width=10 mm", "strip.electrode_length=16 mm"});
+  const auto even = values(stack, {"strip.electrode_width=10 mm"});
+  const auto longer = values(stack, {"strip.electrode_width=10 mm", "strip.electrode_length=16 mm"});
   expect_alike(longer, even);
   const double outside = 10 * 2.8 * 8.8541878128e-12 * 4e-3 * 10e-3 / 50e-6;
   EXPECT_NEAR(longer.at("capacitance") - even.at("capacitance"), outside, 1e-9 * outside);
@@ -68,17 +62,17 @@ TEST_F(Strips, AnElectrodeInTheClampsHasACapacitanceOnly) {
 // Twice the prestretch, four times the area of a quarter of the thickness.
 TEST_F(Strips, WhatLiesInTheClampsIsPrestretched) {
   const std::vector<std::string> stretched{"film.prestretch=2", "drive.voltage=0", "strip.layers=1"};
-  const auto even = run(stack, stretched);
+  const auto even = values(stack, stretched);
   auto overrides = stretched;
   overrides.emplace_back("strip.electrode_length=16 mm");
   const double outside = 2.8 * 8.8541878128e-12 * 4e-3 * 13e-3 / (50e-6 / 4);
-  EXPECT_NEAR(run(stack, overrides).at("capacitance") - even.at("capacitance"), outside, 1e-9 * outside);
+  EXPECT_NEAR(values(stack, overrides).at("capacitance") - even.at("capacitance"), outside, 1e-9 * outside);
 }
 
 TEST_F(Strips, AMarginHasNoField) {
-  const auto covered = run(stack);
+  const auto covered = values(stack);
   for (const char* margin : {"strip.electrode_width=6.5 mm", "strip.electrode_length=6 mm"}) {
-    const auto half = run(stack, {margin});
+    const auto half = values(stack, {margin});
     EXPECT_LT(half.at("stroke"), 0.75 * covered.at("stroke")) << margin;
     EXPECT_GT(half.at("stroke"), 0.3 * covered.at("stroke")) << margin;
     EXPECT_NEAR(half.at("capacitance"), covered.at("capacitance") / 2, 0.05 * covered.at("capacitance"))
@@ -118,8 +112,8 @@ kind = "extreme"
 of = "electric_field"
 extreme = "minimum"
 )toml";
-  const auto with = run(stack + electrode);
-  const auto without = run(stack + electrode, {"electrode[1].stray_capacitance=0 F"});
+  const auto with = values(stack + electrode);
+  const auto without = values(stack + electrode, {"electrode[1].stray_capacitance=0 F"});
   EXPECT_NEAR(with.at("charge"), with.at("charge_before"), 1e-9 * with.at("charge"));
   EXPECT_NEAR(with.at("capacitance_before") - without.at("capacitance_before"), 0.5e-9, 1e-18);
   EXPECT_GT(with.at("capacitance"), 1.02 * with.at("capacitance_before"));
@@ -130,10 +124,10 @@ extreme = "minimum"
 // Stretched by the weight without a bending moment, a stack of shells is the membrane.
 TEST_F(Strips, AStackOfShellsPullsLikeTheMembrane) {
   const std::vector<std::string> few{"strip.layers=3", "strip.cover_thickness=25 um", "weight.mass=15 g"};
-  const auto membrane = run(stack, few);
+  const auto membrane = values(stack, few);
   auto overrides = few;
   overrides.insert(overrides.end(), {"film.section=shell", "model=3d"});
-  const auto shell = run(stack, overrides);
+  const auto shell = values(stack, overrides);
   for (const char* name : {"extension", "stroke", "capacitance", "coupling"})
     EXPECT_NEAR(shell.at(name), membrane.at(name), 0.01 * std::abs(membrane.at(name))) << name;
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solids in space as a user writes them.
-#include "cases/readers/reader.hpp"
 #include "meshing/gmsh/gmsh_text.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/solids/slab.hpp"
 #include "tests/cases/path_cases.hpp"
-#include "tests/cases/values_at_end.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,10 +18,7 @@ constexpr double mu = 40e3, eps = 4e-11;
 
 class Tetrahedra : public Paths {
  protected:
-  Case read(const std::string& text) {
-    write("solid.toml", text + "\n[output]\nerror_estimate = false\n");
-    return read_case(directory / "solid.toml");
-  }
+  Case read(const std::string& text) { return CaseTest::read(text + "\n[output]\nerror_estimate = false\n"); }
   std::map<std::string, double> values(const std::string& text) { return test::values_at_end(read(text)); }
 };
 
