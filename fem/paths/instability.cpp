@@ -221,11 +221,13 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   if (!attempt(state, s_before)) return std::nullopt;
   Instability kind{};
   double critical_load = s_beyond;
+  const auto exponent = [&kind] { return kind == Instability::limit_point ? 2.0 : 1.0; };
   // Where the eigenvalue will vanish, extrapolated from the last two points.
   const auto extrapolated = [&] {
     const LoadPoint &last = points.back(), &former = points[points.size() - 2];
-    const double exponent = kind == Instability::limit_point ? 2 : 1;
-    const auto remains = [&](const LoadPoint& p) { return std::pow(std::abs(p.mode.eigenvalue), exponent); };
+    const auto remains = [&](const LoadPoint& p) {
+      return std::pow(std::abs(p.mode.eigenvalue), exponent());
+    };
     return last.s + remains(last) * (last.s - former.s) / (remains(former) - remains(last));
   };
   for (int trial = 0; trial < most_trials && std::abs(s_beyond - points.back().s) > load_tolerance; ++trial) {
@@ -241,8 +243,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
         critical_load = estimate;
         if (std::abs(critical_load - last.s) < load_tolerance) break;
         s = last.s + approach * (critical_load - last.s);
-        const double root = kind == Instability::limit_point ? 0.5 : 1;
-        const auto place = [&](double at) { return -std::pow(std::abs(critical_load - at), root); };
+        const auto place = [&](double at) { return -std::pow(std::abs(critical_load - at), 1 / exponent()); };
         const PathPoint past[] = {{place(former.s), former.state}, {place(last.s), last.state}};
         start = extrapolate(past, place(s));
         equilibrium.model().dofs.carry(start);
@@ -257,8 +258,8 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   CriticalPoint critical{kind, critical_load, last.state, last.mode};
   const bool vanishes = points.size() > 1 ? std::abs(extrapolated() - last.s) < near
                                           : std::abs(last.mode.eigenvalue) < vanished;
-  if (!vanishes && !another && (attempt(points.back().state, s_beyond) || !another)) return std::nullopt;
-  return critical;
+  if (!vanishes && !another) attempt(State(last.state), s_beyond); // which may find another
+  return vanishes || another ? std::optional(std::move(critical)) : std::nullopt;
 }
 
 std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, const LoadPath& path,
