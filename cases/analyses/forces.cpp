@@ -28,19 +28,13 @@ Eigen::Vector3d support_force(const Device& device, const std::string& place,
   return sum_at(device, place, reaction, [&](int e) { return device.model.dofs.is_held(e); });
 }
 
-Eigen::Vector3d film_force(const Device& device, const std::string& place, const fem::State& state) {
-  Eigen::VectorXd internal = Eigen::VectorXd::Zero(device.model.dofs.count());
-  for (int b = 0; b < device.films; ++b) {
-    const fem::ElementBlock& block = *device.model.blocks[static_cast<std::size_t>(b)];
-    const auto size = static_cast<std::size_t>(block.dofs_per_element());
-    std::vector<int> equations(size * static_cast<std::size_t>(block.element_count()));
-    for (int element = 0; element < block.element_count(); ++element)
-      block.element_equations(element, device.model.dofs,
-                              std::span(equations).subspan(size * static_cast<std::size_t>(element), size));
-    block.evaluate(state, 0, block.element_count(),
-                   {.equation = equations.data(), .residual = internal.data()});
-  }
-  return -sum_at(device, place, internal, [](int) { return true; });
+Eigen::Vector3d film_force(const Device& device, const std::string& place, fem::Equilibrium& equilibrium,
+                           const fem::State& state) {
+  fem::Assembler& assembler = equilibrium.assembler();
+  Eigen::VectorXd of_all, of_films = Eigen::VectorXd::Zero(device.model.dofs.count());
+  assembler.residual(state, of_all);
+  for (int b = 0; b < device.films; ++b) of_films += assembler.block_residuals()[static_cast<std::size_t>(b)];
+  return -sum_at(device, place, of_films, [](int) { return true; });
 }
 
 } // namespace dielast::cases

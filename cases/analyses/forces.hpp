@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/devices/device.hpp"
+#include "fem/equilibrium/equilibrium.hpp"
 
 namespace dielast::cases {
 
@@ -12,6 +13,7 @@ Eigen::Vector3d support_force(const Device& device, const std::string& place,
 
 /// Force with which the films' elements pull on the nodes of a place, N; of a film of revolution that of the
 /// full turn. What else acts there, springs, supports and contact, is left out.
-Eigen::Vector3d film_force(const Device& device, const std::string& place, const fem::State& state);
+Eigen::Vector3d film_force(const Device& device, const std::string& place, fem::Equilibrium& equilibrium,
+                           const fem::State& state);
 
 } // namespace dielast::cases

@@ -266,7 +266,7 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   case QuantityKind::force:
     return component(support_force(device_, quantity.of, measured.reaction), quantity.along);
   case QuantityKind::film_force:
-    return component(film_force(device_, quantity.of, state), quantity.along);
+    return component(film_force(device_, quantity.of, measured.equilibrium, state), quantity.along);
   case QuantityKind::contact_force:
     return fem::contact_force(device_.model, state);
   case QuantityKind::stretch: {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/case/rational_spec.hpp"
+#include "cases/case/identify_spec.hpp"
 
 #include <fmt/format.h>
 

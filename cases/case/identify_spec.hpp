@@ -10,6 +10,8 @@ namespace dielast::cases {
 
 /// What a step of kind "harmonic" answers a small sine with; none: a quantity is measured instead.
 enum class MeasuredResponse { none, displacement, impedance, admittance };
+/// SI unit of what a table of that response has.
+const char* unit_of(MeasuredResponse response);
 
 /// [[identify.test]]: what was measured on the device
 struct DeviceTest {

@@ -30,7 +30,4 @@ struct RationalFits {
   std::vector<RationalFit> fits;
 };
 
-/// SI unit of what a table of that response has.
-const char* unit_of(MeasuredResponse response);
-
 } // namespace dielast::cases
