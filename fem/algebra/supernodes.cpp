@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/algebra/supernodes.hpp"
 
+#include "fem/algebra/cholmod_session.hpp"
+#include "fem/algebra/nested_dissection.hpp"
 #include "fem/algebra/one_thread.hpp"
-
-#include <cholmod.h>
 
 #include <algorithm>
 #include <new>
@@ -17,7 +17,7 @@ namespace {
 constexpr int dense_up_to = 64;
 
 /// Above this many unknowns nested dissection repays its slower analysis.
-constexpr int nested_dissection_from = 60000;
+constexpr int nested_dissection_from = 20000;
 
 } // namespace
 
@@ -38,49 +38,29 @@ void Supernodes::make_dense(int size) {
   first_column = row_start = {0, size};
 }
 
-/// Order and panels by CHOLMOD (Chen, Davis, Hager & Rajamanickam 2008).
+/// Panels by CHOLMOD (Chen, Davis, Hager & Rajamanickam 2008), for smaller matrices the order, too.
 void Supernodes::analyse(const SparseSymmetric& matrix) {
   const OneThread one_thread;
-  cholmod_common common{};
-  cholmod_start(&common);
-  common.supernodal = CHOLMOD_SUPERNODAL;
-  common.error_handler = nullptr;
-  common.print = 0;
-  common.nmethods = 1;
-  common.method[0].ordering = matrix.size < nested_dissection_from ? CHOLMOD_AMD : CHOLMOD_METIS;
-  common.postorder = 1;
-  // Wider panels than CHOLMOD's own: a multifrontal method has more to gain from few large ones.
-  common.nrelax[0] = 8;
-  common.nrelax[1] = 24;
-  common.nrelax[2] = 64;
-  common.zrelax[0] = 0.9;
-  common.zrelax[1] = 0.3;
-  common.zrelax[2] = 0.1;
-  cholmod_sparse A{};
-  A.nrow = A.ncol = at(matrix.size);
-  A.nzmax = matrix.rows.size();
-  A.p = const_cast<int*>(matrix.column_start.data());
-  A.i = const_cast<int*>(matrix.rows.data());
-  A.stype = -1;
-  A.itype = CHOLMOD_INT;
-  A.xtype = CHOLMOD_PATTERN;
-  A.dtype = CHOLMOD_DOUBLE;
-  A.sorted = 1;
-  A.packed = 1;
-  cholmod_factor* L = cholmod_analyze(&A, &common);
-  if (L) {
-    const auto copy = [](const void* from, std::size_t size) {
-      const auto* numbers = static_cast<const int*>(from);
-      return std::vector<int>(numbers, numbers + size);
-    };
-    permutation = copy(L->Perm, L->n);
-    first_column = copy(L->super, L->nsuper + 1);
-    row_start = copy(L->pi, L->nsuper + 1);
-    rows = copy(L->s, L->ssize);
-    cholmod_free_factor(&L, &common);
-  }
-  cholmod_finish(&common);
-  if (permutation.empty()) throw std::bad_alloc();
+  CholmodSession session;
+  session.common.supernodal = CHOLMOD_SUPERNODAL;
+  session.common.nmethods = 1;
+  session.common.postorder = 1;
+  std::vector<int> order;
+  if (matrix.size >= nested_dissection_from) order = nested_dissection(matrix);
+  session.common.method[0].ordering = order.empty() ? CHOLMOD_AMD : CHOLMOD_GIVEN;
+  cholmod_sparse pattern = cholmod_pattern(matrix.column_start, matrix.rows);
+  cholmod_factor* L =
+      cholmod_analyze_p(&pattern, order.empty() ? nullptr : order.data(), nullptr, 0, &session.common);
+  if (!L) throw std::bad_alloc();
+  const auto copy = [](const void* from, std::size_t size) {
+    const auto* numbers = static_cast<const int*>(from);
+    return std::vector<int>(numbers, numbers + size);
+  };
+  permutation = copy(L->Perm, L->n);
+  first_column = copy(L->super, L->nsuper + 1);
+  row_start = copy(L->pi, L->nsuper + 1);
+  rows = copy(L->s, L->ssize);
+  cholmod_free_factor(&L, &session.common);
 }
 
 void Supernodes::build_tree() {
