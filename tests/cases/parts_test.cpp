@@ -288,9 +288,8 @@ TEST_F(Parts, ATurnedPatchIsTheSamePatch) {
       EXPECT_NEAR(turned.at(name), straight.at(name), 1e-9 * std::abs(straight.at(name)) + 1e-6)
           << name << drive;
   }
-  EXPECT_NEAR(
-      patch("turned = \"180 deg\"\n", "stretch_x = 2\n[[step]]\nkind = \"move\"\n").at("p_stretch_x"), 2,
-      1e-12);
+  EXPECT_NEAR(patch("turned = \"180 deg\"\n", "stretch_x = 2\n[[step]]\nkind = \"move\"\n").at("p_stretch_x"),
+              2, 1e-12);
 }
 
 const std::string two_discs = R"toml(
