@@ -198,7 +198,8 @@ TEST_F(Topics, TangentsPassTheirCheck) {
 
 // A text of a thousand lines would run away on a terminal; elsewhere it goes straight on.
 TEST_F(Topics, LongTextsGoThroughThePagerOnATerminal) {
-  if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP();
+  if (std::system("script -qec true /dev/null > /dev/null 2>&1 < /dev/null") != 0)
+    GTEST_SKIP() << "no script, or no terminals for it";
   const auto shown = [&](const std::string& topic, const std::string& pager) {
     const std::string line = "cd " + directory.string() + " && PAGER='" + pager +
                              "' script -qec '" DIELAST_PROGRAM " info " + topic +
