@@ -67,8 +67,6 @@ double light_on(const std::array<Corner, 3>& triangle, const Placement& place) {
   return darkest + (1 - darkest) * std::abs(normal.dot(light)) / std::max(normal.norm(), 1e-300);
 }
 
-constexpr int parts_of_side = 3;
-
 /// A triangle of six nodes, perhaps with curved sides, as `parts`^2 flat ones.
 void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
                    const std::array<double, 6>& value, int parts, const Palette& palette,
@@ -95,6 +93,19 @@ void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
     }
 }
 
+/// Parts of a curved side of mean length: all have as many, so that neighbours leave no gap.
+int parts_of_sides(const meshing::Mesh& mesh, const Panel& panel, const Placement& place) {
+  constexpr double px_of_part = 8;
+  double px = 0;
+  int sides = 0;
+  for (const CellBlock& block : mesh.blocks)
+    for (int cell = 0; cell < block.size() && !is_line(block.type); ++cell, ++sides) {
+      const auto at = [&](int node) { return panel.positions[static_cast<std::size_t>(node)]; };
+      px += place.scale * (at(block.cell(cell)[0]) - at(block.cell(cell)[1])).norm();
+    }
+  return std::clamp(static_cast<int>(std::lround(px / std::max(sides, 1) / px_of_part)), 1, 3);
+}
+
 } // namespace
 
 Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range,
@@ -102,6 +113,7 @@ Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<doub
   Raster raster(static_cast<int>(place.size.x()), static_cast<int>(place.size.y()));
   const NodeValues values(mesh, panel);
   const Palette palette = panel.values.empty() ? Palette(plain_film) : Palette(range);
+  const int parts = parts_of_sides(mesh, panel, place);
   std::size_t number = 0;
   const auto draw = [&](std::size_t of, std::span<const int> nodes) {
     std::array<Eigen::Vector3d, 6> x;
@@ -115,7 +127,7 @@ Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<doub
       const std::array<Corner, 3> triangle{corner(0), corner(1), corner(2)};
       raster.draw(triangle, palette, light_on(triangle, place));
     } else {
-      draw_triangle(raster, x, value, parts_of_side, palette, place);
+      draw_triangle(raster, x, value, parts, palette, place);
     }
   };
   for (const CellBlock& block : mesh.blocks) {

@@ -4,6 +4,7 @@
 #include "post/engineering.hpp"
 #include "post/pictures/film_raster.hpp"
 #include "post/pictures/legend.hpp"
+#include "post/pictures/png.hpp"
 
 #include <Eigen/Geometry>
 #include <cairo-svg.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -159,6 +161,32 @@ void fill_fins(cairo_t* cr, const Picture& picture, const Panel& panel, double w
   }
 }
 
+void require_drawn(cairo_status_t status) {
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw std::runtime_error(std::string("cannot draw a picture: ") + cairo_status_to_string(status));
+}
+
+/// The bytes of a PNG file with what is drawn.
+std::string png_of(cairo_surface_t* surface) {
+  require_drawn(cairo_surface_status(surface));
+  cairo_surface_flush(surface);
+  const int width = cairo_image_surface_get_stride(surface) / 4;
+  return png(
+      {reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface)),
+       static_cast<std::size_t>(width) * static_cast<std::size_t>(cairo_image_surface_get_height(surface))},
+      width);
+}
+
+/// Files hold these bytes instead of compressing the pixels again.
+void keep_as_png(cairo_surface_t* surface) {
+  auto bytes = std::make_unique<std::string>(png_of(surface));
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes->data());
+  const auto forget = [](void* kept) { delete static_cast<std::string*>(kept); };
+  require_drawn(
+      cairo_surface_set_mime_data(surface, CAIRO_MIME_TYPE_PNG, data, bytes->size(), forget, bytes.get()));
+  bytes.release();
+}
+
 /// A device that is not flat is seen from aside and above; otherwise along z, what is nearly flat in a light
 /// from aside that shows its relief.
 struct View {
@@ -180,6 +208,7 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
                                                             CAIRO_FORMAT_ARGB32, film.width(), film.height(),
                                                             4 * film.width()),
                         cairo_surface_destroy);
+  if (cairo_surface_supports_mime_type(cairo_get_target(cr), CAIRO_MIME_TYPE_PNG)) keep_as_png(surface.get());
   cairo_save(cr);
   cairo_translate(cr, left, top);
   cairo_save(cr);
@@ -250,11 +279,6 @@ void check(const meshing::Mesh& mesh, const Picture& picture) {
     if (mark.nodes.empty()) throw std::invalid_argument("a mark needs a node");
 }
 
-void require_drawn(cairo_status_t status) {
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw std::runtime_error(std::string("cannot draw a picture: ") + cairo_status_to_string(status));
-}
-
 cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned length) {
   static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
   return CAIRO_STATUS_SUCCESS;
@@ -287,9 +311,7 @@ class Drawing {
   std::string png(std::span<const Panel> panels, int finer) const {
     const Canvas canvas(picture_.width, height());
     draw(canvas.context.get(), panels, finer);
-    std::string bytes;
-    require_drawn(cairo_surface_write_to_png_stream(canvas.surface.get(), append_bytes, &bytes));
-    return bytes;
+    return png_of(canvas.surface.get());
   }
   std::string svg(std::span<const Panel> panels) const {
     std::string text;

@@ -50,21 +50,34 @@ void Raster::draw(const std::array<Corner, 3>& corners, const Palette& palette, 
             right = std::min(width_ - 1, static_cast<int>(std::ceil(high.x() - 0.5))),
             top = std::max(0, static_cast<int>(std::floor(low.y() - 0.5))),
             bottom = std::min(height_ - 1, static_cast<int>(std::ceil(high.y() - 0.5)));
-  const double v_x = ac.y() / area, w_x = -ab.y() / area; // what a pixel to the right adds
+  Eigen::Vector3d depths, values;
+  for (int i = 0; i < 3; ++i) {
+    depths[i] = corners[static_cast<std::size_t>(i)].depth;
+    values[i] = corners[static_cast<std::size_t>(i)].value;
+  }
+  // Barycentric coordinates change along a row by this from pixel to pixel.
+  const Eigen::Vector3d change = Eigen::Vector3d(ab.y() - ac.y(), ac.y(), -ab.y()) / area;
+  const double depth_change = change.dot(depths), value_change = change.dot(values);
   for (int y = top; y <= bottom; ++y) {
-    const Eigen::Vector2d p(left + 0.5 - a.x(), y + 0.5 - a.y());
-    double v = (p.x() * ac.y() - p.y() * ac.x()) / area, w = (ab.x() * p.y() - ab.y() * p.x()) / area;
+    const Eigen::Vector2d p(0.5 - a.x(), y + 0.5 - a.y()); // the first pixel of the row
+    const double v = (p.x() * ac.y() - p.y() * ac.x()) / area, w = (ab.x() * p.y() - ab.y() * p.x()) / area;
+    const Eigen::Vector3d first(1 - v - w, v, w);
+    double from = left, to = right;
+    for (int i = 0; i < 3; ++i) {
+      const double side = (seam - first[i]) / change[i];
+      if (change[i] > 0) from = std::max(from, std::ceil(side));
+      if (change[i] < 0) to = std::min(to, std::floor(side));
+      if (change[i] == 0 && first[i] < seam) to = -1;
+    }
+    if (!(from <= to)) continue; // sides may be crossed farther away than whole numbers reach
+    const double depth_first = first.dot(depths), value_first = first.dot(values);
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-    for (int x = left; x <= right; ++x, v += v_x, w += w_x) {
-      const double u = 1 - v - w;
-      if (u < seam || v < seam || w < seam) continue;
+    for (int x = static_cast<int>(from); x <= static_cast<int>(to); ++x) {
       const std::size_t place = row + static_cast<std::size_t>(x);
-      const auto depth =
-          static_cast<float>(u * corners[0].depth + v * corners[1].depth + w * corners[2].depth);
+      const auto depth = static_cast<float>(depth_first + x * depth_change);
       if (depth < depth_[place]) continue;
       depth_[place] = depth;
-      const std::uint32_t colour =
-          palette(u * corners[0].value + v * corners[1].value + w * corners[2].value);
+      const std::uint32_t colour = palette(value_first + x * value_change);
       pixels_[place] = light == 1 ? colour : dimmed(colour, light);
     }
   }

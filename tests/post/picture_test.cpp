@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <random>
 #include <set>
 
 namespace dielast::post {
@@ -69,6 +70,35 @@ meshing::Mesh grid_mesh(int n) {
     }
   mesh.blocks = {block};
   return mesh;
+}
+
+// Slivers and triangles far outside, too.
+TEST(Raster, DrawsThePixelsWhoseCentresLieInATriangle) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(-10, 50), exponent(-14, 2);
+  for (int draw = 0; draw < 2000; ++draw) {
+    const auto point = [&] { return Eigen::Vector2d(place(random), place(random)); };
+    Eigen::Vector2d a = point(), b = point(), c = point();
+    if (draw % 3 == 1)
+      c.y() = (b.y() = a.y()) + std::pow(10, exponent(random)); // a side nearly along the rows
+    if (draw % 3 == 2) b *= 1e4;
+    Raster raster(40, 40);
+    raster.draw({{{a, 0, 0}, {b, 0, 0}, {c, 0, 0}}}, Palette(Colour{1, 0, 0}));
+    const auto px_left_of = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                               const Eigen::Vector2d& p) {
+      const Eigen::Vector2d along = (to - from).normalized(), away = p - from;
+      return along.x() * away.y() - along.y() * away.x();
+    };
+    const double turn = px_left_of(a, b, c) > 0 ? 1 : -1;
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x) {
+        const Eigen::Vector2d p(x + 0.5, y + 0.5);
+        const double inside =
+            std::min({turn * px_left_of(a, b, p), turn * px_left_of(b, c, p), turn * px_left_of(c, a, p)});
+        if (std::abs(inside) < 1e-3) continue; // on a side
+        EXPECT_EQ(raster.pixels()[40 * y + x] != 0, inside > 0) << draw << ": " << x << ", " << y;
+      }
+  }
 }
 
 TEST(Picture, IsAPngOfTheWidthAskedFor) {
