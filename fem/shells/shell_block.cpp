@@ -32,12 +32,11 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
   double bottom = section.offset - height / 2;
   for (std::size_t l = 0; l < section.layers.size(); ++l) {
     const ShellLayer& layer = section.layers[l];
-    const double H = layer.thickness, middle = bottom + H / 2, density = layer.material.density;
+    const double H = layer.thickness, middle = bottom + H / 2;
     electrodes[l].resize(static_cast<std::size_t>(packs * lanes), electrodes[l].back());
-    layers_.push_back({make_film_layer(layer), H, density, middle, std::move(electrodes[l])});
+    layers_.push_back({make_film_layer(layer), H, middle, std::move(electrodes[l])});
     shear_stiffness_ += shear_correction * H * materials::initial_shear_modulus(layer.material.law);
-    surface_density_ += density * H;
-    rotary_density_ += density * H * (middle * middle + H * H / 12);
+    surface_density_ += layer.material.density * H;
     bottom += H;
   }
   geometry_.assign(static_cast<std::size_t>(packs * points), ShellPoint{});
@@ -137,10 +136,10 @@ void ShellBlock::add_mass(int element, std::span<double> packed) const {
       const Eigen::Vector<double, 6> N = shape_values<6>(at.xi, at.eta);
       for (int a = 0; a < Nodes; ++a)
         for (int b = 0; b <= a; ++b)
-          for (int c = 0; c < 6; ++c) {
+          for (int c = 0; c < 3; ++c) {
             const int row = 6 * a + c, column = 6 * b + c;
             packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] +=
-                (c < 3 ? surface_density_ : rotary_density_) * undrawn / area * here * N[a] * N[b];
+                surface_density_ * undrawn / area * here * N[a] * N[b];
           }
     }
 }

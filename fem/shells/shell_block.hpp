@@ -17,8 +17,9 @@ namespace dielast::fem {
 /// folds and junctions are rigid corners. Strains are interpolated as ShellTables says: neither thin nor
 /// curved elements lock. Three Gauss points across each layer. Rotations about the directors are held to the
 /// film's own by a stiffness of 1e-3 k_s mu H times the area. As drawn, the shell is free of stress, but for
-/// its prestretch. Mass: that of the drawn surface, with the moment of inertia of a section as that of a
-/// sphere; an offset's coupling of the two is left out.
+/// its prestretch. Mass: that of the drawn surface. Rotations have none: a section's own moment of inertia
+/// lowers the frequency of waves 2 pi/k long by (k H)^2/24 of it only, and one about the directors would
+/// vibrate against the soft stiffness that holds them.
 ///
 /// `electrodes`: for each layer, the electrode over each element, or `passive`. `numbers`: of the elements in
 /// the mesh's own block, for samples and messages; empty: in their order here. Throws std::invalid_argument

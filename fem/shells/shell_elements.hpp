@@ -61,8 +61,8 @@ class ShellBlock final : public ElementBlock {
 
   struct Layer {
     std::unique_ptr<FilmLayer> film;
-    double thickness, density, middle; ///< m, kg/m^3, m above the drawn surface
-    std::vector<int> electrodes;       ///< padded like nodes_
+    double thickness, middle;    ///< m, m above the drawn surface
+    std::vector<int> electrodes; ///< padded like nodes_
   };
   /// One point across the thickness at an integration point of a pack.
   struct Place {
@@ -113,8 +113,8 @@ class ShellBlock final : public ElementBlock {
 
   std::vector<Layer> layers_;
   std::array<double, 2> prestretch_;
-  double shear_stiffness_ = 0;                      ///< k_s sum mu H, N/m
-  double surface_density_ = 0, rotary_density_ = 0; ///< sum rho H, kg/m^2; sum rho int Z^2 dZ, kg
+  double shear_stiffness_ = 0; ///< k_s sum mu H, N/m
+  double surface_density_ = 0; ///< sum rho H, kg/m^2
   int count_ = 0;
   std::vector<int> nodes_;   ///< padded to whole packs by repeating the last element
   std::vector<int> numbers_; ///< of the elements, in the mesh's block

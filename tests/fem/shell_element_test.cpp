@@ -292,7 +292,7 @@ TEST(Shell, charges_are_the_slopes_of_the_energy_and_its_parts_add_up) {
   EXPECT_NEAR(parts.elastic - parts.electric, energy, 1e-12 * parts.elastic);
 }
 
-TEST(Shell, has_the_mass_of_its_layers_and_their_moment_of_inertia) {
+TEST(Shell, has_the_mass_of_its_layers_and_turns_without) {
   const meshing::Mesh mesh = test::distorted_square(2, 2);
   const ShellSection section = two_layers();
   const auto model = shell_model(mesh, section);
@@ -303,10 +303,9 @@ TEST(Shell, has_the_mass_of_its_layers_and_their_moment_of_inertia) {
       for (int c = 0; c < 6; ++c)
         sum[static_cast<std::size_t>(c)] +=
             mass.coeff(model->dofs.equation(a, c), model->dofs.equation(b, c));
-  const double area = 1 / (1.2 * 0.9), density = 960; // undeformed; layers from -0.055 to -0.005 to 0.095
+  const double area = 1 / (1.2 * 0.9), density = 960; // undeformed
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[static_cast<std::size_t>(c)], density * 0.15 * area, 1e-9);
-  const double moment = density * (std::pow(0.095, 3) + std::pow(0.055, 3)) / 3;
-  for (int c = 3; c < 6; ++c) EXPECT_NEAR(sum[static_cast<std::size_t>(c)], moment * area, 1e-9);
+  for (int c = 3; c < 6; ++c) EXPECT_EQ(sum[static_cast<std::size_t>(c)], 0);
 }
 
 TEST(Shell, refuses_what_it_cannot_be) {
