@@ -63,9 +63,14 @@ bool moves(fem::Equilibrium& equilibrium, const fem::State& state) {
 }
 
 Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State state, const Step& step) {
-  if (step.control == Control::charge) {
-    state.charge = device.model.charges(state, false).charge;
-    std::fill_n(state.supply.begin(), device.model.electrodes.size(), fem::Supply::charge);
+  const std::vector<double> held = device.model.charges(state, false).charge;
+  for (std::size_t e = 0; e < device.model.electrodes.size(); ++e) {
+    if (step.control == Control::charge) {
+      state.charge[e] = held[e];
+      state.supply[e] = fem::Supply::charge;
+    } else if (state.supply[e] == fem::Supply::charge) { // a source takes up at the electrode's voltage
+      state.supply[e] = fem::Supply::voltage;
+    }
   }
   const auto found = fem::vibration_modes(equilibrium, state, {.count = step.count});
   if (!found) throw AnalysisError("no modes found: the device is at a critical point");
