@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace dielast::fem {
 
@@ -267,13 +268,23 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
 
 double flow_heat(Equilibrium& equilibrium, const State& from, const State& to) {
   if (!from.history || !to.history || from.history->now == to.history->now) return 0;
+  const Eigen::Map<const Eigen::VectorXd> first(from.history->now.data(), std::ssize(from.history->now)),
+      last(to.history->now.data(), std::ssize(to.history->now));
   Eigen::VectorXd unused;
-  const auto energy = [&](State shape, const State& dashpots) {
-    shape.history = dashpots.history;
+  const auto energy = [&](State shape, double part) { // of the way between the dashpots' states
+    auto history = std::make_shared<History>(*from.history);
+    Eigen::VectorXd::Map(history->now.data(), first.size()) = first + part * (last - first);
+    shape.history = std::move(history);
     shape.scheme = materials::TimeScheme::frozen();
     return equilibrium.internal_force(shape, unused).energy;
   };
-  return (energy(from, from) - energy(from, to) + energy(to, from) - energy(to, to)) / 2;
+  const double at_first = energy(from, 0) - energy(from, 1), at_last = energy(to, 0) - energy(to, 1);
+  if (at_first >= 0 && at_last >= 0) return (at_first + at_last) / 2;
+  constexpr double near = 0.05;
+  const auto power = [&](const State& shape, double part) {
+    return (energy(shape, part - near) - energy(shape, part + near)) / (2 * near);
+  };
+  return (power(from, 0) + power(to, 1)) / 2;
 }
 
 } // namespace dielast::fem

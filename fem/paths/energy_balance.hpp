@@ -113,7 +113,10 @@ class EnergyBalance {
 EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length);
 
 /// Heat of the dashpots between two accepted states, J, from the states alone: the energy that is lost as the
-/// internal variables change at fixed shape and voltages, mean of both shapes.
+/// internal variables change at fixed shape and voltages, mean of both shapes. Where it would have to grow
+/// for that (dashpots that follow the shape sooner than an increment, as one beside the law does), the mean
+/// of what is lost per change of the internal variables in either state: one shape with the other's dashpots
+/// is far from the path.
 double flow_heat(Equilibrium& equilibrium, const State& from, const State& to);
 
 } // namespace dielast::fem

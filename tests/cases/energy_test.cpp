@@ -68,6 +68,19 @@ TEST_F(Energy, square_wave_beside_a_dashpot) {
   EXPECT_EQ(rows.size(), 51u + 7u);
 }
 
+// Its dashpot follows the shape within a ten-thousandth of an increment: 2 eta D : D = 12 eta
+// (rate/lambda)^2.
+TEST_F(Energy, a_dashpot_beside_the_law_turns_its_own_power_into_heat) {
+  const auto rows =
+      run("[film]\nthickness = \"0.1 mm\"\n[film.material]\nshear_modulus = \"50 kPa\"\n"
+          "permittivity = \"4e-11 F/m\"\nviscosity = \"500 Pa.s\"\n[patch]\nmode = \"equal-biaxial\"\n"
+          "stretch_x = { wave = \"ramp\", from = 1, to = 1.05, duration = \"1 s\" }\n"
+          "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = 50\n");
+  const double rate = 0.05, end = 1.05;
+  const double heat = 12 * 500 * rate * (end - 1) / end * 1e-8;
+  EXPECT_NEAR(rows.back().at("dissipated_energy"), heat, 0.005 * heat);
+}
+
 TEST_F(Energy, a_hold_in_which_nothing_moves_does_no_work) {
   const auto rows =
       run(film(10e3, branch(20e3, 4)) +
