@@ -19,13 +19,13 @@ void name_side(Mesh& mesh, const char* place, int axis, double at) {
     if (mesh.nodes[static_cast<std::size_t>(n)][axis] == at) nodes.push_back(n);
 }
 
-/// Steps of about `size` from 0 to `length`, with a point at each end of the `inner` length in the middle;
-/// both halves are alike.
-std::vector<double> steps_around(double length, double inner, double size) {
+/// Steps of about `size` from 0 to `length`, with a point at each end of the `inner` length in the middle,
+/// and at least `fewest` steps between these; both halves are alike.
+std::vector<double> steps_around(double length, double inner, double size, int fewest) {
   const double margin = (length - inner) / 2;
   std::vector<double> points{0};
   const auto append = [&](double from, double to) {
-    const int count = std::max(1, static_cast<int>(std::lround((to - from) / size)));
+    const int count = std::max(fewest, static_cast<int>(std::lround((to - from) / size)));
     for (int i = 1; i < count; ++i) points.push_back(from + i * (to - from) / count);
     points.push_back(to);
   };
@@ -58,8 +58,9 @@ Mesh strip_mesh(const StripShape& shape, int across, int order) {
   if (!(covered_length > 0 && covered_width > 0 && covered_length <= length && covered_width <= width))
     throw std::invalid_argument("a strip needs sizes above 0, and its electrode lies within it");
   if (across < 1) throw std::invalid_argument("a strip needs an element from side to side");
-  const std::vector<double> x = steps_around(width, covered_width, width / across);
-  const std::vector<double> y = steps_around(length, covered_length, width / across);
+  const int fewest = std::max(1, across / 4); // a short strip, or a narrow margin, is refined, too
+  const std::vector<double> x = steps_around(width, covered_width, width / across, fewest);
+  const std::vector<double> y = steps_around(length, covered_length, width / across, fewest);
   const int columns = static_cast<int>(x.size()) - 1, rows = static_cast<int>(y.size()) - 1;
   Mesh mesh;
   for (const double down : y)

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <algorithm>
 
 namespace dielast::meshing {
@@ -25,6 +27,20 @@ TEST(Patch, IsARectangleWithNamedSides) {
   side("top", 1, 0.01);
   EXPECT_EQ(mesh.cell_sets.at("film").cells, (std::vector{0, 1}));
   EXPECT_THROW(patch_mesh(0, 1), std::invalid_argument);
+}
+
+// Refined with its width alone, a short strip would keep its rows, and error estimates would see no error.
+TEST(Strip, IsRefinedInEachOfItsPartsHoweverShort) {
+  const auto rows = [](int across) {
+    const Mesh mesh = strip_mesh(
+        {.length = 0.005, .width = 0.06, .electrode_length = 0.003, .electrode_width = 0.05}, across, 1);
+    std::set<double> heights;
+    for (const Eigen::Vector3d& x : mesh.nodes) heights.insert(x.y());
+    return static_cast<int>(heights.size()) - 1;
+  };
+  EXPECT_EQ(rows(4), 3);
+  EXPECT_EQ(rows(8), 6);
+  EXPECT_EQ(rows(16), 12);
 }
 
 TEST(Strip, HasNodesAlongItsElectrodeAndIsItsOwnMirrorImage) {
