@@ -23,11 +23,14 @@ double mean(References& references, const Quantity& quantity, double now, double
   double& integral = references.at(quantity.name);
   double& last = references.try_emplace(quantity.name + " last", now).first->second;
   double& last_time = references.at(quantity.name + " last time");
-  integral += (last + now) / 2 * (time - last_time);
+  double& known = references.at(quantity.name + " known"); // s
+  if (!std::isnan(last) && !std::isnan(now)) {
+    integral += (last + now) / 2 * (time - last_time);
+    known += time - last_time;
+  }
   last = now;
   last_time = time;
-  const double begin = references.at(quantity.name + " begin");
-  return time > begin ? integral / (time - begin) : now;
+  return known > 0 ? integral / known : now;
 }
 
 } // namespace
@@ -38,8 +41,8 @@ double value_so_far(References& references, const Quantity& quantity, double now
 }
 
 void begin_mean(References& references, const Quantity& quantity, double time) {
-  references[quantity.name] = 0;
-  references[quantity.name + " begin"] = references[quantity.name + " last time"] = time;
+  references[quantity.name] = references[quantity.name + " known"] = 0;
+  references[quantity.name + " last time"] = time;
   references.erase(quantity.name + " last");
 }
 

@@ -12,7 +12,8 @@ namespace dielast::cases {
 using References = std::map<std::string, double>;
 
 /// The peak or the mean so far of a quantity, now that its subject has this value; `time`: s. A mean over
-/// time is that of straight lines between the states; over no time it is the value.
+/// time is that of straight lines between the states where the subject has a value at both, and the value
+/// itself where they take no time.
 double value_so_far(References& references, const Quantity& quantity, double now, double time);
 /// The mean begins, in a state whose value comes next.
 void begin_mean(References& references, const Quantity& quantity, double time);

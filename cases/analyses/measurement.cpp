@@ -300,9 +300,10 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
       return device_.model.chambers[0].pumped(measured.charges.charge[electrodes], state.voltage[electrodes]);
     const std::size_t e = electrode(quantity.of);
     const fem::Circuit* circuit = device_.model.circuit_of(e);
-    return circuit && state.supply[e] == fem::Supply::circuit
-               ? circuit->current(state.source[e], state.voltage[e])
-               : unknown;
+    const fem::Supply supply = state.supply[e];
+    if (!circuit || supply == fem::Supply::charge) return unknown;
+    if (supply == fem::Supply::circuit) return circuit->current(state.source[e], state.voltage[e]);
+    return circuit->leakage * state.voltage[e]; // without time what leaks
   }
   case QuantityKind::stiffness:
     return 1 / flexibility(quantity.of, *quantity.along, measured).own;

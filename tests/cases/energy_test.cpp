@@ -210,5 +210,29 @@ TEST_F(Energy, a_mean_begins_where_its_step_ends) {
               0.005 * rows.back().at("max_field"));
 }
 
+// What the source has given is what the electrode holds; where its charge is given nothing is known.
+TEST_F(Energy, the_mean_of_a_current_is_the_charge_over_the_time_in_which_it_is_known) {
+  const auto rows = run(
+      film(40e3) +
+      "[patch]\n[circuit]\nresistance = \"10 MOhm\"\n[drive]\nvoltage = { wave = \"ramp\", to = \"4 kV\", "
+      "duration = \"2 s\" }\n[[step]]\nname = \"rise\"\nkind = \"transient\"\nduration = \"2 s\"\n"
+      "[[step]]\nkind = \"hold\"\nduration = \"3 s\"\ncontrol = \"charge\"\n"
+      "[[quantity]]\nname = \"i\"\nkind = \"current\"\nof = \"film\"\n"
+      "[[quantity]]\nname = \"mean\"\nkind = \"mean\"\nof = \"i\"\n"
+      "[[quantity]]\nname = \"later\"\nkind = \"mean\"\nof = \"i\"\nsince = \"rise\"\n");
+  const double charge = rows.back().at("charge");
+  EXPECT_NEAR(2 * rows.back().at("mean"), charge, 1e-3 * charge);
+  EXPECT_TRUE(std::isnan(rows.back().at("i")));
+  EXPECT_TRUE(std::isnan(rows.back().at("later")));
+}
+
+TEST_F(Energy, without_time_the_source_gives_what_leaks) {
+  const auto rows =
+      run(film(40e3) + "[patch]\n[circuit]\nresistance = \"1 GOhm\"\nleakage_resistance = \"4 GOhm\"\n"
+                       "[drive]\nvoltage = \"5 kV\"\n[[step]]\nkind = \"voltage\"\n"
+                       "[[quantity]]\nname = \"i\"\nkind = \"current\"\nof = \"film\"\n");
+  EXPECT_NEAR(rows.back().at("i"), 1e-6, 1e-15);
+}
+
 } // namespace
 } // namespace dielast::cases
