@@ -23,6 +23,18 @@ bool is_linearised(const Case& one) { return one.linearise.written || has_step(o
 
 namespace {
 
+bool slides_with_friction(const Case& one) { return one.table && one.table->friction > 0; }
+
+} // namespace
+
+bool may_jump(const Case& one) {
+  return !slides_with_friction(one) && !one.any_film([](const Film& film) { return film.is_solid(); });
+}
+
+bool may_follow(const Case& one, const Step& step) { return !step.duration && !slides_with_friction(one); }
+
+namespace {
+
 bool has_branches(const Case& one) {
   return one.any_film(
       [](const Film& film) { return !film.material.branches.empty() || film.material.viscosity > 0; });
@@ -202,6 +214,20 @@ Condition an_electrode_keeps_off_walls() {
 
 Condition solid() {
   return on<Film>("section = \"solid\"", [](const Case&, const Film& film) { return film.is_solid(); });
+}
+
+Condition layers() {
+  return on<Film>("section = \"solid\" and field = \"layers\"",
+                  [](const Case&, const Film& film) { return film.is_solid() && !film.potential; });
+}
+
+Condition law_without_volume() {
+  return on<Film>("section = \"solid\" and another law than \"st-venant-kirchhoff\", whose poisson_ratio "
+                  "says what changes of volume take",
+                  [](const Case&, const Film& film) {
+                    return film.is_solid() &&
+                           !std::holds_alternative<materials::StVenantKirchhoff>(film.material.law);
+                  });
 }
 
 Condition of_revolution() {

@@ -30,7 +30,9 @@ Condition elements();
 Condition curved_triangles(); ///< the film is of 6-node triangles
 Condition moves_along_it();   ///< of a quantity's direction
 Condition an_electrode_keeps_off_walls();
-Condition solid(); ///< the film's own section is one
+Condition solid();              ///< the film's own section is one
+Condition layers();             ///< it is a solid whose field is that of layers
+Condition law_without_volume(); ///< it is a solid whose law leaves the energy of volume open
 Condition of_revolution();
 Condition in_space();
 Condition fills_a_surface(); ///< the part's mesh file is one
@@ -43,6 +45,9 @@ bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
 
 /// Whether the film, the plate, a point mass, a body or what is around a fin has a mass.
 bool has_mass(const Case& one);
+/// Whether a step may jump to another state, or follow an unstable path. The rules refuse what may not.
+bool may_jump(const Case& one);
+bool may_follow(const Case& one, const Step& step);
 bool is_linearised(const Case& one); ///< by a harmonic response or a linear model
 
 } // namespace dielast::cases

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/simulation.hpp"
 
+#include "cases/language/conditions.hpp"
 #include "cases/runs/phases.hpp"
 #include "post/engineering.hpp"
 
@@ -12,6 +13,13 @@
 namespace dielast::cases {
 
 namespace {
+
+/// What on_instability may be other than "stop", in words.
+std::string ways_on(const Case& one, const Step& step) {
+  const bool jump = may_jump(one);
+  if (!may_follow(one, step)) return jump ? "\"jump\"" : "";
+  return jump ? "\"follow\" or \"jump\"" : "\"follow\"";
+}
 
 /// Forces below this fraction of the film's own leave the drawn state in equilibrium.
 constexpr double balanced = 1e-9;
@@ -247,7 +255,8 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         [&](const fem::State& state, const fem::Increment& increment, Reached reached) {
           return accept(observer, step, state, increment, reached);
         }};
-    const Outcome outcome = StepRun(*equilibrium_, step, path, options, in_step_, watcher).run();
+    const Outcome outcome =
+        StepRun(*equilibrium_, step, path, options, in_step_, watcher, ways_on(case_, step)).run();
     if (outcome.ending == Ending::gave_up && unrecorded_)
       record(observer, step, state(), *unrecorded_, Reached::along_path);
     if (refusal_) return *std::exchange(refusal_, std::nullopt);

@@ -355,19 +355,20 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                     options_.newton.wrinkles ? "Stretch it a little"
                                              : "Let it wrinkle (wrinkling = \"tension field\") or stretch it "
                                                "a little")};
+  const std::string go_on =
+      ways_on_.empty() ? "" : "; or let the step go on with on_instability = " + ways_on_;
   const std::string more =
-      " Lower the drive, or stiffen the device or stretch the film more, to stay below it; "
-      "or let the step go on with on_instability = ";
+      " Lower the drive, or stiffen the device or stretch the film more, to stay below it" + go_on;
   if (trouble.critical) {
     const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
     if (timed())
       return {Ending::gave_up, "limit point",
               fmt::format("limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of "
-                          "the step.{}\"jump\"",
+                          "the step.{}",
                           load_text(last(), reached), last().time, more)};
     return {
         Ending::gave_up, "limit point",
-        fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}\"follow\" or \"jump\"",
+        fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}",
                     load_text(trouble.critical->load_factor),
                     reached > 0 ? "up to " + load_text(reached) : "at the beginning of the step",
                     trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
@@ -380,21 +381,20 @@ Outcome StepRun::failure(const Trouble& trouble) const {
         Ending::gave_up, "instability",
         fmt::format("step \"{}\" stopped at {}: the equilibrium at {} has {} unstable mode{}, so a device "
                     "would leave it. Change what makes it unstable (compressed film, a voltage beyond a "
-                    "limit point); or let the step go on with on_instability = \"follow\" or \"jump\"",
+                    "limit point){}",
                     step_.name, load_text(reached), load_text(trouble.ramp.failed_at), trouble.unstable_modes,
-                    trouble.unstable_modes == 1 ? "" : "s")};
+                    trouble.unstable_modes == 1 ? "" : "s", go_on)};
   if (trouble.ramp.failure.outcome == fem::Outcome::off_path)
     return {Ending::gave_up, "limit point",
             fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
-                        "of another branch beyond it.{}{}\"jump\"",
-                        load_text(last(), reached), more, timed() ? "" : "\"follow\" or ")};
+                        "of another branch beyond it.{}",
+                        load_text(last(), reached), more)};
   return {
       Ending::gave_up, "no equilibrium",
       fmt::format("step \"{}\" stopped at {}: no equilibrium found at {}, and the "
                   "increments are smaller than solver.smallest_increment. A finer mesh may help, a smaller "
                   "solver.smallest_increment or more solver.max_iterations{}",
-                  step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
-                  timed() ? "; or let the step go on with on_instability = \"jump\"" : "")};
+                  step_.name, load_text(reached), load_text(trouble.ramp.failed_at), timed() ? go_on : "")};
 }
 
 } // namespace dielast::cases

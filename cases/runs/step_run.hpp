@@ -46,9 +46,10 @@ struct Outcome {
 class StepRun {
  public:
   StepRun(fem::Equilibrium& equilibrium, const Step& step, const fem::LoadPath& path,
-          const fem::RampOptions& options, StepProgress& progress, const StepObserver& observer)
+          const fem::RampOptions& options, StepProgress& progress, const StepObserver& observer,
+          std::string ways_on)
       : equilibrium_(equilibrium), step_(step), path_(path), options_(options), progress_(progress),
-        observer_(observer) {}
+        observer_(observer), ways_on_(std::move(ways_on)) {}
 
   Outcome run();
 
@@ -91,6 +92,7 @@ class StepRun {
   const fem::RampOptions& options_;
   StepProgress& progress_;
   const StepObserver& observer_;
+  const std::string ways_on_;      ///< what a step that stops may do instead, for messages; empty: nothing
   std::optional<Trouble> leaving_; ///< the step leaves its path
 };
 

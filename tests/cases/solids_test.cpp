@@ -218,5 +218,23 @@ TEST_F(Solids, path_does_not_depend_on_increments) {
   EXPECT_LT(std::abs(few.at("energy_error")), 1e-3 * few.at("electrical_work"));
 }
 
+// A block that is free in its plane pulls in at 0.687 sqrt(mu / eps), 21.736 kV over 1 mm. Solids do not
+// jump.
+TEST_F(Solids, that_pull_in_are_not_told_to_jump) {
+  const Run stopped = run(
+      "model = \"3d\"\n" + film("field = \"potential\"") +
+          "[slab]\nlength = \"1 mm\"\nheight = \"1 mm\"\nwidth = \"1 mm\"\n[mesh]\nacross = 1\ngrading = 1\n"
+          "[[support]]\nplace = \"bottom\"\nfix = [\"y\"]\n[[support]]\nplace = \"left\"\nfix = [\"x\"]\n"
+          "[[support]]\nplace = \"back\"\nfix = [\"z\"]\n"
+          "[[electrode]]\nname = \"film\"\nplace = \"top\"\nground = \"bottom\"\n"
+          "[drive]\nvoltage = \"25 kV\"\n[[step]]\nkind = \"voltage\"\nincrements = 8\n"
+          "[[quantity]]\nname = \"up\"\nkind = \"displacement\"\nof = \"top\"\nalong = \"y\"\n"
+          "[output]\nerror_estimate = false\n",
+      "up");
+  EXPECT_EQ(stopped.outcome.kind, "limit point");
+  EXPECT_NEAR(stopped.rows.back().voltage, 21.736e3, 1);
+  EXPECT_TRUE(stopped.outcome.message.ends_with("on_instability = \"follow\"")) << stopped.outcome.message;
+}
+
 } // namespace
 } // namespace dielast::cases
