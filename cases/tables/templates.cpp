@@ -3,6 +3,7 @@
 
 #include "cases/language/convert.hpp"
 #include "cases/language/schema.hpp"
+#include "cases/text/units.hpp"
 
 #include <fmt/format.h>
 
@@ -204,6 +205,13 @@ std::string geometry_of(const Node& table) {
 
 namespace {
 
+bool is_heavy(const Node& body) try {
+  const Node* mass = body.find("mass");
+  return mass && (mass->is(Node::Kind::text) ? split_measure(mass->text).number : mass->number) != 0;
+} catch (const UnitError&) {
+  return false; // reported where it is read
+}
+
 /// A film of revolution is what a plate, a chamber or a balloon asks for, and inertia what a mass does.
 void add_motion_defaults(Node& tree) {
   const Source source{tree.source.file, 0, 0};
@@ -212,10 +220,9 @@ void add_motion_defaults(Node& tree) {
                               tree.find("roll") || tree.find("hollow_sphere")))
     tree.add("model", text_node("axisymmetric", source));
   Node* steps = tree.find("step");
-  const Node* bodies = tree.find("body"); // the caps that a roll brings have no mass
-  const bool moving = bodies && (bodies->source.is_written() || !tree.find("roll"));
-  if (!(tree.find("plate") || tree.find("point_mass") || moving) || !steps || !steps->is(Node::Kind::list))
-    return;
+  const bool moving = tree.find("plate") || tree.find("point_mass") || tree.find("fin") ||
+                      std::ranges::any_of(items_of(tree, "body"), is_heavy);
+  if (!moving || !steps || !steps->is(Node::Kind::list)) return;
   for (Node& step : steps->items)
     if (const std::string kind = text_at(step, "kind");
         (kind == "transient" || kind == "hold") && !step.find("inertia"))

@@ -81,6 +81,21 @@ TEST_F(Bodies, swing_and_tilt_in_time) {
   EXPECT_NEAR(swings.last("energy_error"), 0, 1e-2 * std::abs(swings.last("mechanical_work")));
 }
 
+TEST_F(Bodies, have_inertia_by_default_where_they_have_a_mass) {
+  for (const auto& [mass, moves] : {std::pair{"", false},
+                                    {"mass = \"0 g\"\n", false},
+                                    {"mass = 0\n", false},
+                                    {"mass = \"1 g\"\n", true},
+                                    {"mass = 1e-3\n", true}}) {
+    write("film.toml", "[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\n"
+                       "shear_modulus = 4e4\npermittivity = 4e-11\n[annulus]\ninner_radius = 0.01\n"
+                       "outer_radius = 0.03\n[[support]]\nplace = \"outer\"\nfix = [\"x\", \"y\"]\n"
+                       "[[body]]\nname = \"hub\"\nplaces = [\"inner\"]\nfix = [\"turn_z\"]\n" +
+                           std::string(mass) + "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\n");
+    EXPECT_EQ(read_case(directory / "film.toml").steps[0].inertia, moves) << mass;
+  }
+}
+
 TEST_F(Bodies, may_be_held_by_a_support_but_not_what_they_carry) {
   const auto with = [this](const std::string& text) {
     write("body.toml", annulus("3d", "", "[[step]]\nkind = \"weight\"\n" + text));
