@@ -108,6 +108,12 @@ std::string units_text() {
   return text;
 }
 
+std::string terms_text() {
+  std::string text = "Words of messages and documents\n";
+  for (const Term& term : terms()) text += fmt::format("  {}: {}\n", term.name, term.meaning);
+  return text;
+}
+
 struct Topic {
   const char* name;
   std::string (*text)();
@@ -126,6 +132,7 @@ constexpr std::array all_topics{
     Topic{"fit", fit_text},
     Topic{"keys", keys_text},
     Topic{"units", units_text},
+    Topic{"terms", terms_text},
 };
 
 } // namespace

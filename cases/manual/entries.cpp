@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace dielast::cases {
 namespace {
 
@@ -30,6 +32,25 @@ std::string values_text(const Section& section, const void* object) {
 }
 
 } // namespace
+
+std::span<const Term> terms() {
+  static constexpr std::array all{
+      Term{"limit point",
+           "a state on a path of equilibria at which the load turns: no equilibrium is near for "
+           "a larger load (pull-in, snap-through), and the stiffness along the path vanishes"},
+      Term{"bifurcation",
+           "a state at which another path of equilibria crosses: a mode on which the load does "
+           "no work loses its stiffness (buckling, a film that leaves its plane)"},
+      Term{"critical point", "a limit point or a bifurcation: the tangent is singular, and beyond it a "
+                             "device is stable on another path or not at all"},
+      Term{"arclength", "how a path is followed past a limit point: each increment goes a given length along "
+                        "the path in displacements and load together, so that the load may fall "
+                        "(on_instability = \"follow\")"},
+      Term{"meridian", "the curve that makes a film of revolution when it is turned about the z axis; with "
+                       "model = \"axisymmetric\" it alone is meshed, x the radius"},
+  };
+  return all;
+}
 
 std::string rules_text(const Key& key) {
   std::string rules = expectation(key, key.unit);

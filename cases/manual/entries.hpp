@@ -5,7 +5,9 @@
 #include "cases/tables/templates.hpp"
 #include "materials/catalog.hpp"
 
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace dielast::cases {
 
@@ -24,6 +26,12 @@ std::string keys_for(const Section& section, const std::string& selected);
 /// Source, validity and parameters of a named material.
 std::string material_text(const materials::NamedFilm& named);
 std::string material_text(const materials::NamedSolid& named);
+
+/// A word of the field that messages and documents use.
+struct Term {
+  std::string_view name, meaning;
+};
+std::span<const Term> terms();
 
 /// Keys, places, defaults and standard quantities of a device.
 std::string device_text(const Template& device);

@@ -101,6 +101,8 @@ std::string manual_page() {
     text += fmt::format("| `{}` | {} | {} |\n", field.name, field.unit, cell(field.meaning));
   text += "\n## Units\n\n| quantity | usual units |\n|---|---|\n";
   for (const Dimension& one : dimensions()) text += fmt::format("| {} | {} |\n", one.noun, one.usual);
+  text += "\n## Terms\n\n";
+  for (const Term& term : terms()) text += fmt::format("- **{}**: {}.\n", term.name, term.meaning);
   return text;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/manual/materials_page.hpp"
 
+#include "cases/language/convert.hpp"
 #include "cases/text/units.hpp"
 #include "materials/beam_section.hpp"
 #include "materials/catalog.hpp"
@@ -39,6 +40,18 @@ std::string law_text() {
 template<std::size_t... I>
 std::string laws_text(std::index_sequence<I...>) {
   return (law_text<std::variant_alternative_t<I, materials::ElasticLaw>>() + ...);
+}
+
+/// Keys of [film.material] that are no law's and no dielectric's.
+std::string mass_and_viscosity_table() {
+  const Section& material = *case_schema().find_section("film")->find_section("material");
+  std::string text = "| key | meaning | unit | range | default |\n|---|---|---|---|---|\n";
+  for (const char* name : {"density", "viscosity"}) {
+    const Key& key = *material.find_key(name, "");
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.meaning, key.unit,
+                        range_text(key, key.unit), *key.fallback);
+  }
+  return text + "\n";
 }
 
 /// The parameters of a law as it stands.
@@ -100,6 +113,12 @@ std::string materials_page() {
       "Koh, Bauer & Suo 2012 |\n"
       "| `nominal` | `eta xi_i' = -dW/dxi_i` along the film's axes named in `directions` | Jeong, Mun, Yun & "
       "Kyung 2023 (spring-rolled muscle) |\n\n";
+  text +=
+      "## Mass and viscosity (`[film.material]`)\n\n" + mass_and_viscosity_table() +
+      "`viscosity` is that of a dashpot beside the law (Kelvin & Voigt): a branch of the dashpot `log` whose "
+      "neo-Hookean spring is 1e4 times as stiff as the law. In motions with omega the complex modulus mu + i "
+      "omega eta is off by less than 1e-4 omega eta/mu of itself; loads that jump move the film by 1e-4 of "
+      "where they lead at once.\n\n";
   text += "## Named film materials (`film.material = \"...\"`)\n\n";
   for (const materials::NamedFilm& film : materials::named_films()) text += film_text(film);
   text += "## Walls and frames (`honeycomb.wall_material`)\n\n" + parameter_table<materials::ElasticSolid>();

@@ -60,6 +60,9 @@ const std::vector<Entry>& all_entries() {
       made.push_back({std::string(field.name), [field] {
                         return fmt::format("field {}: {} ({})\n", field.name, field.meaning, field.unit);
                       }});
+    for (const Term& term : terms())
+      made.push_back(
+          {std::string(term.name), [term] { return fmt::format("{}: {}\n", term.name, term.meaning); }});
     add_section(made, case_schema(), "");
     return made;
   }();

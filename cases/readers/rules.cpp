@@ -184,6 +184,19 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
+/// A given charge stays what it is, whatever leaks.
+void check_leaks(SectionReader& reader, const Node& tree, const Case& one) {
+  const bool leaks = std::ranges::any_of(
+      one.circuits, [](const auto& circuit) { return circuit.second.leakage_resistance.has_value(); });
+  for (std::size_t s = 0; leaks && s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    if (!step.duration || (step.kind != StepKind::charge && step.control != Control::charge)) continue;
+    const Place at = place_of_step(tree, s);
+    reader.warn(at.source, at.key,
+                "nothing leaks here: electrodes keep their charges, in spite of leakage_resistance");
+  }
+}
+
 void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
   const Node* written = tree.find("body");
   if (one.chamber && !one.bodies.empty())
@@ -323,6 +336,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_waves(reader, tree, one);
   check_rows(reader, tree, one);
   check_masses(reader, tree, one);
+  check_leaks(reader, tree, one);
   check_bodies(reader, tree, one);
   check_supports(reader, tree, one);
   check_chamber(reader, tree, one);

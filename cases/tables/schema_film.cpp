@@ -242,7 +242,7 @@ Section film_section() {
            "direction in which the layers of a solid are stacked; without it along the height: y in plane "
            "strain and in a [slab], z otherwise")
           .optional()
-          .only_with(when::solid()),
+          .only_with(when::layers()),
       measure("width", "m", to(&Film::width), "of a solid in plane strain: across the plane")
           .above(0)
           .at_most(10)
@@ -251,7 +251,7 @@ Section film_section() {
       measure("bulk_modulus", "Pa", to(&Film::bulk_modulus), "of a solid; without it it is incompressible")
           .above(0)
           .optional()
-          .only_with(when::solid()),
+          .only_with(when::law_without_volume()),
   };
   section.sections.push_back(material_section());
   section.check = prestretch_conflict;

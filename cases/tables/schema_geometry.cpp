@@ -176,7 +176,7 @@ Section patch_section() {
           .otherwise_as("length"),
       word("mode",
            {{"biaxial", "x and y move independently", PatchMode::biaxial},
-            {"equal-biaxial", "x and y are stretched alike; of the stresses only the sum is given",
+            {"equal-biaxial", "x and y are stretched alike: stretch_x and stress_x act along both",
              PatchMode::equal_biaxial},
             {"pure-shear", "y is held at the prestretch", PatchMode::pure_shear}},
            to(&Patch::mode), "how the sides move")

@@ -32,7 +32,9 @@ Section wave_section(std::string_view unit) {
            {"sine", "mean + amplitude sin(2 pi frequency t + phase)", Waveform::Kind::sine},
            {"unipolar sine", "from + amplitude/2 (1 - cos(2 pi frequency t))", Waveform::Kind::unipolar_sine},
            {"square", "jumps to and fro", Waveform::Kind::square},
-           {"sweep", "a sine whose frequency grows or falls steadily", Waveform::Kind::sweep},
+           {"sweep",
+            "a sine whose frequency grows or falls steadily, and after `duration` stays at `end_frequency`",
+            Waveform::Kind::sweep},
            {"file", "straight between the rows of a CSV file", Waveform::Kind::file}},
           to(&Waveform::kind), "its form"),
       level("from", &Waveform::from, "value before it, and where it returns to")
@@ -46,7 +48,8 @@ Section wave_section(std::string_view unit) {
           .only({"sine", "unipolar sine", "sweep"}),
       frequency("frequency", &Waveform::frequency, "cycles per time; of a sweep at its start")
           .only({"sine", "unipolar sine", "square", "sweep"}),
-      frequency("end_frequency", &Waveform::end_frequency, "frequency that the sweep reaches")
+      frequency("end_frequency", &Waveform::end_frequency,
+                "frequency that the sweep reaches after its duration, and keeps")
           .only({"sweep"}),
       measure("phase", "rad", to(&Waveform::phase), "phase at t = 0").otherwise("0 deg").only({"sine"}),
       time("at", &Waveform::start, "time at which it begins")

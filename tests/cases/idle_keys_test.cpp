@@ -56,7 +56,21 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
   const std::string weight = "[[step]]\nkind = \"weight\"\n";
   const std::string inflate = "[[step]]\nkind = \"inflate\"\n";
   const std::string charged_hold = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\ncontrol = \"charge\"\n";
+  const auto slab = [](const std::string& keys, const std::string& law) {
+    return "model = \"planar\"\n[film]\nthickness = \"0.1 mm\"\n" + keys +
+           "[film.material]\npermittivity = \"4e-11 F/m\"\n" + law +
+           "[slab]\nlength = \"4 mm\"\nheight = \"1 mm\"\n";
+  };
+  const std::string neo_hookean = "shear_modulus = \"40 kPa\"\n", bulk = "bulk_modulus = \"10 kPa\"\n",
+                    stacked = "stacked_along = \"x\"\n";
   const std::vector<Pair> pairs{
+      {"film.bulk_modulus",
+       slab(bulk, "law = \"st-venant-kirchhoff\"\nyoungs_modulus = \"120 kPa\"\npoisson_ratio = 0.4\n"),
+       slab(bulk, neo_hookean)},
+      {"film.stacked_along",
+       slab("field = \"potential\"\n" + stacked, neo_hookean) +
+           "[[electrode]]\nname = \"e\"\nplace = \"top\"\nground = \"bottom\"\n",
+       slab(stacked, neo_hookean)},
       {"film.material.branch[1]", film + branch + disc, film + branch + disc + instantaneous},
       {"film.material.branch[1]", film + branch + disc + ramp, film + branch + disc + transient},
       {"step[1].response", film + disc + instantaneous, film + branch + disc + instantaneous},
@@ -79,6 +93,8 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       {"circuit.current_limit",
        film + disc + drive + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\ncurrent_limit = 1e-3\n",
        film + disc + drive + "[circuit]\nresistance = 1e6\ncurrent_limit = 1e-3\n" + transient},
+      {"step[1]", film + disc + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n" + charged_hold,
+       film + disc + "[circuit]\nresistance = 1e6\n" + charged_hold},
       {"plate.damping", film + diaphragm + "damping = 1\n" + weight,
        film + diaphragm + "damping = 1\n" + weight + transient},
       {"gravity.acceleration", "model = \"3d\"\n" + film + disc + "[gravity]\nacceleration = 1.6\n" + ramp,

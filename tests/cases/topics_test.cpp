@@ -28,7 +28,8 @@ TEST_F(Topics, InfoExplainsWhatACaseMaySay) {
       {"devices", "patch"},         {"steps", "transient"},
       {"waves", "unipolar sine"},   {"devices", "corner_top"},
       {"quantities", "elongation"}, {"steps", "release"},
-      {"keys", "prestretch"},       {"units", "voltage"}};
+      {"keys", "prestretch"},       {"units", "voltage"},
+      {"terms", "arclength"}};
   for (const auto& [topic, word] : words) {
     const Ended ended = dielast({"info", topic});
     EXPECT_EQ(ended.exit_code, 0) << topic;
@@ -46,6 +47,9 @@ TEST_F(Topics, InfoExplainsAnyName) {
       {"thickness", {"[film]", "field thickness"}},
       {"voltage", {"[drive", "step.kind = \"voltage\""}},
       {"study.best", {"[[study.best]]", "largest", "[[study.best.where]]"}},
+      {"limit point", {"the load turns"}},
+      {"arclength", {"past a limit point"}},
+      {"meridian", {"of revolution"}},
       {"VHB 4910 (honeycomb)", {"from: ", "law"}}};
   for (const auto& [name, words] : names) {
     const Ended ended = dielast({"info", name});
