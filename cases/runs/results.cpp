@@ -220,7 +220,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
     results.checks.push_back({check.quantity, value, check.value, check.tolerance, row->unit, row->ratio,
                               check.source, std::abs(value - check.value) <= check.tolerance});
   }
-  if (const auto& energy = simulation.energy().worst(); energy.is_poor())
+  if (const auto energy = simulation.energy().worst(); energy.is_poor())
     results.checks.push_back({"energy error", energy.error, 0, 0.01 * energy.exchanged, "J",
                               post::Ratio::plain, "every run: 1 % of the energy that was exchanged", false});
   return results;

@@ -201,7 +201,9 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
     events.push_back({"jump", "",
                       fmt::format("jumped to another stable state; {} were released",
                                   post::engineering(energy_.work().released, "J"))});
-  if (energy_.turns_poor()) events.push_back(poor_energy(energy_.worst(), step));
+  energy_.judge();
+  if (const auto energy = energy_.worst(); ends && energy.is_poor())
+    events.push_back(poor_energy(energy, step));
   for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes))
     events.push_back(std::move(event));
   const post::StepRecord record{

@@ -187,17 +187,32 @@ double EnergyBalance::stored() const { return empty() ? 0 : total(parts()); }
 
 double EnergyBalance::error() const { return record_.doubt + std::abs(record_.rest); }
 
-bool EnergyBalance::turns_poor() {
+void EnergyBalance::judge() {
   const EnergyParts& parts = this->parts();
   // Differences of stored energies are no better known than these.
   const double known = round_off * (std::abs(parts.elastic) + std::abs(parts.branches) +
                                     std::abs(parts.electric) + std::abs(record_.stored_at_start));
   const Resolution now{std::max(0.0, error() - known), record_.exchanged};
-  const bool was_poor = record_.worst.is_poor();
-  if (now.error * record_.worst.exchanged > record_.worst.error * now.exchanged ||
-      record_.worst.exchanged == 0)
-    record_.worst = now;
-  return !was_poor && record_.worst.is_poor();
+  // What was exchanged never falls: a result before this one that is not worse can never be the worst again.
+  std::erase_if(record_.poor, [&](const Resolution& former) {
+    return !weighed(former).is_poor() ||
+           (former.error <= now.error && former.error * now.exchanged <= now.error * former.exchanged);
+  });
+  if (now.is_poor()) record_.poor.push_back(now);
+}
+
+EnergyBalance::Resolution EnergyBalance::weighed(const Resolution& result) const {
+  constexpr double least = 1e-3;
+  return {result.error, std::max(result.exchanged, least * record_.exchanged)};
+}
+
+EnergyBalance::Resolution EnergyBalance::worst() const {
+  Resolution worst{0, record_.exchanged};
+  for (const Resolution& result : record_.poor) {
+    const Resolution here = weighed(result);
+    if (here.error * worst.exchanged > worst.error * here.exchanged) worst = here;
+  }
+  return worst;
 }
 
 EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length) {

@@ -82,10 +82,11 @@ class EnergyBalance {
     /// Beyond 1 % of what was exchanged.
     bool is_poor() const { return error > 0.01 * exchanged; }
   };
-  /// Takes notice of the last state as a result. Whether it is the first that is poorly resolved.
-  bool turns_poor();
-  /// Of the worst result so far.
-  const Resolution& worst() const { return record_.worst; }
+  /// Takes notice of the last state as a result.
+  void judge();
+  /// Of the worst result so far. A result that has exchanged less than a thousandth of what the run has so
+  /// far is compared with that thousandth: about an instant at which a wave sets in, every rule is poor.
+  Resolution worst() const;
 
   bool empty() const { return record_.points.empty(); }
 
@@ -93,9 +94,9 @@ class EnergyBalance {
   struct Record {
     Work work;
     double stored_at_start = 0, exchanged = 0;
-    double doubt = 0; ///< sum of differences of rules, J
-    double rest = 0;  ///< left by the balance where nothing can take it, J
-    Resolution worst;
+    double doubt = 0;                ///< sum of differences of rules, J
+    double rest = 0;                 ///< left by the balance where nothing can take it, J
+    std::vector<Resolution> poor;    ///< results that are, or may become, the worst; ratios of errors fall
     std::vector<EnergyPoint> points; ///< the last one, and the one before where no corner is between
   };
   const Record& record() const { return record_; }
@@ -105,6 +106,7 @@ class EnergyBalance {
  private:
   void account(const EnergyPoint& point);
   void arrive(EnergyPoint point);
+  Resolution weighed(const Resolution& result) const;
 
   Record record_;
 };

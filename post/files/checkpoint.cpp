@@ -273,23 +273,24 @@ json archive(const fem::EnergyBalance::Record& record) {
   const fem::Work& w = record.work;
   json points = json::array();
   for (const fem::EnergyPoint& point : record.points) points.push_back(archive(point));
+  std::vector<double> poor;
+  for (const auto& [error, exchanged] : record.poor) poor.insert(poor.end(), {error, exchanged});
   return {{"work", post::pack(std::array{w.electrical, w.mechanical, w.dissipated, w.released, w.resistance,
                                          w.leak})},
-          {"account", post::pack(std::array{record.stored_at_start, record.exchanged, record.doubt,
-                                            record.rest, record.worst.error, record.worst.exchanged})},
+          {"account",
+           post::pack(std::array{record.stored_at_start, record.exchanged, record.doubt, record.rest})},
+          {"poor", post::pack(poor)},
           {"points", std::move(points)}};
 }
 
 fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes& sizes) {
   try {
-    const std::vector<double> w = unpack(archived.at("work"), 6), account = unpack(archived.at("account"), 6);
-    fem::EnergyBalance::Record record{{w[0], w[1], w[2], w[3], w[4], w[5]},
-                                      account[0],
-                                      account[1],
-                                      account[2],
-                                      account[3],
-                                      {account[4], account[5]},
-                                      {}};
+    const std::vector<double> w = unpack(archived.at("work"), 6), account = unpack(archived.at("account"), 4),
+                              poor = unpack(archived.at("poor"));
+    fem::EnergyBalance::Record record{
+        {w[0], w[1], w[2], w[3], w[4], w[5]}, account[0], account[1], account[2], account[3], {}, {}};
+    if (poor.size() % 2 != 0) mismatch();
+    for (std::size_t i = 0; i < poor.size(); i += 2) record.poor.push_back({poor[i], poor[i + 1]});
     for (const json& point : archived.at("points")) record.points.push_back(restore_point(point, sizes));
     if (record.points.empty() || record.points.size() > 2) mismatch();
     return record;

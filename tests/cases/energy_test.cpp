@@ -81,6 +81,16 @@ TEST_F(Energy, a_dashpot_beside_the_law_turns_its_own_power_into_heat) {
   EXPECT_NEAR(rows.back().at("dissipated_energy"), heat, 0.005 * heat);
 }
 
+// Its first increments exchange a millionth of what the run does, and know a fifth of that.
+TEST_F(Energy, a_wave_that_sets_in_smoothly_behind_a_resistance_is_resolved) {
+  const auto rows =
+      run(film(50e3) + "[patch]\n[drive]\nvoltage = { wave = \"ramp\", to = \"4 kV\", duration = \"10 s\" }\n"
+                       "[circuit]\nresistance = \"200 GOhm\"\n"
+                       "[[step]]\nkind = \"transient\"\nduration = \"10 s\"\nincrements = 100\n");
+  const Row& end = rows.back();
+  EXPECT_LT(end.at("energy_error"), 1e-4 * end.at("stored_energy"));
+}
+
 TEST_F(Energy, a_hold_in_which_nothing_moves_does_no_work) {
   const auto rows =
       run(film(10e3, branch(20e3, 4)) +

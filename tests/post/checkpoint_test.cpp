@@ -184,14 +184,15 @@ TEST(Checkpoint, EnergiesAreKeptToTheLastBit) {
                                           .exchanged = 0.2,
                                           .doubt = 0.3,
                                           .rest = -0.4,
-                                          .worst = {0.5, 0.6},
+                                          .poor = {{0.5, 0.6}, {0.55, 0.9}},
                                           .points = {point, point}};
   const json archived = archive(record);
   const fem::EnergyBalance::Record restored = restore_energy(archived, sizes);
   EXPECT_EQ(archive(restored), archived);
   EXPECT_EQ(restored.work.leak, record.work.leak);
   EXPECT_EQ(restored.rest, record.rest);
-  EXPECT_EQ(restored.worst.exchanged, 0.6);
+  ASSERT_EQ(restored.poor.size(), 2u);
+  EXPECT_EQ(restored.poor[1].exchanged, 0.9);
   ASSERT_EQ(restored.points.size(), 2u);
   EXPECT_EQ(restored.points[1].power, point.power);
   EXPECT_EQ(restored.points[1].sheet.coordinate, point.sheet.coordinate);
