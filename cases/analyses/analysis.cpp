@@ -257,7 +257,7 @@ Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::S
     for (int c = 0; c < 3; ++c)
       if (const int e = dofs.equation(master, 3 + c); e != fem::DofMap::absent)
         row[e] = turns(*quantity.along, c);
-    return row;
+    return dofs.jacobian(state).transpose() * row;
   }
   const auto add = [&](int node, const Eigen::Vector3d& gradient) {
     for (int c = 0; c < 3; ++c)
