@@ -246,7 +246,8 @@ Section gravity_section() {
                       .at_least(0)
                       .otherwise("9.81 m/s^2")
                       .only_with(when::weight()),
-                  number("direction", to(&Gravity::direction), "where it pulls; any length")
+                  number("direction", to(&Gravity::direction),
+                         "where it pulls; any length; by default a [strip] hangs along [0, -1, 0]")
                       .values(3, 3)
                       .otherwise("[0, 0, -1]")
                       .checked([](const Value& value) {
@@ -255,7 +256,8 @@ Section gravity_section() {
                         return std::string(zero ? "found no direction" : "");
                       })
                       .only_with(when::weight()),
-                  flag("film", to(&Gravity::film), "whether the film's own weight counts")
+                  flag("film", to(&Gravity::film),
+                       "whether the film's own weight counts; by default that of a [strip] does")
                       .otherwise("false")
                       .only_with(when::weight())};
   return section;
