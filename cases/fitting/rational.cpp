@@ -135,8 +135,9 @@ std::vector<Complex> roots(const VectorXd& c) {
   return all;
 }
 
-/// Frequencies and damping ratios of the roots of c_0 + c_1 x + ..., x in `unit`, rad/s; pairs once. The
-/// coefficients that were fitted begin at `first` among the coordinates.
+/// Frequencies of the roots of c_0 + c_1 x + ..., x in `unit`, rad/s, pairs once; damping ratios of those
+/// that are not real and negative: below 0 in the right half plane. The coefficients that were fitted begin
+/// at `first` among the coordinates.
 void append_roots(std::vector<FittedNumber>& numbers, const char* kind, const VectorXd& c, double unit,
                   Index first, Index fitted, const MatrixXd& covariance) {
   const std::vector<Complex> all = roots(c);
@@ -158,7 +159,7 @@ void append_roots(std::vector<FittedNumber>& numbers, const char* kind, const Ve
     const std::string name = fmt::format("{} {}", kind, ++count);
     numbers.push_back(
         number(name + ", frequency", "Hz", size * unit / (2 * std::numbers::pi), frequency, covariance));
-    if (std::abs(root.imag()) > real * size)
+    if (std::abs(root.imag()) > real * size || root.real() > 0)
       numbers.push_back(number(name + ", damping ratio", "1", -root.real() / size, damping, covariance));
   }
 }

@@ -68,6 +68,19 @@ TEST(Rational, TellsAPoleThatIsNotStable) {
   EXPECT_FALSE(fit_rational(table(grows, 0.1, 1000, 20), {1, 0}, 200).stable);
 }
 
+TEST(Rational, TellsAZeroInTheRightHalfPlaneFromOneInTheLeft) {
+  const auto with_zero_at = [](double at) {
+    return fit_rational(
+        table([at](Complex s) { return (1.0 - s / at) / (1.0 + s / 50.0) / (1.0 + s / 2000.0); }, 0.1, 1000,
+              40),
+        {2, 1}, 200);
+  };
+  const RationalOutcome right = with_zero_at(300), left = with_zero_at(-300);
+  EXPECT_NEAR(of(right, "zero 1, frequency").value, of(left, "zero 1, frequency").value, 1e-6);
+  EXPECT_NEAR(of(right, "zero 1, damping ratio").value, -1, 1e-9);
+  EXPECT_EQ(right.numbers.size(), left.numbers.size() + 1);
+}
+
 constexpr double Rs = 202e3, Rp = 6.1e9, C = 0.561e-9;
 
 Complex impedance(Complex s) { return Rs + 1.0 / (1 / Rp + s * C); }
