@@ -13,8 +13,8 @@ namespace dielast::fem {
 
 namespace {
 
-/// An equation covers others of at least this part of its own neighbours: one that is joined to all (a rigid
-/// plate) would cover all, and leave nothing to dissect.
+/// Times the neighbours of what it covers an equation may have: one that is joined to all (a rigid plate)
+/// would cover all, and leave nothing to dissect.
 constexpr std::size_t widest_cover = 4;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }

@@ -294,12 +294,14 @@ double flow_heat(Equilibrium& equilibrium, const State& from, const State& to) {
     return equilibrium.internal_force(shape, unused).energy;
   };
   const double at_first = energy(from, 0) - energy(from, 1), at_last = energy(to, 0) - energy(to, 1);
-  if (at_first >= 0 && at_last >= 0) return (at_first + at_last) / 2;
-  constexpr double near = 0.05;
-  const auto power = [&](const State& shape, double part) {
-    return (energy(shape, part - near) - energy(shape, part + near)) / (2 * near);
+  const double between = (at_first + at_last) / 2;
+  if (at_first >= 0 && at_last >= 0) return between;
+  const auto power = [&](const State& shape, double part) { // exact for polynomials of degree 4
+    const auto falls = [&](double by) { return energy(shape, part - by) - energy(shape, part + by); };
+    return (8 * falls(0.5) - falls(1)) / 6;
   };
-  return (power(from, 0) + power(to, 1)) / 2;
+  const double at_both = (power(from, 0) + power(to, 1)) / 2;
+  return std::isfinite(at_both) ? at_both : between; // an increment may be too long to be gone back
 }
 
 } // namespace dielast::fem

@@ -351,8 +351,7 @@ TEST_F(Works, of_random_transients_agree_with_an_independent_integration) {
     // sheets.
     const double least = sheet && !fine ? 0.01 : 0.001;
     for (const Row& b : expected)
-      for (const double energy : {b.electrical, b.mechanical, b.dissipated, b.source, b.leak})
-        exchanged = std::max(exchanged, least * std::abs(energy));
+      exchanged = std::max({exchanged, least * std::abs(b.electrical), least * std::abs(b.source)});
     std::size_t where = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Row &a = rows[i], &b = expected[i];
