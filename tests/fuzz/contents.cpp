@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 using namespace dielast;
@@ -34,7 +35,9 @@ constexpr std::array<long, 16> values{0,
 template<class Number>
 void edit(Number& number, int how) {
   const long value = values[static_cast<std::size_t>(how) % values.size()];
-  number = how < 128 ? static_cast<Number>(value) : static_cast<Number>(number + static_cast<Number>(value));
+  using Wide = std::conditional_t<std::is_integral_v<Number>, unsigned long, Number>; // wraps round
+  const Wide before = how < 128 ? Wide{} : static_cast<Wide>(number);
+  number = static_cast<Number>(before + static_cast<Wide>(value));
 }
 
 /// Changes, leaves out or doubles one of a list.
