@@ -300,7 +300,7 @@ Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::S
 fem::State operating_point(const Device& device, fem::State state) {
   for (const fem::Circuit& circuit : device.model.circuits) {
     const auto e = static_cast<std::size_t>(circuit.electrode);
-    if (state.supply[e] == fem::Supply::voltage) state.source[e] = state.voltage[e] / circuit.steady_share();
+    if (state.supply[e] != fem::Supply::circuit) state.source[e] = state.voltage[e] / circuit.steady_share();
     state.supply[e] = fem::Supply::circuit;
   }
   return state;

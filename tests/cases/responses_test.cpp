@@ -62,6 +62,24 @@ TEST_F(Responses, OfARadiusAndADistanceAreTheirSlopes) {
   }
 }
 
+// Small sines come from the source, which an electrode that was isolated before has again: the source stands
+// at the voltage that keeps the electrode's.
+TEST_F(Responses, AfterAChargeStepTheSourceStandsAtTheElectrodesVoltage) {
+  std::string charged = disc;
+  charged.replace(charged.find("voltage = \"4 kV\""), 16,
+                  "charge = \"50 nC\"\n[circuit]\nresistance = \"1 MOhm\"");
+  charged.replace(charged.find("kind = \"voltage\""), 16, "kind = \"charge\"");
+  write("charged.toml",
+        charged + "[[step]]\nkind = \"harmonic\"\nfrom = \"1e-4 Hz\"\nto = \"1e-3 Hz\"\npoints = 2\n");
+  const Ended ended = dielast({"run", "charged.toml", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+  const double voltage = std::stod(table_of(directory / "out/history.csv").back().at(3));
+  const auto table = table_of(directory / "out/harmonic.csv");
+  ASSERT_EQ(table.at(0).back(), "electrode_radius_per_squared_volt[m/V^2]");
+  const double per_volt = std::stod(table.at(1).at(1));
+  EXPECT_NEAR(std::stod(table.at(1).back()) * 2 * voltage, per_volt, 1e-9 * per_volt);
+}
+
 TEST_F(Responses, OfADistanceInAHoneycomb) {
   const std::string height =
       "[[quantity]]\nname = \"h\"\nkind = \"distance\"\nbetween = [\"left_apex\", \"right_apex\"]\n";
