@@ -96,6 +96,15 @@ std::string why_not(const Solution& own, const Solution& other) {
                      way_text(other), way_text(own));
 }
 
+/// Whether electrodes end within a solid whose potential is an unknown: the field there is singular, like
+/// 1/sqrt(r), and so are the stresses.
+bool has_fringes(const Case& one) {
+  return std::ranges::any_of(one.parts, [](const Part& part) {
+    const auto* slab = std::get_if<Slab>(&part.geometry);
+    return slab && part.film && part.film->potential && (slab->electrode || slab->electrode_width);
+  });
+}
+
 /// Orders that the elements may have, measured on the cases of docs/verification.md.
 OrderRange orders_of(const Quantity& quantity, const Case& one, bool smooth) {
   switch (quantity.kind) {
@@ -107,6 +116,7 @@ OrderRange orders_of(const Quantity& quantity, const Case& one, bool smooth) {
   case QuantityKind::growth:
     return {1, 2}; // whichever node is outermost
   default:
+    if (has_fringes(one)) return {0.5, 1};
     if (reads_film(quantity.kind)) return {0.5, 2}; // in the elements next to a place
     return {1, smooth && !takes_time(one) ? 3.0 : 2.0};
   }
@@ -222,6 +232,9 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
     ErrorEstimate& estimate = estimates.quantities.emplace_back();
     if (quantity.kind == QuantityKind::energy && quantity.of == "error") {
       estimate.remark = "an error itself";
+    } else if (quantity.kind == QuantityKind::extreme && has_fringes(one)) {
+      estimate.singular = true;
+      estimate.remark = "singular where an electrode ends: no converged value";
     } else {
       std::vector<Sampled> sampled;
       for (const Solution& other : others) sampled.push_back({other.size, other.values[q], other.rises[q]});

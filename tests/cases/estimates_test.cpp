@@ -53,6 +53,38 @@ TEST_F(Estimates, OfASingularExtremeAreNone) {
             std::string::npos);
 }
 
+// A mesh of four elements across does not show that the field has no bound where an electrode ends; the case
+// does.
+TEST_F(Estimates, KnowWhereElectrodesEndInASolid) {
+  write("slab.toml", R"([film]
+thickness = "0.5 mm"
+width = "13 mm"
+field = "potential"
+material = { shear_modulus = "0.40 MPa", relative_permittivity = 2.8 }
+[slab]
+length = "8 mm"
+height = "0.5 mm"
+electrode = ["2 mm", "6 mm"]
+[mesh]
+across = 4
+[[electrode]]
+name = "upper"
+place = "upper_electrode"
+ground = "lower_electrode"
+[drive]
+voltage = "7.5 kV"
+[[support]]
+place = "bottom"
+fix = ["x", "y"]
+)");
+  const nlohmann::json quantities = summary_of(directory / "slab.toml")["quantities"];
+  for (const char* name : {"max_field", "breakdown_ratio", "min_principal_stress"}) {
+    EXPECT_TRUE(quantities[name]["error_estimate"].is_null()) << name;
+    EXPECT_EQ(quantities[name]["error_remark"], "singular where an electrode ends: no converged value");
+  }
+  EXPECT_GT(quantities["capacitance"]["error_estimate"], 0);
+}
+
 TEST_F(Estimates, OfAnOwnMeshComeFromRefiningIt) {
   const nlohmann::json summary = summary_of(cases / "own_mesh.toml");
   const nlohmann::json& waist = summary["quantities"]["waist"];
