@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace dielast::cases {
 
 std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) {
@@ -70,6 +72,11 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
 }
 
 std::string meaning_of(const Quantity& q) {
+  const auto field = [&q] { // "electric_field" in words
+    std::string words = q.of;
+    std::ranges::replace(words, '_', ' ');
+    return words;
+  };
   static constexpr const char* axes[] = {"x", "y", "z", "gravity"};
   const std::string along = q.along ? fmt::format(" along {}", axes[*q.along]) : "";
   const std::string at = q.at.empty() ? "" : fmt::format(", at the end of \"{}\"", q.at);
@@ -145,15 +152,15 @@ std::string meaning_of(const Quantity& q) {
   case QuantityKind::nominal_stress:
     return fmt::format("mean nominal stress of {}{}{}", q.of, along, at);
   case QuantityKind::energy:
-    return fmt::format("energy balance: {}{}", q.of, at);
+    return fmt::format("energy balance: {}{}", field(), at);
   case QuantityKind::value:
     if (q.point)
-      return fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m as drawn{}", q.of, (*q.point)[0], (*q.point)[1],
+      return fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m as drawn{}", field(), (*q.point)[0], (*q.point)[1],
                          (*q.point)[2], at);
-    return fmt::format("mean {} at {}{}", q.of, q.place, at);
+    return fmt::format("mean {} at {}{}", field(), q.place, at);
   case QuantityKind::extreme:
-    return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest", q.of,
-                       at);
+    return fmt::format("{} {} anywhere{}", q.extreme == post::Extreme::minimum ? "smallest" : "largest",
+                       field(), at);
   }
   return "";
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -142,7 +143,14 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vec
                               : scaled.unit.empty() ? quantity.name
                                                     : fmt::format("{} [{}]", quantity.name, scaled.unit);
     const auto [place, fresh] = by_label.try_emplace(label, plots.size());
-    if (fresh) plots.push_back({strain ? "strains" : quantity.name, x_label, label, {}});
+    if (fresh) {
+      std::string heading = strain ? "strains" : meaning_of(quantity);
+      heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
+      plots.push_back({.title = strain ? "strains" : quantity.name,
+                       .x_label = x_label,
+                       .y_label = label,
+                       .heading = std::move(heading)});
+    }
     plots[place->second].series.push_back(std::move(series));
   }
   return plots;

@@ -206,8 +206,9 @@ std::string script(const Plot& plot) {
       fmt::format("set terminal svg size {},{} noenhanced rounded linewidth 1.4 font 'Helvetica,Arial,DejaVu "
                   "Sans,sans-serif,14' background '#ffffff'\nset key maxcols {}\n",
                   width, height_of(plot), key.columns);
-  settings += fmt::format("set title {} font ',{}' textcolor '#1d242c'\n", gnuplot_string(plot.title),
-                          font_size(plot.title, 16, width - 40));
+  const std::string& heading = plot.heading.empty() ? plot.title : plot.heading;
+  settings += fmt::format("set title {} font ',{}' textcolor '#1d242c'\n", gnuplot_string(heading),
+                          font_size(heading, 16, width - 40));
   settings += fmt::format("set xlabel {} font ',{}' textcolor '#3a434d' offset 0,0.4\n",
                           gnuplot_string(plot.x_label), font_size(plot.x_label, 14, width - 120));
   settings += fmt::format("set ylabel {} font ',{}' textcolor '#3a434d'\n", gnuplot_string(plot.y_label),
