@@ -20,8 +20,8 @@ template<class Element>
 Eigen::Matrix3d SolidElementState<Element>::deformation(const SolidPoint<Element>& at) const {
   constexpr int dim = Element::dim;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
-  F.topLeftCorner<dim, dim>() += displacement * at.gradient;
-  if constexpr (dim == 2) F(2, 2) += displacement.row(0) * at.hoop;
+  F.topLeftCorner<dim, dim>() += displacement * at.gradient.template leftCols<dim>();
+  if constexpr (dim == 2) F(2, 2) += displacement.row(0) * at.gradient.col(2);
   return F;
 }
 
@@ -29,7 +29,7 @@ template<class Element>
 Eigen::Vector3d SolidElementState<Element>::field(const SolidPoint<Element>& at) const {
   if (given_field) return *given_field;
   Eigen::Vector3d field = Eigen::Vector3d::Zero();
-  field.head<Element::dim>() = -at.gradient.transpose() * potential;
+  field.head<Element::dim>() = -at.gradient.template leftCols<Element::dim>().transpose() * potential;
   return field;
 }
 
@@ -69,7 +69,8 @@ void SolidBlock<Element>::place_element(const meshing::Mesh& mesh, int element) 
     const double det = jacobian.determinant();
     if (!(det > 0)) fail(" is inverted or degenerate as drawn");
     Point& place = geometry_[static_cast<std::size_t>(element * points + p)];
-    place.gradient = slope * jacobian.inverse();
+    place.gradient.setZero();
+    place.gradient.template leftCols<dim>() = slope * jacobian.inverse();
     place.pressure = Element::template shape<corners>(p);
     place.volume = Element::weight(p) * det;
     if constexpr (dim == 2) {
@@ -77,8 +78,7 @@ void SolidBlock<Element>::place_element(const meshing::Mesh& mesh, int element) 
       const double radius = X.row(0) * shape;
       if (axes_.of_revolution && !(radius > 0)) fail(" of a solid of revolution is not at x > 0");
       place.volume *= axes_.of_revolution ? 2 * std::numbers::pi * radius : part(element).width;
-      place.hoop.setZero();
-      if (axes_.of_revolution) place.hoop = shape / radius;
+      if (axes_.of_revolution) place.gradient.col(2) = shape / radius;
     }
   }
 }
@@ -116,8 +116,8 @@ void SolidBlock<Element>::element_equations(int element, const DofMap& dof_map,
   const auto scalar = [&](int number) {
     return number == none ? DofMap::absent : dof_map.scalar_equation(number);
   };
-  for (int a = 0; a < nodes; ++a)
-    for (std::size_t i = 0; i < dim; ++i) equations[at++] = dof_map.equation(node(element, a), axes_.axis[i]);
+  for (std::size_t i = 0; i < dim; ++i)
+    for (int a = 0; a < nodes; ++a) equations[at++] = dof_map.equation(node(element, a), axes_.axis[i]);
   for (int a = 0; a < corners; ++a)
     equations[at++] = scalar(pressure_scalar_[static_cast<std::size_t>(element * corners + a)]);
   for (int a = 0; has_potential() && a < nodes; ++a)
@@ -157,53 +157,79 @@ SolidElementState<Element> SolidBlock<Element>::at(const State& state, int eleme
   return now;
 }
 
-/// Of the components of C those that change: C11, C22, C33, C12, and in space C23, C13.
+/// Of the components of C those that change: C11, C22, C33, C12, and in space C23, C13. F's are numbered 3 i
+/// + K; of a triangle F13 stands for F33, and F23 for nothing.
 template<class Element>
 void SolidBlock<Element>::add_point(const Point& at, const Eigen::Matrix3d& F, const SolidDensity& density,
-                                    Vector& residual, Matrix* tangent) const {
-  constexpr int strains = dim == 2 ? 4 : 6;
-  Eigen::Matrix<double, strains, motions> B = Eigen::Matrix<double, strains, motions>::Zero(); // dC/du
+                                    Sums& sums, materials::Derivatives wanted) const {
+  constexpr int strains = dim == 2 ? 4 : 6, slopes = 3 * dim;
+  Eigen::Matrix<double, strains, slopes> B = Eigen::Matrix<double, strains, slopes>::Zero(); // dC/dF
   for (int c = 0; c < strains; ++c) {
     const auto [j, k] = materials::solid_components[static_cast<std::size_t>(c)];
-    if (j >= dim) continue;
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < dim; ++i)
-        B(c, dim * a + i) = F(i, j) * at.gradient(a, k) + F(i, k) * at.gradient(a, j);
+    for (int i = 0; j < dim && i < dim; ++i) {
+      B(c, 3 * i + k) += F(i, j);
+      B(c, 3 * i + j) += F(i, k);
+    }
   }
-  if constexpr (dim == 2)
-    for (int a = 0; a < nodes; ++a) B(2, 2 * a) = 2 * F(2, 2) * at.hoop[a];
+  if constexpr (dim == 2) B(2, 2) = 2 * F(2, 2);
   const Eigen::Vector<double, corners> P = pressure_unit_ * at.pressure; // dp/d(unknowns)
-  const Eigen::Matrix<double, nodes, dim> E = -potential_unit_ * at.gradient;
-  residual.template head<motions>() += at.volume * (B.transpose() * density.in_C.head<strains>());
-  residual.template segment<corners>(motions) += at.volume * density.in_p * P;
-  if (has_potential()) residual.template tail<nodes>() += at.volume * (E * density.in_E.head<dim>());
-  if (!tangent) return;
-  const Eigen::Matrix<double, strains, motions> HB =
-      at.volume * (density.in_CC.topLeftCorner<strains, strains>() * B);
-  tangent->template topLeftCorner<motions, motions>().noalias() += B.transpose() * HB;
-  Eigen::Matrix<double, dim, dim> S; // second Piola-Kirchhoff
+  const Eigen::Matrix<double, nodes, dim> E = -potential_unit_ * at.gradient.template leftCols<dim>();
+  const Eigen::Vector<double, slopes> stress = at.volume * (B.transpose() * density.in_C.head<strains>());
+  for (int i = 0; i < dim; ++i)
+    sums.first.template segment<nodes>(nodes * i) += at.gradient * stress.template segment<3>(3 * i);
+  sums.first.template segment<corners>(motions) += at.volume * density.in_p * P;
+  if (has_potential()) sums.first.template tail<nodes>() += at.volume * (E * density.in_E.head<dim>());
+  if (wanted == materials::Derivatives::first) return;
+  const auto CC = density.in_CC.topLeftCorner<strains, strains>();
+  const auto of_axis = [&B](int i) { return B.template middleCols<3>(3 * i); };
+  const double volume = at.volume;
+  const Eigen::Matrix<double, 3, nodes, Eigen::RowMajor> G = volume * at.gradient.transpose();
+  const int row = 3 * sums.points++;
+  sums.slope.template middleRows<3>(row) = at.gradient.transpose();
+  Eigen::Matrix3d S; // second Piola-Kirchhoff, of axes that F keeps apart
+  S.setZero();
   for (int c = 0; c < strains; ++c) {
-    const auto [i, j] = materials::solid_components[static_cast<std::size_t>(c)];
-    if (i < dim && j < dim) S(i, j) = S(j, i) = (i == j ? 2 : 1) * density.in_C[c];
+    const auto [j, k] = materials::solid_components[static_cast<std::size_t>(c)];
+    if (j < dim) S(j, k) = S(k, j) = (j == k ? 2 : 1) * density.in_C[c];
   }
-  const NodalMatrix geometric = at.volume * (at.gradient * S * at.gradient.transpose());
-  for (int a = 0; a < nodes; ++a)
-    for (int b = 0; b < nodes; ++b)
-      for (int i = 0; i < dim; ++i) (*tangent)(dim * a + i, dim * b + i) += geometric(a, b);
-  if constexpr (dim == 2)
-    for (int a = 0; a < nodes; ++a)
-      for (int b = 0; b < nodes; ++b)
-        (*tangent)(2 * a, 2 * b) += 2 * at.volume * density.in_C[2] * at.hoop[a] * at.hoop[b];
-  // Below the diagonal: what is above it is not read.
-  tangent->template block<corners, motions>(motions, 0) +=
-      (at.volume * P) * (density.in_Cp.head<strains>().transpose() * B);
-  tangent->template block<corners, corners>(motions, motions) +=
-      (at.volume * density.in_pp * P) * P.transpose();
-  if (!has_potential()) return;
-  tangent->template bottomLeftCorner<nodes, motions>() +=
-      (at.volume * E) * (density.in_CE.topLeftCorner<strains, dim>().transpose() * B);
-  tangent->template bottomRightCorner<nodes, nodes>() +=
-      at.volume * (E * density.in_EE.topLeftCorner<dim, dim>() * E.transpose());
+  for (int j = 0; j < dim; ++j) {
+    const Eigen::Matrix<double, strains, 3> in_C = CC.lazyProduct(of_axis(j));
+    for (int i = j; i < dim; ++i) {
+      Eigen::Matrix3d A = of_axis(i).transpose().lazyProduct(in_C); // d(stress)/dF, per volume
+      if (i == j) A += S;
+      if constexpr (dim == 2)
+        if (i == 0) A(2, 2) += 2 * density.in_C[2];
+      sums.stiff[static_cast<std::size_t>(dim * i + j)].template middleRows<3>(row) = A.lazyProduct(G);
+    }
+    const Eigen::RowVector<double, nodes> in_p =
+        (density.in_Cp.head<strains>().transpose() * of_axis(j)).lazyProduct(G);
+    sums.second.template block<corners, nodes>(motions, nodes * j) += P.lazyProduct(in_p);
+    if (!has_potential()) continue;
+    const Eigen::Matrix<double, dim, nodes, Eigen::RowMajor> in_E =
+        (density.in_CE.topLeftCorner<strains, dim>().transpose() * of_axis(j)).lazyProduct(G);
+    sums.second.template block<nodes, nodes>(potential_place, nodes * j) += E.lazyProduct(in_E);
+  }
+  sums.second.template block<corners, corners>(motions, motions) +=
+      (volume * density.in_pp * P) * P.transpose();
+  if (has_potential())
+    sums.second.template bottomRightCorner<nodes, nodes>() +=
+        volume * (E * density.in_EE.topLeftCorner<dim, dim>() * E.transpose());
+}
+
+template<class Element>
+void SolidSums<Element>::add_stiffness() {
+  constexpr int dim = Element::dim, nodes = Element::nodes;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const Slopes& stress = stiff[static_cast<std::size_t>(dim * i + j)];
+      for (int a = 0; a < nodes; ++a) {
+        std::array<double, nodes> row{};
+        for (int k = 0; k < 3 * points; ++k)
+          for (int b = 0; b < nodes; ++b) row[static_cast<std::size_t>(b)] += slope(k, a) * stress(k, b);
+        for (int b = 0; b < nodes; ++b)
+          second(nodes * i + a, nodes * j + b) += row[static_cast<std::size_t>(b)];
+      }
+    }
 }
 
 template<class Element>
@@ -214,9 +240,8 @@ Evaluation SolidBlock<Element>::evaluate(const State& state, int first, int last
   const int used = dofs_per_element();
   for (int e = first; e < last; ++e) {
     const ElementState now = at(state, e);
-    Vector residual = Vector::Zero();
-    Matrix tangent;
-    if (scatter.tangent) tangent.setZero();
+    const auto wanted = scatter.tangent ? materials::Derivatives::second : materials::Derivatives::first;
+    Sums sums(wanted);
     for (int p = 0; p < points; ++p) {
       const Point& here = point(e, p);
       const Eigen::Matrix3d F = now.deformation(here);
@@ -225,17 +250,17 @@ Evaluation SolidBlock<Element>::evaluate(const State& state, int first, int last
         continue;
       }
       const SolidDensity density = part(e).response.potential(
-          state, place(e, p), F.transpose() * F, here.pressure.dot(now.pressure), now.field(here));
+          state, place(e, p), F.transpose() * F, here.pressure.dot(now.pressure), now.field(here), wanted);
       result.energy += here.volume * density.value;
-      if (scatter.residual || scatter.tangent)
-        add_point(here, F, density, residual, scatter.tangent ? &tangent : nullptr);
+      if (scatter.residual || scatter.tangent) add_point(here, F, density, sums, wanted);
     }
     const auto size = static_cast<std::size_t>(used);
-    if (scatter.residual) scatter.add_residual(e, std::span(residual.data(), size));
+    if (scatter.residual) scatter.add_residual(e, std::span(sums.first.data(), size));
     if (!scatter.tangent) continue;
+    sums.add_stiffness();
     std::size_t k = 0;
     for (int i = 0; i < used; ++i)
-      for (int j = 0; j <= i; ++j) packed[k++] = tangent(i, j);
+      for (int j = 0; j <= i; ++j) packed[k++] = sums.second(i, j);
     scatter.add_tangent(e, std::span(packed).first(k));
   }
   if (!std::isfinite(result.energy)) result.feasible = false; // beyond a stretch limit
@@ -251,7 +276,7 @@ void SolidBlock<Element>::add_mass(int element, std::span<double> packed) const 
     for (int a = 0; a < nodes; ++a)
       for (int b = 0; b <= a; ++b)
         for (int i = 0; i < dim; ++i) {
-          const int row = dim * a + i, column = dim * b + i;
+          const int row = nodes * i + a, column = nodes * i + b;
           packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] += mass * shape[a] * shape[b];
         }
   }
@@ -260,6 +285,8 @@ void SolidBlock<Element>::add_mass(int element, std::span<double> packed) const 
 template class SolidBlock<SolidTriangle>;
 template class SolidBlock<SolidTetrahedron>;
 template struct SolidElementState<SolidTriangle>;
+template struct SolidSums<SolidTriangle>;
+template struct SolidSums<SolidTetrahedron>;
 template struct SolidElementState<SolidTetrahedron>;
 
 std::unique_ptr<ElementBlock> make_solid_block(const meshing::Mesh& mesh, SolidCells cells,

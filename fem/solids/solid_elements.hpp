@@ -55,10 +55,9 @@ struct SolidTetrahedron {
 /// One integration point of an element as drawn.
 template<class Element>
 struct SolidPoint {
-  static constexpr int hoops = Element::dim == 2 ? Element::nodes : 0;
-
-  Eigen::Matrix<double, Element::nodes, Element::dim> gradient; ///< of the shape functions, 1/m
-  Eigen::Vector<double, hoops> hoop; ///< shape functions over the radius, 1/m; 0 in plane strain
+  /// Of the shape functions along the local axes, 1/m; across a triangle they are over the radius, and what
+  /// they act on is the displacement along the radius (0 in plane strain).
+  Eigen::Matrix<double, Element::nodes, 3> gradient;
   Eigen::Vector<double, Element::corners> pressure; ///< shape functions of the pressure
   double volume = 0;                                ///< that it stands for, m^3
 };
@@ -76,15 +75,38 @@ struct SolidElementState {
   Eigen::Vector3d field(const SolidPoint<Element>& at) const;
 };
 
+/// Derivatives of an element's energy in its unknowns: displacements (of all nodes along one axis, then along
+/// the next), pressures, and potentials where they are unknowns.
+template<class Element>
+struct SolidSums {
+  static constexpr int motions = Element::dim * Element::nodes, potential_place = motions + Element::corners,
+                       dofs = potential_place + Element::nodes;
+  using Slopes = Eigen::Matrix<double, 3 * Element::points, Element::nodes, Eigen::RowMajor>;
+
+  explicit SolidSums(materials::Derivatives wanted) {
+    first.setZero();
+    if (wanted == materials::Derivatives::second) second.setZero();
+  }
+  /// Adds what the points' stresses resist displacements with: all points at once, as sums in registers.
+  void add_stiffness();
+
+  Eigen::Vector<double, dofs> first;
+  /// On and below the diagonal; what is above it is not read.
+  Eigen::Matrix<double, dofs, dofs, Eigen::RowMajor> second;
+  int points = 0; ///< so far
+  Slopes slope;   ///< gradients of the shape functions, three rows per point
+  /// How the stress of axis i goes with displacements along axis j <= i, at dim i + j.
+  std::array<Slopes, static_cast<std::size_t>(Element::dim* Element::dim)> stiff;
+};
+
 /// See make_solid_block().
 template<class Element>
 class SolidBlock final : public ElementBlock {
  public:
   static constexpr int dim = Element::dim, nodes = Element::nodes, corners = Element::corners,
                        points = Element::points;
-  /// Displacements, pressures, potentials where they are unknowns.
-  static constexpr int motions = dim * nodes, potential_place = motions + corners,
-                       dofs = potential_place + nodes;
+  using Sums = SolidSums<Element>;
+  static constexpr int motions = Sums::motions, potential_place = Sums::potential_place, dofs = Sums::dofs;
 
   SolidBlock(const meshing::Mesh& mesh, const SolidCells& cells, const std::vector<SolidSection>& sections,
              std::vector<int> potentials, Dimension dimension);
@@ -111,8 +133,6 @@ class SolidBlock final : public ElementBlock {
   static constexpr int none = -1; ///< no scalar
   using Point = SolidPoint<Element>;
   using ElementState = SolidElementState<Element>;
-  using Vector = Eigen::Vector<double, dofs>;
-  using Matrix = Eigen::Matrix<double, dofs, dofs>;
   using NodalMatrix = Eigen::Matrix<double, nodes, nodes>;
 
   /// The potentials of this block's nodes in equilibrium, those of electrodes and ground being given per
@@ -130,9 +150,9 @@ class SolidBlock final : public ElementBlock {
   int electrode(int element) const { return electrodes_[static_cast<std::size_t>(element)]; }
   double potential_at(const State& state, int node) const;
   ElementState at(const State& state, int element) const;
-  /// Adds volume * (derivatives of the potential) to residual and tangent; the tangent where it is wanted.
-  void add_point(const Point& at, const Eigen::Matrix3d& F, const SolidDensity& density, Vector& residual,
-                 Matrix* tangent) const;
+  /// Adds volume * (derivatives of the potential); after second ones add_stiffness() follows the last point.
+  void add_point(const Point& at, const Eigen::Matrix3d& F, const SolidDensity& density, Sums& sums,
+                 materials::Derivatives wanted) const;
   /// Minus the second derivatives of the energy in the nodes' potentials: positive semi-definite, F.
   NodalMatrix capacitances(const State& state, int element) const;
 

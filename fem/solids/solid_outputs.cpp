@@ -24,8 +24,8 @@ void SolidBlock<Element>::sample(const State& state, Samples& samples) const {
       const Point& here = point(e, p);
       const Eigen::Matrix3d F = now.deformation(here), C = F.transpose() * F;
       const Eigen::Vector3d E0 = now.field(here);
-      const SolidDensity density =
-          part(e).response.potential(state, place(e, p), C, here.pressure.dot(now.pressure), E0);
+      const SolidDensity density = part(e).response.potential(
+          state, place(e, p), C, here.pressure.dot(now.pressure), E0, materials::Derivatives::first);
       Eigen::Matrix3d S; // second Piola-Kirchhoff
       for (std::size_t a = 0; a < 6; ++a) {
         const auto [i, j] = materials::solid_components[a];
@@ -69,15 +69,15 @@ void SolidBlock<Element>::add_charges(const State& state, const DofMap* dof_map,
     const bool layers = !has_potential() && electrode(e) != passive;
     if (local.empty() && !layers) continue;
     const ElementState now = at(state, e);
-    Vector first = Vector::Zero(); // of the energy, or of minus the charge of layers
-    Matrix second = Matrix::Zero();
+    using materials::Derivatives;
+    Sums sums(Derivatives::second);  // of the energy, or of minus the charge of layers
     double slope = 0, curvature = 0; // of the energy in the voltage of layers
     for (int p = 0; p < points; ++p) {
       const Point& here = point(e, p);
       const Eigen::Matrix3d F = now.deformation(here);
       const SolidDensity electric = part(e).response.electric(F.transpose() * F, now.field(here));
       if (!layers) {
-        add_point(here, F, electric, first, &second);
+        add_point(here, F, electric, sums, Derivatives::second);
         continue;
       }
       const Eigen::Vector3d per_volt = part(e).normal / part(e).thickness;
@@ -85,7 +85,7 @@ void SolidBlock<Element>::add_charges(const State& state, const DofMap* dof_map,
       curvature += here.volume * per_volt.dot(electric.in_EE * per_volt);
       SolidDensity mixed = part(e).response.electric(F.transpose() * F, Eigen::Vector3d::Zero());
       mixed.in_C = electric.in_CE * per_volt;
-      if (dof_map) add_point(here, F, mixed, first, nullptr);
+      if (dof_map) add_point(here, F, mixed, sums, Derivatives::first);
     }
     if (dof_map) element_equations(e, *dof_map, equations);
     const auto couple = [&](std::size_t port, const auto& minus) {
@@ -96,16 +96,16 @@ void SolidBlock<Element>::add_charges(const State& state, const DofMap* dof_map,
       const auto port = static_cast<std::size_t>(electrode(e));
       charges.charge[port] -= slope;
       charges.capacitance[port] -= curvature;
-      couple(port, first);
+      couple(port, sums.first);
     }
     for (const int a : local) {
       const auto port = static_cast<std::size_t>(potentials_[static_cast<std::size_t>(node(e, a))]);
-      charges.charge[port] -= first[potential + a] / potential_unit_;
+      charges.charge[port] -= sums.first[potential + a] / potential_unit_;
       for (const int b : local)
         if (potentials_[static_cast<std::size_t>(node(e, b))] == static_cast<int>(port))
           charges.capacitance[port] -=
-              second(potential + a, potential + b) / (potential_unit_ * potential_unit_);
-      couple(port, Vector(second.row(potential + a).transpose() / potential_unit_));
+              sums.second(potential + a, potential + b) / (potential_unit_ * potential_unit_);
+      couple(port, Eigen::Vector<double, dofs>(sums.second.row(potential + a).transpose() / potential_unit_));
     }
   }
 }

@@ -15,8 +15,8 @@ auto SolidBlock<Element>::capacitances(const State& state, int element) const ->
     const Point& here = point(element, p);
     const Eigen::Matrix3d F = now.deformation(here);
     const SolidDensity electric = part(element).response.electric(F.transpose() * F, Eigen::Vector3d::Zero());
-    sum -=
-        here.volume * (here.gradient * electric.in_EE.topLeftCorner<dim, dim>() * here.gradient.transpose());
+    const Eigen::Matrix<double, nodes, dim> slope = here.gradient.template leftCols<dim>();
+    sum -= here.volume * (slope * electric.in_EE.topLeftCorner<dim, dim>() * slope.transpose());
   }
   return sum;
 }

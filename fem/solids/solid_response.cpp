@@ -28,42 +28,45 @@ SolidResponse::SolidResponse(const SolidSection& section)
       has_pressure_(!std::holds_alternative<materials::StVenantKirchhoff>(section.material.law)),
       compliance_(1 / section.bulk_modulus) {}
 
-SolidDensity SolidResponse::electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0) const {
+SolidDensity SolidResponse::electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0,
+                                     materials::Derivatives wanted) const {
   const double half = -material_.dielectric.permittivity / 2;
-  const materials::SolidField field = materials::solid_field(C, E0);
-  return {.value = half * field.value,
-          .in_C = half * field.in_C,
-          .in_E = half * field.in_E,
-          .in_CC = half * field.in_CC,
-          .in_Cp = Eigen::Vector<double, 6>::Zero(),
-          .in_CE = half * field.in_CE,
-          .in_EE = half * field.in_EE};
+  const materials::SolidField field = materials::solid_field(C, E0, wanted);
+  SolidDensity density;
+  density.value = half * field.value;
+  density.in_C = half * field.in_C;
+  density.in_E = half * field.in_E;
+  if (wanted == materials::Derivatives::first) return density;
+  density.in_CC = half * field.in_CC;
+  density.in_Cp.setZero();
+  density.in_CE = half * field.in_CE;
+  density.in_EE = half * field.in_EE;
+  return density;
 }
 
 SolidDensity SolidResponse::potential(const State& state, int point, const Eigen::Matrix3d& C, double p,
-                                      const Eigen::Vector3d& E0) const {
-  const materials::SolidPotential W = materials::solid_potential(material_.law, C, 0);
-  SolidDensity density = electric(C, E0);
-  density.value += W.value;
-  density.in_C += W.first;
-  density.in_CC += W.second;
+                                      const Eigen::Vector3d& E0, materials::Derivatives wanted) const {
+  const bool second = wanted == materials::Derivatives::second;
+  SolidDensity density = electric(C, E0, wanted);
+  const auto add = [&](const materials::SolidPotential& part) {
+    density.value += part.value;
+    density.in_C += part.first;
+    if (second) density.in_CC += part.second;
+  };
+  add(materials::solid_potential(material_.law, C, 0, wanted));
   for (int b = 0; b < branches(); ++b) {
     const std::size_t i = place(point, b);
-    const materials::SolidPotential branch =
-        materials::solid_branch_potential(material_.branches[static_cast<std::size_t>(b)], C, state.scheme,
-                                          read(state.history->now, i), read(state.history->before, i));
-    density.value += branch.value;
-    density.in_C += branch.first;
-    density.in_CC += branch.second;
+    add(materials::solid_branch_potential(material_.branches[static_cast<std::size_t>(b)], C, state.scheme,
+                                          read(state.history->now, i), read(state.history->before, i)));
   }
   if (has_pressure_) {
-    const materials::SolidPotential J = materials::volume_ratio(C);
+    const materials::SolidPotential J = materials::volume_ratio(C, wanted);
     density.value -= p * (J.value - 1) + compliance_ * p * p / 2;
     density.in_C -= p * J.first;
-    density.in_CC -= p * J.second;
     density.in_p = 1 - J.value - compliance_ * p;
     density.in_Cp = -J.first;
     density.in_pp = -compliance_;
+    if (second) density.in_CC -= p * J.second;
   }
   return density;
 }

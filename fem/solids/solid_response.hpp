@@ -34,9 +34,10 @@ class SolidResponse {
   bool has_pressure() const { return has_pressure_; }
   /// The value is not finite where the law cannot be.
   SolidDensity potential(const State& state, int point, const Eigen::Matrix3d& C, double p,
-                         const Eigen::Vector3d& E0) const;
+                         const Eigen::Vector3d& E0, materials::Derivatives wanted) const;
   /// The part of the field alone, -(eps/2) J E0 . C^-1 E0.
-  SolidDensity electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0) const;
+  SolidDensity electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0,
+                        materials::Derivatives wanted = materials::Derivatives::second) const;
   /// Densities, per undeformed volume; `electric` stays 0: it follows from the charges.
   EnergyParts energies(const State& state, int point, const Eigen::Matrix3d& C, double p) const;
   const materials::Material& material() const { return material_; }

@@ -28,26 +28,30 @@ Scalar first_invariant(const Eigen::Matrix3d& C) {
 }
 
 Scalar second_invariant(const Eigen::Matrix3d& C) {
-  Scalar I2{
-      (C.trace() * C.trace() - C.squaredNorm()) / 2,
-      {C(1, 1) + C(2, 2), C(0, 0) + C(2, 2), C(0, 0) + C(1, 1), -2 * C(0, 1), -2 * C(1, 2), -2 * C(0, 2)},
-      Hessian::Zero()};
-  I2.second.topLeftCorner<3, 3>() = Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity();
-  I2.second.diagonal().tail<3>().setConstant(-2);
-  return I2;
+  static const Hessian second = [] {
+    Hessian constant = Hessian::Zero();
+    constant.topLeftCorner<3, 3>() = Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity();
+    constant.diagonal().tail<3>().setConstant(-2);
+    return constant;
+  }();
+  return {(C.trace() * C.trace() - C.squaredNorm()) / 2,
+          {C(1, 1) + C(2, 2), C(0, 0) + C(2, 2), C(0, 0) + C(1, 1), -2 * C(0, 1), -2 * C(1, 2), -2 * C(0, 2)},
+          second};
 }
 
-Scalar third_invariant(const Eigen::Matrix3d& C) {
+Scalar third_invariant(const Eigen::Matrix3d& C, Derivatives wanted) {
   const double C11 = C(0, 0), C22 = C(1, 1), C33 = C(2, 2), C12 = C(0, 1), C23 = C(1, 2), C13 = C(0, 2);
-  Scalar I3{C.determinant(),
-            {C22 * C33 - C23 * C23, C11 * C33 - C13 * C13, C11 * C22 - C12 * C12, 2 * (C13 * C23 - C12 * C33),
-             2 * (C12 * C13 - C11 * C23), 2 * (C12 * C23 - C22 * C13)},
-            Hessian{{0, C33, C22, 0, -2 * C23, 0},
-                    {C33, 0, C11, 0, 0, -2 * C13},
-                    {C22, C11, 0, -2 * C12, 0, 0},
-                    {0, 0, -2 * C12, -2 * C33, 2 * C13, 2 * C23},
-                    {-2 * C23, 0, 0, 2 * C13, -2 * C11, 2 * C12},
-                    {0, -2 * C13, 0, 2 * C23, 2 * C12, -2 * C22}}};
+  Scalar I3;
+  I3.first << C22 * C33 - C23 * C23, C11 * C33 - C13 * C13, C11 * C22 - C12 * C12,
+      2 * (C13 * C23 - C12 * C33), 2 * (C12 * C13 - C11 * C23), 2 * (C12 * C23 - C22 * C13);
+  I3.value = C11 * I3.first[0] + (C12 * I3.first[3] + C13 * I3.first[5]) / 2;
+  if (wanted == Derivatives::second)
+    I3.second << 0, C33, C22, 0, -2 * C23, 0,       //
+        C33, 0, C11, 0, 0, -2 * C13,                //
+        C22, C11, 0, -2 * C12, 0, 0,                //
+        0, 0, -2 * C12, -2 * C33, 2 * C13, 2 * C23, //
+        -2 * C23, 0, 0, 2 * C13, -2 * C11, 2 * C12, //
+        0, -2 * C13, 0, 2 * C23, 2 * C12, -2 * C22;
   return I3;
 }
 
@@ -80,16 +84,16 @@ Scalar power_trace(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& princip
 
 /// W(scalars) by the chain rule.
 template<int N>
-SolidPotential compose(const Dual<N>& W, const std::array<Scalar, N>& scalars) {
+SolidPotential compose(const Dual<N>& W, const std::array<Scalar, N>& scalars, Derivatives wanted) {
   Eigen::Matrix<double, 6, N> slopes;
-  SolidPotential potential{W.value, Gradient::Zero(), Hessian::Zero()};
-  for (int i = 0; i < N; ++i) {
-    const Scalar& scalar = scalars[static_cast<std::size_t>(i)];
-    slopes.col(i) = scalar.first;
-    potential.second += W.gradient[i] * scalar.second;
-  }
+  for (int i = 0; i < N; ++i) slopes.col(i) = scalars[static_cast<std::size_t>(i)].first;
+  SolidPotential potential;
+  potential.value = W.value;
   potential.first = slopes * W.gradient;
-  potential.second += slopes * W.hessian * slopes.transpose();
+  if (wanted == Derivatives::first) return potential;
+  potential.second = (slopes * W.hessian).lazyProduct(slopes.transpose());
+  for (int i = 0; i < N; ++i)
+    if (W.gradient[i] != 0) potential.second += W.gradient[i] * scalars[static_cast<std::size_t>(i)].second;
   return potential;
 }
 
@@ -100,37 +104,40 @@ Dual<N> volumetric(double bulk_modulus, const Dual<N>& I3) {
 }
 
 template<class Law>
-SolidPotential potential_of(const Law& law, const Eigen::Matrix3d& C, double bulk_modulus) {
+SolidPotential potential_of(const Law& law, const Eigen::Matrix3d& C, double bulk_modulus,
+                            Derivatives wanted) {
   using Dual3 = Dual<3>;
-  const std::array<Scalar, 3> I{first_invariant(C), second_invariant(C), third_invariant(C)};
+  const std::array<Scalar, 3> I{first_invariant(C), second_invariant(C), third_invariant(C, wanted)};
   const Dual3 I1 = Dual3::variable(I[0].value, 0), I2 = Dual3::variable(I[1].value, 1),
               I3 = Dual3::variable(I[2].value, 2);
   if constexpr (std::same_as<Law, StVenantKirchhoff>) {
     const Dual3 strain = 0.5 * (I1 - 3.0); // tr E
     return compose<3>(0.5 * law.first_lame() * strain * strain +
                           0.25 * law.initial_shear_modulus() * (I1 * I1 - 2.0 * I2 - 2.0 * I1 + 3.0),
-                      I);
+                      I, wanted);
   } else {
     const Dual3 shrink = pow(I3, -1.0 / 3), I1_bar = I1 * shrink;
     if constexpr (FirstInvariantLaw<Law>)
-      return compose<3>(law.energy(I1_bar) + volumetric(bulk_modulus, I3), I);
+      return compose<3>(law.energy(I1_bar) + volumetric(bulk_modulus, I3), I, wanted);
     else
-      return compose<3>(law.energy(I1_bar, Dual3(I2 * shrink * shrink)) + volumetric(bulk_modulus, I3), I);
+      return compose<3>(law.energy(I1_bar, Dual3(I2 * shrink * shrink)) + volumetric(bulk_modulus, I3), I,
+                        wanted);
   }
 }
 
-SolidPotential potential_of(const Ogden& law, const Eigen::Matrix3d& C, double bulk_modulus) {
+SolidPotential potential_of(const Ogden& law, const Eigen::Matrix3d& C, double bulk_modulus,
+                            Derivatives /*all*/) {
   using Dual2 = Dual<2>;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(C);
-  const Scalar I3 = third_invariant(C);
+  const Scalar I3 = third_invariant(C, Derivatives::second);
   const Dual2 det = Dual2::variable(I3.value, 1);
-  SolidPotential sum =
-      compose<2>(volumetric(bulk_modulus, det), {Scalar{0, Gradient::Zero(), Hessian::Zero()}, I3});
+  SolidPotential sum = compose<2>(volumetric(bulk_modulus, det),
+                                  {Scalar{0, Gradient::Zero(), Hessian::Zero()}, I3}, Derivatives::second);
   for (std::size_t i = 0; i < law.moduli.size(); ++i) {
     const double p = law.exponents[i] / 2;
     const Scalar S = power_trace(principal, p);
     const Dual2 W = law.moduli[i] / law.exponents[i] * (Dual2::variable(S.value, 0) * pow(det, -p / 3) - 3.0);
-    const SolidPotential term = compose<2>(W, {S, I3});
+    const SolidPotential term = compose<2>(W, {S, I3}, Derivatives::second);
     sum.value += term.value;
     sum.first += term.first;
     sum.second += term.second;
@@ -140,8 +147,18 @@ SolidPotential potential_of(const Ogden& law, const Eigen::Matrix3d& C, double b
 
 } // namespace
 
-SolidPotential solid_potential(const ElasticLaw& law, const Eigen::Matrix3d& C, double bulk_modulus) {
-  return std::visit([&](const auto& one) { return potential_of(one, C, bulk_modulus); }, law);
+SolidPotential volume_ratio(const Eigen::Matrix3d& C, Derivatives wanted) {
+  const Scalar I3 = third_invariant(C, wanted);
+  SolidPotential J;
+  J.value = std::sqrt(I3.value);
+  J.first = I3.first / (2 * J.value);
+  if (wanted == Derivatives::second) J.second = (I3.second / 2 - J.first * J.first.transpose()) / J.value;
+  return J;
+}
+
+SolidPotential solid_potential(const ElasticLaw& law, const Eigen::Matrix3d& C, double bulk_modulus,
+                               Derivatives wanted) {
+  return std::visit([&](const auto& one) { return potential_of(one, C, bulk_modulus, wanted); }, law);
 }
 
 } // namespace dielast::materials

@@ -22,9 +22,16 @@ struct SolidPotential {
   Eigen::Matrix<double, 6, 6> second;
 };
 
+/// Up to which derivatives something is wanted; what lies beyond is not set.
+enum class Derivatives { first, second };
+
+/// The volume ratio J = sqrt(det C) and its derivatives in the components of C, counted as in SolidPotential.
+SolidPotential volume_ratio(const Eigen::Matrix3d& C, Derivatives wanted = Derivatives::second);
+
 /// Incompressible laws are made slightly compressible: W(J^(-2/3) C) + kappa/2 (J - 1)^2, J = sqrt(det C),
 /// with the bulk modulus kappa (Pa). St. Venant-Kirchhoff is taken as it is and does not see kappa. Ogden's
 /// law by spectral decomposition with divided differences, regular where principal stretches are equal.
-SolidPotential solid_potential(const ElasticLaw& law, const Eigen::Matrix3d& C, double bulk_modulus);
+SolidPotential solid_potential(const ElasticLaw& law, const Eigen::Matrix3d& C, double bulk_modulus,
+                               Derivatives wanted = Derivatives::second);
 
 } // namespace dielast::materials

@@ -5,9 +5,6 @@
 
 namespace dielast::materials {
 
-/// The volume ratio J = sqrt(det C) and its derivatives in the components of C, counted as in SolidPotential.
-SolidPotential volume_ratio(const Eigen::Matrix3d& C);
-
 /// J E0 . C^-1 E0 and its derivatives in the components of C and of E0, the field per undeformed length: an
 /// ideal dielectric has the potential -eps/2 times it per undeformed volume (Dorfmann & Ogden 2005, Acta
 /// Mech. 174, 167; Suo, Zhao & Greene 2008, J. Mech. Phys. Solids 56, 467).
@@ -20,6 +17,7 @@ struct SolidField {
   Eigen::Matrix3d in_EE;
 };
 
-SolidField solid_field(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0);
+SolidField solid_field(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0,
+                       Derivatives wanted = Derivatives::second);
 
 } // namespace dielast::materials
