@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/step_loads.hpp"
 #include "fem/paths/instability.hpp"
+#include "tests/campaign.hpp"
 #include "tests/cases/limit_cases.hpp"
 
 #include <memory>
@@ -12,10 +13,6 @@
 
 namespace dielast::cases {
 namespace {
-
-#ifndef DIELAST_LIMIT_PATHS
-#define DIELAST_LIMIT_PATHS 60
-#endif
 
 /// A device and its loads; the last step is what is looked at.
 struct Draw {
@@ -195,9 +192,10 @@ class LimitPaths : public test::ScratchTest {
 };
 
 TEST_F(LimitPaths, of_devices_end_where_they_end_whatever_the_increments) {
+  const int drawn = test::drawn_cases("DIELAST_LIMIT_PATHS", 60);
   Dice dice(20261122);
   int limits = 0, found = 0, unknown = 0, earlier = 0;
-  for (int number = 0; found < DIELAST_LIMIT_PATHS; ++number) {
+  for (int number = 0; found < drawn; ++number) {
     const Draw device = draw(dice);
     const int increments = static_cast<int>(dice.by_ratio(1, 401));
     const bool timed = !device.instantaneous && device.steps.back() == "voltage" && dice.below(4) == 0;
@@ -231,9 +229,9 @@ TEST_F(LimitPaths, of_devices_end_where_they_end_whatever_the_increments) {
     EXPECT_NEAR(ended.load_factor, truth->load_factor, timed ? 1e-5 : 2e-6);
     EXPECT_LT(distance(ended, *truth), limit ? 5e-3 : 1e-6);
   }
-  EXPECT_GT(limits, DIELAST_LIMIT_PATHS / 6);
-  EXPECT_LE(unknown, DIELAST_LIMIT_PATHS / 20);
-  EXPECT_LE(earlier, DIELAST_LIMIT_PATHS / 10);
+  EXPECT_GT(limits, drawn / 6);
+  EXPECT_LE(unknown, drawn / 20);
+  EXPECT_LE(earlier, drawn / 10);
   RecordProperty("limits", limits);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "materials/material_point.hpp"
+#include "tests/campaign.hpp"
 #include "tests/cases/limit_cases.hpp"
 
 #include <functional>
@@ -11,10 +12,6 @@
 
 namespace dielast::cases {
 namespace {
-
-#ifndef DIELAST_LIMIT_CASES
-#define DIELAST_LIMIT_CASES 400
-#endif
 
 constexpr double thickness = 1e-3, side = 1e-2, permittivity = 4e-11;
 
@@ -254,9 +251,10 @@ class LimitPoints : public test::ScratchTest {
 };
 
 TEST_F(LimitPoints, of_random_films_are_found_whatever_the_increments) {
+  const int drawn = test::drawn_cases("DIELAST_LIMIT_CASES", 400);
   Dice dice(20261121);
   int limits = 0, films = 0;
-  for (int number = 0; films < DIELAST_LIMIT_CASES; ++number) {
+  for (int number = 0; films < drawn; ++number) {
     const auto film =
         draw(dice, [&](const std::string& text) { return read(text).parts.front().film->material; });
     if (!film) continue;
@@ -272,7 +270,7 @@ TEST_F(LimitPoints, of_random_films_are_found_whatever_the_increments) {
     EXPECT_NEAR(found.load_factor, truth.load_factor, film->load_tolerance());
     EXPECT_NEAR(found.stretch, truth.stretch, film->stretch_tolerance() * truth.stretch);
   }
-  EXPECT_GT(limits, DIELAST_LIMIT_CASES / 6);
+  EXPECT_GT(limits, drawn / 6);
   RecordProperty("limits", limits);
 }
 
