@@ -215,6 +215,10 @@ std::vector<double> in_powers_of_s(const VectorXd& c, double unit, double factor
   return all;
 }
 
+/// A pole so much slower than what was measured is none but an integrator's, at zero: nothing is at rest
+/// then.
+constexpr double integrator = 1e-6;
+
 } // namespace
 
 RationalOutcome fit_rational(const FrequencyTable& measured, const RationalOrder& order, int max_iterations) {
@@ -239,7 +243,9 @@ RationalOutcome fit_rational(const FrequencyTable& measured, const RationalOrder
   Solution found = solve(measured, model, unit, rational_start(measured, order, unit), max_iterations);
   RationalOutcome& outcome = found.outcome;
   const auto [n, d] = split(found.q);
-  if (poles == 0 || d[0] != 0) {
+  const double slowest = integrator * 2 * std::numbers::pi * low / unit;
+  const std::vector<Complex> all_poles = roots(d);
+  if (std::ranges::none_of(all_poles, [&](const Complex& pole) { return std::abs(pole) < slowest; })) {
     const double rest = n[0] / d[0];
     VectorXd slope = VectorXd::Zero(found.q.size());
     slope[0] = 1 / d[0];
@@ -251,7 +257,8 @@ RationalOutcome fit_rational(const FrequencyTable& measured, const RationalOrder
   const double highest = std::pow(unit, static_cast<double>(poles)); // of the denominator's power 1
   outcome.numerator = in_powers_of_s(n, unit, highest);
   outcome.denominator = in_powers_of_s(d, unit, highest);
-  outcome.stable = std::ranges::all_of(roots(d), [](const Complex& root) { return root.real() < 0; });
+  outcome.stable = std::ranges::all_of(
+      all_poles, [&](const Complex& pole) { return pole.real() < 0 || std::abs(pole) < slowest; });
   return std::move(outcome);
 }
 

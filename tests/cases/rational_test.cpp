@@ -68,6 +68,15 @@ TEST(Rational, TellsAPoleThatIsNotStable) {
   EXPECT_FALSE(fit_rational(table(grows, 0.1, 1000, 20), {1, 0}, 200).stable);
 }
 
+// A capacitor's impedance has no value at rest, and its pole at zero is not unstable.
+TEST(Rational, KnowsAnIntegrator) {
+  const RationalOutcome found =
+      fit_rational(table([](Complex s) { return 1.0 / (2e-9 * s); }, 0.1, 1000, 30), {1, 0}, 200);
+  EXPECT_EQ(found.ending, FitEnding::converged);
+  EXPECT_TRUE(found.stable);
+  EXPECT_THROW(of(found, "at rest"), std::runtime_error);
+}
+
 TEST(Rational, TellsAZeroInTheRightHalfPlaneFromOneInTheLeft) {
   const auto with_zero_at = [](double at) {
     return fit_rational(
