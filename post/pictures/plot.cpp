@@ -92,6 +92,19 @@ int font_size(const std::string& text, int usual, double room) {
       std::clamp(room / (letter * static_cast<double>(text.size() + 1)), 7.0, 1.0 * usual));
 }
 
+/// In two lines where one would take small letters.
+std::string title_command(const std::string& text) {
+  constexpr int usual = 16;
+  std::string lines = gnuplot_string(text), longer = text;
+  if (const std::size_t half = text.find(' ', text.size() / 2);
+      font_size(text, usual, width - 40) < usual && half != std::string::npos) {
+    lines = gnuplot_string(text.substr(0, half)) + R"(."\n".)" + gnuplot_string(text.substr(half + 1));
+    longer = text.substr(0, half);
+  }
+  return fmt::format("set title {} font ',{}' textcolor '#1d242c'\n", lines,
+                     font_size(longer, usual, width - 40));
+}
+
 /// Whether the title or the label of the axis says already which curve it is.
 bool names_itself(const Plot& plot, const Series& series) {
   return plot.series.size() == 1 && (plot.title == series.label || plot.y_label.starts_with(series.label));
@@ -206,9 +219,7 @@ std::string script(const Plot& plot) {
       fmt::format("set terminal svg size {},{} noenhanced rounded linewidth 1.4 font 'Helvetica,Arial,DejaVu "
                   "Sans,sans-serif,14' background '#ffffff'\nset key maxcols {}\n",
                   width, height_of(plot), key.columns);
-  const std::string& heading = plot.heading.empty() ? plot.title : plot.heading;
-  settings += fmt::format("set title {} font ',{}' textcolor '#1d242c'\n", gnuplot_string(heading),
-                          font_size(heading, 16, width - 40));
+  settings += title_command(plot.heading.empty() ? plot.title : plot.heading);
   settings += fmt::format("set xlabel {} font ',{}' textcolor '#3a434d' offset 0,0.4\n",
                           gnuplot_string(plot.x_label), font_size(plot.x_label, 14, width - 120));
   settings += fmt::format("set ylabel {} font ',{}' textcolor '#3a434d'\n", gnuplot_string(plot.y_label),
