@@ -71,9 +71,12 @@ class CommandTest : public ScratchTest {
     return wait_for(start_in(folder, arguments, {}));
   }
 
-  /// Waits until a condition holds; false after ten seconds, longer than anything here takes.
+  /// Waits until a condition holds; false after two minutes, longer than anything here takes on a busy
+  /// machine.
   static bool until(const std::function<bool()>& holds) {
-    for (int i = 0; i < 10000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!holds() && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return holds();
   }
 
