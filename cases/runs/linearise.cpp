@@ -36,6 +36,9 @@ struct Linearised {
   std::vector<std::vector<Complex>> compared; ///< as in the case
 };
 
+/// Beyond this part of the full response a linear model is none of it.
+constexpr double poor = 0.1;
+
 Complex polynomial(const std::vector<double>& coefficients, Complex s) {
   Complex value = 0;
   for (const double c : coefficients) value = value * s + c;
@@ -160,7 +163,8 @@ post::Report report_of(const Case& one, const Linearised& found) {
     voltages += (voltages.empty() ? "" : ", ") + post::engineering(voltage, "V");
   return {.title = one.title,
           .subtitle = one.source.filename().string(),
-          .status = {"linear model", post::Tone::good},
+          .status = found.error > poor ? post::Cell{"not the device's response", post::Tone::warning}
+                                       : post::Cell{"linear model", post::Tone::good},
           .highlights = {{"order", std::to_string(found.model.order()), ""},
                          {"largest error", fmt::format("{:.3g} %", 100 * found.error),
                           fmt::format("of the full response, {:.4g} to {:.4g} Hz", found.frequency.front(),
@@ -196,12 +200,21 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
     folder.write("linear_model.m", matlab_script(one, found));
     post::write_report(folder, report_of(one, found));
     folder.write("linear_model.json", model_json(one, found).dump(2) + "\n");
-    folder.set_complete(static_cast<int>(ExitCode::ok));
-    say("order {}, largest error {:.3g} of the full response, static gain {:.6g} {}/V of the source of {}\n",
-        found.model.order(), found.error, found.model.transfer(0)(0, 0).real(), found.unit,
+    const ExitCode code = found.error > poor ? ExitCode::check_failed : ExitCode::ok;
+    folder.set_complete(static_cast<int>(code));
+    say("order {}, largest error {:.3g} % of the full response, static gain {:.6g} {}/V of the source of "
+        "{}\n",
+        found.model.order(), 100 * found.error, found.model.transfer(0)(0, 0).real(), found.unit,
         fmt::format("{}", fmt::join(found.driven, ", ")));
+    if (found.model.order() < one.linearise.order)
+      say("the response tells no more than {} states apart\n", found.model.order());
+    if (found.error > poor)
+      say(stderr,
+          "error: the linear model does not answer as the device does up to {:.4g} Hz; ask for a larger "
+          "linearise.order, or for fewer frequencies (linearise.from, linearise.to)\n",
+          found.frequency.back());
     say("written to {}\n", settings.directory.string());
-    return ExitCode::ok;
+    return code;
   } catch (const AnalysisError& error) {
     say(stderr, "error: {}\n", error.what());
     return ExitCode::not_converged;

@@ -13,7 +13,10 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) { return A.eigenvalues(); }
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) {
+  if (A.rows() == 0) return {}; // Eigen's solver would read beyond it
+  return A.eigenvalues();
+}
 
 ComplexSchur complex_schur(const Eigen::MatrixXcd& A) {
   const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A);
