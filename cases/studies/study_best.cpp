@@ -4,6 +4,7 @@
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +79,8 @@ std::vector<std::string> best_lines(const Study& study, const std::vector<StudyP
       line += post::engineering(*value_of(study, *result, best.quantity()),
                                 units[number_of(study, best.quantity())]) +
               fmt::format(" at {} (point {})", label(study, points[*found]), points[*found].number);
+      if (!result->events.empty())
+        line += fmt::format(", where there is {}", fmt::join(result->events, ", "));
     } else {
       line += "no point of the grid holds this";
     }

@@ -33,6 +33,10 @@ struct Collected {
         if (units[q].empty()) units[q] = results.back()->units[q];
     }
   }
+  /// What a plot over the values that vary may show: nothing where a run ended on its way to them.
+  double reached_value(std::size_t point, std::size_t quantity) const {
+    return results[point] && results[point]->has_ended() ? value(point, quantity) : missing;
+  }
   double value(std::size_t point, std::size_t quantity) const {
     return results[point] ? results[point]->quantities[quantity].value_or(missing) : missing;
   }
@@ -127,7 +131,8 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
   for (const std::string& y : spec.y)
     if (const auto q = position(study.collect, y))
       for (std::size_t p = 0; p < points.size(); ++p)
-        if (std::isfinite(collected.value(p, *q))) size = std::max(size, std::abs(collected.value(p, *q)));
+        if (std::isfinite(collected.reached_value(p, *q)))
+          size = std::max(size, std::abs(collected.reached_value(p, *q)));
   for (const std::string& y : spec.y) {
     const auto q = position(study.collect, y);
     if (!q) continue;
@@ -148,9 +153,9 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
         plot.x_label =
             number && !number->unit.empty() ? fmt::format("{} [{}]", spec.x, number->unit) : spec.x;
       } else {
-        series.x.push_back(x_quantity ? collected.value(p, *x_quantity) : static_cast<double>(p + 1));
+        series.x.push_back(x_quantity ? collected.reached_value(p, *x_quantity) : static_cast<double>(p + 1));
       }
-      series.y.push_back(collected.value(p, *q) * scale.factor);
+      series.y.push_back(collected.reached_value(p, *q) * scale.factor);
     }
     for (auto& [name, series] : curves) plot.series.push_back(std::move(series));
   }
