@@ -69,20 +69,22 @@ Measurement::Measurement(const Case& one, const Device& device) : case_(one), de
   int written = 0; // by the user, who counts no others
   for (const Quantity& quantity : one.quantities) {
     written += !quantity.standard;
+    const auto refuse = [&](const char* key, const std::string& message) {
+      const std::string where = fmt::format("quantity[{}].{}", written, key);
+      throw CaseError({{case_.where(where), where, message}});
+    };
     if (quantity.kind == QuantityKind::value)
       readings_[quantity.name] = readings_of(quantity, fmt::format("quantity[{}]", written), drawn);
     if (quantity.kind == QuantityKind::displacement && quantity.point) {
       const auto found = elements_at(Eigen::Vector3d(quantity.point->data()), device.mesh);
-      const std::string where = fmt::format("quantity[{}].point", written);
-      if (found.empty())
-        throw CaseError(
-            {{case_.where(where), where, "there is no film; coordinates are those of the film as drawn"}});
+      if (found.empty()) refuse("point", "there is no film; coordinates are those of the film as drawn");
       points_[quantity.name] = found.front();
     }
-    if (quantity.kind == QuantityKind::film_force && !std::ranges::count(film_at(quantity.of), 1)) {
-      const std::string where = fmt::format("quantity[{}].of", written);
-      throw CaseError({{case_.where(where), where, "no film meets this place, so none pulls on it"}});
-    }
+    if (quantity.kind == QuantityKind::film_force && !std::ranges::count(film_at(quantity.of), 1))
+      refuse("of", "no film meets this place, so none pulls on it");
+    if (quantity.kind == QuantityKind::radius && device.mesh.cells_of(quantity.of, device.mesh.film()))
+      refuse("of", fmt::format("found \"{}\": an area has no radius; give its edge, whose nodes have one",
+                               quantity.of));
     if (quantity.kind == QuantityKind::radial_stretch)
       readings_[quantity.name] = readings_at(quantity.of, device.mesh, drawn);
     if (quantity.kind == QuantityKind::stretch)

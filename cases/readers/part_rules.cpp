@@ -34,6 +34,19 @@ void check_patch(SectionReader& reader, const Node& tree, const Part& part) {
       fmt::format("found {}: in equal-biaxial tension x and y are stretched alike", text_of(*written)));
 }
 
+/// 300 % is no stretch: some mean a length that is three times as long, others four times.
+void check_prestretch(SectionReader& reader, const Node& top, const Part& part) {
+  const Node* film = top.find("film");
+  const Node* written = film ? film->find("prestretch") : nullptr;
+  if (!written) return;
+  for (const Node& one : written->is(Node::Kind::list) ? written->items : std::vector<Node>{*written})
+    if (one.is(Node::Kind::text) && one.text.find('%') != std::string::npos)
+      reader.report(
+          written->source, key_of(part, "film.prestretch"),
+          fmt::format("found {}: a stretch is a length over a length, without %; 3 is three times as long",
+                      text_of(*written)));
+}
+
 /// What lies in a strip's clamps is a capacitance of its electrode.
 void check_strip(SectionReader& reader, const Node& top, const Case& one, const Part& part) {
   const auto* strip = std::get_if<Strip>(&part.geometry);
@@ -223,6 +236,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
   for (const Part& part : one.parts) {
     const Node& top = top_of(tree, part);
     check_patch(reader, tree, part);
+    check_prestretch(reader, top, part);
     check_line(reader, top, part);
     check_strip(reader, top, one, part);
     check_shell(reader, top, one, part);

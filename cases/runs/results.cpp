@@ -110,9 +110,10 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vec
                          : std::find_if(records.begin(), records.end(), [&](const post::StepRecord& record) {
                              return record.step == records.back().step;
                            });
-  const std::string x_label = timed      ? "time [s]"
-                              : electric ? "voltage [kV]"
-                                         : fmt::format("load factor of \"{}\"", begin->step);
+  const std::string x_label = timed ? "time [s]"
+                              : electric
+                                  ? (one.electrodes.size() > 1 ? "largest voltage [kV]" : "voltage [kV]")
+                                  : fmt::format("load factor of \"{}\"", begin->step);
   for (const std::size_t q : users_first(one)) {
     const Quantity& quantity = one.quantities[q];
     if (!quantity.at.empty()) continue;

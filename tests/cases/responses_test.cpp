@@ -80,6 +80,30 @@ TEST_F(Responses, AfterAChargeStepTheSourceStandsAtTheElectrodesVoltage) {
   EXPECT_NEAR(std::stod(table.at(1).back()) * 2 * voltage, per_volt, 1e-9 * per_volt);
 }
 
+// Without mass nothing has states: the model is a gain. With mass and resonances beyond its order it is no
+// model, and the exit code says so.
+TEST_F(Responses, ALinearModelThatIsNoneIsToldSo) {
+  write("disc.toml", disc + "[linearise]\noutput = \"r\"\nfrom = \"0.1 Hz\"\nto = \"20 Hz\"\n");
+  const Ended gain = dielast({"linearise", "disc.toml", "-o", "gain"});
+  EXPECT_EQ(gain.exit_code, 0) << gain.err;
+  EXPECT_NE(gain.out.find("order 0"), std::string::npos) << gain.out;
+  const Ended rings =
+      dielast({"linearise", "disc.toml", "-o", "rings", "--set", "film.material.density=1000 kg/m^3", "--set",
+               "linearise.to=2 kHz", "--set", "linearise.order=1"});
+  EXPECT_EQ(rings.exit_code, 5) << rings.out;
+  EXPECT_NE(rings.err.find("does not answer as the device does"), std::string::npos) << rings.err;
+}
+
+TEST_F(Responses, RefuseTheRadiusOfAnArea) {
+  std::string area = disc;
+  area.replace(area.find("of = \"electrode_edge\""), 21, "of = \"electrode\"");
+  write("area.toml", area);
+  const Ended ended = dielast({"run", "area.toml", "-o", "out"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("quantity[1].of: found \"electrode\": an area has no radius"), std::string::npos)
+      << ended.err;
+}
+
 TEST_F(Responses, OfADistanceInAHoneycomb) {
   const std::string height =
       "[[quantity]]\nname = \"h\"\nkind = \"distance\"\nbetween = [\"left_apex\", \"right_apex\"]\n";
