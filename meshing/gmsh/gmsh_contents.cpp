@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -150,7 +151,9 @@ void bound(const std::string& path) {
     const rlimit both{most, most};
     setrlimit(resource, &both);
   };
-  limit(RLIMIT_CPU, 10 + megabytes); // s
+  constexpr rlim_t busy = 10;                            // on a machine with other work
+  limit(RLIMIT_CPU, 10 + megabytes);                     // s
+  alarm(static_cast<unsigned>(busy * (10 + megabytes))); // a process that waits for itself takes no CPU time
   std::ifstream sizes("/proc/self/statm");
   rlim_t pages = 0; // of data, so far: the sixth of the numbers
   for (int i = 0; i < 6; ++i) sizes >> pages;
@@ -160,7 +163,7 @@ void bound(const std::string& path) {
 
 [[noreturn]] void run_child(const std::string& path, int output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int interrupt : {SIGINT, SIGTERM, SIGHUP}) std::signal(interrupt, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) std::signal(signal, SIG_DFL);
   setenv("HOME", "/dev/null", 1); // nor are settings read from there
   bound(path);
   // gmsh and a dying C library talk to the terminal.
@@ -199,7 +202,8 @@ GmshContents read_gmsh_contents(const std::filesystem::path& path) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGXCPU))
+  constexpr std::array bounds{SIGKILL, SIGXCPU, SIGALRM};
+  if (WIFSIGNALED(status) && std::ranges::count(bounds, WTERMSIG(status)))
     return failure("gmsh comes to no end with this mesh file; it is damaged, write it again");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     return failure("gmsh crashes on this mesh file; it is damaged, write it again");
