@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 namespace dielast::meshing {
 
@@ -176,6 +178,21 @@ QualityReport quality(const Mesh& mesh) {
   if (report.triangles == 0) report.smallest_area = report.largest_area = 0;
   if (report.worst_cell < 0) report.smallest_angle = 0;
   return report;
+}
+
+int nodes_on_others(const Mesh& mesh) {
+  const CellBlock* film = mesh.film();
+  if (!film) return 0;
+  const std::set<int> nodes(film->nodes.begin(), film->nodes.end());
+  const double same_point = 1e-9 * mesh.bounds().diagonal().norm();
+  std::set<std::array<double, 3>> points;
+  for (const int node : nodes) {
+    const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(node)];
+    std::array<double, 3> point{};
+    for (std::size_t i = 0; i < 3; ++i) point[i] = std::round(x[static_cast<Eigen::Index>(i)] / same_point);
+    points.insert(point);
+  }
+  return static_cast<int>(nodes.size() - points.size());
 }
 
 std::string format(const QualityReport& report) {

@@ -2,13 +2,13 @@
 #include "cases/devices/device.hpp"
 
 #include "cases/devices/bodies.hpp"
+#include "cases/devices/mesh_warnings.hpp"
 #include "cases/devices/sections.hpp"
 #include "cases/readers/reader.hpp"
 #include "fem/elements/chamber_block.hpp"
 #include "fem/elements/distance_block.hpp"
 #include "fem/elements/point_mass_block.hpp"
 #include "meshing/mesh_error.hpp"
-#include "post/engineering.hpp"
 
 #include <fmt/format.h>
 
@@ -33,18 +33,6 @@ void require_one_prestretch(const Case& one, const Device& device) {
             "quantity.between",
             fmt::format("quantity \"{}\": \"{}\" and \"{}\" have no film of one prestretch in common",
                         quantity.name, quantity.between[0], quantity.between[1])}});
-}
-
-/// A user's own mesh has no unit in its file: what is taken for a metre may have been a millimetre.
-std::vector<std::string> size_warnings(const Case& one, const Eigen::Vector3d& size) {
-  constexpr double largest = 1; // m, of the templates' dimensions
-  if (!one.geometry<MeshFile>()) return {};
-  const std::string found =
-      fmt::format("the film is {} x {}", post::engineering(size.x(), "m"), post::engineering(size.y(), "m"));
-  if (!one.unnamed()->mesh.unit)
-    return {"mesh.unit is missing, one unit of the mesh file is taken for 1 m: " + found};
-  if (size.maxCoeff() > largest) return {"mesh.unit: " + found};
-  return {};
 }
 
 /// Says which [[load]] cannot act.
@@ -297,6 +285,7 @@ Device build_device(const Case& one) {
   for (const Body& body : one.bodies) places.push_back(body.name);
   check_places(one, places);
   const fem::Dimension dimension = one.dimension;
+  std::vector<std::string> warnings = mesh_warnings(one, mesh);
   const Eigen::Vector3d size = mesh.bounds().sizes(); // bodies have nodes of their own
   const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
   std::vector<FinPoints> fins = add_fin_nodes(one, mesh);
@@ -307,7 +296,6 @@ Device build_device(const Case& one) {
   model.drawn = mesh.nodes;
   model.corners = fem::element_corners(mesh);
 
-  std::vector<std::string> warnings = size_warnings(one, size);
   const meshing::CellBlock* film = mesh.film();
   if (!film) throw meshing::MeshError("the case has no film: neither triangles nor rods");
   std::vector<int> parts = film_parts(one, mesh);

@@ -58,6 +58,17 @@ TEST(Quality, IntegratesCurvedSides) {
   EXPECT_NEAR(quality(mesh).smallest_area, 0.5e-6 + 2.0 / 3 * 1e-3 * 0.1e-3, 1e-18);
 }
 
+// Two squares side by side: joined, and with nodes of their own along the edge between them.
+TEST(Quality, FindsWhereAFilmIsCut) {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+  mesh.blocks = {{CellType::triangle3, {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2}}};
+  EXPECT_EQ(nodes_on_others(mesh), 0);
+  mesh.nodes.insert(mesh.nodes.end(), {{1, 0, 0}, {1, 1, 1e-12}});
+  mesh.blocks = {{CellType::triangle3, {0, 1, 2, 0, 2, 3, 6, 4, 5, 6, 5, 7}}};
+  EXPECT_EQ(nodes_on_others(mesh), 2);
+}
+
 TEST(Quality, IsReadable) {
   EXPECT_EQ(format(quality(two_triangles())), "nodes      6\n"
                                               "triangles  2\n"
