@@ -23,6 +23,7 @@ constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
 constexpr double smallest_on_path = 1e-9;  ///< of the load factor, where other branches are found
 constexpr double longest_kinked = 1e-4;    ///< increment, see Steadiness
 constexpr double first_moment = 1e-3;      ///< of an increment in time: its start, with dashpots that flow
+constexpr double farthest_slope = 100;     ///< of an increment, over the model's extent
 constexpr double tiny = 1e-300;
 
 /// One step under load control.
@@ -141,7 +142,12 @@ Eigen::VectorXd Ramp::slope_of_start(const LoadPath& increment) {
   increment.apply(start, setting_out());
   if (!equilibrium_.precondition(start)) return {};
   if (progress_.unstable_modes < 0) progress_.unstable_modes = equilibrium_.tangent().unstable_modes();
-  return slope_at(equilibrium_, increment, start, setting_out(), 1);
+  Eigen::VectorXd slope = slope_at(equilibrium_, increment, start, setting_out(), 1);
+  // Across slack film there is no stiffness but what rounding leaves of it.
+  const bool leads_nowhere = slope.size() > 0 &&
+                             slope.cwiseAbs().maxCoeff() > farthest_slope * equilibrium_.model().extent &&
+                             equilibrium_.is_slack(last());
+  return leads_nowhere ? Eigen::VectorXd() : slope;
 }
 
 /// Whether what has no mass has followed what has one continuously; the motion itself has no other branch.
