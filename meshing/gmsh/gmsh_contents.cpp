@@ -151,9 +151,10 @@ void bound(const std::string& path) {
     const rlimit both{most, most};
     setrlimit(resource, &both);
   };
-  constexpr rlim_t busy = 10;                            // on a machine with other work
-  limit(RLIMIT_CPU, 10 + megabytes);                     // s
-  alarm(static_cast<unsigned>(busy * (10 + megabytes))); // a process that waits for itself takes no CPU time
+  const rlim_t most_time = 10 + megabytes; // s
+  constexpr rlim_t busy = 10;              // on a machine with other work
+  limit(RLIMIT_CPU, most_time);
+  alarm(static_cast<unsigned>(busy * most_time)); // a process that waits for itself takes no CPU time
   std::ifstream sizes("/proc/self/statm");
   rlim_t pages = 0; // of data, so far: the sixth of the numbers
   for (int i = 0; i < 6; ++i) sizes >> pages;
