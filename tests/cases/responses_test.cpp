@@ -87,6 +87,9 @@ TEST_F(Responses, ALinearModelThatIsNoneIsToldSo) {
   const Ended gain = dielast({"linearise", "disc.toml", "-o", "gain"});
   EXPECT_EQ(gain.exit_code, 0) << gain.err;
   EXPECT_NE(gain.out.find("order 0"), std::string::npos) << gain.out;
+  const Ended nothing = dielast({"linearise", "disc.toml", "-o", "nothing", "--set", "drive.voltage=0"});
+  EXPECT_EQ(nothing.exit_code, 4) << nothing.out;
+  EXPECT_NE(nothing.err.find("nothing moves"), std::string::npos) << nothing.err;
   const Ended rings =
       dielast({"linearise", "disc.toml", "-o", "rings", "--set", "film.material.density=1000 kg/m^3", "--set",
                "linearise.to=2 kHz", "--set", "linearise.order=1"});
