@@ -5,6 +5,7 @@
 #include "fem/linear/harmonic.hpp"
 
 #include <complex>
+#include <string_view>
 
 namespace dielast::cases {
 
@@ -29,6 +30,11 @@ struct Analysis {
   /// Complex values of harmonic's columns `magnitude` and the phase behind it.
   std::vector<std::complex<double>> values(std::size_t magnitude) const;
 };
+
+/// What is said of responses that are zero.
+inline constexpr std::string_view no_response = "nothing moves: a film feels the square of its voltage, and "
+                                                "here it has none about which small sines could "
+                                                "swing; take a step of kind \"voltage\" before";
 
 /// Equal ratios from the lowest to the highest frequency, Hz.
 std::vector<double> frequencies(const Sweep& sweep);

@@ -71,8 +71,7 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   for (const auto& at : fem::harmonic_response(full, drive, omega))
     result.full.push_back((channels.rows.row(0) * at.displacement).value());
   if (std::ranges::all_of(result.full, [](const Complex& y) { return y == 0.0; }))
-    throw AnalysisError("nothing moves: a film feels the square of its voltage, and here it has none about "
-                        "which small sines could swing; take a step of kind \"voltage\" before");
+    throw AnalysisError(std::string(no_response));
   result.compared.resize(one.linearise.compare.size());
   for (const double w : omega) {
     const Complex s(0, w);

@@ -89,8 +89,7 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
                analysis.rows.back()[1]);
     if (analysis.kind == StepKind::harmonic &&
         std::ranges::all_of(analysis.rows, [](const auto& row) { return row[1] == 0; }))
-      log.warn("    nothing moves: a film feels the square of its voltage, and here it has none about which "
-               "small sines could swing; take a step of kind \"voltage\" before");
+      log.warn("    {}", no_response);
     recorder.record_analysis(analysis, state);
   };
   observer.on_pass = [] { return !interrupted(); };

@@ -144,10 +144,10 @@ Eigen::VectorXd Ramp::slope_of_start(const LoadPath& increment) {
   if (progress_.unstable_modes < 0) progress_.unstable_modes = equilibrium_.tangent().unstable_modes();
   Eigen::VectorXd slope = slope_at(equilibrium_, increment, start, setting_out(), 1);
   // Across slack film there is no stiffness but what rounding leaves of it.
-  const bool leads_nowhere = slope.size() > 0 &&
-                             slope.cwiseAbs().maxCoeff() > farthest_slope * equilibrium_.model().extent &&
-                             equilibrium_.is_slack(last());
-  return leads_nowhere ? Eigen::VectorXd() : slope;
+  const bool is_rounding = slope.size() > 0 &&
+                           slope.cwiseAbs().maxCoeff() > farthest_slope * equilibrium_.model().extent &&
+                           equilibrium_.is_slack(last());
+  return is_rounding ? Eigen::VectorXd() : slope;
 }
 
 /// Whether what has no mass has followed what has one continuously; the motion itself has no other branch.

@@ -150,7 +150,8 @@ class SolidBlock final : public ElementBlock {
   int electrode(int element) const { return electrodes_[static_cast<std::size_t>(element)]; }
   double potential_at(const State& state, int node) const;
   ElementState at(const State& state, int element) const;
-  /// Adds volume * (derivatives of the potential); after second ones add_stiffness() follows the last point.
+  /// Adds volume * (derivatives of the potential); where rows of displacements are read, add_stiffness()
+  /// follows the last point.
   void add_point(const Point& at, const Eigen::Matrix3d& F, const SolidDensity& density, Sums& sums,
                  materials::Derivatives wanted) const;
   /// Minus the second derivatives of the energy in the nodes' potentials: positive semi-definite, F.
