@@ -254,8 +254,7 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
       if (lost) result.feasible = false;
       energy += point.volume * stored.value;
       const WeightedStress stress(point.volume, stored);
-      Kinematics::template accumulate<with_tangent>(point, d, stress, residual, tangent);
-      if constexpr (with_tangent) result.convex = result.convex && Kinematics::is_convex(point, d, stress);
+      result.convex &= Kinematics::template accumulate<with_tangent>(point, d, stress, residual, tangent);
     }
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
       const int element = pack * lanes + l;

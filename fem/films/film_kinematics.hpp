@@ -107,11 +107,6 @@ struct TriangleKinematics {
       return d.C.det();
   }
 
-  /// See Evaluation::convex.
-  static bool is_convex(const Point& point, const Deformation& d, const WeightedStress& stress) {
-    return costs_energy(d.C, point.volume, stress.S11, stress.S22, stress.S12, stress.D, Dim == 3);
-  }
-
   /// dC/du for component c of node a: of C11, C22, and C12 (as it stands in C, once).
   static void slope(const Point& point, const Deformation& d, int a, int c, Lanes (&row)[3]) {
     const auto& G = point.gradient[a];
@@ -120,37 +115,52 @@ struct TriangleKinematics {
     row[2] = d.F[0][c] * G[1] + d.F[1][c] * G[0];
   }
 
-  /// residual_a += F S grad N_a;  tangent_ab += (grad N_a . S grad N_b) 1 + B_a^T (d2Psi/dC2) B_b, B = dC/du.
+  /// residual_a += F S grad N_a;  tangent_ab += A grad N_a grad N_b, A = dP/dF. Returns whether the tangent's
+  /// part is convex, see Evaluation::convex.
   template<bool with_tangent>
-  static void accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
+  static bool accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
                          Lanes (&residual)[Nodes * Dim], Lanes* tangent) {
-    Lanes SG[Nodes][2];
     for (int a = 0; a < Nodes; ++a) {
       const auto& G = point.gradient[a];
-      SG[a][0] = stress.S11 * G[0] + stress.S12 * G[1];
-      SG[a][1] = stress.S12 * G[0] + stress.S22 * G[1];
-      for (int c = 0; c < Dim; ++c) residual[a * Dim + c] += d.F[0][c] * SG[a][0] + d.F[1][c] * SG[a][1];
+      const Lanes SG[2]{stress.S11 * G[0] + stress.S12 * G[1], stress.S12 * G[0] + stress.S22 * G[1]};
+      for (int c = 0; c < Dim; ++c) residual[a * Dim + c] += d.F[0][c] * SG[0] + d.F[1][c] * SG[1];
     }
-    if constexpr (with_tangent) {
-      Lanes B[Nodes * Dim][3], DB[Nodes * Dim][3];
-      for (int a = 0; a < Nodes; ++a)
-        for (int c = 0; c < Dim; ++c) {
-          slope(point, d, a, c, B[a * Dim + c]);
-          stress.times(B[a * Dim + c], DB[a * Dim + c]);
+    if constexpr (!with_tangent) return false;
+    Lanes A[2 * Dim][2 * Dim];
+    elasticity(d, stress, A);
+    for (int a = 0; a < Nodes; ++a)
+      for (int c = 0; c < Dim; ++c) {
+        Lanes AG[2 * Dim]; // change of P with component c of node a
+        for (int i = 0; i < 2 * Dim; ++i)
+          AG[i] = A[i][2 * c] * point.gradient[a][0] + A[i][2 * c + 1] * point.gradient[a][1];
+        for (int b = 0; b <= a; ++b)
+          for (int e = 0; e < Dim; ++e)
+            if (b < a || e <= c)
+              *tangent++ += point.gradient[b][0] * AG[2 * e] + point.gradient[b][1] * AG[2 * e + 1];
+      }
+    return is_positive_definite(A, point.volume);
+  }
+
+  /// dP/dF, P = F S the first Piola-Kirchhoff stress, a component c and a direction I at place 2 c + I:
+  ///   A_cIeJ = delta_ce S_IJ + b_cI^T (d2Psi/dC2) b_eJ, b = dC/dF.
+  static void elasticity(const Deformation& d, const WeightedStress& stress, Lanes (&A)[2 * Dim][2 * Dim]) {
+    for (int c = 0; c < Dim; ++c) {
+      const Lanes f0 = d.F[0][c], f1 = d.F[1][c];
+      const Lanes(&D)[6] = stress.D;
+      const Lanes Db[2][3]{
+          {2.0 * D[0] * f0 + D[4] * f1, 2.0 * D[3] * f0 + D[5] * f1, 2.0 * D[4] * f0 + D[2] * f1},
+          {2.0 * D[3] * f1 + D[4] * f0, 2.0 * D[1] * f1 + D[5] * f0, 2.0 * D[5] * f1 + D[2] * f0}};
+      for (int e = 0; e <= c; ++e)
+        for (int I = 0; I < 2; ++I) {
+          A[2 * c + I][2 * e] = 2.0 * Db[I][0] * d.F[0][e] + Db[I][2] * d.F[1][e];
+          A[2 * c + I][2 * e + 1] = 2.0 * Db[I][1] * d.F[1][e] + Db[I][2] * d.F[0][e];
         }
-      for (int a = 0; a < Nodes; ++a)
-        for (int b = 0; b <= a; ++b) {
-          const Lanes geometric = point.gradient[a][0] * SG[b][0] + point.gradient[a][1] * SG[b][1];
-          for (int c = 0; c < Dim; ++c)
-            for (int e = 0; e < Dim; ++e) {
-              const int i = a * Dim + c, j = b * Dim + e;
-              if (j > i) continue;
-              Lanes sum = DB[i][0] * B[j][0] + DB[i][1] * B[j][1] + DB[i][2] * B[j][2];
-              if (c == e) sum += geometric;
-              tangent[i * (i + 1) / 2 + j] += sum;
-            }
-        }
+      A[2 * c][2 * c] += stress.S11;
+      A[2 * c + 1][2 * c] += stress.S12;
+      A[2 * c + 1][2 * c + 1] += stress.S22;
     }
+    for (int i = 0; i < 2 * Dim; ++i)
+      for (int j = i + 1; j < 2 * Dim; ++j) A[i][j] = A[j][i];
   }
 
   /// F of one lane, by columns, in space.
@@ -211,9 +221,6 @@ struct MeridianKinematics {
 
   static Lanes orientation(const Deformation& d) { return d.C.C11 * d.hoop; }
 
-  /// Not known: few unknowns are soon factored.
-  static bool is_convex(const Point&, const Deformation&, const WeightedStress&) { return false; }
-
   static void slope(const Point& point, const Deformation& d, int a, int c, Lanes (&row)[3]) {
     const auto& G = point.gradient[a];
     row[0] = 2.0 * d.along[c] * G[0];
@@ -221,8 +228,9 @@ struct MeridianKinematics {
     row[2] = Lanes{};
   }
 
+  /// Whether it is convex is not known: few unknowns are soon factored.
   template<bool with_tangent>
-  static void accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
+  static bool accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
                          Lanes (&residual)[Nodes * 2], Lanes* tangent) {
     for (int a = 0; a < Nodes; ++a) {
       const auto& G = point.gradient[a];
@@ -244,6 +252,7 @@ struct MeridianKinematics {
           tangent[i * (i + 1) / 2 + j] += sum;
         }
     }
+    return false;
   }
 
   static Eigen::Matrix<double, 3, 2> gradient_of(const Deformation& d, int lane) {

@@ -55,9 +55,6 @@ struct RodKinematics {
 
   static Lanes orientation(const Deformation& d) { return d.C.C11; }
 
-  /// Not known: a rod gives way across itself.
-  static bool is_convex(const Point&, const Deformation&, const WeightedStress&) { return false; }
-
   static void slope(const Point& point, const Deformation& d, int a, int c, Lanes (&row)[3]) {
     row[0] = 2.0 * d.along[c] * point.gradient[a][0];
     row[1] = d.narrowing * row[0];
@@ -65,9 +62,10 @@ struct RodKinematics {
   }
 
   /// Of Psi(C11, C22(C11)): the stress is S11 + S22 C22', the stiffness
-  /// Psi,11 + 2 Psi,12 C22' + Psi,22 C22'^2 + Psi,2 C22''.
+  /// Psi,11 + 2 Psi,12 C22' + Psi,22 C22'^2 + Psi,2 C22''. Whether it is convex is not known: a rod gives way
+  /// across itself.
   template<bool with_tangent>
-  static void accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
+  static bool accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
                          Lanes (&residual)[nodes * Dim], Lanes* tangent) {
     const Lanes S = stress.S11 + stress.S22 * d.narrowing;
     for (int a = 0; a < nodes; ++a)
@@ -84,6 +82,7 @@ struct RodKinematics {
           tangent[i * (i + 1) / 2 + j] += both * sum;
         }
     }
+    return false;
   }
 
   /// A film's sample as the rod's: across it is free of stress.
