@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/algebra/kept_factor.hpp"
 
-#include "fem/algebra/one_thread.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 
 namespace dielast::fem {
 
@@ -17,21 +17,11 @@ constexpr double operations_per_entry = 40;
 /// Iterations with a factor of the matrix itself after which a solve gives up.
 constexpr int most_iterations = 50;
 
-/// y = A x.
-void multiply(const SparseSymmetric& A, const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-  y.setZero(A.size);
-  for (int c = 0; c < A.size; ++c) {
-    auto k = static_cast<std::size_t>(A.column_start[static_cast<std::size_t>(c)]);
-    const auto end = static_cast<std::size_t>(A.column_start[static_cast<std::size_t>(c) + 1]);
-    const double of_column = x[c];
-    double sum = A.values[k] * of_column;
-    for (++k; k < end; ++k) {
-      sum += A.values[k] * x[A.rows[k]];
-      y[A.rows[k]] += A.values[k] * of_column;
-    }
-    y[c] += sum;
-  }
-}
+/// Into how many blocks columns are divided, whatever the number of threads, and how many columns are worth
+/// it.
+constexpr int most_blocks = 8, least_columns = 4096;
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 } // namespace
 
@@ -45,11 +35,74 @@ double KeptFactor::cost(const Supernodes& supernodes) {
   return 1 + operations / (operations_per_entry * entries);
 }
 
-KeptFactor::KeptFactor(const SparseSymmetric& matrix, const Supernodes& supernodes)
-    : matrix_(matrix), factor_(supernodes), cost_(cost(supernodes)) {}
+KeptFactor::KeptFactor(const SparseSymmetric& matrix, const Supernodes& supernodes, Workers& workers)
+    : matrix_(matrix), workers_(workers), factor_(supernodes, workers), cost_(cost(supernodes)) {
+  divide_columns();
+}
+
+void KeptFactor::divide_columns() {
+  const int count = std::clamp(matrix_.size / least_columns, 1, most_blocks);
+  std::vector<int> place(at(matrix_.size), -1);
+  for (int b = 0; b < count; ++b) {
+    Block block{static_cast<int>(static_cast<std::int64_t>(matrix_.size) * b / count),
+                static_cast<int>(static_cast<std::int64_t>(matrix_.size) * (b + 1) / count),
+                {},
+                {},
+                {}};
+    for (int c = block.first; c < block.last; ++c)
+      for (int k = matrix_.column_start[at(c)]; k < matrix_.column_start[at(c) + 1]; ++k) {
+        const int row = matrix_.rows[at(k)];
+        if (row < block.last) continue;
+        if (place[at(row)] < 0) {
+          place[at(row)] = static_cast<int>(block.row.size());
+          block.row.push_back(row);
+        }
+        block.place.push_back(place[at(row)]);
+      }
+    for (const int row : block.row) place[at(row)] = -1;
+    block.spilled.resize(block.row.size());
+    blocks_.push_back(std::move(block));
+  }
+  sums_.resize(blocks_.size());
+}
+
+/// y = A x.
+void KeptFactor::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+  y.resize(matrix_.size);
+  workers_.run(blocks_.size(), [&](std::size_t b) {
+    Block& block = blocks_[b];
+    std::ranges::fill(block.spilled, 0.0);
+    y.segment(block.first, block.last - block.first).setZero();
+    const int* place = block.place.data();
+    for (int c = block.first; c < block.last; ++c) {
+      const double of_column = x[c];
+      auto k = at(matrix_.column_start[at(c)]);
+      const auto end = at(matrix_.column_start[at(c) + 1]);
+      double sum = matrix_.values[k] * of_column;
+      for (++k; k < end && matrix_.rows[k] < block.last; ++k) {
+        sum += matrix_.values[k] * x[matrix_.rows[k]];
+        y[matrix_.rows[k]] += matrix_.values[k] * of_column;
+      }
+      for (; k < end; ++k) {
+        sum += matrix_.values[k] * x[matrix_.rows[k]];
+        block.spilled[at(*place++)] += matrix_.values[k] * of_column;
+      }
+      y[c] += sum;
+    }
+  });
+  for (const Block& block : blocks_)
+    for (std::size_t i = 0; i < block.row.size(); ++i) y[block.row[i]] += block.spilled[i];
+}
+
+/// Sum of f(first, count) of the blocks' ranges.
+template<class Function>
+double KeptFactor::sum_of_blocks(const Function& f) {
+  workers_.run(blocks_.size(),
+               [&](std::size_t b) { sums_[b] = f(blocks_[b].first, blocks_[b].last - blocks_[b].first); });
+  return std::accumulate(sums_.begin(), sums_.end(), 0.0);
+}
 
 bool KeptFactor::make() {
-  const OneThread one_thread;
   ++factorisations_;
   fresh_ = 0;
   made_ = factor_.factor(matrix_.values) &&
@@ -72,18 +125,25 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
   for (int iteration = 1; iteration <= most; ++iteration) {
     factor_.solve(r_, z_);
     ++solves_;
-    const double rz = r_.dot(z_);
+    const double rz = sum_of_blocks(
+        [&](int first, int count) { return r_.segment(first, count).dot(z_.segment(first, count)); });
     if (rz == 0) return iteration;
-    if (iteration == 1)
-      p_ = z_;
-    else
-      p_ = z_ + rz / product * p_;
+    const double kept = iteration == 1 ? 0 : rz / product;
+    if (iteration == 1) p_.setZero(z_.size());
+    sum_of_blocks([&](int first, int count) {
+      p_.segment(first, count) = z_.segment(first, count) + kept * p_.segment(first, count);
+      return 0.0;
+    });
     product = rz;
-    multiply(matrix_, p_, Ap_);
-    const double curvature = p_.dot(Ap_);
+    multiply(p_, Ap_);
+    const double curvature = sum_of_blocks(
+        [&](int first, int count) { return p_.segment(first, count).dot(Ap_.segment(first, count)); });
     if (!(curvature > 0)) return std::nullopt;
-    x += rz / curvature * p_;
-    r_ -= rz / curvature * Ap_;
+    sum_of_blocks([&](int first, int count) {
+      x.segment(first, count) += rz / curvature * p_.segment(first, count);
+      r_.segment(first, count) -= rz / curvature * Ap_.segment(first, count);
+      return 0.0;
+    });
     const double correction = rz / curvature * rz;
     square += correction;
     if (correction <= tolerance * tolerance * square) return iteration;

@@ -4,6 +4,7 @@
 #include "fem/algebra/multifrontal_cholesky.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace dielast::fem {
 
@@ -13,8 +14,8 @@ namespace dielast::fem {
 /// it. Costs are counted, not measured: results do not depend on a clock.
 class KeptFactor {
  public:
-  /// Both must outlive this.
-  KeptFactor(const SparseSymmetric& matrix, const Supernodes& supernodes);
+  /// All must outlive this.
+  KeptFactor(const SparseSymmetric& matrix, const Supernodes& supernodes, Workers& workers);
 
   /// What a factor costs, in iterations with it.
   static double cost(const Supernodes& supernodes);
@@ -31,11 +32,26 @@ class KeptFactor {
   int solves() const { return solves_; } ///< with the factor
 
  private:
+  /// Columns that one thread takes together. What they contribute to the rows behind them, `spilled`, is
+  /// added afterwards, block by block, so that sums do not depend on the number of threads.
+  struct Block {
+    int first, last;
+    std::vector<int> row;        ///< of each number in `spilled`
+    std::vector<int> place;      ///< in `spilled`, of each entry in these rows, column by column
+    std::vector<double> spilled; ///< and a workspace
+  };
+  void divide_columns();
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y);
+  template<class Function>
+  double sum_of_blocks(const Function& f);
   bool make();
   std::optional<int> iterate(Eigen::VectorXd& x, double& square, double tolerance, int most);
 
   const SparseSymmetric& matrix_;
+  Workers& workers_;
   MultifrontalCholesky<float> factor_;
+  std::vector<Block> blocks_;
+  std::vector<double> sums_; ///< of the blocks
   double cost_;
   bool made_ = false, fails_ = false; ///< single precision does not do here
   double fresh_ = 0; ///< iterations per decade of the tolerance, of the first solve with the factor; 0 before

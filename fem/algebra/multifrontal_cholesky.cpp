@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/algebra/multifrontal_cholesky.hpp"
 
-#include "fem/algebra/blas.hpp"
+#include "fem/algebra/dense_products.hpp"
 #include "fem/algebra/panel.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace dielast::fem {
 
@@ -15,9 +16,38 @@ constexpr std::size_t at(std::ptrdiff_t i) { return static_cast<std::size_t>(i);
 } // namespace
 
 template<class Real>
-MultifrontalCholesky<Real>::MultifrontalCholesky(const Supernodes& supernodes)
-    : nodes_(supernodes), values_(at(supernodes.start.back())), updates_(at(supernodes.update_size)),
-      x_(supernodes.permutation.size()), of_rows_(supernodes.permutation.size()) {}
+MultifrontalCholesky<Real>::MultifrontalCholesky(const Supernodes& supernodes, Workers& workers)
+    : nodes_(supernodes), workers_(workers), values_(at(supernodes.start.back())),
+      updates_(at(supernodes.update_size)), x_(supernodes.permutation.size()),
+      of_rows_(supernodes.rows.size()) {}
+
+/// f(supernode, workers) for all below s and itself, children before their parent.
+template<class Real>
+template<class Function>
+void MultifrontalCholesky<Real>::climb(int s, const Function& f) {
+  if (nodes_.small[at(s)] || workers_.count() == 1) {
+    for (int below = nodes_.first_below[at(s)]; below <= s; ++below) f(below, one_thread_);
+    return;
+  }
+  const int first = nodes_.child_start[at(s)];
+  workers_.run(at(nodes_.child_start[at(s) + 1] - first),
+               [&](std::size_t c) { climb(nodes_.child[at(first) + c], f); });
+  f(s, workers_);
+}
+
+/// f(supernode) for all below s and itself, parents before their children.
+template<class Real>
+template<class Function>
+void MultifrontalCholesky<Real>::descend(int s, const Function& f) {
+  if (nodes_.small[at(s)] || workers_.count() == 1) {
+    for (int below = s; below >= nodes_.first_below[at(s)]; --below) f(below);
+    return;
+  }
+  f(s);
+  const int first = nodes_.child_start[at(s)];
+  workers_.run(at(nodes_.child_start[at(s) + 1] - first),
+               [&](std::size_t c) { descend(nodes_.child[at(first) + c], f); });
+}
 
 template<class Real>
 typename MultifrontalCholesky<Real>::Front MultifrontalCholesky<Real>::front(int s) {
@@ -60,17 +90,25 @@ void MultifrontalCholesky<Real>::pass_on(int s) {
 }
 
 template<class Real>
-bool MultifrontalCholesky<Real>::factor(const std::vector<double>& entries) {
-  for (int s = 0; s < nodes_.count(); ++s) {
-    gather(entries, s);
-    const auto [width, height, below, panel, update] = front(s);
-    if (!blas::cholesky(width, panel, height)) return false;
-    if (below == 0) continue;
-    blas::divide_by_transposed(below, width, panel, height, panel + width);
-    blas::minus_square(below, width, panel + width, height, update, below);
-    pass_on(s);
-  }
+bool MultifrontalCholesky<Real>::factor_front(const std::vector<double>& entries, int s, Workers& workers) {
+  gather(entries, s);
+  const auto [width, height, below, panel, update] = front(s);
+  if (!factor_panel(width, height, panel, workers)) return false;
+  if (below == 0) return true;
+  minus_square(below, width, panel + width, height, update, below, workers);
+  pass_on(s);
   return true;
+}
+
+template<class Real>
+bool MultifrontalCholesky<Real>::factor(const std::vector<double>& entries) {
+  std::atomic<bool> definite = true;
+  workers_.run(nodes_.roots.size(), [&](std::size_t root) {
+    climb(nodes_.roots[root], [&](int s, Workers& workers) {
+      if (definite && !factor_front(entries, s, workers)) definite = false;
+    });
+  });
+  return definite;
 }
 
 template<class Real>
@@ -89,26 +127,39 @@ MultifrontalCholesky<Real>::smallest_pivot(const SparseSymmetric& matrix,
   return smallest;
 }
 
+/// Solves for the unknowns of a supernode, and keeps what that changes in the rows below it.
+template<class Real>
+void MultifrontalCholesky<Real>::forward(int s) {
+  const auto [width, height, below, panel, update] = front(s);
+  Real* const own = of_rows_.data() + nodes_.row_start[at(s)];
+  std::copy_n(x_.data() + nodes_.first_column[at(s)], width, own);
+  std::fill_n(own + width, below, Real(0));
+  for (int c = nodes_.child_start[at(s)]; c < nodes_.child_start[at(s) + 1]; ++c) {
+    const int child = nodes_.child[at(c)], rows = nodes_.below(child);
+    const int* const place = nodes_.place_in_parent(child);
+    const Real* const change = of_rows_.data() + nodes_.row_start[at(child)] + nodes_.width(child);
+    for (int i = 0; i < rows; ++i) own[place[i]] += change[i];
+  }
+  Panel<Real>(panel, width, height).forward(typename Panel<Real>::Vector(own, height));
+}
+
+template<class Real>
+void MultifrontalCholesky<Real>::backward(int s) {
+  const auto [width, height, below, panel, update] = front(s);
+  Real* const own = of_rows_.data() + nodes_.row_start[at(s)];
+  const int* const row = nodes_.rows_of(s);
+  for (int i = width; i < height; ++i) own[i] = x_[at(row[i])];
+  Panel<Real>(panel, width, height).backward(typename Panel<Real>::Vector(own, height));
+  std::copy_n(own, width, x_.data() + nodes_.first_column[at(s)]);
+}
+
 template<class Real>
 void MultifrontalCholesky<Real>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   for (std::size_t k = 0; k < x_.size(); ++k) x_[k] = static_cast<Real>(b[nodes_.permutation[k]]);
-  const auto gathered = [this](int s) {
-    const int* const row = nodes_.rows_of(s);
-    for (int i = 0; i < nodes_.height(s); ++i) of_rows_[at(i)] = x_[at(row[i])];
-    return typename Panel<Real>::Vector(of_rows_.data(), nodes_.height(s));
-  };
-  const auto put_back = [this](int s, int rows) {
-    const int* const row = nodes_.rows_of(s);
-    for (int i = 0; i < rows; ++i) x_[at(row[i])] = of_rows_[at(i)];
-  };
-  for (int s = 0; s < nodes_.count(); ++s) {
-    Panel<Real>(front(s).panel, nodes_.width(s), nodes_.height(s)).forward(gathered(s));
-    put_back(s, nodes_.height(s));
-  }
-  for (int s = nodes_.count() - 1; s >= 0; --s) {
-    Panel<Real>(front(s).panel, nodes_.width(s), nodes_.height(s)).backward(gathered(s));
-    put_back(s, nodes_.width(s));
-  }
+  workers_.run(nodes_.roots.size(), [&](std::size_t root) {
+    climb(nodes_.roots[root], [this](int s, Workers&) { forward(s); });
+    descend(nodes_.roots[root], [this](int s) { backward(s); });
+  });
   x.resize(static_cast<Eigen::Index>(x_.size()));
   for (std::size_t k = 0; k < x_.size(); ++k) x[nodes_.permutation[k]] = x_[k];
 }

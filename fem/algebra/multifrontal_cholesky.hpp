@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem/algebra/supernodes.hpp"
+#include "fem/algebra/workers.hpp"
 
 #include <Eigen/Core>
 
@@ -10,13 +11,13 @@
 namespace dielast::fem {
 
 /// L L^T of positive definite matrices of one pattern in the precision of Real, by the multifrontal method
-/// (Liu 1992). One thread does it: Debian's serial OpenBLAS gives wrong results where several call it at
-/// once. Its memory is kept.
+/// (Liu 1992). Branches of the tree of supernodes and parts of large fronts are computed at once, with the
+/// same bits for any number of threads. Its memory is kept.
 template<class Real>
 class MultifrontalCholesky {
  public:
-  /// `supernodes` must outlive this.
-  explicit MultifrontalCholesky(const Supernodes& supernodes);
+  /// Both must outlive this.
+  MultifrontalCholesky(const Supernodes& supernodes, Workers& workers);
 
   /// `entries`: those of the matrix that the supernodes were made for. False: not positive definite in this
   /// precision, and no solve is possible.
@@ -38,13 +39,23 @@ class MultifrontalCholesky {
     Real *panel, *update;
   };
   Front front(int s);
+  template<class Function>
+  void climb(int s, const Function& f);
+  template<class Function>
+  void descend(int s, const Function& f);
+  bool factor_front(const std::vector<double>& entries, int s, Workers& workers);
   void gather(const std::vector<double>& entries, int s);
   void pass_on(int s);
+  void forward(int s);
+  void backward(int s);
 
   const Supernodes& nodes_;
+  Workers& workers_;
+  Workers one_thread_{1};
   std::vector<Real> values_;  ///< of L, panel by panel
   std::vector<Real> updates_; ///< what supernodes give to their parents
-  std::vector<Real> x_, of_rows_;
+  std::vector<Real> x_;
+  std::vector<Real> of_rows_; ///< beside the rows of the supernodes: their part of a solution
 };
 
 extern template class MultifrontalCholesky<double>;

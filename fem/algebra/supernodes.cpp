@@ -16,17 +16,21 @@ namespace {
 /// Up to this many unknowns one panel holds the whole matrix.
 constexpr int dense_up_to = 64;
 
+/// Into how many parts for each of them, at least, several threads divide the work.
+constexpr int parts_of_thread = 16;
+
 /// Above this many unknowns nested dissection repays its slower analysis.
 constexpr int nested_dissection_from = 20000;
 
 } // namespace
 
-Supernodes::Supernodes(const SparseSymmetric& matrix) {
+Supernodes::Supernodes(const SparseSymmetric& matrix, int threads) {
   if (matrix.size <= dense_up_to)
     make_dense(matrix.size);
   else
     analyse(matrix);
   build_tree();
+  tell_small(threads);
   place_entries(matrix);
   place_updates();
 }
@@ -127,18 +131,50 @@ void Supernodes::place_entries(const SparseSymmetric& matrix) {
   }
 }
 
-/// What a supernode gives lies behind what its parent and the children before it give, and before all that
-/// stands above its own children: as long as it is needed, nothing else is written there.
+void Supernodes::tell_small(int threads) {
+  std::vector<double> work(at(count()));
+  double all = 0;
+  first_below.resize(at(count()));
+  for (int s = 0; s < count(); ++s) {
+    first_below[at(s)] =
+        child_start[at(s)] < child_start[at(s) + 1] ? first_below[at(child[at(child_start[at(s)])])] : s;
+    const double whole = height(s), rest = below(s), own = whole * whole * whole - rest * rest * rest;
+    all += own;
+    work[at(s)] += own;
+    if (parent[at(s)] >= 0)
+      work[at(parent[at(s)])] += work[at(s)];
+    else
+      roots.push_back(s);
+  }
+  const int parts = threads > 1 ? parts_of_thread * threads : 1;
+  for (const double w : work) small.push_back(parts * w <= all);
+}
+
+/// Where a supernode is small, what it gives lies behind what its parent and the children before it give, and
+/// before all that stands above its own children: as long as it is needed, nothing else is written there.
+/// Others have places of their own, with all that stands below them.
 void Supernodes::place_updates() {
   const auto size = [this](int s) { return static_cast<std::ptrdiff_t>(below(s)) * below(s); };
+  std::vector<std::ptrdiff_t> extent(at(count())); // what all below a supernode and itself need
+  for (int s = 0; s < count(); ++s) {
+    std::ptrdiff_t behind = 0, most = 0;
+    for (int c = child_start[at(s)]; c < child_start[at(s) + 1]; ++c) {
+      most = std::max(most, behind + extent[at(child[at(c)])]);
+      behind += small[at(s)] ? size(child[at(c)]) : extent[at(child[at(c)])];
+    }
+    extent[at(s)] = size(s) + most;
+  }
   update_start.assign(at(count()), 0);
+  for (const int root : roots) {
+    update_start[at(root)] = update_size;
+    update_size += extent[at(root)];
+  }
   for (int s = count() - 1; s >= 0; --s) {
     std::ptrdiff_t next = update_start[at(s)] + size(s);
     for (int c = child_start[at(s)]; c < child_start[at(s) + 1]; ++c) {
       update_start[at(child[at(c)])] = next;
-      next += size(child[at(c)]);
+      next += small[at(s)] ? size(child[at(c)]) : extent[at(child[at(c)])];
     }
-    update_size = std::max(update_size, next);
   }
 }
 

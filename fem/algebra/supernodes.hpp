@@ -13,7 +13,8 @@ namespace dielast::fem {
 /// the first of its rows below the diagonal (Duff & Reid 1983; Liu 1992). Supernodes are numbered from the
 /// leaves to the roots, those below one another without a gap.
 struct Supernodes {
-  explicit Supernodes(const SparseSymmetric& matrix);
+  /// `threads`: that factor at once; more take more memory.
+  explicit Supernodes(const SparseSymmetric& matrix, int threads = 1);
 
   int count() const { return static_cast<int>(parent.size()); }
   int width(int s) const { return first_column[at(s) + 1] - first_column[at(s)]; }
@@ -25,14 +26,17 @@ struct Supernodes {
   /// Place in the parent's rows of each row below.
   const int* place_in_parent(int s) const { return places.data() + row_start[at(s)] + width(s); }
 
-  std::vector<int> permutation;             ///< equation of each column of L
-  std::vector<int> first_column;            ///< per supernode, and the number of columns
-  std::vector<int> row_start;               ///< of each supernode in `rows`
-  std::vector<int> rows;                    ///< ascending, columns of L
-  std::vector<int> places;                  ///< beside `rows`
-  std::vector<int> parent;                  ///< -1: a root
-  std::vector<int> child_start, child;      ///< lists of children
-  std::vector<std::ptrdiff_t> start;        ///< of each panel in the values of L, and their number
+  std::vector<int> permutation;        ///< equation of each column of L
+  std::vector<int> first_column;       ///< per supernode, and the number of columns
+  std::vector<int> row_start;          ///< of each supernode in `rows`
+  std::vector<int> rows;               ///< ascending, columns of L
+  std::vector<int> places;             ///< beside `rows`
+  std::vector<int> parent;             ///< -1: a root
+  std::vector<int> child_start, child; ///< lists of children
+  std::vector<int> roots;
+  std::vector<int> first_below;      ///< first of all that stand below each supernode and of itself: no gap
+  std::vector<bool> small;           ///< whether all these are so little work that one thread should do it
+  std::vector<std::ptrdiff_t> start; ///< of each panel in the values of L, and their number
   std::vector<std::ptrdiff_t> entry_start;  ///< of each supernode in the next two
   std::vector<int> entry;                   ///< of the matrix
   std::vector<int> entry_place;             ///< in the panel
@@ -44,6 +48,7 @@ struct Supernodes {
   void make_dense(int size);
   void analyse(const SparseSymmetric& matrix);
   void build_tree();
+  void tell_small(int threads);
   void place_entries(const SparseSymmetric& matrix);
   void place_updates();
 };

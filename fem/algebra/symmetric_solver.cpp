@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/algebra/symmetric_solver.hpp"
 
-#include "fem/algebra/blas.hpp"
 #include "fem/algebra/kept_factor.hpp"
 #include "fem/algebra/one_thread.hpp"
 
@@ -12,6 +11,8 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
+
+extern "C" void dpotrf_(const char* uplo, const int* n, double* A, const int* stride, int* info);
 
 namespace dielast::fem {
 
@@ -31,23 +32,25 @@ bool has_blas_buffer() {
         "the limit of memory is too low for OpenBLAS, which needs 128 MB: see ulimit -v");
   munmap(memory, buffer);
   double number = 1;
-  return blas::cholesky(1, &number, 1);
+  const int one = 1;
+  int info = 0;
+  dpotrf_("L", &one, &number, &one, &info);
+  return info == 0;
 }
 
 } // namespace
 
 struct SymmetricSolver::Cholesky {
-  explicit Cholesky(const SparseSymmetric& matrix) : supernodes(matrix) {
-    [[maybe_unused]] static const bool has_buffer = has_blas_buffer();
-  }
+  Cholesky(const SparseSymmetric& matrix, Workers& threads)
+      : supernodes(matrix, threads.count()), workers(threads) {}
 
   bool decompose(const std::vector<double>& values) {
-    const OneThread one_thread;
-    if (!factor) factor.emplace(supernodes);
+    if (!factor) factor.emplace(supernodes, workers);
     return factor->factor(values);
   }
 
   Supernodes supernodes;
+  Workers& workers;
   std::optional<MultifrontalCholesky<double>> factor;
   std::optional<KeptFactor> kept;
 };
@@ -56,6 +59,7 @@ struct SymmetricSolver::Indefinite {
   static constexpr int use_comm_world = -987654; // MUMPS' own constant
 
   explicit Indefinite(const SparseSymmetric& matrix) {
+    [[maybe_unused]] static const bool has_buffer = has_blas_buffer();
     rows.reserve(matrix.rows.size());
     columns.reserve(matrix.rows.size());
     for (int c = 0; c < matrix.size; ++c)
@@ -108,9 +112,9 @@ struct SymmetricSolver::Indefinite {
   std::vector<int> rows, columns;
 };
 
-SymmetricSolver::SymmetricSolver(const SparseSymmetric& matrix, bool indefinite)
-    : matrix_(matrix),
-      cholesky_(matrix.size > 0 && !indefinite ? std::make_unique<Cholesky>(matrix) : nullptr) {}
+SymmetricSolver::SymmetricSolver(const SparseSymmetric& matrix, Workers& workers, bool indefinite)
+    : matrix_(matrix), workers_(workers),
+      cholesky_(matrix.size > 0 && !indefinite ? std::make_unique<Cholesky>(matrix, workers) : nullptr) {}
 SymmetricSolver::~SymmetricSolver() = default;
 
 bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
@@ -139,7 +143,7 @@ int SymmetricSolver::negative_pivots() const { return definite_ ? 0 : indefinite
 
 bool SymmetricSolver::precondition() {
   if (!cholesky_ || KeptFactor::cost(cholesky_->supernodes) < KeptFactor::least_cost) return factor();
-  if (!cholesky_->kept) cholesky_->kept.emplace(matrix_, cholesky_->supernodes);
+  if (!cholesky_->kept) cholesky_->kept.emplace(matrix_, cholesky_->supernodes, workers_);
   if (!cholesky_->kept->prepare()) return factor();
   definite_ = iterates_ = true;
   return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem/algebra/sparse_matrix.hpp"
+#include "fem/algebra/workers.hpp"
 
 #include <Eigen/Core>
 
@@ -19,8 +20,8 @@ class SymmetricSolver {
   static constexpr double exact = 1e-10; ///< tolerance of solve()
 
   /// Analyses the pattern of `matrix` once; its values may change afterwards. `indefinite`: it is known never
-  /// to be positive definite.
-  explicit SymmetricSolver(const SparseSymmetric& matrix, bool indefinite = false);
+  /// to be positive definite. Matrix and workers must outlive this.
+  SymmetricSolver(const SparseSymmetric& matrix, Workers& workers, bool indefinite = false);
   ~SymmetricSolver();
   SymmetricSolver(const SymmetricSolver&) = delete;
   SymmetricSolver& operator=(const SymmetricSolver&) = delete;
@@ -50,6 +51,7 @@ class SymmetricSolver {
   struct Cholesky;
   struct Indefinite;
   const SparseSymmetric& matrix_;
+  Workers& workers_;
   std::unique_ptr<Cholesky> cholesky_;
   std::unique_ptr<Indefinite> indefinite_; ///< made when first needed
   std::vector<double> shifted_;            ///< values with something on the diagonal

@@ -29,7 +29,7 @@ bool any_follows(const State& state) {
 BorderedTangent::BorderedTangent(const Model& model, const Assembler& assembler,
                                  const Eigen::VectorXd& stiffness)
     : model_(model), assembler_(assembler), matrix_(assembler.matrix()), stiffness_(stiffness),
-      solver_(matrix_, model.dofs.scalar_count() > 0) {}
+      solver_(matrix_, assembler.workers(), model.dofs.scalar_count() > 0) {}
 
 void BorderedTangent::append_border(const Eigen::VectorXd& column, const Eigen::VectorXd& row,
                                     double corner) {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
-#include <tbb/parallel_for.h>
-#include <thread>
 #include <vector>
 
 namespace dielast::fem {
@@ -18,28 +16,9 @@ constexpr int chunk_size = 64;
 /// Below this many elements waking and waiting for threads costs more than they save.
 constexpr int worth_threads = 16000;
 
-/// f(0) ... f(count - 1), in any order.
-template<class Function>
-void in_parallel(tbb::task_arena& arena, std::size_t count, const Function& f) {
-#ifdef DIELAST_PLAIN_THREADS // the thread sanitizer does not see how TBB, which is not compiled with it,
-                             // orders tasks
-  const auto of_thread = [&](std::size_t first, std::size_t step) {
-    for (std::size_t i = first; i < count; i += step) f(i);
-  };
-  const auto threads = static_cast<std::size_t>(arena.max_concurrency());
-  std::vector<std::thread> others;
-  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(of_thread, t, threads);
-  of_thread(0, threads);
-  for (std::thread& other : others) other.join();
-#else
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, f); });
-#endif
-}
-
 } // namespace
 
-Assembler::Assembler(const Model& model, int threads)
-    : model_(model), threads_(threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency())) {
+Assembler::Assembler(const Model& model, int threads) : model_(model) {
   for (const auto& block : model_.blocks) {
     const int dofs = block->dofs_per_element();
     auto& equations = equations_.emplace_back(static_cast<std::size_t>(block->element_count() * dofs));
@@ -50,8 +29,7 @@ Assembler::Assembler(const Model& model, int threads)
   }
   int elements = 0;
   for (const auto& block : model_.blocks) elements += block->element_count();
-  if (elements < worth_threads) threads_ = 1;
-  arena_.initialize(threads_);
+  workers_ = std::make_unique<Workers>(elements < worth_threads ? 1 : threads);
   build_pattern();
   colour_chunks();
   mass_ = on_pattern(model_.inertia.mass);
@@ -196,10 +174,7 @@ Evaluation Assembler::run(const State& state, bool want_residual, bool want_tang
                             want_tangent ? matrix_.values.data() : nullptr};
       parts_[c] = model_.blocks[b]->evaluate(state, first, last, scatter);
     };
-    if (threads_ > 1)
-      in_parallel(arena_, colour.size(), evaluate);
-    else
-      for (std::size_t c = 0; c < colour.size(); ++c) evaluate(c);
+    workers_->run(colour.size(), evaluate);
     for (const Evaluation& part : parts_) {
       total.energy += part.energy;
       total.feasible = total.feasible && part.feasible;

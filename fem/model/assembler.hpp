@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fem/algebra/workers.hpp"
 #include "fem/model/model.hpp"
 #include "fem/model/tie_reduction.hpp"
 
+#include <memory>
 #include <optional>
-#include <tbb/task_arena.h>
 #include <vector>
 
 namespace dielast::fem {
@@ -38,6 +39,9 @@ class Assembler {
   std::vector<double> damping(const State& state) const { return without_ties(state, damping_); }
   const SparseSymmetric& matrix() const { return reduction_ ? reduced_ : matrix_; }
 
+  /// One where the model is too small for more.
+  Workers& workers() const { return *workers_; }
+
  private:
   struct Chunk {
     int block, first, last;
@@ -52,8 +56,7 @@ class Assembler {
   std::vector<double> without_ties(const State& state, std::vector<double> values) const;
 
   const Model& model_;
-  int threads_ = 1;
-  tbb::task_arena arena_;
+  std::unique_ptr<Workers> workers_;
   SparseSymmetric matrix_; ///< over the free unknowns, then those of tied nodes
   std::optional<TieReduction> reduction_;
   SparseSymmetric reduced_;                 ///< over the free unknowns, where there are ties

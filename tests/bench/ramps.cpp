@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole ramps of the benchmark tasks. Counters, in ms of CPU per Newton iteration: residual, tangent, factor,
 // solve, all; overhead = all / (factor + solve) of the same matrices in the same run; mesh_s and analysis_s =
-// CPU for the model and for orders and places of its tangent; whole_s = CPU from the mesh to the last step;
+// CPU for the model and for orders and places of its tangent; whole_s = CPU from the mesh to the last step,
+// wall_s the time that it takes. The second argument is the number of threads;
 // peak_mb = memory of the process until then, so that only the largest task of a run tells.
 //   build/bin/dielast_bench --benchmark_filter=disc --benchmark_out=FILE --benchmark_out_format=json
 
@@ -9,6 +10,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <ctime>
 #include <sys/resource.h>
 
@@ -25,8 +27,9 @@ double peak_megabytes() {
 }
 
 void run(benchmark::State& bench, Task (*make_task)(int)) {
-  constexpr int threads = 1;
+  const int threads = static_cast<int>(bench.range(1));
   for (auto _ : bench) {
+    const auto clock = std::chrono::steady_clock::now();
     const double begin = cpu_seconds();
     const Task task = make_task(static_cast<int>(bench.range(0)));
     const double meshed = cpu_seconds();
@@ -43,6 +46,8 @@ void run(benchmark::State& bench, Task (*make_task)(int)) {
     }
     const double all = cpu_seconds() - start;
     bench.counters["whole_s"] = cpu_seconds() - begin;
+    bench.counters["wall_s"] =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     bench.counters["mesh_s"] = meshed - begin;
     bench.counters["analysis_s"] = start - meshed;
     bench.counters["peak_mb"] = peak_megabytes();
@@ -67,9 +72,9 @@ void disc(benchmark::State& bench) { run(bench, partial_electrode_disc); }
 void diaphragm(benchmark::State& bench) { run(bench, plate_diaphragm); }
 void stack(benchmark::State& bench) { run(bench, stack_on_table); }
 
-BENCHMARK(disc)->Arg(21)->Arg(66)->Arg(129)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK(diaphragm)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK(stack)->Arg(3)->Arg(4)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(disc)->ArgsProduct({{21, 66, 129}, {1, 2}})->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(diaphragm)->ArgsProduct({{1, 2, 4}, {1, 2}})->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(stack)->ArgsProduct({{3, 4}, {1, 2}})->Unit(benchmark::kMillisecond)->Iterations(1);
 
 } // namespace
 

@@ -31,7 +31,8 @@ class Keeping : public testing::Test {
   const SparseSymmetric first = test::grid(60, 1), last = test::grid(60, 2);
   SparseSymmetric matrix = first;
   Supernodes supernodes{matrix};
-  KeptFactor kept{matrix, supernodes};
+  Workers workers{1};
+  KeptFactor kept{matrix, supernodes, workers};
 };
 
 TEST_F(Keeping, one_factor_solves_with_matrices_close_by) {

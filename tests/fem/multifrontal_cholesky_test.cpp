@@ -20,11 +20,12 @@ TEST_P(MultifrontalCholeskyOfSize, solves_with_the_rounding_of_its_precision) {
                         b = test::times(matrix, expected);
   const Supernodes supernodes(matrix);
   Eigen::VectorXd x;
-  MultifrontalCholesky<double> twice(supernodes);
+  Workers workers(1);
+  MultifrontalCholesky<double> twice(supernodes, workers);
   ASSERT_TRUE(twice.factor(matrix.values));
   twice.solve(b, x);
   EXPECT_LT((x - expected).norm(), 1e-11 * expected.norm());
-  MultifrontalCholesky<float> single(supernodes);
+  MultifrontalCholesky<float> single(supernodes, workers);
   ASSERT_TRUE(single.factor(matrix.values));
   single.solve(b, x);
   EXPECT_LT((x - expected).norm(), 1e-2 * expected.norm());
@@ -37,7 +38,8 @@ TEST_P(MultifrontalCholeskyOfSize, gives_the_same_bits_again) {
   std::mt19937 random(4);
   const Eigen::VectorXd b = test::random_vector(random, matrix.size);
   const Supernodes supernodes(matrix);
-  MultifrontalCholesky<double> cholesky(supernodes);
+  Workers workers(1);
+  MultifrontalCholesky<double> cholesky(supernodes, workers);
   Eigen::VectorXd first, again;
   ASSERT_TRUE(cholesky.factor(matrix.values));
   cholesky.solve(b, first);
@@ -45,6 +47,26 @@ TEST_P(MultifrontalCholeskyOfSize, gives_the_same_bits_again) {
   ASSERT_TRUE(cholesky.factor(matrix.values));
   cholesky.solve(b, again);
   EXPECT_EQ(first, again);
+}
+
+TEST_P(MultifrontalCholeskyOfSize, gives_the_same_bits_with_any_number_of_threads) {
+  const SparseSymmetric matrix = test::grid(GetParam(), 9);
+  std::mt19937 random(4);
+  const Eigen::VectorXd b = test::random_vector(random, matrix.size);
+  const auto solved = [&]<class Real>(int threads, Real) {
+    const Supernodes supernodes(matrix, threads);
+    Workers workers(threads);
+    MultifrontalCholesky<Real> cholesky(supernodes, workers);
+    EXPECT_TRUE(cholesky.factor(matrix.values));
+    Eigen::VectorXd x;
+    cholesky.solve(b, x);
+    return x;
+  };
+  const Eigen::VectorXd expected = solved(1, 1.0), single = solved(1, 1.0F);
+  for (const int threads : {2, 3, 4, 4}) {
+    EXPECT_EQ(solved(threads, 1.0), expected) << threads;
+    EXPECT_EQ(solved(threads, 1.0F), single) << threads;
+  }
 }
 
 // Vector registers must not make sums depend on how memory is aligned, which no two runs share.
@@ -70,8 +92,9 @@ TEST(Panels, give_the_same_bits_wherever_they_lie_in_memory) {
 
 TEST_P(MultifrontalCholeskyOfSize, tells_what_is_not_positive_definite_wherever_it_is) {
   const SparseSymmetric matrix = test::grid(GetParam(), 5);
-  const Supernodes supernodes(matrix);
-  MultifrontalCholesky<double> cholesky(supernodes);
+  const Supernodes supernodes(matrix, 2);
+  Workers workers(2);
+  MultifrontalCholesky<double> cholesky(supernodes, workers);
   for (int node = 0; node < matrix.size; node += 1 + matrix.size / 7) {
     std::vector<double> entries = matrix.values;
     entries[static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(node)])] = -1;

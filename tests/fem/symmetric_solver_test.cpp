@@ -12,6 +12,8 @@
 namespace dielast::fem {
 namespace {
 
+Workers one_thread(1);
+
 /// The lower triangle of a dense matrix without its zeros, the diagonal kept.
 SparseSymmetric sparse(const Eigen::MatrixXd& full) {
   SparseSymmetric matrix{
@@ -57,7 +59,7 @@ TEST(SymmetricSolver, solves_and_tells_the_inertia_of_matrices_of_one_pattern) {
   for (const int size : {1, 2, 7, 60, 200}) {
     const Eigen::MatrixXd pattern = random_matrix(random, size, 0);
     SparseSymmetric matrix = sparse(pattern);
-    SymmetricSolver solver(matrix);
+    SymmetricSolver solver(matrix, one_thread);
     for (const double shift : {10.0, 0.0, -0.4, 0.7, -10.0, 10.0}) { // definite, indefinite, and back
       const Eigen::MatrixXd full = pattern + shift * Eigen::MatrixXd::Identity(size, size);
       std::ranges::copy(sparse(full).values, matrix.values.begin());
@@ -78,7 +80,7 @@ TEST(SymmetricSolver, saddle_points_have_as_many_negative_pivots_as_constraints)
   full.topLeftCorner(30, 30) = random_matrix(random, 30, 10);
   for (int i = 0; i < 10; ++i) full(30 + i, 3 * i) = full(3 * i, 30 + i) = 1;
   SparseSymmetric matrix = sparse(full);
-  SymmetricSolver solver(matrix);
+  SymmetricSolver solver(matrix, one_thread);
   ASSERT_TRUE(solver.factor());
   EXPECT_EQ(solver.negative_pivots(), 10);
 }
@@ -86,7 +88,7 @@ TEST(SymmetricSolver, saddle_points_have_as_many_negative_pivots_as_constraints)
 TEST(SymmetricSolver, refuses_singular_matrices) {
   for (const double stiffness : {1.0, 0.1, 1e5 / 3}) {
     const SparseSymmetric chain = sparse(free_chain(50, stiffness));
-    SymmetricSolver solver(chain);
+    SymmetricSolver solver(chain, one_thread);
     EXPECT_FALSE(solver.factor()) << "rigid mode, stiffness " << stiffness;
   }
   Eigen::MatrixXd full = free_chain(5, 1);
@@ -95,7 +97,7 @@ TEST(SymmetricSolver, refuses_singular_matrices) {
   full.col(4).setZero();
   full(3, 3) = 1; // node 4 is attached to nothing
   const SparseSymmetric loose = sparse(full);
-  SymmetricSolver solver(loose);
+  SymmetricSolver solver(loose, one_thread);
   EXPECT_FALSE(solver.factor());
 }
 
@@ -109,7 +111,7 @@ TEST(SymmetricSolver, tells_where_a_pivot_vanished_and_takes_a_stiffness_there) 
   loose(3, 3) = 1;
   for (const Eigen::MatrixXd& full : {free_chain(50, 0.1), loose, Eigen::MatrixXd(-free_chain(9, 2))}) {
     const SparseSymmetric matrix = sparse(full);
-    SymmetricSolver solver(matrix);
+    SymmetricSolver solver(matrix, one_thread);
     ASSERT_FALSE(solver.factor());
     const int weakest = solver.singular_equation();
     ASSERT_GE(weakest, 0);
@@ -128,7 +130,7 @@ TEST(SymmetricSolver, tells_where_a_pivot_vanished_and_takes_a_stiffness_there) 
 // Where a matrix is not what it was said to be, the solution is right, or none.
 TEST(SymmetricSolver, solves_what_only_seemed_positive_definite) {
   SparseSymmetric matrix = test::grid(200, 1); // large enough for a factor to be kept
-  SymmetricSolver solver(matrix);
+  SymmetricSolver solver(matrix, one_thread);
   ASSERT_TRUE(solver.precondition());
   matrix.values[static_cast<std::size_t>(matrix.column_start[1234])] = -5;
   ASSERT_TRUE(solver.precondition());

@@ -114,7 +114,7 @@ class ShellProblem {
   Eigen::VectorXd linear_answer() const {
     Assembler assembler(*model_, 1);
     assembler.tangent(model_->initial_state());
-    SymmetricSolver solver(assembler.matrix());
+    SymmetricSolver solver(assembler.matrix(), assembler.workers());
     Eigen::VectorXd u = Eigen::VectorXd::Zero(load_.size()), x;
     EXPECT_TRUE(solver.factor());
     solver.solve(load_.head(model_->dofs.free_count()), x);
