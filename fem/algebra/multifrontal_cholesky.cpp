@@ -11,6 +11,9 @@ namespace dielast::fem {
 
 namespace {
 
+/// Numbers that a thread moves at once, not less.
+constexpr int permuted_together = 20000;
+
 constexpr std::size_t at(std::ptrdiff_t i) { return static_cast<std::size_t>(i); }
 
 } // namespace
@@ -155,13 +158,18 @@ void MultifrontalCholesky<Real>::backward(int s) {
 
 template<class Real>
 void MultifrontalCholesky<Real>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  for (std::size_t k = 0; k < x_.size(); ++k) x_[k] = static_cast<Real>(b[nodes_.permutation[k]]);
+  const auto size = static_cast<int>(x_.size());
+  workers_.run_blocks(size, permuted_together, [&](int first, int last) {
+    for (int k = first; k < last; ++k) x_[at(k)] = static_cast<Real>(b[nodes_.permutation[at(k)]]);
+  });
   workers_.run(nodes_.roots.size(), [&](std::size_t root) {
     climb(nodes_.roots[root], [this](int s, Workers&) { forward(s); });
     descend(nodes_.roots[root], [this](int s) { backward(s); });
   });
-  x.resize(static_cast<Eigen::Index>(x_.size()));
-  for (std::size_t k = 0; k < x_.size(); ++k) x[nodes_.permutation[k]] = x_[k];
+  x.resize(size);
+  workers_.run_blocks(size, permuted_together, [&](int first, int last) {
+    for (int k = first; k < last; ++k) x[nodes_.permutation[at(k)]] = x_[at(k)];
+  });
 }
 
 template class MultifrontalCholesky<double>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fem/algebra/large_vector.hpp"
 #include "fem/algebra/supernodes.hpp"
 #include "fem/algebra/workers.hpp"
 
@@ -52,8 +53,8 @@ class MultifrontalCholesky {
   const Supernodes& nodes_;
   Workers& workers_;
   Workers one_thread_{1};
-  std::vector<Real> values_;  ///< of L, panel by panel
-  std::vector<Real> updates_; ///< what supernodes give to their parents
+  LargeVector<Real> values_;  ///< of L, panel by panel
+  LargeVector<Real> updates_; ///< what supernodes give to their parents
   std::vector<Real> x_;
   std::vector<Real> of_rows_; ///< beside the rows of the supernodes: their part of a solution
 };

@@ -13,6 +13,9 @@ namespace {
 /// Large enough to hide the call, small enough to balance two threads on a thousand elements.
 constexpr int chunk_size = 64;
 
+/// Entries of the tangent that a thread clears at once, not less.
+constexpr int cleared_together = 1 << 16;
+
 /// Below this many elements waking and waiting for threads costs more than they save.
 constexpr int worth_threads = 16000;
 
@@ -201,7 +204,10 @@ std::vector<double> Assembler::relaxation(const State& state, const RateWeight& 
 }
 
 void Assembler::tangent(const State& state) {
-  std::fill(matrix_.values.begin(), matrix_.values.end(), 0.0);
+  workers_->run_blocks(static_cast<int>(matrix_.values.size()), cleared_together,
+                       [this](int first, int last) {
+                         std::fill(matrix_.values.begin() + first, matrix_.values.begin() + last, 0.0);
+                       });
   convex_ = false; // tied nodes turn with their bodies, which may set energy free
   if (!reduction_) {
     convex_ = run(state, false, true).convex;
