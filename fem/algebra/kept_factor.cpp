@@ -105,8 +105,7 @@ double KeptFactor::sum_of_blocks(const Function& f) {
 bool KeptFactor::make() {
   ++factorisations_;
   fresh_ = 0;
-  made_ = factor_.factor(matrix_.values) &&
-          factor_.smallest_pivot(matrix_, matrix_.values).relative > least_pivot;
+  made_ = factor_.factor(matrix_.values) && factor_.smallest_pivot().relative > least_pivot;
   fails_ = !made_;
   return made_;
 }

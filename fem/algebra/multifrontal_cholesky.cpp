@@ -2,10 +2,12 @@
 #include "fem/algebra/multifrontal_cholesky.hpp"
 
 #include "fem/algebra/dense_products.hpp"
+#include "fem/algebra/memory.hpp"
 #include "fem/algebra/panel.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <string>
 
 namespace dielast::fem {
 
@@ -20,9 +22,14 @@ constexpr std::size_t at(std::ptrdiff_t i) { return static_cast<std::size_t>(i);
 
 template<class Real>
 MultifrontalCholesky<Real>::MultifrontalCholesky(const Supernodes& supernodes, Workers& workers)
-    : nodes_(supernodes), workers_(workers), values_(at(supernodes.start.back())),
-      updates_(at(supernodes.update_size)), x_(supernodes.permutation.size()),
-      of_rows_(supernodes.rows.size()) {}
+    : nodes_(supernodes), workers_(workers), smallest_(at(supernodes.count())),
+      x_(supernodes.permutation.size()), of_rows_(supernodes.rows.size()) {
+  const auto numbers = static_cast<double>(supernodes.start.back() + supernodes.update_size);
+  require_memory(numbers * sizeof(Real),
+                 "the factor of a tangent of " + std::to_string(x_.size()) + " unknowns");
+  values_.resize(at(supernodes.start.back()));
+  updates_.resize(at(supernodes.update_size));
+}
 
 /// f(supernode, workers) for all below s and itself, children before their parent.
 template<class Real>
@@ -97,6 +104,7 @@ bool MultifrontalCholesky<Real>::factor_front(const std::vector<double>& entries
   gather(entries, s);
   const auto [width, height, below, panel, update] = front(s);
   if (!factor_panel(width, height, panel, workers)) return false;
+  smallest_[at(s)] = smallest_pivot(entries, s);
   if (below == 0) return true;
   minus_square(below, width, panel + width, height, update, below, workers);
   pass_on(s);
@@ -116,18 +124,21 @@ bool MultifrontalCholesky<Real>::factor(const std::vector<double>& entries) {
 
 template<class Real>
 typename MultifrontalCholesky<Real>::Pivot
-MultifrontalCholesky<Real>::smallest_pivot(const SparseSymmetric& matrix,
-                                           const std::vector<double>& entries) const {
+MultifrontalCholesky<Real>::smallest_pivot(const std::vector<double>& entries, int s) {
+  const Front own = front(s);
   Pivot smallest;
-  for (int s = 0; s < nodes_.count(); ++s)
-    for (int k = 0; k < nodes_.width(s); ++k) {
-      const double root =
-          values_[at(nodes_.start[at(s)] + static_cast<std::ptrdiff_t>(k) * nodes_.height(s) + k)];
-      const int equation = nodes_.permutation[at(nodes_.first_column[at(s)] + k)];
-      const double relative = root * root / entries[at(matrix.column_start[at(equation)])];
-      if (relative < smallest.relative) smallest = {relative, equation};
-    }
+  for (int k = 0; k < own.width; ++k) {
+    const double root = own.panel[static_cast<std::ptrdiff_t>(k) * own.height + k];
+    const auto column = at(nodes_.first_column[at(s)] + k);
+    const double relative = root * root / entries[at(nodes_.diagonal[column])];
+    if (relative < smallest.relative) smallest = {relative, nodes_.permutation[column]};
+  }
   return smallest;
+}
+
+template<class Real>
+typename MultifrontalCholesky<Real>::Pivot MultifrontalCholesky<Real>::smallest_pivot() const {
+  return *std::ranges::min_element(smallest_, {}, &Pivot::relative);
 }
 
 /// Solves for the unknowns of a supernode, and keeps what that changes in the rows below it.

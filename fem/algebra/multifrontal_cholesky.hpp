@@ -17,7 +17,7 @@ namespace dielast::fem {
 template<class Real>
 class MultifrontalCholesky {
  public:
-  /// Both must outlive this.
+  /// Both must outlive this. Throws std::runtime_error where there is less memory than it takes.
   MultifrontalCholesky(const Supernodes& supernodes, Workers& workers);
 
   /// `entries`: those of the matrix that the supernodes were made for. False: not positive definite in this
@@ -28,8 +28,8 @@ class MultifrontalCholesky {
     double relative = 1; ///< over the diagonal entry that it came from: no units
     int equation = -1;
   };
-  /// Round-off when the matrix is singular. `matrix`: which was factored, with these `entries`.
-  Pivot smallest_pivot(const SparseSymmetric& matrix, const std::vector<double>& entries) const;
+  /// Of the last factor; round-off when the matrix is singular.
+  Pivot smallest_pivot() const;
   /// x = A^-1 b, with the rounding of this precision.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
@@ -47,14 +47,16 @@ class MultifrontalCholesky {
   bool factor_front(const std::vector<double>& entries, int s, Workers& workers);
   void gather(const std::vector<double>& entries, int s);
   void pass_on(int s);
+  Pivot smallest_pivot(const std::vector<double>& entries, int s);
   void forward(int s);
   void backward(int s);
 
   const Supernodes& nodes_;
   Workers& workers_;
   Workers one_thread_{1};
-  LargeVector<Real> values_;  ///< of L, panel by panel
-  LargeVector<Real> updates_; ///< what supernodes give to their parents
+  LargeVector<Real> values_;    ///< of L, panel by panel
+  LargeVector<Real> updates_;   ///< what supernodes give to their parents
+  std::vector<Pivot> smallest_; ///< of each supernode
   std::vector<Real> x_;
   std::vector<Real> of_rows_; ///< beside the rows of the supernodes: their part of a solution
 };

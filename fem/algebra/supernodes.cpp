@@ -111,7 +111,11 @@ void Supernodes::place_entries(const SparseSymmetric& matrix) {
       }
   };
   entry_start.assign(at(count()) + 1, 0);
-  for_each_entry([&](int, int column, int) { ++entry_start[at(of_column[at(column)]) + 1]; });
+  diagonal.resize(permutation.size());
+  for_each_entry([&](int k, int column, int row) {
+    ++entry_start[at(of_column[at(column)]) + 1];
+    if (row == column) diagonal[at(column)] = k;
+  });
   std::partial_sum(entry_start.begin(), entry_start.end(), entry_start.begin());
   entry.resize(matrix.rows.size());
   entry_place.resize(matrix.rows.size());

@@ -40,6 +40,7 @@ struct Supernodes {
   std::vector<std::ptrdiff_t> entry_start;  ///< of each supernode in the next two
   std::vector<int> entry;                   ///< of the matrix
   std::vector<int> entry_place;             ///< in the panel
+  std::vector<int> diagonal;                ///< entry of the matrix of each column's diagonal
   std::vector<std::ptrdiff_t> update_start; ///< of what each supernode gives to its parent, in a workspace of
   std::ptrdiff_t update_size = 0;           ///< this size
 

@@ -2,6 +2,7 @@
 #include "fem/algebra/symmetric_solver.hpp"
 
 #include "fem/algebra/kept_factor.hpp"
+#include "fem/algebra/memory.hpp"
 #include "fem/algebra/one_thread.hpp"
 
 #include <dmumps_c.h>
@@ -81,6 +82,9 @@ struct SymmetricSolver::Indefinite {
     mumps.jcn = columns.data();
     call(1);
     if (mumps.infog[0] < 0) throw std::bad_alloc();
+    constexpr double megabyte = 1e6;
+    require_memory(mumps.infog[16] * megabyte,
+                   "the factor of an indefinite tangent of " + std::to_string(matrix.size) + " unknowns");
   }
   ~Indefinite() { call(-2); }
   Indefinite(const Indefinite&) = delete;
@@ -129,7 +133,7 @@ bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
   ++work_.factorisations;
   definite_ = cholesky_ && cholesky_->decompose(values);
   if (definite_) {
-    const auto [relative, equation] = cholesky_->factor->smallest_pivot(matrix_, values);
+    const auto [relative, equation] = cholesky_->factor->smallest_pivot();
     singular_equation_ = equation;
     return relative > singular_pivot;
   }
