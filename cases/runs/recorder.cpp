@@ -34,6 +34,9 @@ namespace {
 /// Shorter runs are repeated faster than their checkpoints are written.
 constexpr std::chrono::seconds checkpoint_interval{2};
 
+/// Nor are they written more often than in this many times what one takes.
+constexpr int checkpoint_share = 30;
+
 json archive(const post::StepRecord& record) {
   json events = json::array();
   for (const post::Event& event : record.events) events.push_back({event.kind, event.place, event.message});
@@ -155,6 +158,7 @@ post::SeriesStep restore_series_step(const json& archived) {
 
 Recorder::Recorder(const Case& one, Simulation& simulation, post::ResultsFolder& folder, bool resume)
     : case_(one), simulation_(simulation), folder_(folder), fingerprint_(resolved_text(one)) {
+  next_checkpoint_ = std::chrono::steady_clock::now() + checkpoint_interval;
   if (resume) restore_checkpoint();
   folder_.write(resolved_name, fingerprint_);
   folder_.add(checkpoint_name);
@@ -282,7 +286,7 @@ void Recorder::record(const Frame& frame) {
   journal_.records.push_back(record);
   journal_.values.push_back(frame.values);
   steps_ended_ += frame.ends_step;
-  if (std::chrono::steady_clock::now() - saved_ > checkpoint_interval) save_checkpoint();
+  if (std::chrono::steady_clock::now() > next_checkpoint_) save_checkpoint();
 }
 
 void Recorder::write_waiting() {
@@ -293,6 +297,7 @@ void Recorder::write_waiting() {
 }
 
 void Recorder::save_checkpoint() {
+  const auto begin = std::chrono::steady_clock::now();
   const SimulationProgress progress = simulation_.progress();
   json records = json::array(), values = json::array(), snapshots = json::array(), analyses = json::array();
   for (const auto& analysis : journal_.analyses) analyses.push_back(archive(analysis));
@@ -336,7 +341,9 @@ void Recorder::save_checkpoint() {
          {"critical", critical},
          {"shapes", shapes},
          {"analyses", analyses}}}});
-  saved_ = std::chrono::steady_clock::now();
+  const auto end = std::chrono::steady_clock::now();
+  next_checkpoint_ =
+      end + std::max<std::chrono::nanoseconds>(checkpoint_interval, checkpoint_share * (end - begin));
 }
 
 void Recorder::restore_checkpoint() try {

@@ -94,7 +94,7 @@ class Recorder {
   std::optional<post::History> history_;
   std::optional<WaitingState> waiting_;
   std::optional<post::VtkSeries> series_, modes_;
-  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point next_checkpoint_;
 };
 
 } // namespace dielast::cases
