@@ -89,6 +89,29 @@ TEST_F(Keeping, an_indefinite_matrix_is_told) {
   EXPECT_FALSE(kept.prepare());
 }
 
+// Columns in several blocks, of which each adds to rows of the others.
+TEST(KeptFactor, gives_the_same_bits_with_any_number_of_threads) {
+  const SparseSymmetric first = test::grid(150, 1);
+  SparseSymmetric matrix = first;
+  std::mt19937 random(5);
+  const Eigen::VectorXd expected = test::random_vector(random, matrix.size);
+  const auto solved = [&](int threads) {
+    const Supernodes supernodes(matrix, threads);
+    Workers workers(threads);
+    matrix.values = first.values;
+    KeptFactor kept(matrix, supernodes, workers);
+    EXPECT_TRUE(kept.prepare());
+    for (double& value : matrix.values) value *= 1.1;
+    matrix.values[0] *= 1.1;
+    Eigen::VectorXd x;
+    EXPECT_TRUE(kept.solve(test::times(matrix, expected), x, 1e-10));
+    return x;
+  };
+  const Eigen::VectorXd alone = solved(1);
+  EXPECT_LT((alone - expected).norm(), 1e-7 * expected.norm());
+  for (const int threads : {2, 3, 4}) EXPECT_EQ(solved(threads), alone) << threads;
+}
+
 // What a factor costs is counted: a grid of n x n has about n^3 operations and n^2 log n entries.
 TEST(KeptFactor, costs_more_iterations_in_larger_matrices) {
   const auto cost = [](int side) { return KeptFactor::cost(Supernodes(test::grid(side, 1))); };
