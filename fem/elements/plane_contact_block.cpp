@@ -79,6 +79,13 @@ class PlaneContactBlock final : public ContactBlock {
     for (int e = 0; e < element_count(); ++e) sum += normal_force(state, e);
     return sum;
   }
+  bool is_between(std::string_view place) const override { return place == contact_.place; }
+  void add_pressure(const State& state, NodalPressure& pressure) const override {
+    for (int e = 0; e < element_count(); ++e) {
+      pressure.force[static_cast<std::size_t>(node(e))] += normal_force(state, e);
+      pressure.area[static_cast<std::size_t>(node(e))] += area(e);
+    }
+  }
   bool has_friction() const override { return friction(); }
   double friction_heat(const State& state) const override {
     double sum = 0;

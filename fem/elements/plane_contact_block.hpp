@@ -7,12 +7,14 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dielast::fem {
 
 /// A surface that may touch a rigid plane, or where it is of revolution a rigid cylinder.
 struct PlaneContact {
+  std::string place{}; ///< its name
   std::vector<int> nodes;
   std::vector<double> areas;                         ///< undeformed, that each node stands for, m^2
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< a point of the plane, m

@@ -2,6 +2,7 @@
 #include "fem/model/contact_block.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace dielast::fem {
 
@@ -21,10 +22,23 @@ double free_way(const Model& model, const State& from, const State& to) {
   return part;
 }
 
-double contact_force(const Model& model, const State& state) {
+double contact_force(const Model& model, const State& state, std::string_view place) {
   double sum = 0;
-  for_each_contact(model, [&](const ContactBlock& one) { sum += one.contact_force(state); });
+  for_each_contact(model, [&](const ContactBlock& one) {
+    if (place.empty() || one.is_between(place)) sum += one.contact_force(state);
+  });
   return sum;
+}
+
+std::vector<double> contact_pressure(const Model& model, const State& state) {
+  const std::size_t nodes = state.displacement.size();
+  NodalPressure all{std::vector<double>(nodes, 0), std::vector<double>(nodes, 0)};
+  for_each_contact(model, [&](const ContactBlock& one) { one.add_pressure(state, all); });
+  if (std::ranges::none_of(all.area, [](double area) { return area > 0; })) return {};
+  std::vector<double> pressure(nodes, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (all.area[n] > 0) pressure[n] = all.force[n] / all.area[n];
+  return pressure;
 }
 
 double friction_heat(const Model& model, const State& state) {

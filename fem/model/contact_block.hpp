@@ -3,7 +3,16 @@
 
 #include "fem/model/model.hpp"
 
+#include <string_view>
+#include <vector>
+
 namespace dielast::fem {
+
+/// Per node of the mesh: the normal force on it, N, and the area as drawn of the surface that may touch for
+/// which it stands, m^2.
+struct NodalPressure {
+  std::vector<double> force, area;
+};
 
 /// Elements that keep things apart.
 class ContactBlock : public ElementBlock {
@@ -13,6 +22,10 @@ class ContactBlock : public ElementBlock {
   virtual double free_way(const State& from, const State& to) const = 0;
   /// Sum of the normal forces, N.
   virtual double contact_force(const State& state) const = 0;
+  /// Whether the surface of this place is one of those that it keeps apart.
+  virtual bool is_between(std::string_view /*place*/) const { return false; }
+  /// Adds those of its surfaces.
+  virtual void add_pressure(const State& /*state*/, NodalPressure& /*pressure*/) const {}
   /// Whether there are sliders, which keep what they slid: their path has corners, and no way back.
   virtual bool has_friction() const { return false; }
   /// Of sliders since the beginning, J, in an accepted state.
@@ -21,9 +34,13 @@ class ContactBlock : public ElementBlock {
 
 /// The least of the model's contacts: see ContactBlock.
 double free_way(const Model& model, const State& from, const State& to);
-/// Their sums.
-double contact_force(const Model& model, const State& state);
+/// Their sums; of the forces those on one place's surface, where it is not empty.
+double contact_force(const Model& model, const State& state, std::string_view place = {});
 double friction_heat(const Model& model, const State& state);
 bool has_friction(const Model& model);
+
+/// Normal force over area as drawn, per node, Pa; NaN where a node belongs to no surface of a solid that may
+/// touch. Empty: there is none.
+std::vector<double> contact_pressure(const Model& model, const State& state);
 
 } // namespace dielast::fem

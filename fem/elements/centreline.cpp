@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/elements/centreline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::fem {
+
+using Eigen::Vector2d;
+
+double Centreline::nearest(const PointAndLine& x) const {
+  if (shape_ == Shape::point) return 0;
+  if (shape_ == Shape::straight) {
+    const Vector2d along = x[2] - x[1];
+    return std::clamp((x[0] - x[1]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  }
+  const Vector2d bend = x[1] + x[2] - 2 * x[3]; // c(s) = x1 + slope s + 2 bend s^2
+  const Vector2d slope = x[2] - x[1] - 2 * bend;
+  constexpr int starts = 4, most_steps = 20;
+  double best = 0, least = (x[0] - x[1]).squaredNorm();
+  for (int start = 0; start <= starts; ++start) {
+    double s = static_cast<double>(start) / starts;
+    for (int step = 0; step < most_steps; ++step) {
+      const Vector2d away = at(x, s) - x[0], first = slope + 4 * s * bend;
+      const double second = first.squaredNorm() + 4 * away.dot(bend);
+      const double to =
+          std::clamp(s - away.dot(first) / (second > 0 ? second : first.squaredNorm()), 0.0, 1.0);
+      const bool there = std::abs(to - s) < 1e-14;
+      s = to;
+      if (there) break;
+    }
+    if (const double distance = (at(x, s) - x[0]).squaredNorm(); distance < least) {
+      least = distance;
+      best = s;
+    }
+  }
+  return best;
+}
+
+double Centreline::least_distance(const PointAndLine& x) const {
+  const Vector2d centre = (x[1] + x[2]) / 2;
+  const double radius = std::max((x[1] - x[2]).norm() / 2, (control(x) - centre).norm());
+  return (x[0] - centre).norm() - radius;
+}
+
+double Centreline::distance(const PointAndLine& x) const { return (x[0] - at(x, nearest(x))).norm(); }
+
+materials::Dual<Centreline::size> Centreline::distance_with_derivatives(const PointAndLine& x) const {
+  using Dual = materials::Dual<size + 1>;
+  const double nearest = this->nearest(x);
+  const bool follows = nearest > 0 && nearest < 1;
+  const std::array<Dual, 3> N = shape(follows ? Dual::variable(nearest, size) : Dual(nearest));
+  Dual squared = 0;
+  for (int i = 0; i < 2; ++i) {
+    Dual away = Dual::variable(x[0][i], i);
+    for (std::size_t a = 0; a < 3; ++a)
+      away += -(N[a] * Dual::variable(x[a + 1][i], 2 * static_cast<int>(a + 1) + i));
+    squared += away * away;
+  }
+  const Dual full = sqrt(squared);
+  materials::Dual<size> distance(full.value);
+  distance.gradient = full.gradient.head<size>();
+  distance.hessian = full.hessian.topLeftCorner<size, size>();
+  const double stiffness = full.hessian(size, size);
+  const Eigen::Vector<double, size> mixed = full.hessian.col(size).head<size>();
+  if (follows && stiffness > 0) distance.hessian -= mixed * mixed.transpose() / stiffness;
+  return distance;
+}
+
+double Centreline::free_way(const PointAndLine& from, const PointAndLine& to, double touching) const {
+  constexpr double kept = 0.1, near = 1.2;
+  const Vector2d moved = to[0] - from[0];
+  const double speed = std::max({(to[1] - from[1] - moved).norm(), (to[2] - from[2] - moved).norm(),
+                                 (control(to) - control(from) - moved).norm()});
+  if (least_distance(from) - touching > speed) return 1;
+  double gap = distance(from) - touching;
+  const double least = kept * gap;
+  for (double part = 0;;) {
+    if (gap - least >= (1 - part) * speed) return 1;
+    if (gap <= near * least) return part;
+    part += (gap - least) / speed;
+    PointAndLine x;
+    for (std::size_t i = 0; i < 4; ++i) x[i] = from[i] + part * (to[i] - from[i]);
+    gap = distance(x) - touching;
+  }
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/elements/surface_contact_block.hpp"
+
+#include "fem/elements/centreline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace dielast::fem {
+
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int dofs = 12;             ///< of a side's ends and its middle, then of the other surface's side
+constexpr double least_share = 1e-3; ///< of a side's mean radius: the barrier must hold on the axis, too
+
+/// Lobatto's rule with seven points on 0..1.
+struct SidePoint {
+  double s, weight;
+};
+constexpr std::array<SidePoint, 7> rule{{{0, 1.0 / 42},
+                                         {0.084888051860716535, 0.138413023680782974},
+                                         {0.265575603264642896, 0.215872690604931312},
+                                         {0.5, 128.0 / 525},
+                                         {0.734424396735357104, 0.215872690604931312},
+                                         {0.915111948139283465, 0.138413023680782974},
+                                         {1, 1.0 / 42}}};
+constexpr std::size_t rule_size = rule.size();
+
+const Centreline parabola(Centreline::Shape::parabola), end(Centreline::Shape::point);
+
+/// A side with the disc about its parabola, in some state.
+struct Side {
+  std::array<Vector2d, 3> x; ///< ends, middle
+  Vector2d centre;
+  double radius;
+
+  Vector2d at(const std::array<double, 3>& N) const { return N[0] * x[0] + N[1] * x[1] + N[2] * x[2]; }
+};
+
+class SurfaceContactBlock final : public ContactBlock {
+ public:
+  SurfaceContactBlock(const meshing::Mesh& mesh, SurfaceContact contact)
+      : contact_(std::move(contact)), drawn_(mesh.nodes), up_(contact_.width ? 1 : 2) {
+    std::array<std::set<int>, 2> nodes;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const meshing::CellBlock& sides = contact_.sides[k];
+      if (sides.type != meshing::CellType::line3 && sides.type != meshing::CellType::meridian3)
+        throw std::invalid_argument("surfaces in contact are made of 3-node sides");
+      nodes[k] = {sides.nodes.begin(), sides.nodes.end()};
+      std::set<int> last;
+      for (int i = 0; i < sides.size(); ++i) last.insert(sides.cell(i)[1]);
+      for (int i = 0; i < sides.size(); ++i) {
+        shared_[k].push_back(last.contains(sides.cell(i)[0]));
+        add_areas(k, i);
+      }
+    }
+    if (std::ranges::any_of(nodes[0], [&](int node) { return nodes[1].contains(node); }))
+      throw std::invalid_argument("surfaces in contact have no nodes in common");
+  }
+
+  int element_count() const override { return 2 * contact_.sides[0].size() * contact_.sides[1].size(); }
+  int dofs_per_element() const override { return dofs; }
+  void claim_dofs(DofMap& /*those of the solids*/, Dimension /*dimension*/) const override {}
+  void element_equations(int element, const DofMap& map, std::span<int> equations) const override {
+    const Pair pair = this->pair(element);
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t i = 0; i < 2; ++i)
+          equations[6 * k + 2 * a + i] = map.equation(nodes(pair, k)[a], i == 0 ? 0 : up_);
+  }
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override {
+    Evaluation result;
+    for (int e = first; e < last; ++e) {
+      const Pair pair = this->pair(e);
+      const Side own = side(state, pair, 0), other = side(state, pair, 1);
+      if (clearance(own, other) >= contact_.barrier.thickness) continue;
+      Sums sums;
+      for (std::size_t q = 0; q < rule_size; ++q) {
+        const PointAndLine x = facing(own, other, q);
+        if (!(parabola.least_distance(x) < contact_.barrier.thickness)) continue;
+        const double area = this->area(pair, q) / 2;
+        add(parabola, x, q, area, scatter, sums);
+        if (is_shared(pair)) add(end, x, q, -area, scatter, sums);
+      }
+      result.energy += sums.energy;
+      result.feasible = result.feasible && sums.feasible;
+      if (!sums.any) continue;
+      if (scatter.residual) scatter.add_residual(e, std::span(sums.first.data(), dofs));
+      if (!scatter.tangent) continue;
+      std::array<double, dofs*(dofs + 1) / 2> packed;
+      std::size_t k = 0;
+      for (int i = 0; i < dofs; ++i)
+        for (int j = 0; j <= i; ++j) packed[k++] = sums.second(i, j);
+      scatter.add_tangent(e, packed);
+    }
+    return result;
+  }
+  double free_way(const State& from, const State& to) const override {
+    const Moved before = moved(from), after = moved(to);
+    double part = 1;
+    for (int e = 0; e < element_count(); ++e) {
+      const Pair pair = this->pair(e);
+      const Side &own = before.of(pair, 0), &other = before.of(pair, 1);
+      const Side &own_end = after.of(pair, 0), &other_end = after.of(pair, 1);
+      if (clearance(own, other) > way(own, own_end) + way(other, other_end)) continue;
+      for (std::size_t q = 0; q < rule_size; ++q)
+        part = std::min(part, parabola.free_way(facing(own, other, q), facing(own_end, other_end, q), 0));
+    }
+    return part;
+  }
+  double contact_force(const State& state) const override {
+    double sum = 0;
+    for_each_touching(
+        state, [&](const Pair& pair, std::size_t q, double slope) { sum -= area(pair, q) / 2 * slope; });
+    return sum;
+  }
+  bool is_between(std::string_view place) const override {
+    return std::ranges::find(contact_.places, place) != contact_.places.end();
+  }
+  void add_pressure(const State& state, NodalPressure& pressure) const override {
+    for (std::size_t k = 0; k < 2; ++k)
+      for (int i = 0; i < contact_.sides[k].size(); ++i)
+        for (std::size_t q = 0; q < rule_size; ++q) share({k, i, 0}, q, area({k, i, 0}, q), pressure.area);
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, double slope) {
+      share(pair, q, -area(pair, q) * slope, pressure.force);
+    });
+  }
+  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
+
+ private:
+  /// A side that is integrated, of the surface 0 or 1, and one of the other surface.
+  struct Pair {
+    std::size_t surface;
+    int own, other;
+  };
+  struct Sums {
+    double energy = 0;
+    bool feasible = true, any = false;
+    Eigen::Vector<double, dofs> first = Eigen::Vector<double, dofs>::Zero();
+    Eigen::Matrix<double, dofs, dofs> second = Eigen::Matrix<double, dofs, dofs>::Zero();
+  };
+  /// All sides in a state.
+  struct Moved {
+    std::array<std::vector<Side>, 2> sides;
+    const Side& of(const Pair& pair, std::size_t k) const {
+      return sides[k == 0 ? pair.surface : 1 - pair.surface]
+                  [static_cast<std::size_t>(k == 0 ? pair.own : pair.other)];
+    }
+  };
+
+  Pair pair(int element) const {
+    const int a = contact_.sides[0].size(), b = contact_.sides[1].size();
+    if (element < a * b) return {0, element / b, element % b};
+    return {1, (element - a * b) / a, (element - a * b) % a};
+  }
+  std::span<const int> nodes(const Pair& pair, std::size_t k) const {
+    return k == 0 ? contact_.sides[pair.surface].cell(pair.own)
+                  : contact_.sides[1 - pair.surface].cell(pair.other);
+  }
+  /// Whether the other side's first end is also that of the side before it.
+  bool is_shared(const Pair& pair) const {
+    return shared_[1 - pair.surface][static_cast<std::size_t>(pair.other)];
+  }
+  double area(const Pair& pair, std::size_t q) const {
+    return areas_[pair.surface][static_cast<std::size_t>(pair.own) * rule_size + q];
+  }
+  Side side_of(const State& state, std::span<const int> own) const {
+    Side side;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto n = static_cast<std::size_t>(own[a]);
+      const Eigen::Vector3d x = drawn_[n] + state.displacement[n];
+      side.x[a] = {x.x(), x[up_]};
+    }
+    side.centre = (side.x[0] + side.x[1]) / 2;
+    side.radius = std::max((side.x[0] - side.x[1]).norm(), 4 * (side.x[2] - side.centre).norm()) / 2;
+    return side;
+  }
+  Side side(const State& state, const Pair& pair, std::size_t k) const {
+    return side_of(state, nodes(pair, k));
+  }
+  Moved moved(const State& state) const {
+    Moved all;
+    for (std::size_t k = 0; k < 2; ++k)
+      for (int i = 0; i < contact_.sides[k].size(); ++i)
+        all.sides[k].push_back(side_of(state, contact_.sides[k].cell(i)));
+    return all;
+  }
+  /// No more than the distance of two sides, m.
+  static double clearance(const Side& one, const Side& other) {
+    return (one.centre - other.centre).norm() - one.radius - other.radius;
+  }
+  /// As far as any point of a side moves, at most: its control polygon does, m.
+  static double way(const Side& from, const Side& to) {
+    const auto control = [](const Side& side) { return Vector2d(2 * side.x[2] - side.centre); };
+    return std::max(
+        {(to.x[0] - from.x[0]).norm(), (to.x[1] - from.x[1]).norm(), (control(to) - control(from)).norm()});
+  }
+  static PointAndLine facing(const Side& own, const Side& other, std::size_t q) {
+    return {own.at(parabola.shape(rule[q].s)), other.x[0], other.x[1], other.x[2]};
+  }
+  void add(const Centreline& line, const PointAndLine& x, std::size_t q, double area, const Scatter& scatter,
+           Sums& sums) const {
+    const double gap = line.distance(x);
+    if (!(gap > 0)) {
+      sums.feasible = false;
+      return;
+    }
+    if (!contact_.barrier.touches(gap)) return;
+    const BarrierEnergy energy = contact_.barrier.at(gap);
+    sums.any = true;
+    sums.energy += area * energy.value;
+    if (!scatter.residual && !scatter.tangent) return;
+    const materials::Dual<Centreline::size> total = line.distance_with_derivatives(x).chain(
+        area * energy.value, area * energy.slope, area * energy.curvature);
+    Eigen::Matrix<double, Centreline::size, dofs> moves; // point and line with the two sides' nodes
+    moves.setZero();
+    const std::array<double, 3> N = parabola.shape(rule[q].s);
+    for (int a = 0; a < 3; ++a)
+      moves.block<2, 2>(0, 2 * a) = N[static_cast<std::size_t>(a)] * Eigen::Matrix2d::Identity();
+    moves.bottomRightCorner<6, 6>().setIdentity();
+    sums.first += moves.transpose() * total.gradient;
+    if (scatter.tangent) sums.second += moves.transpose() * total.hessian * moves;
+  }
+  /// use(pair, point, slope of the barrier); of what an end takes off the slope is its negative.
+  template<class Use>
+  void for_each_touching(const State& state, const Use& use) const {
+    const Moved now = moved(state);
+    for (int e = 0; e < element_count(); ++e) {
+      const Pair pair = this->pair(e);
+      if (clearance(now.of(pair, 0), now.of(pair, 1)) >= contact_.barrier.thickness) continue;
+      for (std::size_t q = 0; q < rule_size; ++q) {
+        const PointAndLine x = facing(now.of(pair, 0), now.of(pair, 1), q);
+        use(pair, q, contact_.barrier.at(parabola.distance(x)).slope);
+        if (is_shared(pair)) use(pair, q, -contact_.barrier.at(end.distance(x)).slope);
+      }
+    }
+  }
+  /// Adds what lies at a point to the side's nodes, linearly between neighbours.
+  void share(const Pair& pair, std::size_t q, double amount, std::vector<double>& of_nodes) const {
+    const auto own = nodes(pair, 0);
+    const double s = rule[q].s, middle = 1 - std::abs(2 * s - 1);
+    of_nodes[static_cast<std::size_t>(own[2])] += middle * amount;
+    of_nodes[static_cast<std::size_t>(own[s < 0.5 ? 0 : 1])] += (1 - middle) * amount;
+  }
+  void add_areas(std::size_t surface, int number) {
+    State drawn;
+    drawn.displacement.assign(drawn_.size(), Eigen::Vector3d::Zero());
+    const Side own = side_of(drawn, contact_.sides[surface].cell(number));
+    const double mean = (own.x[0].x() + own.x[1].x()) / 2;
+    for (const SidePoint& at : rule) {
+      const Vector2d slope =
+          (4 * at.s - 3) * own.x[0] + (4 * at.s - 1) * own.x[1] + (4 - 8 * at.s) * own.x[2];
+      const double radius = std::max(own.at(parabola.shape(at.s)).x(), least_share * mean);
+      areas_[surface].push_back(at.weight * slope.norm() *
+                                contact_.width.value_or(2 * std::numbers::pi * radius));
+    }
+  }
+
+  SurfaceContact contact_;
+  std::vector<Eigen::Vector3d> drawn_;
+  int up_; ///< the second direction: y, of revolution z
+  std::array<std::vector<char>, 2> shared_;
+  std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' sides
+};
+
+} // namespace
+
+std::unique_ptr<ContactBlock> make_surface_contact_block(const meshing::Mesh& mesh, SurfaceContact contact) {
+  return std::make_unique<SurfaceContactBlock>(mesh, std::move(contact));
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/elements/barrier.hpp"
+#include "fem/model/contact_block.hpp"
+#include "meshing/mesh.hpp"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace dielast::fem {
+
+/// Two surfaces of solids that may touch one another.
+struct SurfaceContact {
+  std::array<std::string, 2> places;       ///< their names
+  std::array<meshing::CellBlock, 2> sides; ///< of 3-node cells, as meshing::sides_at() gives them
+  std::optional<double> width;             ///< of plane strain, m; nothing: of revolution about x = 0
+  Barrier barrier;                         ///< its stiffness in Pa/m
+};
+
+/// Keeps two deformable surfaces apart, in plane strain or of revolution, without friction or adhesion.
+///
+/// Energy: half of int_A b(distance to B) dA + half of int_B b(distance to A) dB, over the areas as drawn, b
+/// the Barrier. Distances are those from the curved sides; each side is integrated with seven points, its
+/// nodes among them. Where two sides meet the barrier is that of one, as of walls (see ContactPair). So it
+/// changes smoothly as a point passes from side to side, whatever the two meshes; what one surface pushes the
+/// other pushes back. States are not told apart by the side on which a surface lies, but no way leads
+/// through: see ContactBlock::free_way().
+///
+/// Any side may meet any of the other surface: the tangent couples all of their unknowns.
+/// Throws std::invalid_argument for surfaces that have nodes in common.
+std::unique_ptr<ContactBlock> make_surface_contact_block(const meshing::Mesh& mesh, SurfaceContact contact);
+
+} // namespace dielast::fem
