@@ -19,17 +19,19 @@ using Eigen::Vector2d;
 constexpr int dofs = 12;             ///< of a side's ends and its middle, then of the other surface's side
 constexpr double least_share = 1e-3; ///< of a side's mean radius: the barrier must hold on the axis, too
 
-/// Lobatto's rule with seven points on 0..1.
+/// Simpson's rule on equal parts of 0..1.
 struct SidePoint {
   double s, weight;
 };
-constexpr std::array<SidePoint, 7> rule{{{0, 1.0 / 42},
-                                         {0.084888051860716535, 0.138413023680782974},
-                                         {0.265575603264642896, 0.215872690604931312},
-                                         {0.5, 128.0 / 525},
-                                         {0.734424396735357104, 0.215872690604931312},
-                                         {0.915111948139283465, 0.138413023680782974},
-                                         {1, 1.0 / 42}}};
+constexpr int parts = 8;
+constexpr std::array<SidePoint, 2 * parts + 1> rule = [] {
+  std::array<SidePoint, 2 * parts + 1> points{};
+  for (int i = 0; i <= 2 * parts; ++i) {
+    const double share = i % 2 == 1 ? 4 : i == 0 || i == 2 * parts ? 1 : 2;
+    points[static_cast<std::size_t>(i)] = {i / (2.0 * parts), share / (6 * parts)};
+  }
+  return points;
+}();
 constexpr std::size_t rule_size = rule.size();
 
 const Centreline parabola(Centreline::Shape::parabola), end(Centreline::Shape::point);
@@ -60,6 +62,17 @@ class SurfaceContactBlock final : public ContactBlock {
         add_areas(k, i);
       }
     }
+    const auto mean_side = [&](std::size_t k) {
+      double length = 0;
+      for (int i = 0; i < contact_.sides[k].size(); ++i) {
+        const auto own = contact_.sides[k].cell(i);
+        length +=
+            (drawn_[static_cast<std::size_t>(own[0])] - drawn_[static_cast<std::size_t>(own[1])]).norm();
+      }
+      return length / contact_.sides[k].size();
+    };
+    const double finer = std::pow(mean_side(1) / mean_side(0), 2);
+    share_ = {finer / (1 + finer), 1 / (1 + finer)};
     if (std::ranges::any_of(nodes[0], [&](int node) { return nodes[1].contains(node); }))
       throw std::invalid_argument("surfaces in contact have no nodes in common");
   }
@@ -84,7 +97,7 @@ class SurfaceContactBlock final : public ContactBlock {
       for (std::size_t q = 0; q < rule_size; ++q) {
         const PointAndLine x = facing(own, other, q);
         if (!(parabola.least_distance(x) < contact_.barrier.thickness)) continue;
-        const double area = this->area(pair, q) / 2;
+        const double area = share_[pair.surface] * this->area(pair, q);
         add(parabola, x, q, area, scatter, sums);
         if (is_shared(pair)) add(end, x, q, -area, scatter, sums);
       }
@@ -116,8 +129,9 @@ class SurfaceContactBlock final : public ContactBlock {
   }
   double contact_force(const State& state) const override {
     double sum = 0;
-    for_each_touching(
-        state, [&](const Pair& pair, std::size_t q, double slope) { sum -= area(pair, q) / 2 * slope; });
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, double slope) {
+      sum -= share_[pair.surface] * area(pair, q) * slope;
+    });
     return sum;
   }
   bool is_between(std::string_view place) const override {
@@ -266,6 +280,7 @@ class SurfaceContactBlock final : public ContactBlock {
   std::vector<Eigen::Vector3d> drawn_;
   int up_; ///< the second direction: y, of revolution z
   std::array<std::vector<char>, 2> shared_;
+  std::array<double, 2> share_;              ///< of the two integrals: the finer surface has the greater one
   std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' sides
 };
 

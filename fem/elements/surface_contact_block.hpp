@@ -22,12 +22,13 @@ struct SurfaceContact {
 
 /// Keeps two deformable surfaces apart, in plane strain or of revolution, without friction or adhesion.
 ///
-/// Energy: half of int_A b(distance to B) dA + half of int_B b(distance to A) dB, over the areas as drawn, b
-/// the Barrier. Distances are those from the curved sides; each side is integrated with seven points, its
-/// nodes among them. Where two sides meet the barrier is that of one, as of walls (see ContactPair). So it
-/// changes smoothly as a point passes from side to side, whatever the two meshes; what one surface pushes the
-/// other pushes back. States are not told apart by the side on which a surface lies, but no way leads
-/// through: see ContactBlock::free_way().
+/// Energy: w_A int_A b(distance to B) dA + w_B int_B b(distance to A) dB, over the areas as drawn, b the
+/// Barrier, w_A + w_B = 1; the finer surface's integral has the greater share, as the square of the elements'
+/// size. Distances are those from the curved sides; each side is integrated with 17 points, its nodes among
+/// them. Where two sides meet the barrier is that of one, as of walls (see ContactPair). So it changes
+/// smoothly as a point passes from side to side, whatever the two meshes; what one surface pushes the other
+/// pushes back. It does not tell on which side of one surface the other lies, but no way leads through: see
+/// ContactBlock::free_way().
 ///
 /// Any side may meet any of the other surface: the tangent couples all of their unknowns.
 /// Throws std::invalid_argument for surfaces that have nodes in common.

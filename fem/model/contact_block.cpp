@@ -2,7 +2,6 @@
 #include "fem/model/contact_block.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace dielast::fem {
 
@@ -35,7 +34,7 @@ std::vector<double> contact_pressure(const Model& model, const State& state) {
   NodalPressure all{std::vector<double>(nodes, 0), std::vector<double>(nodes, 0)};
   for_each_contact(model, [&](const ContactBlock& one) { one.add_pressure(state, all); });
   if (std::ranges::none_of(all.area, [](double area) { return area > 0; })) return {};
-  std::vector<double> pressure(nodes, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> pressure(nodes, 0);
   for (std::size_t n = 0; n < nodes; ++n)
     if (all.area[n] > 0) pressure[n] = all.force[n] / all.area[n];
   return pressure;

@@ -39,8 +39,8 @@ double contact_force(const Model& model, const State& state, std::string_view pl
 double friction_heat(const Model& model, const State& state);
 bool has_friction(const Model& model);
 
-/// Normal force over area as drawn, per node, Pa; NaN where a node belongs to no surface of a solid that may
-/// touch. Empty: there is none.
+/// Normal force over area as drawn, per node, Pa; 0 inside. Empty: no surface of a solid may touch anything.
+/// Of the state's displacements alone.
 std::vector<double> contact_pressure(const Model& model, const State& state);
 
 } // namespace dielast::fem

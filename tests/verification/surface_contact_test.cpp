@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Deformable solids against one another: the patch test across meshes that do not match, and Hertz.
+#include "fem/elements/surface_contact_block.hpp"
+#include "fem/films/membrane_block.hpp"
+#include "fem/paths/ramp.hpp"
+#include "fem/solids/solid_block.hpp"
+#include "meshing/assembly.hpp"
+#include "meshing/solids/grid.hpp"
+#include "meshing/solids/sides.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include <cmath>
+#include <numbers>
+
+namespace dielast::fem {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double mu = 45e3, contact_modulus = 4 * mu; ///< E / (1 - nu^2), incompressible
+
+/// Two bodies, `upper` and `lower`, with the places `axis` (x = 0), `face` (what may touch) and `back`; the
+/// lower back keeps its height, the upper one is moved down.
+struct TwoBodies {
+  TwoBodies(const meshing::Mesh& lower, const meshing::Mesh& upper, Dimension drawn, Barrier barrier,
+            bool backs_stick, double size)
+      : dimension(drawn), up(drawn == Dimension::axisymmetric ? 2 : 1) {
+    meshing::append(mesh, lower, "lower");
+    meshing::append(mesh, upper, "upper");
+    const auto count = static_cast<std::size_t>(mesh.blocks[0].size());
+    SolidCells cells{mesh.blocks[0], std::vector<int>(count, passive), std::vector<int>(count, 0)};
+    const SolidSection section{.material = {.law = materials::NeoHookean{mu}}, .thickness = 1};
+    const auto face = [&](const char* place) {
+      return meshing::sides_at(mesh, place, meshing::CellType::meridian3);
+    };
+    model.dofs = DofMap(mesh.node_count());
+    model.blocks.push_back(make_solid_block(mesh, cells, {section}, {}, dimension));
+    model.blocks.push_back(make_surface_contact_block(mesh, {{"lower.face", "upper.face"},
+                                                             {face("lower.face"), face("upper.face")},
+                                                             up == 2 ? std::nullopt : std::optional(1.0),
+                                                             barrier}));
+    for (const auto& block : model.blocks) {
+      block->place_scalars(model.dofs);
+      block->claim_dofs(model.dofs, dimension);
+    }
+    for (const char* body : {"lower.", "upper."}) {
+      for (const int node : nodes(std::string(body) + "axis")) model.dofs.hold(node, 0);
+      for (const int node : nodes(std::string(body) + "back")) {
+        model.dofs.hold(node, up);
+        if (backs_stick) model.dofs.hold(node, 0);
+      }
+    }
+    model.dofs.number();
+    model.place_histories();
+    model.extent = size;
+    model.length_scale = 0.01 * size;
+  }
+  const std::vector<int>& nodes(const std::string& place) const { return mesh.node_sets.at(place); }
+  State press(double depth, double tolerance) {
+    Equilibrium equilibrium(model, 1);
+    LoadPath path;
+    path.apply = [&](State& state, double s) {
+      for (const int node : nodes("upper.back"))
+        state.displacement[static_cast<std::size_t>(node)][up] = -s * depth;
+    };
+    const RampOptions options{.newton = {.tolerance = tolerance, .max_iterations = 80},
+                              .increments = 10,
+                              .smallest_increment = 1e-6};
+    RampProgress progress = RampProgress::begin(model.initial_state(), model.dofs, options);
+    EXPECT_EQ(ramp(equilibrium, path, options, progress, {}).end, RampEnd::complete) << progress.load_factor;
+    equilibrium.internal_force(progress.points.back().state, force);
+    return progress.points.back().state;
+  }
+  /// With which a place's support holds it, N.
+  double reaction(const std::string& place) const {
+    double sum = 0;
+    for (const int node : nodes(place)) sum += force[model.dofs.equation(node, up)];
+    return sum;
+  }
+  NodalPressure pressure(const State& state) const {
+    NodalPressure all{std::vector<double>(mesh.nodes.size(), 0), std::vector<double>(mesh.nodes.size(), 0)};
+    dynamic_cast<const ContactBlock&>(*model.blocks[1]).add_pressure(state, all);
+    return all;
+  }
+
+  Dimension dimension;
+  int up;
+  meshing::Mesh mesh;
+  Model model{.dofs = DofMap(0)};
+  Eigen::VectorXd force;
+};
+
+meshing::Mesh named(meshing::TriangleGrid grid, double face, double back) {
+  grid.name_nodes("axis", [](double u, double) { return u == 0; });
+  grid.name_nodes("face", [face](double, double v) { return v == face; });
+  grid.name_nodes("back", [back](double, double v) { return v == back; });
+  return grid.take();
+}
+
+std::vector<double> even_line(double from, double to, int parts) {
+  std::vector<double> line;
+  for (int i = 0; i <= parts; ++i) line.push_back(i == parts ? to : from + (to - from) * i / parts);
+  return line;
+}
+
+/// Two blocks of 5 and 7 elements, pressed by a fifth of their height, free to widen: homogeneous.
+TEST(SurfaceContact, passes_the_patch_test_across_meshes_that_do_not_match) {
+  constexpr double thickness = 1e-3;
+  const auto block = [](int elements, double bottom, double face) {
+    const auto place = [](double u, double v) { return Eigen::Vector3d(u, v, 0); };
+    return named({even_line(0, 1, elements), even_line(bottom, bottom + 1, elements), place}, bottom + face,
+                 bottom + 1 - face);
+  };
+  TwoBodies blocks(block(5, 0, 1), block(7, 1 + thickness, 0), Dimension::planar,
+                   {thickness, 0.03 * mu / thickness, 1}, false, 1);
+  const State state = blocks.press(0.4, 1e-13);
+  const double pressed = contact_force(blocks.model, state);
+  EXPECT_NEAR(-blocks.reaction("upper.back"), blocks.reaction("lower.back"), 1e-10 * pressed);
+  EXPECT_NEAR(-blocks.reaction("upper.back"), pressed, 2e-4 * pressed); // some of it aside, at the edge
+  // mu (l - 1/l^3) of the stretch l along y, per area as drawn.
+  for (const char* place : {"lower.face", "upper.face"}) {
+    const double way = state.displacement[static_cast<std::size_t>(blocks.nodes(place).front())].y();
+    const double l = place[0] == 'l' ? 1 + way : 1 - 0.4 - way;
+    EXPECT_NEAR(blocks.reaction("lower.back"), mu * (1 / (l * l * l) - l), 1e-3 * pressed) << place;
+  }
+  // Where the one shape functions have their kinks between points of the other surface pressures are uneven;
+  // the last element meets the other surface's edge.
+  const NodalPressure pressure = blocks.pressure(state);
+  double worst = 0;
+  for (const char* place : {"lower.face", "upper.face"})
+    for (const int node : blocks.nodes(place)) {
+      const auto n = static_cast<std::size_t>(node);
+      if (blocks.mesh.nodes[n].x() < 0.8)
+        worst = std::max(worst, std::abs(pressure.force[n] / pressure.area[n] / pressed - 1));
+    }
+  RecordProperty("largest error of a pressure", std::to_string(worst));
+  EXPECT_LT(worst, 0.005);
+}
+
+/// Halves of two bodies, 0.4 long and high, whose faces are those of cylinders or spheres of radius 1.
+struct Hertz : TwoBodies {
+  static constexpr double size = 0.4, thickness = 2e-6;
+  explicit Hertz(Dimension drawn)
+      : TwoBodies(body(1e-3, -1, drawn), body(1.3e-3, 1, drawn), drawn, {thickness, 0.1 * mu / thickness, 1},
+                  true, size) {}
+  static meshing::Mesh body(double finest, double way, Dimension drawn) {
+    const std::vector<double> across = meshing::graded_line({0, size}, {0}, finest, size / 6);
+    std::vector<double> heights = across;
+    if (way < 0) {
+      for (double& v : heights) v = -v;
+      std::ranges::reverse(heights);
+    }
+    const Eigen::Vector3d up = Eigen::Vector3d::Unit(drawn == Dimension::axisymmetric ? 2 : 1);
+    return named({across, heights,
+                  [&](double u, double v) -> Eigen::Vector3d {
+                    const double height = v + way * (thickness / 2 + u * u / 2 * (1 - way * v / size));
+                    return u * Eigen::Vector3d::UnitX() + height * up;
+                  }},
+                 0, way * size);
+  }
+  /// Force, and the means of x^2 weighted with the pressure on either face.
+  std::array<double, 3> pressed(const State& state) const {
+    const NodalPressure pressure = this->pressure(state);
+    std::array<double, 3> result{contact_force(model, state), 0, 0};
+    for (std::size_t k = 0; k < 2; ++k) {
+      double sum = 0;
+      for (const int node : nodes(k == 0 ? "lower.face" : "upper.face")) {
+        const auto n = static_cast<std::size_t>(node);
+        const double x = mesh.nodes[n].x() + state.displacement[n].x();
+        sum += pressure.force[n];
+        result[k + 1] += pressure.force[n] * x * x;
+      }
+      result[k + 1] /= sum;
+    }
+    return result;
+  }
+};
+
+/// Johnson, Contact Mechanics, 4.2: F = pi E* a^2 / (4 R) per length, 1/E* = 2/E', 1/R = 2; the mean x^2 of
+/// the pressures is a^2/4.
+TEST(SurfaceContact, cylinders_on_one_another_bear_the_force_of_hertz) {
+  Hertz cylinders(Dimension::planar);
+  const State state = cylinders.press(12e-4, 1e-8);
+  const auto [half, lower, upper] = cylinders.pressed(state);
+  EXPECT_NEAR(cylinders.reaction("lower.back"), half, 1e-3 * half);
+  EXPECT_NEAR(-cylinders.reaction("upper.back"), cylinders.reaction("lower.back"), 1e-6 * half);
+  const double second = (lower + upper) / 2;
+  RecordProperty("force over Hertz", std::to_string(2 * half / (pi * contact_modulus * second)));
+  EXPECT_NEAR(lower, upper, 0.02 * upper);
+  EXPECT_NEAR(2 * half, pi * contact_modulus * second, 0.02 * 2 * half);
+  double peak = 0;
+  const NodalPressure pressure = cylinders.pressure(state);
+  for (std::size_t n = 0; n < pressure.area.size(); ++n)
+    if (pressure.area[n] > 0) peak = std::max(peak, pressure.force[n] / pressure.area[n]);
+  EXPECT_NEAR(peak, 4 * half / (pi * std::sqrt(4 * second)), 0.01 * peak); // 2 F / (pi a)
+}
+
+/// F = 4 E* a^3 / (3 R), the mean r^2 of the pressures is 2 a^2 / 5.
+TEST(SurfaceContact, spheres_on_one_another_bear_the_force_of_hertz) {
+  Hertz spheres(Dimension::axisymmetric);
+  const auto [force, lower, upper] = spheres.pressed(spheres.press(12e-4, 1e-8));
+  const double a = std::sqrt(2.5 * (lower + upper) / 2);
+  RecordProperty("force over Hertz", std::to_string(force / (4.0 / 3 * contact_modulus * a * a * a)));
+  EXPECT_NEAR(force, 4.0 / 3 * contact_modulus * a * a * a, 0.02 * force);
+}
+
+} // namespace
+} // namespace dielast::fem
