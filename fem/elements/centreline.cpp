@@ -16,10 +16,16 @@ double Centreline::nearest(const PointAndLine& x) const {
   }
   const Vector2d bend = x[1] + x[2] - 2 * x[3]; // c(s) = x1 + slope s + 2 bend s^2
   const Vector2d slope = x[2] - x[1] - 2 * bend;
-  constexpr int starts = 4, most_steps = 20;
+  // The squared distance is convex along a line that bends little within it: one start finds its minimum.
+  const double bent = 4 * bend.norm();
+  const double slowest = (slope + 2 * bend).norm() - bent / 2;
+  const bool convex =
+      slowest > 0 && slowest * slowest > bent * ((x[0] - at(x, 0.5)).norm() + slope.norm() + bent);
+  const int starts = convex ? 1 : 5;
+  constexpr int most_steps = 20;
   double best = 0, least = (x[0] - x[1]).squaredNorm();
-  for (int start = 0; start <= starts; ++start) {
-    double s = static_cast<double>(start) / starts;
+  for (int start = 0; start < starts; ++start) {
+    double s = convex ? 0.5 : start / 4.0;
     for (int step = 0; step < most_steps; ++step) {
       const Vector2d away = at(x, s) - x[0], first = slope + 4 * s * bend;
       const double second = first.squaredNorm() + 4 * away.dot(bend);
@@ -67,16 +73,17 @@ materials::Dual<Centreline::size> Centreline::distance_with_derivatives(const Po
   return distance;
 }
 
-double Centreline::free_way(const PointAndLine& from, const PointAndLine& to, double touching) const {
+double Centreline::free_way(const PointAndLine& from, const PointAndLine& to, double touching,
+                            double most) const {
   constexpr double kept = 0.1, near = 1.2;
   const Vector2d moved = to[0] - from[0];
   const double speed = std::max({(to[1] - from[1] - moved).norm(), (to[2] - from[2] - moved).norm(),
                                  (control(to) - control(from) - moved).norm()});
-  if (least_distance(from) - touching > speed) return 1;
+  if (least_distance(from) - touching > most * speed) return most;
   double gap = distance(from) - touching;
   const double least = kept * gap;
   for (double part = 0;;) {
-    if (gap - least >= (1 - part) * speed) return 1;
+    if (gap - least >= (most - part) * speed) return most;
     if (gap <= near * least) return part;
     part += (gap - least) / speed;
     PointAndLine x;

@@ -45,10 +45,10 @@ class Centreline {
   double distance(const PointAndLine& x) const;
   /// The nearest place s on the line follows: d2g/dx2 = g_xx - g_xs g_ss^-1 g_sx, as g_s = 0 there.
   materials::Dual<size> distance_with_derivatives(const PointAndLine& x) const;
-  /// The part of the straight way between two places, 0..1, that can be gone until what is left of the
-  /// distance beyond `touching` (m) is a tenth; 1: all of it. Conservative advancement: as far as the gap
-  /// allows at the speed with which point and line move at most.
-  double free_way(const PointAndLine& from, const PointAndLine& to, double touching) const;
+  /// The part of the straight way between two places, 0..`most`, that can be gone until what is left of the
+  /// distance beyond `touching` (m) is a tenth; `most`: as much as that. Conservative advancement: as far as
+  /// the gap allows at the speed with which point and line move at most.
+  double free_way(const PointAndLine& from, const PointAndLine& to, double touching, double most) const;
 
  private:
   Shape shape_;

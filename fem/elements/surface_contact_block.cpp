@@ -121,9 +121,9 @@ class SurfaceContactBlock final : public ContactBlock {
       const Pair pair = this->pair(e);
       const Side &own = before.of(pair, 0), &other = before.of(pair, 1);
       const Side &own_end = after.of(pair, 0), &other_end = after.of(pair, 1);
-      if (clearance(own, other) > way(own, own_end) + way(other, other_end)) continue;
+      if (clearance(own, other) > part * (way(own, own_end) + way(other, other_end))) continue;
       for (std::size_t q = 0; q < rule_size; ++q)
-        part = std::min(part, parabola.free_way(facing(own, other, q), facing(own_end, other_end, q), 0));
+        part = parabola.free_way(facing(own, other, q), facing(own_end, other_end, q), 0, part);
     }
     return part;
   }

@@ -62,7 +62,7 @@ class WallContactBlock final : public ContactBlock {
   double free_way(const State& from, const State& to) const override {
     double part = 1;
     for (const ContactPair& one : pairs_)
-      part = std::min(part, line(one).free_way(positions(from, one), positions(to, one), one.touching));
+      part = line(one).free_way(positions(from, one), positions(to, one), one.touching, part);
     return part;
   }
   double contact_force(const State& state) const override {
