@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/analyses/forces.hpp"
 
+#include "fem/model/contact_block.hpp"
+
+#include <algorithm>
 #include <set>
 
 namespace dielast::cases {
@@ -35,6 +38,15 @@ Eigen::Vector3d film_force(const Device& device, const std::string& place, fem::
   assembler.residual(state, of_all);
   for (int b = 0; b < device.films; ++b) of_films += assembler.block_residuals()[static_cast<std::size_t>(b)];
   return -sum_at(device, place, of_films, [](int) { return true; });
+}
+
+double largest_contact_pressure(const Device& device, const std::string& place, const fem::State& state) {
+  const std::vector<double> pressure = fem::contact_pressure(device.model, state);
+  if (place.empty()) return std::ranges::max(pressure);
+  double largest = 0;
+  for (const int node : device.mesh.node_sets.at(place))
+    largest = std::max(largest, pressure[static_cast<std::size_t>(node)]);
+  return largest;
 }
 
 } // namespace dielast::cases

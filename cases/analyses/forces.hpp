@@ -16,4 +16,7 @@ Eigen::Vector3d support_force(const Device& device, const std::string& place,
 Eigen::Vector3d film_force(const Device& device, const std::string& place, fem::Equilibrium& equilibrium,
                            const fem::State& state);
 
+/// Largest pressure of contact among the nodes of a place, Pa; of all surfaces where it is empty.
+double largest_contact_pressure(const Device& device, const std::string& place, const fem::State& state);
+
 } // namespace dielast::cases

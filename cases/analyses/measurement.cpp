@@ -270,7 +270,9 @@ double Measurement::evaluate(const Quantity& quantity, const Measured& measured)
   case QuantityKind::film_force:
     return component(film_force(device_, quantity.of, measured.equilibrium, state), quantity.along);
   case QuantityKind::contact_force:
-    return fem::contact_force(device_.model, state);
+    return fem::contact_force(device_.model, state, quantity.of);
+  case QuantityKind::contact_pressure:
+    return largest_contact_pressure(device_, quantity.of, state);
   case QuantityKind::stretch: {
     const double drawn = length(quantity, device_.model.initial_state());
     return length(quantity, state) / drawn * prestretch_.at(quantity.name);

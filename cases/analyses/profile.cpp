@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/analyses/profile.hpp"
 
+#include "fem/model/contact_block.hpp"
 #include "post/engineering.hpp"
 
 #include <Eigen/Geometry>
@@ -11,14 +12,30 @@
 
 namespace dielast::cases {
 
-ProfileTable profile_table(const meshing::Mesh& mesh, const Profile& profile,
+namespace {
+
+const char* unit(const Profile& profile) {
+  return profile.kind == ProfileKind::contact_pressure ? "Pa" : "m";
+}
+
+} // namespace
+
+ProfileTable profile_table(const Device& device, const Profile& profile,
                            const std::vector<Eigen::Vector3d>& before,
                            const std::vector<Eigen::Vector3d>& now) {
+  const meshing::Mesh& mesh = device.mesh;
+  std::vector<double> pressure;
+  if (profile.kind == ProfileKind::contact_pressure) {
+    fem::State state;
+    state.displacement = now;
+    pressure = fem::contact_pressure(device.model, state);
+  }
   ProfileTable table;
   Eigen::AlignedBox3d box;
   for (const int node : mesh.node_sets.at(profile.of)) {
     const auto n = static_cast<std::size_t>(node);
-    table.rows.push_back({mesh.nodes[n], now[n][profile.along] - before[n][profile.along]});
+    table.rows.push_back(
+        {mesh.nodes[n], pressure.empty() ? now[n][profile.along] - before[n][profile.along] : pressure[n]});
     box.extend(mesh.nodes[n]);
   }
   box.sizes().maxCoeff(&table.abscissa);
@@ -30,9 +47,9 @@ ProfileTable profile_table(const meshing::Mesh& mesh, const Profile& profile,
 }
 
 std::string ProfileTable::csv(const Profile& profile) const {
-  std::string text = fmt::format("x [m],y [m],z [m],{} [m]\n", profile.name);
+  std::string text = fmt::format("x [m],y [m],z [m],{} [{}]\n", profile.name, unit(profile));
   for (const Row& row : rows)
-    text += fmt::format("{},{},{},{}\n", row.place.x(), row.place.y(), row.place.z(), row.displacement);
+    text += fmt::format("{},{},{},{}\n", row.place.x(), row.place.y(), row.place.z(), row.value);
   return text;
 }
 
@@ -41,21 +58,24 @@ post::Plot ProfileTable::plot(const Profile& profile) const {
   Eigen::AlignedBox3d box;
   for (const Row& row : rows) {
     length = std::max(length, std::abs(row.place[abscissa]));
-    largest = std::max(largest, std::abs(row.displacement));
+    largest = std::max(largest, std::abs(row.value));
     box.extend(row.place);
   }
   Eigen::Vector3d across_it = box.sizes();
   across_it[abscissa] = 0;
   const bool straight = across_it.maxCoeff() < 1e-6 * box.sizes()[abscissa];
-  const post::ScaledUnit across = post::scaled_unit(length, "m"), moved = post::scaled_unit(largest, "m");
+  const post::ScaledUnit across = post::scaled_unit(length, "m"),
+                         shown = post::scaled_unit(largest, unit(profile));
   post::Plot plot{
       profile.name,
       fmt::format("{} as drawn [{}]", "xyz"[abscissa], across.unit),
-      fmt::format("displacement along {} [{}]", "xyz"[profile.along], moved.unit),
+      profile.kind == ProfileKind::contact_pressure
+          ? fmt::format("contact pressure [{}]", shown.unit)
+          : fmt::format("displacement along {} [{}]", "xyz"[profile.along], shown.unit),
       {{.label = "", .style = straight ? post::Series::Style::line : post::Series::Style::points}}};
   for (const Row& row : rows) {
     plot.series[0].x.push_back(row.place[abscissa] * across.factor);
-    plot.series[0].y.push_back(row.displacement * moved.factor);
+    plot.series[0].y.push_back(row.value * shown.factor);
   }
   return plot;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
-#include "meshing/mesh.hpp"
+#include "cases/devices/device.hpp"
 #include "post/pictures/plot.hpp"
 
 #include <Eigen/Core>
@@ -12,23 +12,23 @@
 
 namespace dielast::cases {
 
-/// How the nodes of a place have moved, in the order of their coordinate along the axis in which the place is
-/// longest, as drawn.
+/// How the nodes of a place have moved, or what presses on them, in the order of their coordinate along the
+/// axis in which the place is longest, as drawn.
 struct ProfileTable {
   struct Row {
     Eigen::Vector3d place; ///< of the node, as drawn, m
-    double displacement;   ///< along the profile's axis, m
+    double value;          ///< displacement along the profile's axis, m; contact pressure, Pa
   };
   int abscissa = 0; ///< 0, 1, 2 = x, y, z
   std::vector<Row> rows;
 
-  /// Columns x, y, z and the displacement, with their units.
+  /// Columns x, y, z and the value, with their units.
   std::string csv(const Profile& profile) const;
   post::Plot plot(const Profile& profile) const;
 };
 
 /// `before`, `now`: displacements per node, m; before: of the state at which the profile is zero.
-ProfileTable profile_table(const meshing::Mesh& mesh, const Profile& profile,
+ProfileTable profile_table(const Device& device, const Profile& profile,
                            const std::vector<Eigen::Vector3d>& before,
                            const std::vector<Eigen::Vector3d>& now);
 

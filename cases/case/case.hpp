@@ -87,7 +87,8 @@ struct Chamber {
 
 /// [contact]: what touches is kept apart by a barrier that sets in before it does
 struct Contact {
-  double thickness = 0; ///< of the barrier: the gap at which it sets in, m
+  double thickness = 0;               ///< of the barrier: the gap at which it sets in, m
+  std::vector<std::string> between{}; ///< surfaces of solids, each kept apart from each other
 };
 
 /// [table]: a rigid plane on which a surface of a solid lies, and from which it may lift
@@ -198,6 +199,7 @@ enum class QuantityKind {
   film_force,
   moment,
   contact_force,
+  contact_pressure,
   nominal_stress,
   capacitance,
   charge,
@@ -246,8 +248,9 @@ struct Quantity {
   QuantityKind kind{};
   std::array<std::string, 2> between; ///< distance, elongation, stretch: two places (their centroids)
   std::string of; ///< size, growth, displacement, radius, force, film_force, nominal_stress, stiffness,
-                  ///< radial_stretch: a place; capacitance, charge, current: an electrode; value, extreme: a
-                  ///< field; fin_force, thrust, fin_power: a fin; peak, mean: another quantity
+                  ///< radial_stretch: a place; contact_force, contact_pressure: a surface, or empty;
+                  ///< capacitance, charge, current: an electrode; value, extreme: a field; fin_force, thrust,
+                  ///< fin_power: a fin; peak, mean: another quantity
   std::optional<int> along;                   ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
   std::string place;                          ///< value: over which it is the mean; coupling: where it pulls
   std::optional<std::array<double, 3>> point; ///< value, displacement: instead of a place, as drawn, m
@@ -260,9 +263,13 @@ struct Quantity {
   bool standard = false; ///< brought by the geometry's template, not written by the user
 };
 
-/// [[profile]]: how the nodes of a place have moved
+/// What a profile shows.
+enum class ProfileKind : std::uint8_t { displacement, contact_pressure };
+
+/// [[profile]]: how the nodes of a place have moved, or what presses on them
 struct Profile {
   std::string name;
+  ProfileKind kind{};
   std::string of;      ///< the place
   int along = 0;       ///< 0, 1, 2 = x, y, z
   std::string since{}; ///< the step at whose end it is zero; empty: the mesh as drawn

@@ -45,6 +45,7 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all) 
   case QuantityKind::contact_force:
     return "N";
   case QuantityKind::nominal_stress:
+  case QuantityKind::contact_pressure:
     return "Pa";
   case QuantityKind::capacitance:
     return "F";
@@ -108,7 +109,9 @@ std::string meaning_of(const Quantity& q) {
   case QuantityKind::film_force:
     return fmt::format("force of the film on {}{}{}", q.of, along, at);
   case QuantityKind::contact_force:
-    return fmt::format("sum of the normal forces of contact{}", at);
+    return fmt::format("sum of the normal forces of contact{}{}", q.of.empty() ? "" : " on " + q.of, at);
+  case QuantityKind::contact_pressure:
+    return fmt::format("largest pressure of contact{}{}", q.of.empty() ? "" : " on " + q.of, at);
   case QuantityKind::capacitance:
     return fmt::format("capacitance of electrode {}{}", q.of, at);
   case QuantityKind::charge:

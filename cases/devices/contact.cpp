@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
+#include "fem/elements/centreline.hpp"
 #include "fem/elements/plane_contact_block.hpp"
+#include "fem/elements/surface_contact_block.hpp"
 #include "fem/elements/wall_contact.hpp"
 #include "fem/elements/wall_contact_block.hpp"
 #include "meshing/mesh_error.hpp"
@@ -9,10 +11,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <stdexcept>
 
 namespace dielast::cases {
 
@@ -93,8 +99,90 @@ void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   contact.origin = (lowest - thickness) * contact.normal;
   // A gap of half the barrier's thickness bears about 1 % of Young's modulus.
   contact.barrier = {.thickness = thickness, .stiffness = 0.01 * modulus / thickness, .foot = 1};
+  contact.place = one.table->place;
   contact.friction = one.table->friction;
   model.blocks.push_back(fem::make_plane_contact_block(mesh, std::move(contact)));
+}
+
+/// Whether two surfaces cross as they are drawn: chords of their sides do.
+bool cross(const meshing::Mesh& mesh, const meshing::CellBlock& one, const meshing::CellBlock& other,
+           int up) {
+  using Eigen::Vector2d;
+  constexpr int chords = 8; // of a side
+  const auto points = [&](std::span<const int> side) {
+    std::array<Vector2d, 3> x;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Eigen::Vector3d& at = mesh.nodes[static_cast<std::size_t>(side[a])];
+      x[a] = {at.x(), at[up]};
+    }
+    std::array<Vector2d, chords + 1> along;
+    for (int i = 0; i <= chords; ++i) {
+      const std::array<double, 3> N =
+          fem::Centreline(fem::Centreline::Shape::parabola).shape(static_cast<double>(i) / chords);
+      along[static_cast<std::size_t>(i)] = N[0] * x[0] + N[1] * x[1] + N[2] * x[2];
+    }
+    return along;
+  };
+  const auto turn = [](const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+    return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+  };
+  for (int i = 0; i < one.size(); ++i) {
+    const auto a = points(one.cell(i));
+    for (int j = 0; j < other.size(); ++j) {
+      const auto b = points(other.cell(j));
+      for (std::size_t k = 0; k < chords; ++k)
+        for (std::size_t l = 0; l < chords; ++l)
+          if (turn(a[k], a[k + 1], b[l]) * turn(a[k], a[k + 1], b[l + 1]) <= 0 &&
+              turn(b[l], b[l + 1], a[k]) * turn(b[l], b[l + 1], a[k + 1]) <= 0)
+            return true;
+    }
+  }
+  return false;
+}
+
+/// Every surface and each other one.
+void add_surfaces(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  const double thickness = one.contact->thickness;
+  double modulus = std::numeric_limits<double>::infinity(), width = 0; // of the softest solid
+  for (const Part& part : one.parts)
+    if (part.film) {
+      modulus = std::min(modulus, 3 * materials::initial_shear_modulus(part.film->material.law));
+      width = part.film->width;
+    }
+  const std::vector<std::string>& places = one.contact->between;
+  std::vector<meshing::CellBlock> sides;
+  for (const std::string& place : places)
+    sides.push_back(meshing::sides_at(mesh, place, meshing::CellType::meridian3));
+  for (std::size_t a = 0; a < places.size(); ++a)
+    for (std::size_t b = a + 1; b < places.size(); ++b) {
+      const auto fail = [&](const std::string& reason) {
+        throw meshing::MeshError(
+            fmt::format("the surfaces \"{}\" and \"{}\" {}", places[a], places[b], reason));
+      };
+      constexpr int most = 1'000'000;
+      if (std::int64_t{2} * sides[a].size() * sides[b].size() > most)
+        fail(fmt::format("have {} and {} sides: any may meet any, which is too much; name the parts of "
+                         "them that may touch",
+                         sides[a].size(), sides[b].size()));
+      // A gap of half the barrier's thickness bears about 1 % of Young's modulus, as on a table.
+      fem::SurfaceContact contact{
+          {places[a], places[b]},
+          {sides[a], sides[b]},
+          of_revolution ? std::nullopt : std::optional(width),
+          {.thickness = thickness, .stiffness = 0.01 * modulus / thickness, .foot = 1}};
+      try {
+        model.blocks.push_back(fem::make_surface_contact_block(mesh, contact));
+      } catch (const std::invalid_argument&) {
+        fail("have nodes in common");
+      }
+      if (cross(mesh, sides[a], sides[b], of_revolution ? 2 : 1)) fail("cross as drawn");
+      contact.barrier.thickness *= 1 - 1e-6; // as far apart as the barrier reaches, to rounding
+      const auto slightly_less = fem::make_surface_contact_block(mesh, std::move(contact));
+      const fem::Evaluation drawn = as_drawn(*slightly_less, mesh);
+      if (!drawn.feasible || drawn.energy > 0)
+        fail(fmt::format("are closer as drawn than the {:.6g} mm of contact.thickness", 1e3 * thickness));
+    }
 }
 
 /// The core is where the barrier of the film as drawn begins.
@@ -125,8 +213,11 @@ void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
 
 void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   if (!one.contact) return;
+  if (!one.contact->between.empty()) add_surfaces(one, mesh, model);
   if (one.table)
     add_table(one, mesh, model);
+  else if (!one.contact->between.empty())
+    return;
   else if (const auto* roll = one.geometry<Roll>())
     add_core(one, *roll, mesh, model);
   else

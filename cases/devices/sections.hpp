@@ -36,8 +36,9 @@ void link_bars(const std::vector<fem::Tie>& links, fem::Dimension dimension, fem
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
-/// Adds what keeps the walls of a lattice's cells, a solid and its table, or a roll and its core apart, where
-/// the case has [contact]. Throws MeshError where walls are closer as drawn than the barrier reaches.
+/// Adds what keeps the walls of a lattice's cells, surfaces of solids, a solid and its table, or a roll and
+/// its core apart, where the case has [contact]. Throws MeshError where walls or surfaces are closer as drawn
+/// than the barrier reaches, and for surfaces that cross.
 void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
 /// Holds what a roll's core keeps at its radius, whether pressed or pulled. To be called behind the ties.

@@ -25,6 +25,28 @@ void check_friction(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
+/// Surfaces that are kept apart, and what holds their solids.
+void check_surfaces_in_contact(SectionReader& reader, const Node& contact, const Case& one) {
+  const auto report = [&](const std::string& message) {
+    reader.report(contact.find("between")->source, "contact.between", message);
+  };
+  if (!one.any_film([](const Film& film) { return film.is_solid(); }))
+    return report("only for surfaces of solids");
+  if (one.dimension == fem::Dimension::spatial) report("for solids in plane strain and of revolution");
+  const std::vector<std::string>& places = one.contact->between;
+  for (auto place = places.begin(); place != places.end(); ++place)
+    if (std::find(places.begin(), place, *place) != place)
+      report(fmt::format("\"{}\" stands there twice: a surface does not touch itself", *place));
+  if (one.supports.empty() && one.bodies.empty() && !one.table)
+    report("nothing holds the solids, which would fly apart; hold places of each with [[support]]");
+  std::optional<double> width;
+  for (const Part& part : one.parts) {
+    if (!part.film || one.dimension != fem::Dimension::planar) continue;
+    if (width && *width != part.film->width) report("solids that touch in plane strain have one film.width");
+    width = part.film->width;
+  }
+}
+
 } // namespace
 
 void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
@@ -45,9 +67,11 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
     reader.report(tree.find("contact")->find("thickness")->source, "contact.thickness",
                   "it leaves no room for a core: it must be below roll.radius");
   const bool walls = one.geometry<Honeycomb>() && one.dimension == fem::Dimension::planar;
-  if (one.contact && !one.table && !walls && !core)
-    report("contact", "is between the walls of a planar [honeycomb], a solid and a [table], or a [roll] and "
-                      "its one-sided core");
+  const bool surfaces = one.contact && !one.contact->between.empty();
+  if (one.contact && !one.table && !walls && !core && !surfaces)
+    report("contact", "is between the walls of a planar [honeycomb], surfaces of solids (between = [...]), a "
+                      "solid and a [table], or a [roll] and its one-sided core");
+  if (surfaces) check_surfaces_in_contact(reader, *tree.find("contact"), one);
   if (!one.table) return;
   if (one.table->friction > 0) return check_friction(reader, tree, one);
   if (one.dimension == fem::Dimension::planar &&

@@ -263,9 +263,15 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     if (!part.place.empty())
       for (const char* key : {"mesh", "at", "turned"})
         if (top.find(key)) report(key, "a part that is a place has the mesh and the position of its place");
-    if (!geometries.empty() && one.dimension == fem::Dimension::axisymmetric)
-      report("", "parts with geometries of their own are planar or in space; model = \"axisymmetric\" has "
-                 "one meridian");
+    if (!geometries.empty() && one.dimension == fem::Dimension::axisymmetric) {
+      if (!part.film || !part.film->is_solid())
+        report("", "films with geometries of their own are planar or in space; model = \"axisymmetric\" has "
+                   "one meridian");
+      else if (part.at[0] != 0 || part.at[1] != 0)
+        report("at", "a solid of revolution is moved along z alone");
+      else if (part.turned != 0)
+        report("turned", "a solid of revolution is drawn upright");
+    }
     if (!geometries.empty() && (one.plate || one.chamber))
       report("", "[plate] and [chamber] are for a case without geometries in parts; use [[body]]");
     const double half_turns = part.turned / std::numbers::pi;

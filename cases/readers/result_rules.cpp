@@ -16,6 +16,11 @@ std::size_t written_items(const Node& list) {
       std::ranges::count_if(list.items, [](const Node& item) { return item.source.is_written(); }));
 }
 
+bool may_touch(const Case& one, const std::string& place) {
+  return (one.contact && std::ranges::count(one.contact->between, place) > 0) ||
+         (one.table && one.table->place == place);
+}
+
 /// A state is read at the end of a step that leads to one.
 void check_step_with_end(SectionReader& reader, const Case& one, const Node* written, const std::string& key,
                          const std::string& step) {
@@ -25,6 +30,20 @@ void check_step_with_end(SectionReader& reader, const Case& one, const Node* wri
                   fmt::format("found \"{}\": a step of this kind leaves the state as it is; name the step "
                               "before it",
                               step));
+}
+
+/// What touches must be there, and of a named surface something must be able to touch it.
+void check_contact_quantity(SectionReader& reader, const Source& source, const std::string& key,
+                            const Case& one, const Quantity& quantity) {
+  const bool pressure = quantity.kind == QuantityKind::contact_pressure;
+  if (quantity.kind != QuantityKind::contact_force && !pressure) return;
+  if (!one.contact) return reader.report(source, key, "nothing touches; add [contact]");
+  if (pressure && one.contact->between.empty() && !one.table && !one.geometry<Roll>())
+    reader.report(source, key, "the walls of a lattice touch along lines: ask for the contact force");
+  if (!quantity.of.empty() && !may_touch(one, quantity.of))
+    reader.report(source, key + ".of",
+                  fmt::format("found \"{}\": it is neither one of contact.between nor lies on the [table]",
+                              quantity.of));
 }
 
 /// What is measured must be there.
@@ -46,17 +65,21 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
     if ((quantity.kind == QuantityKind::angle || quantity.kind == QuantityKind::moment) &&
         one.dimension == fem::Dimension::axisymmetric)
       reader.report(source, key, "in a model of revolution bodies move along z alone, and do not turn");
-    if (quantity.kind == QuantityKind::contact_force && !one.contact)
-      reader.report(source, key, "nothing touches; add [contact]");
+    check_contact_quantity(reader, source, key, one, quantity);
     if (is_of_vibration(quantity.kind) && !has_mass(one))
       reader.warn(source, key, "has no value here: nothing has a mass");
     check_step_with_end(reader, one, list->items[q].find("at"), key + ".at", quantity.at);
     check_step_with_end(reader, one, list->items[q].find("since"), key + ".since", quantity.since);
   }
   list = tree.find("profile");
-  for (std::size_t p = 0; p < one.profiles.size(); ++p)
+  for (std::size_t p = 0; p < one.profiles.size(); ++p) {
     check_step_with_end(reader, one, list->items[p].find("since"), fmt::format("profile[{}].since", p + 1),
                         one.profiles[p].since);
+    if (one.profiles[p].kind == ProfileKind::contact_pressure && !may_touch(one, one.profiles[p].of))
+      reader.report(list->items[p].source, fmt::format("profile[{}].of", p + 1),
+                    fmt::format("found \"{}\": it is neither one of contact.between nor lies on the [table]",
+                                one.profiles[p].of));
+  }
 }
 
 /// Files are named after steps and columns after quantities: none may take the name of one that is there.

@@ -302,7 +302,7 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
   const bool annulus = one.geometry<Annulus>();
   const bool round = annulus || one.geometry<Disc>();
   const bool balloon = one.geometry<Balloon>();
-  const bool sphere = one.geometry<HollowSphere>();
+  const bool sphere = one.any_geometry<HollowSphere>();
   const bool roll = one.geometry<Roll>();
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
   if (sphere && one.dimension == fem::Dimension::planar)
@@ -312,7 +312,7 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
     report_at(reader, tree, "model", "a roll is a film of revolution: model = \"axisymmetric\"");
   if (balloon && !of_revolution)
     report_at(reader, tree, "model", "a balloon is a film of revolution: model = \"axisymmetric\"");
-  if (of_revolution && !round && !balloon && !roll && !sphere && !one.geometry<Slab>())
+  if (of_revolution && !round && !balloon && !roll && !sphere && !one.any_geometry<Slab>())
     report_at(reader, tree, "model",
               "\"axisymmetric\" is for [disc], [annulus], [balloon], [roll], [slab] and [hollow_sphere]");
   if (of_revolution && !roll &&

@@ -223,7 +223,7 @@ void Recorder::record_mode(const fem::CriticalPoint& critical, const post::Event
   if (!case_.fields) return;
   if (!modes_) open_series(modes_, critical_name);
   modes_->write(series_step(++journal_.modes, event.message, critical.load_factor, critical.state.voltage),
-                {critical.state.displacement, critical.state.rotation, samples},
+                post::series_state(device.model, critical.state, samples),
                 {mode, fem::spins(device.model.dofs, critical.state, critical.mode.direction)});
 }
 
@@ -244,7 +244,7 @@ void Recorder::record_analysis(Analysis analysis, const fem::State& state) {
     post::VtkSeries series(folder_, series_name(analysis.step), series_model(case_, device));
     for (std::size_t i = 0; i < analysis.shapes.size(); ++i)
       series.write(series_step(static_cast<double>(i) + 1, analysis.shapes[i].name, 1, state.voltage),
-                   {state.displacement, state.rotation, samples},
+                   post::series_state(device.model, state, samples),
                    {analysis.shapes[i].displacement, analysis.shapes[i].spin});
   }
   analysis.shapes.clear();
@@ -292,7 +292,7 @@ void Recorder::record(const Frame& frame) {
 void Recorder::write_waiting() {
   if (series_ && waiting_)
     series_->write(waiting_->step,
-                   {waiting_->state.displacement, waiting_->state.rotation, waiting_->samples});
+                   post::series_state(simulation_.device().model, waiting_->state, waiting_->samples));
   waiting_.reset();
 }
 

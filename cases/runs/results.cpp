@@ -246,8 +246,7 @@ std::vector<std::optional<ProfileTable>> profiles_of(const Case& one, const Devi
     if (since == snapshots.end() || under_way)
       tables.emplace_back();
     else
-      tables.push_back(
-          profile_table(device.mesh, profile, since->displacement, snapshots.back().displacement));
+      tables.push_back(profile_table(device, profile, since->displacement, snapshots.back().displacement));
   }
   return tables;
 }

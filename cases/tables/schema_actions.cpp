@@ -298,13 +298,20 @@ Section contact_section() {
   section.name = "contact";
   section.meaning =
       "what touches is kept apart by a barrier (Li et al. 2020): walls of a planar [honeycomb], without "
-      "friction, and a solid on a [table]";
+      "friction, surfaces of solids, and a solid on a [table]";
   section.presence = Section::Presence::optional;
   section.access = present(&Case::contact);
-  section.keys = {measure("thickness", "m", to(&Contact::thickness),
-                          "gap between faces at which the barrier sets in; it is never closed")
-                      .above(0)
-                      .at_most(0.1)};
+  section.keys = {
+      measure("thickness", "m", to(&Contact::thickness),
+              "gap between faces at which the barrier sets in; it is never closed")
+          .above(0)
+          .at_most(0.1),
+      text("between", to(&Contact::between),
+           "surfaces of solids, of one part or of several, each kept apart from each other, without "
+           "friction; drawn at least the thickness apart")
+          .values(2, 20)
+          .optional()
+          .refers_to(Reference::place)};
   return section;
 }
 

@@ -72,9 +72,12 @@ Section quantity_section() {
             "(1/s^2)",
             QuantityKind::modal_stiffness},
            {"contact force",
-            "sum of the normal forces where walls touch, a solid lies on a [table], or a [roll] on its core "
-            "(N)",
+            "sum of the normal forces where walls touch, surfaces of solids, a solid lies on a [table], or a "
+            "[roll] on its core (N)",
             QuantityKind::contact_force},
+           {"contact pressure",
+            "largest normal force over area as drawn among the nodes of the surfaces that may touch (Pa)",
+            QuantityKind::contact_pressure},
            {"radial stretch", "stretch of the film along the radius, mean at an edge (-)",
             QuantityKind::radial_stretch},
            {"energy", "part of the energy balance (J)", QuantityKind::energy},
@@ -104,6 +107,10 @@ Section quantity_section() {
       of("the place of a support, or a body that is fixed")
           .only({"force"})
           .refers_to(Reference::supported_place),
+      of("the surface; without it all that may touch")
+          .only({"contact force", "contact pressure"})
+          .optional()
+          .refers_to(Reference::place),
       of("the body").only({"angle", "moment"}).refers_to(Reference::body),
       of("the fin").only({"fin force", "thrust", "fin power"}).refers_to(Reference::fin),
       of("the electrode")
@@ -205,17 +212,27 @@ Section quantity_section() {
 }
 
 Section profile_section() {
-  Section section = list_section(
-      "profile",
-      "how the nodes of a place have moved at the end: the table profile_<name>.csv, and a curve on the page",
-      each(&Case::profiles));
+  Section section = list_section("profile",
+                                 "how the nodes of a place have moved at the end, or what presses on them: "
+                                 "the table profile_<name>.csv, "
+                                 "and a curve on the page",
+                                 each(&Case::profiles));
+  section.selector = "kind";
   section.keys = {
       text("name", to(&Profile::name), "its name in results").distinct(),
+      word("kind",
+           {{"displacement", "along an axis (m)", ProfileKind::displacement},
+            {"contact pressure", "normal force over area as drawn, of [contact] (Pa)",
+             ProfileKind::contact_pressure}},
+           to(&Profile::kind), "what is shown")
+          .otherwise("displacement"),
       text("of", to(&Profile::of), "the place, such as a side or a surface").refers_to(Reference::place),
       word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Profile::along),
-           "component of the displacement"),
+           "component of the displacement")
+          .only({"displacement"}),
       text("since", to(&Profile::since), "step at whose end it is zero; without it the mesh as drawn")
           .optional()
+          .only({"displacement"})
           .refers_to(Reference::step),
   };
   return section;

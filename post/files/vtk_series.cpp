@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/files/vtk_series.hpp"
 
+#include "fem/model/contact_block.hpp"
 #include "post/bars.hpp"
 #include "post/fields.hpp"
 #include "post/markup.hpp"
@@ -117,6 +118,7 @@ class VtkSeries::PartFile {
       array->InsertNextValue(number.value);
       grid_->GetFieldData()->AddArray(array); // replaces the last step's by its name
     }
+    if (part_ == Part::film && !state.contact_pressure.empty()) set_pressure(state.contact_pressure);
     if (part_ == Part::film)
       set_cell_data(state.samples.film, film_fields());
     else if (part_ == Part::walls)
@@ -234,6 +236,13 @@ class VtkSeries::PartFile {
     place_->Modified();
     grid_->GetPoints()->Modified();
   }
+  void set_pressure(const std::vector<double>& of_nodes) {
+    vtkNew<vtkFloatArray> array; // replaces the last step's by its name
+    array->SetName("contact_pressure [Pa]");
+    for (const TurnedNode& point : points_)
+      array->InsertNextValue(static_cast<float>(of_nodes[static_cast<std::size_t>(point.node)]));
+    grid_->GetPointData()->AddArray(array);
+  }
   template<class Sample, class Point>
   void set_cell_data(const std::vector<Sample>& samples, std::span<const Field<Point>> fields) {
     const auto averages = average(samples, fields, cell_count_);
@@ -264,6 +273,10 @@ class VtkSeries::PartFile {
   vtkNew<vtkStringArray> step_;
   vtkNew<vtkXMLUnstructuredGridWriter> writer_;
 };
+
+SeriesState series_state(const fem::Model& model, const fem::State& state, const fem::Samples& samples) {
+  return {state.displacement, state.rotation, samples, fem::contact_pressure(model, state)};
+}
 
 VtkSeries::~VtkSeries() = default;
 VtkSeries::VtkSeries(VtkSeries&&) noexcept = default;

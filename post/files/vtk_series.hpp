@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/model/samples.hpp"
+#include "fem/model/model.hpp"
 #include "meshing/mesh.hpp"
 #include "post/files/results_folder.hpp"
 
@@ -42,7 +42,11 @@ struct SeriesState {
   const std::vector<Eigen::Vector3d>& displacement; ///< per mesh node, m
   const std::vector<Eigen::Quaterniond>& rotation;  ///< per mesh node, from the mesh as drawn
   const fem::Samples& samples;
+  std::vector<double> contact_pressure{}; ///< per mesh node, Pa; empty: nothing may touch
 };
+
+/// What a state shows; it keeps references to both.
+SeriesState series_state(const fem::Model& model, const fem::State& state, const fem::Samples& samples);
 
 /// A small motion of the mesh nodes, about a state; empty: none.
 struct SeriesMode {

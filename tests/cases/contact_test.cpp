@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace dielast::cases {
 namespace {
@@ -104,6 +105,59 @@ TEST_F(Contacts, friction_of_a_table_holds_a_slab) {
 
 TEST_F(Contacts, refuse_walls_that_touch_as_drawn) {
   EXPECT_THROW(build_device(read(honeycomb(63, contact))), meshing::MeshError);
+}
+
+/// A block, and one half as long above it, whose back is moved down by 0.1 mm; the gap in mm. `up`: y, of
+/// revolution z.
+std::string two_blocks(double gap, char up = 'y',
+                       const std::string& between = "\"lower.top\", \"upper.bottom\"") {
+  const bool of_revolution = up == 'z';
+  const auto part = [&](const char* name, const char* length, int across, const std::string& at) {
+    return fmt::format(
+        "[part.{0}]\n{3}[part.{0}.film]\nthickness = \"1 mm\"\nsection = \"solid\"\nmaterial = \"VHB 4910 "
+        "(honeycomb)\"\n[part.{0}.slab]\nlength = \"{1}\"\nheight = \"2 mm\"\n[part.{0}.mesh]\nacross "
+        "= {2}\ngrading = 1\n",
+        name, length, across, at);
+  };
+  const std::string height = fmt::format("\"{} mm\"", 2 + gap);
+  return fmt::format("model = \"{}\"\n", of_revolution ? "axisymmetric" : "planar") +
+         part("lower", "10 mm", 2, "") +
+         part("upper", "5 mm", 3,
+              of_revolution ? "at = [0, 0, " + height + "]\n" : "at = [\"2 mm\", " + height + ", 0]\n") +
+         fmt::format(
+             "[contact]\nthickness = \"0.01 mm\"\nbetween = [{1}]\n"
+             "[[support]]\nplace = \"lower.bottom\"\nfix = [{2}\"{0}\"]\n"
+             "[[support]]\nplace = \"upper.top\"\n{3}displacement = {{ {0} = \"-0.1 mm\" }}\n"
+             "[[step]]\nkind = \"move\"\n[output]\nerror_estimate = false\n"
+             "[[quantity]]\nname = \"pressed\"\nkind = \"contact force\"\n"
+             "[[quantity]]\nname = \"below\"\nkind = \"contact force\"\nof = \"lower.top\"\n"
+             "[[quantity]]\nname = \"pressure\"\nkind = \"contact pressure\"\nof = \"upper.bottom\"\n"
+             "[[quantity]]\nname = \"held\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"{0}\"\n"
+             "[[quantity]]\nname = \"pushed\"\nkind = \"force\"\nof = \"upper.top\"\nalong = \"{0}\"\n",
+             up, between, of_revolution ? "" : "\"x\", ", of_revolution ? "" : "fix = [\"x\"]\n");
+}
+
+/// What the one block is pushed with the other one's support bears.
+TEST_F(Contacts, pass_the_force_on_from_solid_to_solid) {
+  for (const char up : {'y', 'z'}) {
+    const auto end = values(two_blocks(0.02, up));
+    EXPECT_GT(end.at("held"), 0) << up;
+    EXPECT_NEAR(end.at("pushed"), -end.at("held"), 1e-6 * end.at("held")) << up;
+    EXPECT_NEAR(end.at("pressed"), end.at("held"), 0.1 * end.at("held"))
+        << up; // at the edge some of it aside
+    EXPECT_EQ(end.at("below"), end.at("pressed")) << up;
+    const double area = up == 'y' ? 5e-3 * 1 : std::numbers::pi * 25e-6;
+    EXPECT_GT(end.at("pressure"), end.at("held") / area) << up;
+  }
+}
+
+TEST_F(Contacts, refuse_surfaces_that_touch_or_cross_as_drawn) {
+  EXPECT_NO_THROW(build_device(read(two_blocks(0.01))));
+  EXPECT_THROW(build_device(read(two_blocks(0.009))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(two_blocks(-0.5, 'y', "\"lower.top\", \"upper.bottom\", \"upper.left\""))),
+               meshing::MeshError);
+  EXPECT_THROW(build_device(read(two_blocks(0.1, 'y', "\"lower.top\", \"lower.left\", \"upper.bottom\""))),
+               meshing::MeshError);
 }
 
 } // namespace
