@@ -158,15 +158,17 @@ void check_solid(SectionReader& reader, const Node& tree, const Case& one, const
       }))
     report("material", "a solid's dashpots have no axes: dashpot = \"log\"");
   if (meshed->mesh.order != 2) report("section", "a solid is made of 6-node triangles");
-  if (std::ranges::any_of(one.steps, &Step::inertia) || is_linearised(one) ||
-      has_step(one, {StepKind::modes}))
-    report("section", "solids move without inertia, and know of no modes and no harmonic response");
+  if (std::ranges::any_of(one.steps, &Step::inertia))
+    report("section", "solids move without inertia; of small vibrations ask in steps of kind \"modes\" and "
+                      "\"harmonic\"");
+  if (is_linearised(one) && !film.material.branches.empty())
+    report("material", "the branches of solids have no harmonic response");
   if (std::ranges::any_of(one.steps,
                           [](const Step& step) { return step.on_instability == OnInstability::jump; }))
     report("section", "solids do not jump: on_instability = \"stop\" or \"follow\"");
   for (const Quantity& quantity : one.quantities)
-    if (is_of_vibration(quantity.kind) || quantity.kind == QuantityKind::nominal_stress ||
-        quantity.kind == QuantityKind::radial_stretch || quantity.kind == QuantityKind::stretch)
+    if (quantity.kind == QuantityKind::nominal_stress || quantity.kind == QuantityKind::radial_stretch ||
+        quantity.kind == QuantityKind::stretch)
       report("section",
              fmt::format("quantity \"{}\" is of films that are membranes or shells", quantity.name));
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
