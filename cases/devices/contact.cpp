@@ -88,9 +88,11 @@ void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   const int up = of_revolution ? 2 : 1;
   const double thickness = one.contact->thickness;
   const Film& film = *one.unnamed()->film;
-  const meshing::CellBlock sides = meshing::sides_at(mesh, one.table->place, meshing::CellType::meridian3);
   fem::PlaneContact contact =
-      fem::surface_of(mesh, sides, of_revolution ? std::nullopt : std::optional(film.width));
+      one.dimension == fem::Dimension::spatial
+          ? fem::surface_of(mesh, meshing::faces_at(mesh, one.table->place))
+          : fem::surface_of(mesh, meshing::sides_at(mesh, one.table->place, meshing::CellType::meridian3),
+                            of_revolution ? std::nullopt : std::optional(film.width));
   double lowest = std::numeric_limits<double>::infinity();
   for (const int node : contact.nodes)
     lowest = std::min(lowest, mesh.nodes[static_cast<std::size_t>(node)][up]);

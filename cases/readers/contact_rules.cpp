@@ -55,8 +55,6 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
   };
   if (one.table && !(one.unnamed() && one.unnamed()->film && one.unnamed()->film->is_solid()))
     report("table", "only for solids, with [film] at the top of the file");
-  if (one.table && one.dimension == fem::Dimension::spatial)
-    report("table", "for solids in plane strain and of revolution");
   if (one.table && !one.contact) report("table", "needs [contact], which says how thick its barrier is");
   const auto* roll = one.geometry<Roll>();
   const bool core = roll && roll->core == RollCore::one_sided;
@@ -74,10 +72,15 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
   if (surfaces) check_surfaces_in_contact(reader, *tree.find("contact"), one);
   if (!one.table) return;
   if (one.table->friction > 0) return check_friction(reader, tree, one);
-  if (one.dimension == fem::Dimension::planar &&
-      std::ranges::none_of(one.supports, [](const Support& support) { return support.fixed[0]; }))
+  const auto slides = [&](std::size_t axis) {
+    return std::ranges::none_of(one.supports, [&](const Support& support) { return support.fixed[axis]; });
+  };
+  if (one.dimension == fem::Dimension::planar && slides(0))
     report("table", "without friction nothing keeps the solid from sliding away; fix x of a "
                     "place");
+  if (one.dimension == fem::Dimension::spatial && (slides(0) || slides(2)))
+    report("table", "without friction nothing keeps the solid from sliding away; fix x of a place, and z of "
+                    "one");
 }
 
 } // namespace dielast::cases

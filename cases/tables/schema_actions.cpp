@@ -318,7 +318,8 @@ Section contact_section() {
 Section table_section() {
   Section section;
   section.name = "table";
-  section.meaning = "a rigid plane across the height on which a solid lies: its surface touches as drawn, "
+  section.meaning = "a rigid plane across the height (y, of revolution z) on which a solid lies: its surface "
+                    "touches as drawn, "
                     "sinks in by less than contact.thickness, and may lift";
   section.presence = Section::Presence::optional;
   section.access = present(&Case::table);

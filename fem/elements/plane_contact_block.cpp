@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/elements/plane_contact_block.hpp"
 
+#include "fem/films/triangle.hpp"
+
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +23,7 @@ constexpr int size = 3;
 constexpr double stick = 10; ///< stiffness of the springs of nodes that stand still, over the barrier's
 constexpr double fresh_stick = 1e-4; ///< over that, where they have just touched
 constexpr double least_share =
-    1e-3; ///< of a side: on the axis Simpson's rule has none, and the barrier must hold
+    1e-3; ///< of a side or face: on the axis and at corners the rule has none, and the barrier must hold
 
 /// What slides has no stiffness along its way; where all of a body does, Newton's method needs some. This
 /// part of force over way makes it converge linearly, and quickly, as the body is much stiffer.
@@ -193,6 +197,19 @@ class PlaneContactBlock final : public ContactBlock {
 
 } // namespace
 
+namespace {
+
+PlaneContact of_nodes(const std::map<int, double>& areas) {
+  PlaneContact surface;
+  for (const auto& [node, area] : areas) {
+    surface.nodes.push_back(node);
+    surface.areas.push_back(area);
+  }
+  return surface;
+}
+
+} // namespace
+
 PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sides,
                         std::optional<double> width) {
   const auto at = [&](int node) -> const Vector3d& { return mesh.nodes[static_cast<std::size_t>(node)]; };
@@ -206,12 +223,25 @@ PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sid
     for (std::size_t i = 0; i < own.size(); ++i)
       areas[own[i]] += length * std::max((i == 2 ? 4.0 / 6 : end_share) * across(own[i]), least_share * mean);
   }
-  PlaneContact surface;
-  for (const auto& [node, area] : areas) {
-    surface.nodes.push_back(node);
-    surface.areas.push_back(area);
+  return of_nodes(areas);
+}
+
+PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& faces) {
+  std::map<int, double> areas;
+  for (int face = 0; face < faces.size(); ++face) {
+    const auto own = faces.cell(face);
+    Eigen::Matrix<double, 3, 6> x;
+    for (int a = 0; a < 6; ++a)
+      x.col(a) = mesh.nodes[static_cast<std::size_t>(own[static_cast<std::size_t>(a)])];
+    Eigen::Vector<double, 6> share = Eigen::Vector<double, 6>::Zero();
+    for (const TrianglePoint& at : triangle_rule(6)) {
+      const Eigen::Matrix<double, 3, 2> slope = x * shape_gradients<6>(at.xi, at.eta);
+      share += at.weight * slope.col(0).cross(slope.col(1)).norm() * shape_values<6>(at.xi, at.eta);
+    }
+    for (int a = 0; a < 6; ++a)
+      areas[own[static_cast<std::size_t>(a)]] += std::max(share[a], least_share * share.sum() / 6);
   }
-  return surface;
+  return of_nodes(areas);
 }
 
 std::unique_ptr<ElementBlock> make_plane_contact_block(const meshing::Mesh& mesh, PlaneContact contact) {

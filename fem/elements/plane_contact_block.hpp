@@ -29,6 +29,10 @@ struct PlaneContact {
 PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sides,
                         std::optional<double> width);
 
+/// The surface that faces of solids in space make, 6-node triangles: each node stands for the integral of its
+/// shape function (corners for next to nothing).
+PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& faces);
+
 /// Keeps the nodes of a surface above a rigid plane by a barrier; states with a node on the plane or below
 /// are not feasible. No adhesion.
 ///

@@ -107,6 +107,30 @@ TEST_F(Contacts, refuse_walls_that_touch_as_drawn) {
   EXPECT_THROW(build_device(read(honeycomb(63, contact))), meshing::MeshError);
 }
 
+/// In space: its weight, and with friction less stretch.
+TEST_F(Contacts, block_in_space_lies_on_a_table) {
+  const auto block = [&](const std::string& friction, const std::string& supports) {
+    std::string text = slab(supports + weight_and_voltage, friction);
+    text.replace(text.find("height = \"1 mm\""), 15, "height = \"1 mm\"\nwidth = \"10 mm\"");
+    text.replace(text.find("width = \"10 mm\""), 16, "");
+    text.replace(text.find("across = 2"), 10, "across = 1");
+    return "model = \"3d\"\n" + text;
+  };
+  const auto held = [](const char* place, const char* axis) {
+    return fmt::format("[[support]]\nplace = \"{}\"\nfix = [\"{}\"]\n", place, axis);
+  };
+  EXPECT_THROW(read(block("0", held("left", "x"))), CaseError);
+  const auto free = values(block("0", held("left", "x") + held("back", "z")));
+  EXPECT_NEAR(free.at("weight"), 1e-3, 1e-7);
+  // Free along x and z: mu (l^2 - 1/l^4) = eps (l^2 E)^2.
+  const double l = 1 + free.at("length"), field = 10e3 / 1e-3;
+  EXPECT_NEAR(40e3 * (l * l - std::pow(l, -4)), 4e-11 * std::pow(l, 4) * field * field,
+              0.01 * 4e-11 * field * field);
+  const auto rough = values(block("0.5", ""));
+  EXPECT_NEAR(rough.at("weight"), 1e-3, 1e-6);
+  EXPECT_GT(rough.at("heat"), 0);
+}
+
 /// A block, and one half as long above it, whose back is moved down by 0.1 mm; the gap in mm. `up`: y, of
 /// revolution z.
 std::string two_blocks(double gap, char up = 'y',

@@ -19,6 +19,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <cmath>
+#include <set>
 #include <vector>
 
 namespace dielast::post {
@@ -324,6 +325,22 @@ TEST_F(VtkSeriesTest, AFullDiskIsReportedAndKeepsTheSeriesReadable) {
   EXPECT_EQ(file_count(), 4u);
   steps.write({1, "voltage"}, state()); // room again
   EXPECT_EQ(read("run_film_0001.vtu")->GetNumberOfCells(), 2);
+}
+
+TEST_F(VtkSeriesTest, ContactPressuresAreThoseOfTheNodes) {
+  std::vector<double> pressure(mesh.nodes.size());
+  for (std::size_t n = 0; n < pressure.size(); ++n) pressure[n] = 100.0 * static_cast<double>(n);
+  VtkSeries written = series();
+  written.write({0, "voltage", 1}, {displacement, rotation, samples, pressure});
+  const auto grid = read("run_film_0000.vtu");
+  auto* array = grid->GetPointData()->GetArray("contact_pressure [Pa]");
+  ASSERT_NE(array, nullptr);
+  const auto film = mesh.film()->nodes;
+  const std::set<int> nodes(film.begin(), film.end());
+  ASSERT_EQ(array->GetNumberOfTuples(), std::ssize(nodes));
+  vtkIdType point = 0;
+  for (const int node : nodes) EXPECT_EQ(array->GetTuple1(point++), 100.0 * node);
+  EXPECT_EQ(read("run_walls_0000.vtu")->GetPointData()->GetArray("contact_pressure [Pa]"), nullptr);
 }
 
 } // namespace
