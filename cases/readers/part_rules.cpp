@@ -161,8 +161,6 @@ void check_solid(SectionReader& reader, const Node& tree, const Case& one, const
   if (std::ranges::any_of(one.steps, &Step::inertia))
     report("section", "solids move without inertia; of small vibrations ask in steps of kind \"modes\" and "
                       "\"harmonic\"");
-  if (is_linearised(one) && !film.material.branches.empty())
-    report("material", "the branches of solids have no harmonic response");
   if (std::ranges::any_of(one.steps,
                           [](const Step& step) { return step.on_instability == OnInstability::jump; }))
     report("section", "solids do not jump: on_instability = \"stop\" or \"follow\"");

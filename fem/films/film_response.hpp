@@ -104,7 +104,7 @@ class FilmResponse {
       const materials::Internal now = read(state.history->now, place(point, b));
       if (!is_relaxed(branch, at, now))
         throw std::domain_error("branches cannot be linearised while their dashpots flow");
-      const RelaxationSpectrum spectrum = relaxation_spectrum(branch, at, now);
+      const RelaxationSpectrum<3> spectrum = relaxation_spectrum(branch, at, now);
       for (int j = 0; j < spectrum.count; ++j) {
         const auto& [w, rate] = spectrum.element[static_cast<std::size_t>(j)];
         const double factor = weight(rate);

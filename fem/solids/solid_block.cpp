@@ -267,19 +267,19 @@ Evaluation SolidBlock<Element>::evaluate(const State& state, int first, int last
   return result;
 }
 
-/// Consistent; of tetrahedra with right sums of rows only, which is what weights are made of.
 template<class Element>
 void SolidBlock<Element>::add_mass(int element, std::span<double> packed) const {
-  for (int p = 0; p < points; ++p) {
-    const Eigen::Vector<double, nodes> shape = Element::template shape<nodes>(p);
-    const double mass = part(element).response.material().density * point(element, p).volume;
+  const double density = part(element).response.material().density;
+  const auto volume = [&](int p) { return point(element, p).volume; };
+  Element::for_each_mass(volume, [&](const Eigen::Vector<double, nodes>& shape, double stands_for) {
+    const double mass = density * stands_for;
     for (int a = 0; a < nodes; ++a)
       for (int b = 0; b <= a; ++b)
         for (int i = 0; i < dim; ++i) {
           const int row = nodes * i + a, column = nodes * i + b;
           packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] += mass * shape[a] * shape[b];
         }
-  }
+  });
 }
 
 template class SolidBlock<SolidTriangle>;

@@ -35,6 +35,11 @@ struct SolidTriangle {
   static Eigen::Matrix<double, nodes, dim> slope(int point) {
     return shape_gradients<nodes>(at(point).xi, at(point).eta);
   }
+  /// use(shape functions, volume): a rule for products of shape functions, made of what the points stand for.
+  template<class Volume, class Use>
+  static void for_each_mass(const Volume& volume, const Use& use) {
+    for (int p = 0; p < points; ++p) use(shape<nodes>(p), volume(p));
+  }
 };
 
 /// 10-node tetrahedra, integrated with degree 2: what quadratic displacements need for their full order.
@@ -49,6 +54,14 @@ struct SolidTetrahedron {
   }
   static Eigen::Matrix<double, nodes, dim> slope(int point) {
     return tetrahedron_slope<nodes>(at(point).local);
+  }
+  template<class Volume, class Use>
+  static void for_each_mass(const Volume& volume, const Use& use) {
+    for (const TetrahedronMassPoint& at : tetrahedron_mass_rule()) {
+      double whole = 0;
+      for (int p = 0; p < points; ++p) whole += at.share[static_cast<std::size_t>(p)] * volume(p);
+      use(at.shape, whole);
+    }
   }
 };
 

@@ -4,9 +4,9 @@
 
 #include <Eigen/LU>
 
+#include <array>
 #include <limits>
 #include <span>
-#include <stdexcept>
 
 namespace dielast::fem {
 
@@ -127,9 +127,26 @@ void SolidBlock<Element>::add_energies(const State& state, EnergyParts& parts) c
 }
 
 template<class Element>
-void SolidBlock<Element>::add_relaxation(const State& /*state*/, const RateWeight& /*weight*/,
-                                         const Scatter& /*scatter*/) const {
-  if (history_size() > 0) throw std::domain_error("the branches of solids cannot be linearised");
+void SolidBlock<Element>::add_relaxation(const State& state, const RateWeight& weight,
+                                         const Scatter& scatter) const {
+  if (history_size() == 0) return;
+  std::array<double, dofs*(dofs + 1) / 2> packed;
+  const int used = dofs_per_element();
+  for (int e = 0; e < count_; ++e) {
+    const ElementState now = at(state, e);
+    Sums sums(materials::Derivatives::second);
+    for (int p = 0; p < points; ++p) {
+      const Point& here = point(e, p);
+      const Eigen::Matrix3d F = now.deformation(here);
+      add_point(here, F, part(e).response.relaxation(state, place(e, p), F.transpose() * F, weight), sums,
+                materials::Derivatives::second);
+    }
+    sums.add_stiffness();
+    std::size_t k = 0;
+    for (int i = 0; i < used; ++i)
+      for (int j = 0; j <= i; ++j) packed[k++] = sums.second(i, j);
+    scatter.add_tangent(e, std::span(packed).first(k));
+  }
 }
 
 template<class Element>

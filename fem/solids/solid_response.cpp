@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/solids/solid_response.hpp"
 
+#include "fem/model/relaxation.hpp"
 #include "materials/laws/solid_field.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace dielast::fem {
 
@@ -67,6 +69,37 @@ SolidDensity SolidResponse::potential(const State& state, int point, const Eigen
     density.in_Cp = -J.first;
     density.in_pp = -compliance_;
     if (second) density.in_CC -= p * J.second;
+  }
+  return density;
+}
+
+SolidDensity SolidResponse::relaxation(const State& state, int point, const Eigen::Matrix3d& C,
+                                       const RateWeight& weight) const {
+  constexpr double still = 1e-4; // of internal variables, which are of order one
+  SolidDensity density;
+  density.in_C.setZero();
+  density.in_E.setZero();
+  density.in_CC.setZero();
+  density.in_Cp.setZero();
+  density.in_CE.setZero();
+  density.in_EE.setZero();
+  for (int b = 0; b < branches(); ++b) {
+    const auto& branch = material_.branches[static_cast<std::size_t>(b)];
+    const materials::SolidInternal now = read(state.history->now, place(point, b));
+    const materials::SolidInternal rest =
+        materials::solid_branch_advance(branch, C, materials::TimeScheme::relaxed(), now, {});
+    for (std::size_t i = 0; i < now.size(); ++i)
+      if (std::abs(rest[i] - now[i]) > still * std::max(1.0, std::abs(now[i])))
+        throw std::domain_error("branches cannot be linearised while their dashpots flow");
+    const RelaxationSpectrum<6> spectrum =
+        relaxation_spectrum<6>(branch, [&](const materials::TimeScheme& scheme) {
+          return Eigen::Matrix<double, 6, 6>(
+              materials::solid_branch_potential(branch, C, scheme, now, {}).second);
+        });
+    for (int j = 0; j < spectrum.count; ++j) {
+      const auto& [w, rate] = spectrum.element[static_cast<std::size_t>(j)];
+      density.in_CC += weight(rate) * w * w.transpose();
+    }
   }
   return density;
 }

@@ -38,6 +38,10 @@ class SolidResponse {
   /// The part of the field alone, -(eps/2) J E0 . C^-1 E0.
   SolidDensity electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0,
                         materials::Derivatives wanted = materials::Derivatives::second) const;
+  /// What relaxed branches resist besides that, by C alone: sum_j weight(rate_j) w_j w_j^T, see
+  /// relaxation_spectrum(). Throws std::domain_error where their dashpots flow.
+  SolidDensity relaxation(const State& state, int point, const Eigen::Matrix3d& C,
+                          const RateWeight& weight) const;
   /// Densities, per undeformed volume; `electric` stays 0: it follows from the charges.
   EnergyParts energies(const State& state, int point, const Eigen::Matrix3d& C, double p) const;
   const materials::Material& material() const { return material_; }

@@ -71,4 +71,38 @@ Eigen::Matrix<double, 10, 3> tetrahedron_slope<10>(const Eigen::Vector3d& local)
   return slope;
 }
 
+const std::array<TetrahedronMassPoint, 15>& tetrahedron_mass_rule() {
+  static const std::array<TetrahedronMassPoint, 15> rule = [] {
+    std::array<TetrahedronMassPoint, 15> points{};
+    std::size_t count = 0;
+    // In barycentric coordinates; the four points of degree 2 lie at (far, near, near, near) and so on.
+    const std::array<TetrahedronPoint, 4>& four = tetrahedron_rule();
+    const double root = std::sqrt(5.0), near = (5 - root) / 20, far = (5 + 3 * root) / 20;
+    const auto add = [&](const Eigen::Vector4d& at, double weight) {
+      TetrahedronMassPoint& point = points.at(count++);
+      point.shape = tetrahedron_shape<10>(at.tail<3>());
+      for (std::size_t p = 0; p < 4; ++p)
+        point.share[p] = weight / four[p].weight * (at[static_cast<int>(p)] - near) / (far - near);
+    };
+    add(Eigen::Vector4d::Constant(0.25), 0.030283678097089182);
+    for (int i = 0; i < 4; ++i) {
+      Eigen::Vector4d on_face = Eigen::Vector4d::Constant(1.0 / 3),
+                      inside = Eigen::Vector4d::Constant(1.0 / 11);
+      on_face[i] = 0;
+      inside[i] = 8.0 / 11;
+      add(on_face, 27.0 / 4480);
+      add(inside, 0.011645249086028963);
+    }
+    constexpr double a = 0.066550153573664281;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < i; ++j) {
+        Eigen::Vector4d at = Eigen::Vector4d::Constant(0.5 - a);
+        at[i] = at[j] = a;
+        add(at, 0.010949141561386449);
+      }
+    return points;
+  }();
+  return rule;
+}
+
 } // namespace dielast::fem

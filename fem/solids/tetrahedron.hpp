@@ -16,6 +16,15 @@ struct TetrahedronPoint {
 /// The symmetric rule with 4 points, of degree 2.
 const std::array<TetrahedronPoint, 4>& tetrahedron_rule();
 
+/// A point of the rule with 15 points, of degree 5 (Keast 1986), which integrates products of quadratic shape
+/// functions. What lies at it is made of what lies at the four points of tetrahedron_rule(), the
+/// Jacobian being linear between them.
+struct TetrahedronMassPoint {
+  Eigen::Vector<double, 10> shape;
+  std::array<double, 4> share; ///< of their volumes; those of one add up to 1
+};
+const std::array<TetrahedronMassPoint, 15>& tetrahedron_mass_rule();
+
 /// Shape functions of a tetrahedron with 4 or 10 nodes (corners, then middles 01, 12, 20, 03, 13, 23).
 template<int Nodes>
 Eigen::Vector<double, Nodes> tetrahedron_shape(const Eigen::Vector3d& local);

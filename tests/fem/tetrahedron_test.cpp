@@ -201,5 +201,32 @@ TEST(Tetrahedron, column_buckles_at_eulers_loads) {
                             std::pow(std::numbers::pi * slenderness, 2) / 12);
 }
 
+/// Of a straight tetrahedron, over its mass: 1/70 at corners, 8/105 at middles, and so on (quadratic shape
+/// functions, integrated exactly).
+TEST(Tetrahedron, mass_is_consistent) {
+  double corners = 0, middles = 0, across = 0, opposite = 0, all = 0, apart = 0;
+  std::array<double, 4> shares{};
+  for (const TetrahedronMassPoint& at : tetrahedron_mass_rule()) {
+    double volume = 0;
+    for (std::size_t p = 0; p < 4; ++p) {
+      volume += at.share[p] / 4;
+      shares[p] += at.share[p];
+    }
+    corners += volume * at.shape[0] * at.shape[0];
+    middles += volume * at.shape[4] * at.shape[4];
+    across += volume * at.shape[0] * at.shape[1];
+    opposite += volume * at.shape[0] * at.shape[5];
+    all += volume * at.shape.sum() * at.shape.sum();
+    apart += volume * at.shape[4] * at.shape[9]; // middles of sides that do not meet
+  }
+  EXPECT_NEAR(corners, 6 / 420.0, 1e-14);
+  EXPECT_NEAR(middles, 32 / 420.0, 1e-14);
+  EXPECT_NEAR(across, 1 / 420.0, 1e-14);
+  EXPECT_NEAR(opposite, -6 / 420.0, 1e-14);
+  EXPECT_NEAR(apart, 8 / 420.0, 1e-14);
+  EXPECT_NEAR(all, 1, 1e-14);
+  for (const double share : shares) EXPECT_NEAR(share, 1, 1e-14);
+}
+
 } // namespace
 } // namespace dielast::fem
