@@ -160,6 +160,16 @@ TEST_F(Tetrahedra, refuse_what_solids_do_not_do) {
   expect_error([&] { read(vibrates("", "kind = \"transient\"\nduration = \"1 s\"\ninertia = true")); },
                "without inertia");
   EXPECT_NO_THROW(read(vibrates(branch, harmonic)));
+  EXPECT_NO_THROW(read(vibrates("", harmonic) + "[linearise]\norder = 2\n"));
+  expect_error(
+      [&] {
+        std::string solved = vibrates("", harmonic) +
+                             "[linearise]\norder = 2\n"
+                             "[[electrode]]\nname = \"film\"\nplace = \"top\"\nground = \"bottom\"\n";
+        solved.replace(solved.find("[film]"), 6, "[film]\nfield = \"potential\"");
+        read(solved);
+      },
+      "has no linear model");
   EXPECT_NO_THROW(read(vibrates(branch, "kind = \"modes\"")));
   expect_error(
       [&] {
