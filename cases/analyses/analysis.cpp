@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/analyses/analysis.hpp"
 
-#include "cases/analyses/positions.hpp"
 #include "cases/case/quantities.hpp"
+#include "cases/quantities/measurement.hpp"
 #include "fem/linear/modal.hpp"
+#include "fem/linear/rest.hpp"
 #include "fem/paths/instability.hpp"
 
 #include <fmt/format.h>
@@ -16,51 +17,6 @@ namespace dielast::cases {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-
-/// Change that counts as none, over what is of order one: internal variables, voltages, the extent.
-constexpr double still = 1e-4;
-
-bool flows(const fem::Model& model, const fem::State& state) {
-  if (!state.history) return false;
-  fem::State rest = state;
-  rest.scheme = materials::TimeScheme::relaxed();
-  const std::vector<double>& now = state.history->now;
-  const std::vector<double> end = model.advanced_history(rest)->now;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if (std::abs(end[i] - now[i]) > still * std::max(1.0, std::abs(now[i]))) return true;
-  return false;
-}
-
-bool conducts(fem::Equilibrium& equilibrium, const fem::State& state) {
-  if (state.sheet_drop.size() == 0) return false;
-  fem::State rest = state;
-  rest.scheme = materials::TimeScheme::relaxed();
-  equilibrium.conduct(rest);
-  double largest = 0;
-  for (std::size_t e = 0; e < equilibrium.model().electrodes.size(); ++e)
-    largest = std::max(largest, std::abs(state.voltage[e]));
-  largest = std::max(largest, state.sheet_drop.lpNorm<Eigen::Infinity>());
-  return (rest.sheet_drop - state.sheet_drop).lpNorm<Eigen::Infinity>() > still * largest;
-}
-
-/// Whether what has a mass would go on: to where its forces balance, and beyond as far as its kinetic energy
-/// carries it there.
-bool moves(fem::Equilibrium& equilibrium, const fem::State& state) {
-  if (!state.motion) return false;
-  const Eigen::Index free = equilibrium.model().dofs.free_count();
-  fem::State at = state;
-  fem::Balance balance;
-  equilibrium.balance(at, balance);
-  const Eigen::VectorXd velocity = state.motion->velocity.head(free);
-  const Eigen::VectorXd momentum = (equilibrium.model().inertia.mass * state.motion->velocity).head(free);
-  if (!equilibrium.factor(at)) return !momentum.isZero(0);
-  Eigen::VectorXd step, swing;
-  equilibrium.tangent().solve(-balance.force.head(free), step);
-  equilibrium.tangent().solve(momentum, swing);
-  const double kinetic = momentum.dot(velocity);                                               // twice
-  const double seconds = kinetic > 0 ? std::sqrt(std::abs(momentum.dot(swing)) / kinetic) : 0; // 1/omega
-  return equilibrium.step_size(step) + seconds * equilibrium.step_size(velocity) > still;
-}
 
 Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State state, const Step& step) {
   const std::vector<double> held = device.model.charges(state, false).charge;
@@ -189,15 +145,8 @@ std::vector<double> frequencies(const Sweep& sweep) {
   return all;
 }
 
-std::string unrest(fem::Equilibrium& equilibrium, const fem::State& state) {
-  if (flows(equilibrium.model(), state)) return "dashpots flow";
-  if (conducts(equilibrium, state)) return "current flows along an electrode";
-  if (moves(equilibrium, state)) return "the device moves";
-  return "";
-}
-
 void require_rest(fem::Equilibrium& equilibrium, const fem::State& state) {
-  if (const std::string found = unrest(equilibrium, state); !found.empty())
+  if (const std::string found = fem::unrest(equilibrium, state); !found.empty())
     throw AnalysisError(fmt::format(
         "small vibrations go about a state at rest, and here {}; let it come to rest before, by a "
         "hold, or take a step without a duration, with response = \"relaxed\"",
@@ -230,71 +179,6 @@ fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
     drive.source[static_cast<Eigen::Index>(port)] = 1;
   }
   return drive;
-}
-
-namespace {
-
-/// How a rotation vector goes with a small rotation that follows it, about axes that stay.
-Eigen::Matrix3d spin_per_turn(const Eigen::Vector3d& spin) {
-  const double angle = spin.norm();
-  Eigen::Matrix3d cross;
-  cross << 0, -spin.z(), spin.y(), spin.z(), 0, -spin.x(), -spin.y(), spin.x(), 0;
-  const double factor =
-      angle < 1e-3 ? 1.0 / 12 : 1 / (angle * angle) - (1 + std::cos(angle)) / (2 * angle * std::sin(angle));
-  return Eigen::Matrix3d::Identity() - cross / 2 + factor * cross * cross;
-}
-
-} // namespace
-
-Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::State& state,
-                             const Quantity& quantity) {
-  const fem::DofMap& dofs = device.model.dofs;
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(dofs.count());
-  if (quantity.kind == QuantityKind::angle) {
-    const int master = device.mesh.node_sets.at(quantity.of).front();
-    const Eigen::Matrix3d turns =
-        spin_per_turn(fem::spin_of(state.rotation[static_cast<std::size_t>(master)]));
-    for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(master, 3 + c); e != fem::DofMap::absent)
-        row[e] = turns(*quantity.along, c);
-    return dofs.jacobian(state).transpose() * row;
-  }
-  const auto add = [&](int node, const Eigen::Vector3d& gradient) {
-    for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent) row[e] += gradient[c];
-  };
-  const auto add_mean = [&](const std::string& place, const Eigen::Vector3d& gradient) {
-    const auto& nodes = device.mesh.node_sets.at(place);
-    for (const int node : nodes) add(node, gradient / static_cast<double>(nodes.size()));
-  };
-  if (quantity.kind == QuantityKind::distance) {
-    const auto apart = [&](const fem::State& at) -> Eigen::Vector3d {
-      return centroid(device.mesh, quantity.between[1], at) - centroid(device.mesh, quantity.between[0], at);
-    };
-    Eigen::Vector3d along = apart(state).normalized();
-    if (quantity.along) // positive as drawn
-      along = Eigen::Vector3d::Unit(*quantity.along) *
-              (apart(device.model.initial_state())[*quantity.along] < 0 ? -1 : 1);
-    add_mean(quantity.between[1], along);
-    add_mean(quantity.between[0], -along);
-  } else if (quantity.kind == QuantityKind::radius && one.dimension == fem::Dimension::axisymmetric) {
-    add_mean(quantity.of, Eigen::Vector3d::UnitX());
-  } else if (quantity.kind == QuantityKind::radius) {
-    const Eigen::Vector3d middle = centroid(device.mesh, quantity.of, state);
-    const auto& nodes = device.mesh.node_sets.at(quantity.of);
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const int node : nodes) {
-      const Eigen::Vector3d outwards =
-          (position(device.mesh, node, state) - middle).normalized() / static_cast<double>(nodes.size());
-      add(node, outwards);
-      sum += outwards;
-    }
-    add_mean(quantity.of, -sum); // the middle moves with the nodes
-  } else {
-    add_mean(quantity.of,
-             quantity.along == along_gravity ? one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along));
-  }
-  return dofs.jacobian(state).transpose() * row;
 }
 
 fem::State operating_point(const Device& device, fem::State state) {

@@ -39,18 +39,8 @@ inline constexpr std::string_view no_response = "nothing moves: a film feels the
 /// Equal ratios from the lowest to the highest frequency, Hz.
 std::vector<double> frequencies(const Sweep& sweep);
 
-/// That quantity as a row over the free equations.
-Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::State& state,
-                             const Quantity& quantity);
-
 /// The state that small vibrations go about: sources behind their circuits, branches relaxed.
 fem::State operating_point(const Device& device, fem::State state);
-
-/// What goes on in a state that is not at rest, so that no small vibration goes about it: dashpots that flow,
-/// by more than 1e-4 of their internal variables, which are of order one, until they rest at this shape;
-/// current along a sheet that will change its voltages by more than 1e-4 of the largest; what has a mass,
-/// which would go on by more than 1e-4 of the model's extent. Empty at rest.
-std::string unrest(fem::Equilibrium& equilibrium, const fem::State& state);
 
 /// Throws AnalysisError where the state is not at rest.
 void require_rest(fem::Equilibrium& equilibrium, const fem::State& state);

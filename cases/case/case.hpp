@@ -3,6 +3,7 @@
 
 #include "cases/case/bodies.hpp"
 #include "cases/case/part.hpp"
+#include "cases/case/quantity_kind.hpp"
 #include "cases/text/diagnostics.hpp"
 #include "cases/text/waveform.hpp"
 #include "fem/model/dofs.hpp"
@@ -186,80 +187,23 @@ struct Step {
   bool is_analysis() const { return kind == StepKind::modes || kind == StepKind::harmonic; }
 };
 
-enum class QuantityKind {
-  distance,
-  elongation,
-  stretch,
-  size,
-  growth,
-  displacement,
-  angle,
-  radius,
-  force,
-  film_force,
-  moment,
-  contact_force,
-  contact_pressure,
-  nominal_stress,
-  capacitance,
-  charge,
-  current,
-  pressure,
-  volume,
-  pumped_volume,
-  swelling,
-  stiffness,
-  coupling,
-  natural_frequency,
-  modal_stiffness,
-  radial_stretch,
-  energy,
-  value,
-  extreme,
-  fin_force,
-  thrust,
-  fin_power,
-  peak,
-  mean,
-  margin
-};
-
 /// Where gravity pulls, as a direction of a quantity.
 constexpr int along_gravity = 3;
-
-/// Whether it is about small vibrations.
-constexpr bool is_of_vibration(QuantityKind kind) {
-  return kind == QuantityKind::natural_frequency || kind == QuantityKind::modal_stiffness;
-}
-
-/// A value that another quantity's course has, not the state alone.
-constexpr bool is_of_course(QuantityKind kind) {
-  return kind == QuantityKind::peak || kind == QuantityKind::mean;
-}
-
-/// Elongation is the relative change of a distance, growth that of a size.
-constexpr bool is_relative(QuantityKind kind) {
-  return kind == QuantityKind::elongation || kind == QuantityKind::growth;
-}
 
 /// [[quantity]]: a number of the state, in every row of history.csv and in summary.json
 struct Quantity {
   std::string name;
-  QuantityKind kind{};
-  std::array<std::string, 2> between; ///< distance, elongation, stretch: two places (their centroids)
-  std::string of; ///< size, growth, displacement, radius, force, film_force, nominal_stress, stiffness,
-                  ///< radial_stretch: a place; contact_force, contact_pressure: a surface, or empty;
-                  ///< capacitance, charge, current: an electrode; value, extreme: a field; fin_force, thrust,
-                  ///< fin_power: a fin; peak, mean: another quantity
-  std::optional<int> along;                   ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
-  std::string place;                          ///< value: over which it is the mean; coupling: where it pulls
-  std::optional<std::array<double, 3>> point; ///< value, displacement: instead of a place, as drawn, m
-  double length = 0;                          ///< coupling: of the electrode, m
-  int mode = 1; ///< natural_frequency, modal_stiffness: its number, from the lowest
+  const QuantityKind* kind = nullptr; ///< says which of these it has, and of what it is
+  std::array<std::string, 2> between; ///< two places (their centroids)
+  std::string of;                     ///< a place, an electrode, a body, a fin, a field, another quantity ...
+  std::optional<int> along;           ///< 0, 1, 2 = x, y, z, 3 = gravity (-z); absent: magnitude
+  std::string place;                  ///< over which it is the mean, or where it pulls
+  std::optional<std::array<double, 3>> point; ///< instead of a place, as drawn, m
+  double length = 0;                          ///< of an electrode, m
+  int mode = 1;                               ///< of vibrations, its number, from the lowest
   post::Extreme extreme{};
-  std::string at;    ///< the step at whose end summary.json reads it; empty: the last
-  std::string since; ///< elongation, growth, displacement: the step at whose end it is zero; empty: the mesh
-                     ///< as drawn; mean: the step at whose end it begins; empty: with the run
+  std::string at;        ///< the step at whose end summary.json reads it; empty: the last
+  std::string since;     ///< the step at whose end it is zero or begins; empty: the mesh as drawn, or the run
   bool standard = false; ///< brought by the geometry's template, not written by the user
 };
 
@@ -370,6 +314,11 @@ struct Case {
   bool any_geometry() const {
     return std::ranges::any_of(parts,
                                [](const Part& part) { return std::holds_alternative<T>(part.geometry); });
+  }
+
+  /// Whether contact is looked for at this place: a surface, or what lies on the [table].
+  bool may_touch(const std::string& place) const {
+    return (contact && std::ranges::count(contact->between, place) > 0) || (table && table->place == place);
   }
 
   /// Where the key of this path stands, or the file as a whole.

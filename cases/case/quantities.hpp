@@ -15,12 +15,13 @@ std::string unit_of(const Quantity& quantity, const std::vector<Quantity>& all);
 /// A quantity in words, for a person who did not write the case.
 std::string meaning_of(const Quantity& quantity);
 
-/// Whether it is read from the film's integration points at a place.
-bool reads_film(QuantityKind kind);
-
-/// Quantity of kind displacement or angle by which a linear model responds: the named one, or the first
-/// displacement with a direction, or the first angle; null when there is none.
+/// Quantity by which a linear model responds: the named one, or the first of the first kind of those with a
+/// gradient; null when there is none.
 const Quantity* response_quantity(const Case& one, const std::string& name);
+
+/// The kinds with a gradient in quotes, with `directed` behind those that need a direction:
+/// "displacement", "angle" ... or "distance".
+std::string response_kinds(const std::string& directed = "");
 
 /// Column of an electrode's voltage; of its number.
 std::string voltage_name(const Case& one, std::size_t electrode);

@@ -7,6 +7,7 @@
 #include "cases/fits/rational.hpp"
 #include "cases/manual/describe.hpp"
 #include "cases/manual/json_schema.hpp"
+#include "cases/quantities/measurement.hpp"
 #include "cases/readers/fit_reader.hpp"
 #include "cases/readers/identify_reader.hpp"
 #include "cases/readers/reader.hpp"
@@ -40,6 +41,7 @@ ExitCode run(const Arguments& arguments) {
 ExitCode check(const Arguments& arguments) {
   const cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
   const cases::Device device = cases::build_device(one);
+  const cases::Measurement measurable(one, device); // or says what is not
   const auto quality = meshing::quality(device.mesh);
   for (const cases::Diagnostic& warning : one.warnings) cases::say(stderr, "{}\n", warning.text());
   for (const std::string& warning : device.warnings) cases::say(stderr, "{}\n", warning);

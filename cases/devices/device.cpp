@@ -23,18 +23,6 @@ namespace dielast::cases {
 
 namespace {
 
-/// A stretch is measured against the prestretch of the film between its places, which must have one.
-void require_one_prestretch(const Case& one, const Device& device) {
-  for (const Quantity& quantity : one.quantities)
-    if (quantity.kind == QuantityKind::stretch &&
-        !prestretch_between(one, device, quantity.between, *quantity.along))
-      throw CaseError(
-          {{{one.source.string()},
-            "quantity.between",
-            fmt::format("quantity \"{}\": \"{}\" and \"{}\" have no film of one prestretch in common",
-                        quantity.name, quantity.between[0], quantity.between[1])}});
-}
-
 /// Says which [[load]] cannot act.
 [[noreturn]] void reject_load(const Case& one, std::size_t number, const std::string& reason) {
   const std::string load = fmt::format("load[{}].", number + 1);
@@ -377,7 +365,6 @@ Device build_device(const Case& one) {
   device.bears_compression = !one.any_film([](const Film& f) { return f.section == FilmSection::membrane; });
   device.solid = of_solid;
   device.bars = bars(one, device.mesh);
-  require_one_prestretch(one, device);
   device.fins = std::move(fins);
   device.warnings = std::move(warnings);
   return device;

@@ -105,8 +105,8 @@ Condition weight() {
 
 Condition masses_matter() {
   return on_case("inertia, a step of kind \"modes\" or \"harmonic\", or a weight", [](const Case& one) {
-    const bool vibrates = std::ranges::any_of(
-        one.quantities, [](const Quantity& quantity) { return is_of_vibration(quantity.kind); });
+    const bool vibrates =
+        std::ranges::any_of(one.quantities, [](const Quantity& quantity) { return quantity.kind->vibrates; });
     return vibrates || has_inertia(one) || is_linearised(one) || has_step(one, {StepKind::modes}) ||
            (one.gravity.film && has_step(one, {StepKind::weight}));
   });

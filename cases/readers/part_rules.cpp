@@ -102,7 +102,7 @@ void check_shell(SectionReader& reader, const Node& top, const Case& one, const 
   if (!part.film || part.film->section != FilmSection::shell) return;
   const Node* film = top.find("film");
   const Node* written = film->find("section");
-  const auto report = [&](const char* message) {
+  const auto report = [&](const std::string& message) {
     reader.report(written ? written->source : film->source, key_of(part, "film.section"),
                   fmt::format("found \"shell\": {}", message));
   };
@@ -114,11 +114,11 @@ void check_shell(SectionReader& reader, const Node& top, const Case& one, const 
   if (part.film->tension_field) report("it buckles instead of wrinkling: leave out film.wrinkling");
   if (part.rolled()) report("a rod pulls along itself only");
   if (std::holds_alternative<Patch>(part.geometry)) report("a patch stays flat");
-  if (std::ranges::any_of(one.quantities, [](const Quantity& quantity) {
-        return quantity.kind == QuantityKind::value || quantity.kind == QuantityKind::radial_stretch;
-      })) // those of a case with a [plate] are among the standard ones
-    report("quantities of kind \"value\" and \"radial stretch\", of which a [plate] brings some, are of "
-           "membranes");
+  const auto of_membranes = std::ranges::find_if(
+      one.quantities, [](const Quantity& quantity) { return !quantity.kind->of_shells; });
+  if (of_membranes != one.quantities.end()) // those of a case with a [plate] are among the standard ones
+    report(fmt::format("quantities of kind \"{}\", of which a [plate] brings some, are of membranes",
+                       of_membranes->kind->word));
 }
 
 /// What a solid needs of its case and its mesh.
@@ -167,8 +167,7 @@ void check_solid(SectionReader& reader, const Node& tree, const Case& one, const
                           [](const Step& step) { return step.on_instability == OnInstability::jump; }))
     report("section", "solids do not jump: on_instability = \"stop\" or \"follow\"");
   for (const Quantity& quantity : one.quantities)
-    if (quantity.kind == QuantityKind::nominal_stress || quantity.kind == QuantityKind::radial_stretch ||
-        quantity.kind == QuantityKind::stretch)
+    if (!quantity.kind->of_solids)
       report("section",
              fmt::format("quantity \"{}\" is of films that are membranes or shells", quantity.name));
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {

@@ -16,11 +16,6 @@ std::size_t written_items(const Node& list) {
       std::ranges::count_if(list.items, [](const Node& item) { return item.source.is_written(); }));
 }
 
-bool may_touch(const Case& one, const std::string& place) {
-  return (one.contact && std::ranges::count(one.contact->between, place) > 0) ||
-         (one.table && one.table->place == place);
-}
-
 /// A state is read at the end of a step that leads to one.
 void check_step_with_end(SectionReader& reader, const Case& one, const Node* written, const std::string& key,
                          const std::string& step) {
@@ -32,20 +27,6 @@ void check_step_with_end(SectionReader& reader, const Case& one, const Node* wri
                               step));
 }
 
-/// What touches must be there, and of a named surface something must be able to touch it.
-void check_contact_quantity(SectionReader& reader, const Source& source, const std::string& key,
-                            const Case& one, const Quantity& quantity) {
-  const bool pressure = quantity.kind == QuantityKind::contact_pressure;
-  if (quantity.kind != QuantityKind::contact_force && !pressure) return;
-  if (!one.contact) return reader.report(source, key, "nothing touches; add [contact]");
-  if (pressure && one.contact->between.empty() && !one.table && !one.geometry<Roll>())
-    reader.report(source, key, "the walls of a lattice touch along lines: ask for the contact force");
-  if (!quantity.of.empty() && !may_touch(one, quantity.of))
-    reader.report(source, key + ".of",
-                  fmt::format("found \"{}\": it is neither one of contact.between nor lies on the [table]",
-                              quantity.of));
-}
-
 /// What is measured must be there.
 void check_quantities(SectionReader& reader, const Node& tree, const Case& one) {
   const Node* list = tree.find("quantity");
@@ -55,19 +36,11 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
     const Quantity& quantity = one.quantities[q];
     const Source& source = list->items[q].source;
     const std::string key = fmt::format("quantity[{}]", q - standard + 1);
-    const bool of_chamber = quantity.kind == QuantityKind::pressure ||
-                            quantity.kind == QuantityKind::volume ||
-                            quantity.kind == QuantityKind::pumped_volume;
-    if (of_chamber && !one.chamber) reader.report(source, key, "there is no chamber; add [chamber]");
-    if (quantity.kind == QuantityKind::current && !one.circuits.contains(quantity.of))
-      reader.warn(source, key,
-                  "has no value here: the current is that through a [circuit], and there is none");
-    if ((quantity.kind == QuantityKind::angle || quantity.kind == QuantityKind::moment) &&
-        one.dimension == fem::Dimension::axisymmetric)
-      reader.report(source, key, "in a model of revolution bodies move along z alone, and do not turn");
-    check_contact_quantity(reader, source, key, one, quantity);
-    if (is_of_vibration(quantity.kind) && !has_mass(one))
-      reader.warn(source, key, "has no value here: nothing has a mass");
+    const QuantityKind& kind = *quantity.kind;
+    if (const std::string wrong = kind.refusal ? kind.refusal(one, quantity) : ""; !wrong.empty())
+      reader.report(source, key, wrong);
+    if (const std::string idle = kind.idle ? kind.idle(one, quantity) : ""; !idle.empty())
+      reader.warn(source, key, idle);
     check_step_with_end(reader, one, list->items[q].find("at"), key + ".at", quantity.at);
     check_step_with_end(reader, one, list->items[q].find("since"), key + ".since", quantity.since);
   }
@@ -75,7 +48,7 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
   for (std::size_t p = 0; p < one.profiles.size(); ++p) {
     check_step_with_end(reader, one, list->items[p].find("since"), fmt::format("profile[{}].since", p + 1),
                         one.profiles[p].since);
-    if (one.profiles[p].kind == ProfileKind::contact_pressure && !may_touch(one, one.profiles[p].of))
+    if (one.profiles[p].kind == ProfileKind::contact_pressure && !one.may_touch(one.profiles[p].of))
       reader.report(list->items[p].source, fmt::format("profile[{}].of", p + 1),
                     fmt::format("found \"{}\": it is neither one of contact.between nor lies on the [table]",
                                 one.profiles[p].of));

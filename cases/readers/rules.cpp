@@ -177,10 +177,8 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
     if (one.electrodes.empty())
       reader.report(at.source, at.key, "there is no electrode whose source could swing");
     if (!response_quantity(one, step.response_of))
-      reader.report(
-          at.source, at.key + ".response_of",
-          "needs a quantity of kind \"displacement\" with a direction (along), \"angle\", \"radius\" or "
-          "\"distance\"");
+      reader.report(at.source, at.key + ".response_of",
+                    "needs a quantity of kind " + response_kinds(" with a direction (along)"));
   }
 }
 

@@ -41,7 +41,7 @@ void note(Solution& solution, const post::StepRecord& record) {
 
 /// The quantity, or the one whose course it follows.
 const Quantity& measured(const Quantity& quantity, const std::vector<Quantity>& all) {
-  return is_of_course(quantity.kind) ? *std::ranges::find(all, quantity.of, &Quantity::name) : quantity;
+  return quantity.kind->so_far ? *std::ranges::find(all, quantity.of, &Quantity::name) : quantity;
 }
 
 void add_results(Solution& solution, const Case& one, const Simulation& simulation) {
@@ -51,7 +51,7 @@ void add_results(Solution& solution, const Case& one, const Simulation& simulati
   const post::Extremes extremes(samples);
   for (const Quantity& each : one.quantities) {
     const Quantity& quantity = measured(each, one.quantities);
-    const auto extremum = quantity.kind == QuantityKind::extreme && each.at.empty()
+    const auto extremum = quantity.kind->extreme && each.at.empty()
                               ? extremes.find(quantity.of, quantity.extreme)
                               : std::nullopt;
     solution.rises.push_back(extremum ? post::rise_at(*extremum, samples, device.mesh, quantity.of) : 0);
@@ -107,23 +107,14 @@ bool has_fringes(const Case& one) {
 
 /// Orders that the elements may have, measured on the cases of docs/verification.md.
 OrderRange orders_of(const Quantity& quantity, const Case& one, bool smooth) {
-  switch (quantity.kind) {
-  case QuantityKind::extreme:
-    return {0.5, 1};
-  case QuantityKind::peak:
-    return {1, 1}; // read at some times only
-  case QuantityKind::size:
-  case QuantityKind::growth:
-    return {1, 2}; // whichever node is outermost
-  default:
-    if (has_fringes(one)) return {0.5, 1};
-    if (reads_film(quantity.kind)) return {0.5, 2}; // in the elements next to a place
-    return {1, smooth && !takes_time(one) ? 3.0 : 2.0};
-  }
+  const QuantityKind& kind = *quantity.kind;
+  if (has_fringes(one) && (kind.fields || !kind.orders)) return {0.5, 1};
+  if (kind.orders) return {(*kind.orders)[0], (*kind.orders)[1]};
+  return {1, smooth && !takes_time(one) ? 3.0 : 2.0};
 }
 
 int direction_of(const Quantity& quantity) {
-  if (quantity.kind != QuantityKind::extreme) return 0;
+  if (!quantity.kind->extreme) return 0;
   return quantity.extreme == post::Extreme::maximum ? 1 : -1;
 }
 
@@ -160,7 +151,7 @@ std::vector<EventRemark> event_remarks(const Case& one, const Solution& own,
   for (const Threshold& threshold : thresholds)
     for (std::size_t q = 0; q < one.quantities.size(); ++q) {
       const Quantity& quantity = one.quantities[q];
-      if (quantity.kind != QuantityKind::extreme || quantity.of != threshold.field ||
+      if (!quantity.kind->extreme || quantity.of != threshold.field ||
           quantity.extreme != threshold.extreme || !quantity.at.empty() || !std::isfinite(own.values[q]) ||
           (one.any_film([](const Film& film) { return film.tension_field; }) &&
            threshold.kind == "loss of tension"))
@@ -230,9 +221,10 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
     ErrorEstimate& estimate = estimates.quantities.emplace_back();
-    if (quantity.kind == QuantityKind::energy && quantity.of == "error") {
-      estimate.remark = "an error itself";
-    } else if (quantity.kind == QuantityKind::extreme && has_fringes(one)) {
+    const auto without = quantity.kind->without_error;
+    if (const std::string remark = without ? without(quantity) : ""; !remark.empty()) {
+      estimate.remark = remark;
+    } else if (quantity.kind->extreme && has_fringes(one)) {
       estimate.singular = true;
       estimate.remark = "singular where an electrode ends: no converged value";
     } else {

@@ -185,9 +185,7 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
   if (one.electrodes.empty() || !response_quantity(one, one.linearise.output))
     throw CaseError({{{one.source.string()},
                       "linearise",
-                      "needs an electrode and a quantity of kind \"displacement\" with a direction, "
-                      "\"angle\", \"radius\" or "
-                      "\"distance\""}});
+                      "needs an electrode and a quantity of kind " + response_kinds(" with a direction")}});
   post::ResultsFolder folder(settings.directory, "linearise");
   folder.begin();
   Simulation simulation(one, settings.threads);

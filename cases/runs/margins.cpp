@@ -27,8 +27,7 @@ double extreme_of(const Case& one, const std::vector<double>& values, const char
                   post::Extreme which) {
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
-    if (quantity.kind == QuantityKind::extreme && quantity.of == field && quantity.extreme == which &&
-        quantity.at.empty())
+    if (quantity.kind->extreme && quantity.of == field && quantity.extreme == which && quantity.at.empty())
       return values[q];
   }
   return unknown;

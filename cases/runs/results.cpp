@@ -34,7 +34,7 @@ const char* word(Ending ending) {
 }
 
 post::Ratio ratio_of(const Quantity& quantity) {
-  return is_relative(quantity.kind) ? post::Ratio::percent : post::Ratio::plain;
+  return quantity.kind->relative ? post::Ratio::percent : post::Ratio::plain;
 }
 
 std::string meshing_summary(const Device& device) {
@@ -121,7 +121,7 @@ std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vec
     for (const auto& row : journal.values)
       if (std::isfinite(row[q])) size = std::max(size, std::abs(row[q]));
     const auto scaled = post::scaled_unit(size, unit_of(quantity, one.quantities), ratio_of(quantity));
-    const bool strain = is_relative(quantity.kind);
+    const bool strain = quantity.kind->relative;
     post::Series series{.label = quantity.name,
                         .style = records.size() > 100 ? post::Series::Style::line
                                                       : post::Series::Style::line_and_points};
@@ -207,7 +207,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                           .unit = unit_of(quantity, one.quantities),
                           .ratio = ratio_of(quantity),
                           .meaning = meaning_of(quantity)};
-    if (quantity.kind == QuantityKind::margin) {
+    if (quantity.kind->of_run) {
       const auto margin = std::ranges::find(results.margins, quantity.of, &Margin::limit);
       if (margin != results.margins.end()) {
         row.value = margin->factor.value_or(std::numeric_limits<double>::quiet_NaN());

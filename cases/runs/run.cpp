@@ -99,11 +99,11 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
                                    frame.record.iterations, frame.record.iterations == 1 ? " " : "s");
     for (std::size_t q = 0; q < std::min<std::size_t>(frame.values.size(), 2); ++q)
       if (std::isfinite(frame.values[q]))
-        line += fmt::format(
-            "   {} {}", one.quantities[q].name,
-            post::engineering(frame.values[q], unit_of(one.quantities[q], one.quantities),
-                              is_relative(one.quantities[q].kind) ? post::Ratio::percent : post::Ratio::plain,
-                              5));
+        line +=
+            fmt::format("   {} {}", one.quantities[q].name,
+                        post::engineering(
+                            frame.values[q], unit_of(one.quantities[q], one.quantities),
+                            one.quantities[q].kind->relative ? post::Ratio::percent : post::Ratio::plain, 5));
     log.info(line);
     for (const post::Event& event : frame.record.events)
       if (!is_critical(event.kind)) // told when they were located

@@ -80,6 +80,7 @@ void Simulation::enter(int step) {
   now_ = with_supports(case_, holding_);
   equilibrium_.reset();
   device_ = build_device(now_);
+  measurement_.prepare();
   equilibrium_.emplace(device_.model, threads_);
   frame_ = Renumbering(before, device_.model.dofs)(frame_);
   loads_.emplace(now_, device_, steps_, frame_);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/analyses/analysis.hpp"
-#include "cases/analyses/measurement.hpp"
+#include "cases/quantities/measurement.hpp"
 #include "cases/runs/step_run.hpp"
 #include "cases/runs/watch.hpp"
 #include "fem/paths/energy_balance.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/quantities.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/tables/sweep_keys.hpp"
 
@@ -117,8 +118,9 @@ Section step_section() {
           .otherwise("6")
           .only({"modes"}),
       text("response_of", to(&Step::response_of),
-           "quantity of kind \"displacement\", \"angle\", \"radius\" or \"distance\"; without it the first "
-           "displacement that has a direction, or the first angle, radius or distance")
+           "quantity of kind " + response_kinds() +
+               "; without it the first displacement that has a direction, or the first of the next kind that "
+               "there is")
           .optional()
           .refers_to(Reference::quantity)
           .only({"harmonic"}),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/analyses/measurement.hpp"
+#include "cases/quantities/measurement.hpp"
 #include "cases/readers/reader.hpp"
 #include "fem/equilibrium/equilibrium.hpp"
 #include "tests/cases/scratch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/analyses/film_values.hpp"
+#include "cases/quantities/film_values.hpp"
 
 #include "fem/films/meridian.hpp"
 #include "fem/films/triangle.hpp"
@@ -186,6 +186,20 @@ std::vector<FilmReading> readings_in(const std::string& place, const meshing::Me
         {cell, first, mesh.nodes[static_cast<std::size_t>(film.cell(cell)[0])], std::move(volume)});
   }
   return readings;
+}
+
+std::vector<char> film_at(const std::string& place, const meshing::Mesh& mesh) {
+  const meshing::CellBlock& film = *mesh.film();
+  std::vector<char> near(static_cast<std::size_t>(film.size()), 0);
+  if (const std::vector<int>* cells = mesh.cells_of(place, &film)) {
+    for (const int cell : *cells) near[static_cast<std::size_t>(cell)] = 1;
+    return near;
+  }
+  const auto& nodes = mesh.node_sets.at(place);
+  for (int cell = 0; cell < film.size(); ++cell)
+    near[static_cast<std::size_t>(cell)] = std::ranges::any_of(
+        film.cell(cell), [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); });
+  return near;
 }
 
 } // namespace dielast::cases

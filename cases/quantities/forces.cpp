@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/analyses/forces.hpp"
+#include "cases/quantities/forces.hpp"
 
 #include "fem/model/contact_block.hpp"
 

@@ -43,6 +43,9 @@ std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing
 std::vector<FilmReading> readings_in(const std::string& place, const meshing::Mesh& mesh,
                                      const fem::Samples& samples);
 
+/// Which triangles belong to a place: its own, or those with a node there.
+std::vector<char> film_at(const std::string& place, const meshing::Mesh& mesh);
+
 /// Mean of `value(sample, reading)`; NaN without readings.
 template<class Value>
 double mean(const std::vector<FilmReading>& readings, const fem::Samples& samples, Value&& value) {

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is read from the fields of the film.
+#include "cases/quantities/film_values.hpp"
+#include "cases/quantities/probing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+/// Scalars before the components of tensors, in messages too.
+std::vector<Choice> fields(bool of_film_alone) {
+  std::vector<Choice> all;
+  for (const post::Scalar& field : post::scalars())
+    if (!of_film_alone || field.part == post::Part::film)
+      all.emplace_back(field.name, std::string(field.meaning));
+  std::stable_partition(all.begin(), all.end(),
+                        [](const Choice& field) { return field.word.find('.') == std::string::npos; });
+  return all;
+}
+
+std::string unit_of_field(const Quantity& quantity, const std::vector<Quantity>&) {
+  for (const post::Scalar& field : post::scalars())
+    if (field.name == quantity.of) return std::string(field.unit);
+  return "1";
+}
+
+std::vector<Key> value_keys() {
+  return {word("of", fields(true), to(&Quantity::of), "the field"),
+          text("place", to(&Quantity::place),
+               "the place: a part of the film (mean by volume), or nodes (mean of what the elements continue "
+               "to them)")
+              .refers_to(Reference::place),
+          measure("point", "m", to(&Quantity::point), "the point of the film, as drawn")
+              .values(3, 3)
+              .replacing("place")};
+}
+
+std::string value_words(const Quantity& q) {
+  if (q.point)
+    return fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m as drawn{}", field_words(q), (*q.point)[0],
+                       (*q.point)[1], (*q.point)[2], at_words(q));
+  return fmt::format("mean {} at {}{}", field_words(q), q.place, at_words(q));
+}
+
+/// Where a value of a field is read.
+std::vector<FilmReading> readings_of(const Probing& probing) {
+  const Quantity& quantity = probing.quantity;
+  const Device& device = probing.device;
+  const char* key = quantity.point ? "point" : "place";
+  std::vector<FilmReading> readings;
+  if (quantity.point) {
+    readings = readings_at(Eigen::Vector3d(quantity.point->data()), device.mesh, probing.drawn);
+  } else {
+    readings = readings_in(quantity.place, device.mesh, probing.drawn);
+    if (!readings.empty()) return readings;
+    readings = readings_at(quantity.place, device.mesh, probing.drawn);
+  }
+  if (readings.empty()) probing.refuse(key, "there is no film; coordinates are those of the film as drawn");
+  const auto film = [&](const FilmReading& reading) {
+    return std::pair(device.film_parts[static_cast<std::size_t>(reading.cell)],
+                     probing.drawn.film[static_cast<std::size_t>(reading.first)].electrode);
+  };
+  for (const FilmReading& reading : readings)
+    if (film(reading) != film(readings[0]))
+      probing.refuse(
+          key, "the edge of an electrode or of a film is there, where a field has two values; give a point "
+               "beside it, or a part of the film");
+  return readings;
+}
+
+Probe value(const Probing& probing) {
+  return [readings = readings_of(probing), &quantity = probing.quantity](const Measured& measured) {
+    return mean(readings, measured.samples, [&](const fem::MembraneSample& sample, const auto&) {
+      return post::film_value(sample, quantity.of);
+    });
+  };
+}
+
+Probe radial_stretch(const Probing& probing) {
+  return [readings = readings_at(probing.quantity.of, probing.device.mesh, probing.drawn)](
+             const Measured& measured) {
+    return mean(readings, measured.samples,
+                [](const fem::MembraneSample& sample, const FilmReading& reading) {
+                  return (sample.F * reading.drawn.head<2>().normalized()).norm();
+                });
+  };
+}
+
+Probe extreme(const Probing& probing) {
+  return [&quantity = probing.quantity](const Measured& measured) {
+    const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);
+    return extremum ? extremum->value : no_value;
+  };
+}
+
+} // namespace
+
+std::vector<QuantityKind> field_kinds() {
+  return {
+      {.word = "radial stretch",
+       .meaning = "stretch of the film along the radius, mean at an edge (-)",
+       .unit = "1",
+       .keys = [] { return std::vector<Key>{place_key()}; },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("stretch along the radius at {}{}", q.of, at_words(q));
+           },
+       .probe = radial_stretch,
+       .fields = true,
+       .of_shells = false,
+       .of_solids = false,
+       .orders = next_to_a_place},
+      {.word = "value",
+       .meaning = "of a field of the film: at a point, or its mean over a place",
+       .keys = value_keys,
+       .in_words = value_words,
+       .probe = value,
+       .unit_by = unit_of_field,
+       .fields = true,
+       .of_shells = false,
+       .orders = next_to_a_place},
+      {.word = "extreme",
+       .meaning = "smallest or largest value of a field",
+       .keys =
+           [] {
+             return std::vector<Key>{word("of", fields(false), to(&Quantity::of), "the field"),
+                                     extreme_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("{} {} anywhere{}", extreme_word(q), field_words(q), at_words(q));
+           },
+       .probe = extreme,
+       .unit_by = unit_of_field,
+       .fields = true,
+       .extreme = true,
+       .orders = {{0.5, 1}}},
+  };
+}
+
+} // namespace dielast::cases

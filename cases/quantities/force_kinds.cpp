@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces, moments and stresses.
+#include "cases/quantities/film_values.hpp"
+#include "cases/quantities/forces.hpp"
+#include "cases/quantities/probing.hpp"
+#include "fem/model/contact_block.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+Probe force(const Probing& probing) {
+  return [&device = probing.device, &quantity = probing.quantity](const Measured& measured) {
+    return component(support_force(device, quantity.of, measured.reaction), quantity.along);
+  };
+}
+
+Probe pull_of_film(const Probing& probing) {
+  if (!std::ranges::count(film_at(probing.quantity.of, probing.device.mesh), 1))
+    probing.refuse("of", "no film meets this place, so none pulls on it");
+  return [&device = probing.device, &quantity = probing.quantity](const Measured& measured) {
+    return component(film_force(device, quantity.of, measured.equilibrium, measured.state), quantity.along);
+  };
+}
+
+Probe moment(const Probing& probing) {
+  const fem::DofMap& dofs = probing.device.model.dofs;
+  const int master = probing.device.mesh.node_sets.at(probing.quantity.of).front();
+  return [&dofs, e = dofs.equation(master, 3 + *probing.quantity.along)](const Measured& measured) {
+    return dofs.is_held(e) ? measured.reaction[e] : 0.0;
+  };
+}
+
+Probe contact_force(const Probing& probing) {
+  return [&model = probing.device.model, &of = probing.quantity.of](const Measured& measured) {
+    return fem::contact_force(model, measured.state, of);
+  };
+}
+
+Probe contact_pressure(const Probing& probing) {
+  return [&device = probing.device, &of = probing.quantity.of](const Measured& measured) {
+    return largest_contact_pressure(device, of, measured.state);
+  };
+}
+
+Key touching_key() {
+  return of_key("the surface; without it all that may touch").optional().refers_to(Reference::place);
+}
+
+std::string on_words(const Quantity& quantity) { return quantity.of.empty() ? "" : " on " + quantity.of; }
+
+/// What touches must be there, and of a named surface something must be able to touch it.
+std::string touches_not(const Case& one, const Quantity& quantity) {
+  if (!one.contact) return "nothing touches; add [contact]";
+  if (quantity.of.empty() || one.may_touch(quantity.of)) return "";
+  return fmt::format("found \"{}\": it is neither one of contact.between nor lies on the [table]",
+                     quantity.of);
+}
+
+Probe nominal_stress(const Probing& probing) {
+  return [near = film_at(probing.quantity.of, probing.device.mesh),
+          along = *probing.quantity.along](const Measured& measured) {
+    double sum = 0, volume = 0;
+    for (const fem::MembraneSample& s : measured.samples.film) {
+      if (!near[static_cast<std::size_t>(s.cell)]) continue;
+      sum += s.volume * s.F.row(along).dot(s.S.col(along));
+      volume += s.volume;
+    }
+    return volume > 0 ? sum / volume : no_value;
+  };
+}
+
+} // namespace
+
+std::vector<QuantityKind> force_kinds() {
+  return {
+      {.word = "force",
+       .meaning = "reaction at a support while it holds (N)",
+       .unit = "N",
+       .keys =
+           [] {
+             return std::vector<Key>{of_key("the place of a support, or a body that is fixed")
+                                         .refers_to(Reference::supported_place),
+                                     component_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("force of the support {} on the device{}{}", q.of, along_words(q),
+                                at_words(q));
+           },
+       .probe = force},
+      {.word = "film force",
+       .meaning = "with which the film pulls on a place (N)",
+       .unit = "N",
+       .keys =
+           [] {
+             return std::vector<Key>{place_key(), component_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("force of the film on {}{}{}", q.of, along_words(q), at_words(q));
+           },
+       .probe = pull_of_film},
+      {.word = "moment",
+       .meaning = "reaction about an axis where a body's rotation is fixed (N m)",
+       .unit = "N m",
+       .keys =
+           [] {
+             return std::vector<Key>{body_key(), about_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("moment of the support of {} on it{}{}", q.of, along_words(q), at_words(q));
+           },
+       .probe = moment,
+       .refusal = turns_not},
+      {.word = "contact force",
+       .meaning =
+           "sum of the normal forces where walls touch, surfaces of solids, a solid lies on a [table], "
+           "or a [roll] on its core (N)",
+       .unit = "N",
+       .keys = [] { return std::vector<Key>{touching_key()}; },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("sum of the normal forces of contact{}{}", on_words(q), at_words(q));
+           },
+       .probe = contact_force,
+       .refusal = touches_not},
+      {.word = "contact pressure",
+       .meaning =
+           "largest normal force over area as drawn among the nodes of the surfaces that may touch (Pa)",
+       .unit = "Pa",
+       .keys = [] { return std::vector<Key>{touching_key()}; },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("largest pressure of contact{}{}", on_words(q), at_words(q));
+           },
+       .probe = contact_pressure,
+       .refusal =
+           [](const Case& one, const Quantity& q) {
+             const std::string wrong = touches_not(one, q);
+             const bool surfaces =
+                 !one.contact || !one.contact->between.empty() || one.table || one.geometry<Roll>();
+             return surfaces ? wrong : "the walls of a lattice touch along lines: ask for the contact force";
+           }},
+      {.word = "nominal stress",
+       .meaning = "force over undeformed section, mean over the film at a place (Pa)",
+       .unit = "Pa",
+       .keys =
+           [] {
+             return std::vector<Key>{place_key(), plane_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("mean nominal stress of {}{}{}", q.of, along_words(q), at_words(q));
+           },
+       .probe = nominal_stress,
+       .fields = true,
+       .of_solids = false,
+       .orders = next_to_a_place},
+  };
+}
+
+} // namespace dielast::cases

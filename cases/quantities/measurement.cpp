@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/quantities/measurement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+
+Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::State& at,
+                   const fem::EnergyBalance& balance, bool with_fields)
+    : equilibrium(solver), state(at), samples(with_fields ? device.model.sample(at) : fem::Samples{}),
+      extremes(samples), charges(device.model.charges(at, false)), energy(balance) {
+  equilibrium.internal_force(at, reaction);
+  Eigen::VectorXd dead = at.dead_force;
+  device.model.dofs.gather(at, dead);
+  reaction -= dead;
+}
+
+Measurement::Measurement(const Case& one, const Device& device) : case_(one), device_(device) { prepare(); }
+
+void Measurement::prepare() {
+  const fem::State initial = device_.model.initial_state();
+  const fem::Samples drawn = device_.model.sample(initial);
+  shapes_.clear(), probes_.clear(), drawn_.clear();
+  int written = 0; // by the user, who counts no others
+  for (const Quantity& quantity : case_.quantities) {
+    written += !quantity.standard;
+    const Probing probing{quantity, case_, device_, drawn, fmt::format("quantity[{}]", written)};
+    const QuantityKind& kind = *quantity.kind;
+    shapes_.push_back(kind.shape ? kind.shape(probing) : nullptr);
+    probes_.push_back(kind.probe ? kind.probe(probing) : nullptr);
+    drawn_.push_back(kind.since ? shapes_.back()(initial) : no_value);
+  }
+}
+
+double Measurement::evaluate(std::size_t number, const Measured& measured) const {
+  const Quantity& quantity = case_.quantities[number];
+  if (probes_[number]) return probes_[number](measured);
+  if (!shapes_[number]) return no_value;
+  const double now = shapes_[number](measured.state);
+  if (!quantity.kind->since) return now;
+  if (quantity.since.empty()) return quantity.kind->since(now, drawn_[number]);
+  const auto then = references.find(quantity.name);
+  return then == references.end() ? no_value : quantity.kind->since(now, then->second);
+}
+
+std::vector<double> Measurement::all(const Measured& measured) {
+  std::vector<double> values;
+  for (std::size_t q = 0; q < case_.quantities.size(); ++q) values.push_back(evaluate(q, measured));
+  for (std::size_t q = 0; q < values.size(); ++q)
+    if (const Quantity& quantity = case_.quantities[q]; quantity.kind->so_far)
+      values[q] = quantity.kind->so_far(references, quantity, values[subject(quantity)], measured.state.time);
+  return values;
+}
+
+std::size_t Measurement::subject(const Quantity& quantity) const {
+  const auto found = std::ranges::find(case_.quantities, quantity.of, &Quantity::name);
+  return static_cast<std::size_t>(found - case_.quantities.begin());
+}
+
+void Measurement::pass(const Measured& measured) {
+  for (const Quantity& quantity : case_.quantities)
+    if (quantity.kind->so_far)
+      quantity.kind->so_far(references, quantity, evaluate(subject(quantity), measured), measured.state.time);
+}
+
+bool Measurement::follows_course() const {
+  return std::ranges::any_of(case_.quantities,
+                             [](const Quantity& quantity) { return quantity.kind->so_far != nullptr; });
+}
+
+bool Measurement::follows_fields() const {
+  return std::ranges::any_of(case_.quantities, [this](const Quantity& quantity) {
+    return quantity.kind->so_far && case_.quantities[subject(quantity)].kind->fields;
+  });
+}
+
+void Measurement::step_ended(const std::string& step, const Measured& measured) {
+  for (std::size_t q = 0; q < case_.quantities.size(); ++q) {
+    const Quantity& quantity = case_.quantities[q];
+    if (quantity.since != step || step.empty()) continue;
+    if (quantity.kind->begin)
+      quantity.kind->begin(references, quantity, measured.state.time);
+    else
+      references[quantity.name] = shapes_[q](measured.state);
+  }
+}
+
+Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::State& state,
+                             const Quantity& quantity) {
+  const fem::Samples none;
+  return device.model.dofs.jacobian(state).transpose() *
+         quantity.kind->gradient({quantity, one, device, none, ""}, state);
+}
+
+} // namespace dielast::cases

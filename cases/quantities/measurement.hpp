@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/quantities/probing.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dielast::cases {
+
+/// Evaluates the quantities of a case on the states of a device.
+class Measurement {
+ public:
+  /// Throws CaseError where the device does not have what a quantity is of, such as film at a point.
+  Measurement(const Case& one, const Device& device);
+
+  /// Makes what is measured ready again: the device was made again, in its place.
+  void prepare();
+
+  /// All quantities, in the case's order and in SI; NaN where one has no meaning yet (an elongation since a
+  /// step that has not ended).
+  std::vector<double> all(const Measured& measured);
+
+  /// Sees a state that is not recorded: for quantities of another's course.
+  void pass(const Measured& measured);
+  bool follows_course() const;
+  /// Whether that is of quantities that are measured on fields.
+  bool follows_fields() const;
+
+  /// Says that a step ended in this state: elongations and displacements since it start here.
+  void step_ended(const std::string& step, const Measured& measured);
+
+  /// Lengths and displacements that quantities are relative to, and courses so far; stored with a checkpoint.
+  References references;
+
+ private:
+  /// The number of the quantity whose course one follows.
+  std::size_t subject(const Quantity& quantity) const;
+  double evaluate(std::size_t number, const Measured& measured) const;
+
+  const Case& case_;
+  const Device& device_;
+  std::vector<Shape> shapes_; ///< by quantity; empty: it has a probe, or is a course
+  std::vector<Probe> probes_;
+  std::vector<double> drawn_; ///< of shapes that count since some step: their value as drawn
+};
+
+/// A quantity with a gradient as a row over the free equations.
+Eigen::VectorXd response_row(const Case& one, const Device& device, const fem::State& state,
+                             const Quantity& quantity);
+
+} // namespace dielast::cases

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the whole run tells: energies, courses of other quantities, margins to limits.
+#include "cases/quantities/probing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+/// A part of the energy balance.
+struct EnergyPart {
+  const char* word;
+  const char* meaning;
+  double (*value)(const fem::EnergyBalance& balance);
+};
+using Balance = const fem::EnergyBalance&;
+constexpr std::array energy_parts{
+    EnergyPart{"electrical_work", "done on the film's electrodes: sum of int Phi dQ",
+               [](Balance b) { return b.work().electrical; }},
+    EnergyPart{
+        "mechanical_work",
+        "done by loads, moved supports and the pressure in a chamber; where several loads jump at once "
+        "they do so along a straight line",
+        [](Balance b) { return b.work().mechanical; }},
+    EnergyPart{"stored", "elastic, branches, electric and kinetic together",
+               [](Balance b) { return b.stored(); }},
+    EnergyPart{"elastic", "stored by the equilibrium law, walls and springs",
+               [](Balance b) { return b.parts().elastic; }},
+    EnergyPart{"branches", "stored by the springs of the branches",
+               [](Balance b) { return b.parts().branches; }},
+    EnergyPart{"electric", "stored by the field", [](Balance b) { return b.parts().electric; }},
+    EnergyPart{"kinetic", "of everything that has a mass", [](Balance b) { return b.parts().kinetic; }},
+    EnergyPart{"dissipated", "turned into heat by dashpots, dampers and resistive electrodes",
+               [](Balance b) { return b.work().dissipated; }},
+    EnergyPart{"source_work", "given by the sources: electrical_work, resistance_heat and leak_heat",
+               [](Balance b) { return b.work().source(); }},
+    EnergyPart{"resistance_heat", "turned into heat by the resistances and limits of current of circuits",
+               [](Balance b) { return b.work().resistance; }},
+    EnergyPart{"leak_heat", "turned into heat by the current that leaks through the film",
+               [](Balance b) { return b.work().leak; }},
+    EnergyPart{"released", "set free when the device is cut free or jumps to another state",
+               [](Balance b) { return b.work().released; }},
+    EnergyPart{"wrinkle_regularisation",
+               "part of `elastic` that only keeps wrinkled film from being singular",
+               [](Balance b) { return b.parts().regularised; }},
+    EnergyPart{"error",
+               "estimate of the error of works and heat; beyond 1 % of them the run ends with exit code 5",
+               [](Balance b) { return b.error(); }}};
+
+std::vector<Key> energy_keys() {
+  std::vector<Choice> parts;
+  for (const EnergyPart& part : energy_parts) parts.emplace_back(part.word, part.meaning);
+  return {word("of", parts, to(&Quantity::of), "the part")};
+}
+
+Probe energy(const Probing& probing) {
+  const auto part = std::ranges::find(energy_parts, probing.quantity.of,
+                                      [](const EnergyPart& each) { return std::string(each.word); });
+  return [value = part->value](const Measured& measured) { return value(measured.energy); };
+}
+
+// --- courses: a mean over time is that of straight lines between the states where the subject has a value at
+// both, and the value itself where they take no time
+
+void begin_mean(References& references, const Quantity& quantity, double time) {
+  references[quantity.name] = references[quantity.name + " known"] = 0;
+  references[quantity.name + " last time"] = time;
+  references.erase(quantity.name + " last");
+}
+
+double peak(References& references, const Quantity& quantity, double now, double) {
+  double& peak = references.try_emplace(quantity.name, now).first->second;
+  const bool beyond = quantity.extreme == post::Extreme::minimum ? now < peak : now > peak;
+  if (beyond || std::isnan(peak)) peak = now;
+  return peak;
+}
+
+double mean(References& references, const Quantity& quantity, double now, double time) {
+  if (!references.contains(quantity.name)) {
+    if (!quantity.since.empty()) return std::numeric_limits<double>::quiet_NaN();
+    begin_mean(references, quantity, time);
+  }
+  double& integral = references.at(quantity.name);
+  double& last = references.try_emplace(quantity.name + " last", now).first->second;
+  double& last_time = references.at(quantity.name + " last time");
+  double& known = references.at(quantity.name + " known"); // s
+  if (!std::isnan(last) && !std::isnan(now)) {
+    integral += (last + now) / 2 * (time - last_time);
+    known += time - last_time;
+  }
+  last = now;
+  last_time = time;
+  return known > 0 ? integral / known : now;
+}
+
+Key subject_key() { return of_key("the quantity").refers_to(Reference::quantity); }
+
+std::string unit_of_subject(const Quantity& quantity, const std::vector<Quantity>& all) {
+  for (const Quantity& other : all)
+    if (other.name == quantity.of && !other.kind->so_far) return unit_of(other, all);
+  return "1";
+}
+
+std::vector<Key> margin_keys() {
+  return {word("of",
+               {{"breakdown", "somewhere the field is the breakdown field"},
+                {"loss of tension", "somewhere the film has lost its tension"},
+                {"pull-in", "a limit point, beyond which no voltage is larger"},
+                {"buckling", "a bifurcation, from which the device leaves its way"},
+                {"wall yield", "somewhere a wall yields"}},
+               to(&Quantity::of), "the limit")};
+}
+
+} // namespace
+
+std::vector<QuantityKind> run_kinds() {
+  return {
+      {.word = "energy",
+       .meaning = "part of the energy balance (J)",
+       .unit = "J",
+       .keys = energy_keys,
+       .in_words =
+           [](const Quantity& q) { return fmt::format("energy balance: {}{}", field_words(q), at_words(q)); },
+       .probe = energy,
+       .without_error =
+           [](const Quantity& q) { return std::string(q.of == "error" ? "an error itself" : ""); }},
+      {.word = "peak",
+       .meaning = "smallest or largest value of another quantity so far",
+       .keys =
+           [] {
+             return std::vector<Key>{subject_key(), extreme_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("{} {} so far{}", extreme_word(q), q.of, at_words(q));
+           },
+       .so_far = peak,
+       .unit_by = unit_of_subject,
+       .orders = {{1, 1}}}, // read at some times only
+      {.word = "mean",
+       .meaning = "mean of another quantity so far, over the time in which it has a value",
+       .keys =
+           [] {
+             return std::vector<Key>{subject_key(),
+                                     since_key("step at whose end it begins; without it the whole run")};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("mean of {} over time{}{}", q.of,
+                                q.since.empty() ? "" : ", since \"" + q.since + "\"", at_words(q));
+           },
+       .so_far = mean,
+       .unit_by = unit_of_subject,
+       .begin = begin_mean},
+      {.word = "margin",
+       .meaning = "factor on all voltages at the end of the run that leads to a limit, below 1 where it was "
+                  "passed; none where the run does not tell (-)",
+       .unit = "1",
+       .keys = margin_keys,
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("factor on the voltages at the end that leads to {}", q.of);
+           },
+       .probe = [](const Probing&) -> Probe { return [](const Measured&) { return no_value; }; },
+       .of_run = true},
+  };
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where places are and how they lie to each other.
+#include "cases/quantities/film_values.hpp"
+#include "cases/quantities/positions.hpp"
+#include "cases/quantities/probing.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+double difference(double now, double then) { return now - then; }
+
+/// Positive as drawn; negative when the places have passed each other.
+Shape distance(const Probing& probing) {
+  const auto between = [&mesh = probing.device.mesh, &quantity = probing.quantity](const fem::State& at) {
+    return component(centroid(mesh, quantity.between[1], at) - centroid(mesh, quantity.between[0], at),
+                     quantity.along);
+  };
+  const bool turned = between(probing.device.model.initial_state()) < 0;
+  return [between, turned](const fem::State& at) { return turned ? -between(at) : between(at); };
+}
+
+Shape size(const Probing& probing) {
+  return [&mesh = probing.device.mesh, &quantity = probing.quantity](const fem::State& state) {
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const int n : mesh.node_sets.at(quantity.of)) {
+      const Eigen::Vector3d x = position(mesh, n, state);
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    return component(high - low, quantity.along);
+  };
+}
+
+/// Against the prestretch of the film between the places, which must have one.
+Shape stretch(const Probing& probing) {
+  const Quantity& quantity = probing.quantity;
+  const auto prestretch = prestretch_between(probing.one, probing.device, quantity.between, *quantity.along);
+  if (!prestretch)
+    throw CaseError(
+        {{{probing.one.source.string()},
+          "quantity.between",
+          fmt::format("quantity \"{}\": \"{}\" and \"{}\" have no film of one prestretch in common",
+                      quantity.name, quantity.between[0], quantity.between[1])}});
+  const Shape length = distance(probing);
+  return [length, drawn = length(probing.device.model.initial_state()),
+          by = *prestretch](const fem::State& state) { return length(state) / drawn * by; };
+}
+
+Shape displacement(const Probing& probing) {
+  const Quantity& quantity = probing.quantity;
+  const auto towards = [&quantity, down = probing.one.gravity.down()](const Eigen::Vector3d& moved) {
+    return quantity.along == along_gravity ? moved.dot(down) : component(moved, quantity.along);
+  };
+  const meshing::Mesh& mesh = probing.device.mesh;
+  if (quantity.point) {
+    const auto found = elements_at(Eigen::Vector3d(quantity.point->data()), mesh);
+    if (found.empty())
+      probing.refuse("point", "there is no film; coordinates are those of the film as drawn");
+    return [&mesh, towards, at = found.front()](const fem::State& state) {
+      Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+      const auto nodes = mesh.film()->cell(at.cell);
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        moved +=
+            at.shape[static_cast<Eigen::Index>(a)] * state.displacement[static_cast<std::size_t>(nodes[a])];
+      return towards(moved);
+    };
+  }
+  return
+      [&mesh, &quantity, towards, drawn = centroid(mesh, quantity.of, probing.device.model.initial_state())](
+          const fem::State& state) { return towards(centroid(mesh, quantity.of, state) - drawn); };
+}
+
+Shape swelling(const Probing& probing) {
+  return [&mesh = probing.device.mesh, &quantity = probing.quantity](const fem::State& state) {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const int n : mesh.node_sets.at(quantity.of))
+      largest = std::max(largest, state.displacement[static_cast<std::size_t>(n)][*quantity.along]);
+    return largest;
+  };
+}
+
+Shape angle(const Probing& probing) {
+  const auto master = static_cast<std::size_t>(probing.device.mesh.node_sets.at(probing.quantity.of).front());
+  return [master, along = *probing.quantity.along](const fem::State& state) {
+    return fem::spin_of(state.rotation[master])[along];
+  };
+}
+
+Shape radius(const Probing& probing) {
+  const Quantity& quantity = probing.quantity;
+  const meshing::Mesh& mesh = probing.device.mesh;
+  if (mesh.cells_of(quantity.of, mesh.film()))
+    probing.refuse(
+        "of",
+        fmt::format("found \"{}\": an area has no radius; give its edge, whose nodes have one", quantity.of));
+  if (probing.one.dimension == fem::Dimension::axisymmetric)
+    return [&mesh, &quantity](const fem::State& state) { return centroid(mesh, quantity.of, state).x(); };
+  return [&mesh, &quantity](const fem::State& state) {
+    const Eigen::Vector3d centre = centroid(mesh, quantity.of, state);
+    const auto& nodes = mesh.node_sets.at(quantity.of);
+    double sum = 0;
+    for (const int n : nodes) sum += (position(mesh, n, state) - centre).norm();
+    return sum / static_cast<double>(nodes.size());
+  };
+}
+
+// --- gradients
+
+/// How a rotation vector goes with a small rotation that follows it, about axes that stay.
+Eigen::Matrix3d spin_per_turn(const Eigen::Vector3d& spin) {
+  const double angle = spin.norm();
+  Eigen::Matrix3d cross;
+  cross << 0, -spin.z(), spin.y(), spin.z(), 0, -spin.x(), -spin.y(), spin.x(), 0;
+  const double factor =
+      angle < 1e-3 ? 1.0 / 12 : 1 / (angle * angle) - (1 + std::cos(angle)) / (2 * angle * std::sin(angle));
+  return Eigen::Matrix3d::Identity() - cross / 2 + factor * cross * cross;
+}
+
+Eigen::VectorXd angle_gradient(const Probing& probing, const fem::State& state) {
+  const fem::DofMap& dofs = probing.device.model.dofs;
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(dofs.count());
+  const int master = probing.device.mesh.node_sets.at(probing.quantity.of).front();
+  const Eigen::Matrix3d turns = spin_per_turn(fem::spin_of(state.rotation[static_cast<std::size_t>(master)]));
+  for (int c = 0; c < 3; ++c)
+    if (const int e = dofs.equation(master, 3 + c); e != fem::DofMap::absent)
+      row[e] = turns(*probing.quantity.along, c);
+  return row;
+}
+
+/// A row over the equations that grows by what nodes and places count.
+struct Row {
+  explicit Row(const Probing& probing)
+      : device(probing.device), values(Eigen::VectorXd::Zero(device.model.dofs.count())) {}
+  void add(int node, const Eigen::Vector3d& gradient) {
+    for (int c = 0; c < 3; ++c)
+      if (const int e = device.model.dofs.equation(node, c); e != fem::DofMap::absent)
+        values[e] += gradient[c];
+  }
+  void add_mean(const std::string& place, const Eigen::Vector3d& gradient) {
+    const auto& nodes = device.mesh.node_sets.at(place);
+    for (const int node : nodes) add(node, gradient / static_cast<double>(nodes.size()));
+  }
+  const Device& device;
+  Eigen::VectorXd values;
+};
+
+Eigen::VectorXd distance_gradient(const Probing& probing, const fem::State& state) {
+  const Quantity& quantity = probing.quantity;
+  const meshing::Mesh& mesh = probing.device.mesh;
+  Row row(probing);
+  const auto apart = [&](const fem::State& at) -> Eigen::Vector3d {
+    return centroid(mesh, quantity.between[1], at) - centroid(mesh, quantity.between[0], at);
+  };
+  Eigen::Vector3d along = apart(state).normalized();
+  if (quantity.along) // positive as drawn
+    along = Eigen::Vector3d::Unit(*quantity.along) *
+            (apart(probing.device.model.initial_state())[*quantity.along] < 0 ? -1 : 1);
+  row.add_mean(quantity.between[1], along);
+  row.add_mean(quantity.between[0], -along);
+  return row.values;
+}
+
+Eigen::VectorXd radius_gradient(const Probing& probing, const fem::State& state) {
+  const meshing::Mesh& mesh = probing.device.mesh;
+  const std::string& place = probing.quantity.of;
+  Row row(probing);
+  if (probing.one.dimension == fem::Dimension::axisymmetric) {
+    row.add_mean(place, Eigen::Vector3d::UnitX());
+    return row.values;
+  }
+  const Eigen::Vector3d middle = centroid(mesh, place, state);
+  const auto& nodes = mesh.node_sets.at(place);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int node : nodes) {
+    const Eigen::Vector3d outwards =
+        (position(mesh, node, state) - middle).normalized() / static_cast<double>(nodes.size());
+    row.add(node, outwards);
+    sum += outwards;
+  }
+  row.add_mean(place, -sum); // the middle moves with the nodes
+  return row.values;
+}
+
+Eigen::VectorXd displacement_gradient(const Probing& probing, const fem::State&) {
+  const Quantity& quantity = probing.quantity;
+  Row row(probing);
+  row.add_mean(quantity.of, quantity.along == along_gravity ? probing.one.gravity.down()
+                                                            : Eigen::Vector3d::Unit(*quantity.along));
+  return row.values;
+}
+
+std::vector<Key> displacement_keys() {
+  return {place_key(),
+          measure("point", "m", to(&Quantity::point), "instead of a place: the point of the film, as drawn")
+              .values(3, 3)
+              .replacing("of"),
+          word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}, {"gravity", "as it pulls", along_gravity}},
+               to(&Quantity::along), "component; without it the magnitude")
+              .optional()
+              .only_with(when::moves_along_it()),
+          since_key()};
+}
+
+constexpr std::array outermost{1.0, 2.0}; // whichever node is outermost
+
+} // namespace
+
+std::vector<QuantityKind> shape_kinds() {
+  return {
+      {.word = "displacement",
+       .meaning = "of the centroid of a place (m)",
+       .unit = "m",
+       .keys = displacement_keys,
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("displacement of {}{}{}{}",
+                                q.point ? fmt::format("the point ({} m)", fmt::join(*q.point, ", ")) : q.of,
+                                along_words(q), q.since.empty() ? "" : ", since \"" + q.since + "\"",
+                                at_words(q));
+           },
+       .shape = displacement,
+       .since = difference,
+       .gradient = displacement_gradient,
+       .directed = true},
+      {.word = "angle",
+       .meaning = "rotation of a body about an axis (rad)",
+       .unit = "rad",
+       .keys =
+           [] {
+             return std::vector<Key>{body_key(), about_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("rotation of {}{}{}", q.of, along_words(q), at_words(q));
+           },
+       .shape = angle,
+       .gradient = angle_gradient,
+       .refusal = turns_not},
+      {.word = "radius",
+       .meaning = "mean distance of a place's nodes from their centroid (m)",
+       .unit = "m",
+       .keys = [] { return std::vector<Key>{place_key()}; },
+       .in_words = [](const Quantity& q) { return fmt::format("mean radius of {}{}", q.of, at_words(q)); },
+       .shape = radius,
+       .gradient = radius_gradient},
+      {.word = "distance",
+       .meaning = "between the centroids of two places (m)",
+       .unit = "m",
+       .keys =
+           [] {
+             return std::vector<Key>{between_key(), component_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("distance of {} and {}{}{}", q.between[0], q.between[1], along_words(q),
+                                at_words(q));
+           },
+       .shape = distance,
+       .gradient = distance_gradient},
+      {.word = "elongation",
+       .meaning = "relative change of the distance between two places (-)",
+       .unit = "1",
+       .keys =
+           [] {
+             return std::vector<Key>{between_key(), component_key(), since_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("elongation from {} to {}{}, since {}{}", q.between[0], q.between[1],
+                                along_words(q), since_words(q), at_words(q));
+           },
+       .shape = distance,
+       .since = change,
+       .relative = true},
+      {.word = "stretch",
+       .meaning = "distance between two places over that of the unstretched film (-)",
+       .unit = "1",
+       .keys =
+           [] {
+             return std::vector<Key>{between_key(), plane_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("stretch between {} and {}{}{}", q.between[0], q.between[1], along_words(q),
+                                at_words(q));
+           },
+       .shape = stretch,
+       .of_solids = false},
+      {.word = "size",
+       .meaning = "of the box around a place (m)",
+       .unit = "m",
+       .keys =
+           [] {
+             return std::vector<Key>{place_key(), component_key()};
+           },
+       .in_words =
+           [](const Quantity& q) { return fmt::format("size of {}{}{}", q.of, along_words(q), at_words(q)); },
+       .shape = size,
+       .orders = outermost},
+      {.word = "growth",
+       .meaning = "relative change of the size of a place (-)",
+       .unit = "1",
+       .keys =
+           [] {
+             return std::vector<Key>{place_key(), component_key(), since_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("growth of {}{}, since {}{}", q.of, along_words(q), since_words(q),
+                                at_words(q));
+           },
+       .shape = size,
+       .since = change,
+       .relative = true,
+       .orders = outermost},
+      {.word = "swelling",
+       .meaning = "largest displacement along an axis among the nodes of a place (m)",
+       .unit = "m",
+       .keys =
+           [] {
+             return std::vector<Key>{place_key(), axis_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("largest displacement of {}{}{}", q.of, along_words(q), at_words(q));
+           },
+       .shape = swelling},
+  };
+}
+
+} // namespace dielast::cases

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What small forces and vibrations about a state at rest find.
+#include "cases/quantities/probing.hpp"
+#include "fem/linear/modal.hpp"
+#include "fem/linear/rest.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+bool at_rest(const Measured& measured) {
+  return measured.may_rest && fem::unrest(measured.equilibrium, measured.state).empty();
+}
+
+/// What a unit force along an axis, spread evenly over a place, moves: per free unknown, and its mean over
+/// the place, m/N; NaN where the state is not at rest.
+struct Flexibility {
+  Eigen::VectorXd displacement;
+  double own;
+};
+Flexibility flexibility(const Probing& probing, const std::string& place, const Measured& measured) {
+  const int along = *probing.quantity.along;
+  const Eigen::Vector3d axis =
+      along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(along);
+  const fem::DofMap& dofs = probing.device.model.dofs;
+  const auto& nodes = probing.device.mesh.node_sets.at(place);
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(dofs.count());
+  for (const int node : nodes)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
+        unit[e] += axis[c] / static_cast<double>(nodes.size());
+  unit = (dofs.jacobian(measured.state).transpose() * unit).eval();
+  Flexibility found{{}, no_value};
+  if (unit.isZero() || !at_rest(measured) || !measured.equilibrium.factor(fem::relaxed(measured.state)))
+    return found;
+  measured.equilibrium.tangent().solve(unit, found.displacement);
+  found.own = unit.dot(found.displacement);
+  return found;
+}
+
+/// With the charge Q = C(u) Phi the electrode pulls with Phi^2/2 dC/du; that moves the place by Phi^2/2 times
+/// the flexibility's product with dC/du, and the force that takes it back is that over its own. Capacitance
+/// and length are those as drawn: a strip free across itself has 1/2, one of held width 1.
+double coupling(const Probing& probing, const Measured& measured) {
+  const Flexibility give = flexibility(probing, probing.quantity.place, measured);
+  if (std::isnan(give.own)) return no_value;
+  const fem::Model& model = probing.device.model;
+  const std::size_t e = probing.electrode();
+  fem::State one_volt = measured.state;
+  one_volt.voltage[e] = 1;
+  one_volt.sheet_drop.setZero();
+  fem::Charges charges = model.charges(one_volt, true);
+  model.dofs.gather(one_volt, charges.coupling[e]);
+  const double force =
+      charges.coupling[e].head(give.displacement.size()).dot(give.displacement) / 2 / give.own;
+  const double drawn = model.charges(model.initial_state(), false).capacitance[e];
+  return force * probing.quantity.length / drawn;
+}
+
+/// NaN where nothing has a mass, or the state is not at rest.
+double modal_stiffness(const Quantity& quantity, const Measured& measured) {
+  if (!at_rest(measured)) return no_value;
+  const auto modes = fem::vibration_modes(measured.equilibrium, measured.state, {.count = quantity.mode});
+  if (!modes || std::ssize(*modes) < quantity.mode) return no_value;
+  return (*modes)[static_cast<std::size_t>(quantity.mode) - 1].stiffness;
+}
+
+std::vector<Key> coupling_keys() {
+  return {electrode_key(),
+          text("place", to(&Quantity::place), "the place that would be held").refers_to(Reference::place),
+          measure("length", "m", to(&Quantity::length), "length of the electrode along the axis, as drawn")
+              .above(0),
+          word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}, {"gravity", "as it pulls", along_gravity}},
+               to(&Quantity::along), "direction")
+              .only_with(when::moves_along_it())};
+}
+
+std::vector<Key> mode_keys() {
+  return {integer("mode", to(&Quantity::mode), "its number, from the lowest frequency")
+              .at_least(1)
+              .at_most(100)
+              .otherwise("1")};
+}
+
+std::string without_mass(const Case& one, const Quantity&) {
+  return has_mass(one) ? "" : "has no value here: nothing has a mass";
+}
+
+} // namespace
+
+std::vector<QuantityKind> stiffness_kinds() {
+  return {
+      {.word = "stiffness",
+       .meaning = "force on a place per displacement along an axis, branches relaxed; none where the "
+                  "state is not at rest (N/m)",
+       .unit = "N/m",
+       .keys =
+           [] {
+             return std::vector<Key>{place_key(), axis_key()};
+           },
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("force on {} per displacement{}{}", q.of, along_words(q), at_words(q));
+           },
+       .probe = [](const Probing& probing) -> Probe {
+         return [probing](const Measured& measured) {
+           return 1 / flexibility(probing, probing.quantity.of, measured).own;
+         };
+       }},
+      {.word = "coupling",
+       .meaning = "force on a held place per squared voltage, over the electrode's capacitance per length as "
+                  "drawn, branches relaxed; none where the state is not at rest (-)",
+       .unit = "1",
+       .keys = coupling_keys,
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format(
+                 "force on {} held{} per squared voltage of {}, over its drawn capacitance per length{}",
+                 q.place, along_words(q), q.of, at_words(q));
+           },
+       .probe = [](const Probing& probing) -> Probe {
+         return [probing](const Measured& measured) { return coupling(probing, measured); };
+       }},
+      {.word = "natural frequency",
+       .meaning = "of small vibrations about the state, branches relaxed; none where it is "
+                  "not at rest (rad/s)",
+       .unit = "rad/s",
+       .keys = mode_keys,
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("natural frequency number {}{}", q.mode, at_words(q));
+           },
+       .probe = [](const Probing& probing) -> Probe {
+         return [&quantity = probing.quantity](const Measured& measured) { // NaN where it is unstable
+           return std::sqrt(modal_stiffness(quantity, measured));
+         };
+       },
+       .idle = without_mass,
+       .vibrates = true},
+      {.word = "modal stiffness",
+       .meaning = "square of a natural frequency, of those nearest to zero: negative where the state is "
+                  "unstable (1/s^2)",
+       .unit = "1/s^2",
+       .keys = mode_keys,
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("square of natural frequency number {}, negative where it is unstable{}",
+                                q.mode, at_words(q));
+           },
+       .probe = [](const Probing& probing) -> Probe {
+         return [&quantity = probing.quantity](const Measured& measured) {
+           return modal_stiffness(quantity, measured);
+         };
+       },
+       .idle = without_mass,
+       .vibrates = true},
+  };
+}
+
+} // namespace dielast::cases

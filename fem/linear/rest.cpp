@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/linear/rest.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::fem {
+namespace {
+
+/// Change that counts as none, over what is of order one: internal variables, voltages, the extent.
+constexpr double still = 1e-4;
+
+bool flows(const Model& model, const State& state) {
+  if (!state.history) return false;
+  State rest = state;
+  rest.scheme = materials::TimeScheme::relaxed();
+  const std::vector<double>& now = state.history->now;
+  const std::vector<double> end = model.advanced_history(rest)->now;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (std::abs(end[i] - now[i]) > still * std::max(1.0, std::abs(now[i]))) return true;
+  return false;
+}
+
+bool conducts(Equilibrium& equilibrium, const State& state) {
+  if (state.sheet_drop.size() == 0) return false;
+  State rest = state;
+  rest.scheme = materials::TimeScheme::relaxed();
+  equilibrium.conduct(rest);
+  double largest = 0;
+  for (std::size_t e = 0; e < equilibrium.model().electrodes.size(); ++e)
+    largest = std::max(largest, std::abs(state.voltage[e]));
+  largest = std::max(largest, state.sheet_drop.lpNorm<Eigen::Infinity>());
+  return (rest.sheet_drop - state.sheet_drop).lpNorm<Eigen::Infinity>() > still * largest;
+}
+
+/// Whether what has a mass would go on: to where its forces balance, and beyond as far as its kinetic energy
+/// carries it there.
+bool moves(Equilibrium& equilibrium, const State& state) {
+  if (!state.motion) return false;
+  const Eigen::Index free = equilibrium.model().dofs.free_count();
+  State at = state;
+  Balance balance;
+  equilibrium.balance(at, balance);
+  const Eigen::VectorXd velocity = state.motion->velocity.head(free);
+  const Eigen::VectorXd momentum = (equilibrium.model().inertia.mass * state.motion->velocity).head(free);
+  if (!equilibrium.factor(at)) return !momentum.isZero(0);
+  Eigen::VectorXd step, swing;
+  equilibrium.tangent().solve(-balance.force.head(free), step);
+  equilibrium.tangent().solve(momentum, swing);
+  const double kinetic = momentum.dot(velocity);                                               // twice
+  const double seconds = kinetic > 0 ? std::sqrt(std::abs(momentum.dot(swing)) / kinetic) : 0; // 1/omega
+  return equilibrium.step_size(step) + seconds * equilibrium.step_size(velocity) > still;
+}
+
+} // namespace
+
+std::string unrest(Equilibrium& equilibrium, const State& state) {
+  if (flows(equilibrium.model(), state)) return "dashpots flow";
+  if (conducts(equilibrium, state)) return "current flows along an electrode";
+  if (moves(equilibrium, state)) return "the device moves";
+  return "";
+}
+
+State relaxed(State state) {
+  if (state.history) state.scheme = materials::TimeScheme::relaxed();
+  for (Supply& supply : state.supply)
+    if (supply == Supply::circuit) supply = Supply::voltage; // the source keeps it
+  return state;
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/equilibrium/equilibrium.hpp"
+
+#include <string>
+
+namespace dielast::fem {
+
+/// What goes on in a state that is not at rest, so that no small vibration goes about it: dashpots that flow,
+/// by more than 1e-4 of their internal variables, which are of order one, until they rest at this shape;
+/// current along a sheet that will change its voltages by more than 1e-4 of the largest; what has a mass,
+/// which would go on by more than 1e-4 of the model's extent. Empty at rest.
+std::string unrest(Equilibrium& equilibrium, const State& state);
+
+/// The same state as its branches let it move slowly.
+State relaxed(State state);
+
+} // namespace dielast::fem
