@@ -11,8 +11,8 @@ namespace dielast::cases {
 std::span<const QuantityKind> quantity_kinds() {
   static const std::vector<QuantityKind> all = [] {
     std::vector<QuantityKind> kinds;
-    for (const auto& some :
-         {shape_kinds, force_kinds, port_kinds, stiffness_kinds, field_kinds, run_kinds, fin_kinds})
+    for (const auto& some : {shape_kinds, area_kinds, force_kinds, port_kinds, stiffness_kinds, field_kinds,
+                             run_kinds, fin_kinds})
       std::ranges::move(some(), std::back_inserter(kinds));
     return kinds;
   }();

@@ -85,6 +85,7 @@ std::string turns_not(const Case& one, const Quantity& quantity);
 // --- the kinds, by what they are about
 
 std::vector<QuantityKind> shape_kinds();
+std::vector<QuantityKind> area_kinds();
 std::vector<QuantityKind> force_kinds();
 std::vector<QuantityKind> port_kinds();
 std::vector<QuantityKind> stiffness_kinds();
