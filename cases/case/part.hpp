@@ -13,6 +13,10 @@
 #include <variant>
 #include <vector>
 
+namespace dielast::meshing {
+struct Mesh;
+}
+
 namespace dielast::cases {
 
 /// What a film's thickness does.
@@ -67,8 +71,29 @@ enum class WallPrint {
   one_face,   ///< all of it above: rigid links lead from the film to the wall's axis
 };
 
+/// [mesh]
+struct MeshOptions {
+  std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
+  int refine = 0;               ///< how often each triangle of a user's own mesh is split into four
+  int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
+  int wall_elements = 8; ///< beams per wall (honeycomb), or along a line
+  double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
+  int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
+  int across = 0; ///< elements from side to side of a strip, across the height of a slab, or a sphere's wall
+  int quadrature = 3;           ///< integration points of a 6-node triangle: 3 or 6
+  std::optional<double> size{}; ///< of tetrahedra in a user's own surface, m; absent: a tenth of its extent
+};
+
+/// What is known of a geometry besides its dimensions.
+struct GeometryTraits {
+  int MeshOptions::*elements = nullptr; ///< how many there are; null: its mesh is not made coarser by that
+  int fewest = 1;                       ///< the smallest number that serves
+  bool corners = false;                 ///< films or bars meet in corners, where strains may be singular
+};
+
 /// [honeycomb]: the geometry template of the unidirectional actuator
 struct Honeycomb {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::wall_elements, .corners = true};
   double angle = 0;         ///< interior angle at a cell's four equal vertices, rad
   std::vector<int> columns; ///< cells in each column, left to right
   double wall_length = 0;   ///< m
@@ -80,12 +105,14 @@ struct Honeycomb {
 
 /// [disc]: clamped at its rim; dimensions as clamped, after the prestretch
 struct Disc {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::rings, .fewest = 2};
   double radius = 0;                        ///< m
   std::optional<double> electrode_radius{}; ///< m; absent: all of the film is under the electrode
 };
 
 /// [annulus]: dimensions as clamped, after the prestretch
 struct Annulus {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::rings, .fewest = 2};
   double inner_radius = 0, outer_radius = 0; ///< m
 };
 
@@ -121,6 +148,7 @@ enum class PatchMode {
 /// [patch]: a homogeneous block of film. Stretches are with respect to the unstretched film, stresses nominal
 /// (force over undeformed section); a direction with neither is free of stress.
 struct Patch {
+  static constexpr GeometryTraits traits{};
   double length = 0, width = 0; ///< along x and y, before the prestretch, m
   PatchMode mode{};
   std::optional<Waveform> stretch_x, stretch_y;
@@ -129,11 +157,13 @@ struct Patch {
 
 /// [mesh] file = "...": the user's own mesh, drawn after the prestretch, physical names as places
 struct MeshFile {
+  static constexpr GeometryTraits traits{.corners = true};
   std::filesystem::path path;
 };
 
 /// [balloon]: a sphere of film, as drawn
 struct Balloon {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::rings, .fewest = 4};
   double radius = 0; ///< m
 };
 
@@ -151,6 +181,7 @@ enum class RibbonBending {
 /// [antagonistic_rolls]: a backbone that ends at x = 0, from which a hinge leads along -x to the tip; a roll
 /// on either side of it, parallel to x, pulls the tip by a ribbon
 struct AntagonisticRolls {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::wall_elements};
   Rod roll;          ///< both
   double length = 0; ///< of a roll, unstretched, m
   double arm = 0;    ///< from the hinge's face to a ribbon's end on the tip, and from there to the roll, m
@@ -160,6 +191,7 @@ struct AntagonisticRolls {
 /// [strip]: a rectangle of film, clamped at both ends, that hangs along -y. Of one layer, or a stack of
 /// layers with passive covers. Dimensions as clamped, after the prestretch.
 struct Strip {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::across, .corners = true};
   double length = 0, width = 0; ///< between the clamps (y), from side to side (x), m
   int layers = 1;               ///< of film, each with the electrode's voltage across it
   double cover_thickness = 0;   ///< of passive film on each face, undeformed, m
@@ -182,6 +214,7 @@ enum class RollCore {
 /// [roll]: film wound around a core, along which it slides, between two end caps: a film of revolution about
 /// z. The prestretch is along the roll and around it.
 struct Roll {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::rings, .fewest = 2};
   double length = 0;                        ///< before the prestretch, m
   double radius = 0;                        ///< of the film's middle as wound, m
   int turns = 1;                            ///< layers of film, each with the electrode's voltage across it
@@ -191,11 +224,13 @@ struct Roll {
 
 /// [line]: a straight rod, or a straight row of beams, as drawn
 struct Line {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::wall_elements};
   std::array<double, 3> from{}, to{}; ///< m
 };
 
 /// [slab]: a rectangle of solid, in plane strain or of revolution about z; with a width a block in space
 struct Slab {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::across};
   double length = 0, height = 0;                    ///< along x, and along y or z, m
   double inner_radius = 0;                          ///< of revolution: where it begins, m
   std::optional<std::array<double, 2>> electrode{}; ///< from where to where along x, m; absent: all of it
@@ -206,25 +241,17 @@ struct Slab {
 
 /// [hollow_sphere]: of solid, as drawn; of revolution, or in space its eighth at x, y, z >= 0
 struct HollowSphere {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::across};
   double inner_radius = 0, outer_radius = 0; ///< m
 };
 
-/// What has no mesh of its own is std::monostate.
-using Geometry = std::variant<std::monostate, Honeycomb, Disc, Annulus, Balloon, Patch, Strip, Roll, Line,
-                              AntagonisticRolls, Slab, HollowSphere, MeshFile>;
-
-/// [mesh]
-struct MeshOptions {
-  std::optional<double> unit{}; ///< m per unit of length of a user's own mesh; absent: 1
-  int refine = 0;               ///< how often each triangle of a user's own mesh is split into four
-  int order = 2;         ///< 1: 3-node triangles and 2-node beams; 2: 6-node triangles and 3-node beams
-  int wall_elements = 8; ///< beams per wall (honeycomb), or along a line
-  double grading = 0;    ///< largest film element over the wall's (honeycomb), the inner edge's (annulus)
-  int rings = 0;         ///< elements along a radius (disc, annulus), from pole to pole (balloon)
-  int across = 0; ///< elements from side to side of a strip, across the height of a slab, or a sphere's wall
-  int quadrature = 3;           ///< integration points of a 6-node triangle: 3 or 6
-  std::optional<double> size{}; ///< of tetrahedra in a user's own surface, m; absent: a tenth of its extent
+/// Of a part without a mesh of its own.
+struct NoGeometry {
+  static constexpr GeometryTraits traits{};
 };
+
+using Geometry = std::variant<NoGeometry, Honeycomb, Disc, Annulus, Balloon, Patch, Strip, Roll, Line,
+                              AntagonisticRolls, Slab, HollowSphere, MeshFile>;
 
 /// A film, rods of it, or bars, with a mesh of their own or in a place of the unnamed part's. The part
 /// without a name is what stands at the top of the file, in [film], [disc], [mesh] ...; others are
@@ -254,11 +281,37 @@ struct Part {
     if (const auto* rolls = std::get_if<AntagonisticRolls>(&geometry)) return &rolls->roll;
     return rod ? &*rod : nullptr;
   }
-  bool has_mesh() const { return !std::holds_alternative<std::monostate>(geometry); }
+  bool has_mesh() const { return !std::holds_alternative<NoGeometry>(geometry); }
+  const GeometryTraits& traits() const {
+    return std::visit([](const auto& own) -> const GeometryTraits& { return own.traits; }, geometry);
+  }
   /// A place of its own mesh as the case calls it.
   std::string called(const std::string& own_place) const {
     return name.empty() ? own_place : name + "." + own_place;
   }
 };
+
+/// What the mesh of a geometry depends on besides its dimensions.
+struct Drawing {
+  const Part& part;
+  bool of_revolution = false, in_space = false;
+  int patch_order = 1;
+  const std::vector<std::string>& bars; ///< places along which there are some
+};
+
+// The mesh of each geometry as it is drawn by itself, in `devices/`.
+meshing::Mesh mesh_of(const NoGeometry& none, const Drawing& drawing);
+meshing::Mesh mesh_of(const Honeycomb& lattice, const Drawing& drawing);
+meshing::Mesh mesh_of(const Disc& disc, const Drawing& drawing);
+meshing::Mesh mesh_of(const Annulus& annulus, const Drawing& drawing);
+meshing::Mesh mesh_of(const Balloon& balloon, const Drawing& drawing);
+meshing::Mesh mesh_of(const Patch& patch, const Drawing& drawing);
+meshing::Mesh mesh_of(const Strip& strip, const Drawing& drawing);
+meshing::Mesh mesh_of(const Roll& roll, const Drawing& drawing);
+meshing::Mesh mesh_of(const Line& line, const Drawing& drawing);
+meshing::Mesh mesh_of(const AntagonisticRolls& rolls, const Drawing& drawing);
+meshing::Mesh mesh_of(const Slab& slab, const Drawing& drawing);
+meshing::Mesh mesh_of(const HollowSphere& sphere, const Drawing& drawing);
+meshing::Mesh mesh_of(const MeshFile& file, const Drawing& drawing);
 
 } // namespace dielast::cases

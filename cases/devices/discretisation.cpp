@@ -2,33 +2,12 @@
 #include "cases/devices/discretisation.hpp"
 
 #include <algorithm>
-#include <optional>
 
 namespace dielast::cases {
 
 namespace {
 
 constexpr int fewer_increments = 3;
-
-/// The key that says how fine a mesh is, and the smallest number that serves.
-struct Density {
-  int MeshOptions::*elements = nullptr;
-  int fewest = 0;
-};
-
-std::optional<Density> density_of(const Geometry& geometry) {
-  if (std::holds_alternative<Honeycomb>(geometry) || std::holds_alternative<Line>(geometry) ||
-      std::holds_alternative<AntagonisticRolls>(geometry))
-    return Density{&MeshOptions::wall_elements, 1};
-  if (std::holds_alternative<Strip>(geometry)) return Density{&MeshOptions::across, 1};
-  if (std::holds_alternative<Slab>(geometry) || std::holds_alternative<HollowSphere>(geometry))
-    return Density{&MeshOptions::across, 1};
-  if (std::holds_alternative<Roll>(geometry)) return Density{&MeshOptions::rings, 2};
-  if (std::holds_alternative<Balloon>(geometry)) return Density{&MeshOptions::rings, 4};
-  if (std::holds_alternative<Disc>(geometry) || std::holds_alternative<Annulus>(geometry))
-    return Density{&MeshOptions::rings, 2};
-  return std::nullopt;
-}
 
 /// Elements of a part larger by a factor; returns by how much they are, 1 where that cannot be.
 double coarsen_mesh(Part& part, int factor) {
@@ -39,11 +18,11 @@ double coarsen_mesh(Part& part, int factor) {
     mesh.refine -= times;
     return factor;
   }
-  const auto density = density_of(part.geometry);
-  if (!density) return 1;
-  int& elements = mesh.*density->elements;
+  const GeometryTraits& geometry = part.traits();
+  if (!geometry.elements) return 1;
+  int& elements = mesh.*geometry.elements;
   const int fine = elements;
-  if (fine / factor < density->fewest) return 1;
+  if (fine / factor < geometry.fewest) return 1;
   elements = fine / factor;
   return static_cast<double>(fine) / elements;
 }

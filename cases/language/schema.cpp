@@ -99,6 +99,30 @@ Key Key::checked(std::function<std::string(const Value&)> rule) && {
   return std::move(*this);
 }
 
+namespace {
+
+bool say_the_same(const Key& one, const Key& other) {
+  return one.name == other.name && one.meaning == other.meaning && one.required == other.required &&
+         one.fallback == other.fallback &&
+         std::ranges::equal(one.choices, other.choices, {}, &Choice::word, &Choice::word);
+}
+
+} // namespace
+
+void add_keys_of(const std::string& selected, std::vector<Key> more, std::vector<Key>& keys) {
+  for (Key& key : more) {
+    const auto same = std::ranges::find_if(keys, [&](const Key& known) { return say_the_same(known, key); });
+    if (same != keys.end()) {
+      same->only_for.push_back(selected);
+      continue;
+    }
+    const auto last =
+        std::find_if(keys.rbegin(), keys.rend(), [&](const Key& known) { return known.name == key.name; });
+    key.only_for = {selected};
+    keys.insert(last == keys.rend() ? keys.end() : last.base(), std::move(key));
+  }
+}
+
 std::string Section::heading(const std::string& path) const {
   return shape == Shape::list ? fmt::format("[[{}]]", path) : fmt::format("[{}]", path);
 }

@@ -120,6 +120,10 @@ struct Key {
   Key checked(std::function<std::string(const Value&)> rule) &&;
 };
 
+/// Adds what a word of the section's selector has, each behind others of its name; what several words have in
+/// the same way is one key.
+void add_keys_of(const std::string& selected, std::vector<Key> more, std::vector<Key>& keys);
+
 /// How a section reaches the object that its keys are bound to.
 struct Access {
   struct Entry {
@@ -307,10 +311,6 @@ std::vector<Section> geometry_sections();     ///< of a Part
 Section mesh_section();                       ///< of a Part
 Section beam_section();                       ///< of a Part
 Section rod_section();                        ///< of a Part
-Section line_section();                       ///< a geometry of a Part
-Section rolls_section();                      ///< likewise
-Section strip_section();                      ///< likewise
-Section roll_section();                       ///< likewise
 Section weight_section();                     ///< what hangs from a strip
 std::vector<Section> leaf_sections();         ///< of a Part with antagonistic rolls
 std::vector<Section> unnamed_part_sections(); ///< film, the geometries, mesh

@@ -213,8 +213,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   if (!estimates.reason.empty()) return estimates;
 
   const meshing::CellType type = own_run.device().mesh.film()->type;
-  const bool corners =
-      one.any_geometry<Honeycomb>() || one.any_geometry<Strip>() || one.any_geometry<MeshFile>();
+  const bool corners = std::ranges::any_of(one.parts, [](const Part& part) { return part.traits().corners; });
   const bool smooth =
       !corners && (type == meshing::CellType::triangle6 || type == meshing::CellType::meridian3 ||
                    type == meshing::CellType::tetrahedron10);

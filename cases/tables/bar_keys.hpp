@@ -20,6 +20,10 @@ Access geometry_of_type() {
           }};
 }
 
+// Geometries.
+Section line_section();
+Section rolls_section();
+
 /// Of a lattice's walls.
 Key wall_print();
 

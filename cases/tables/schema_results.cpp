@@ -9,27 +9,6 @@
 namespace dielast::cases {
 namespace {
 
-bool say_the_same(const Key& one, const Key& other) {
-  return one.name == other.name && one.meaning == other.meaning && one.required == other.required &&
-         std::ranges::equal(one.choices, other.choices, {}, &Choice::word, &Choice::word);
-}
-
-/// The keys of all kinds, behind others of their name; what several kinds say in the same way is one key.
-void add_keys(std::vector<Key>& keys, const QuantityKind& kind) {
-  if (!kind.keys) return;
-  for (Key& key : kind.keys()) {
-    const auto same = std::ranges::find_if(keys, [&](const Key& known) { return say_the_same(known, key); });
-    if (same != keys.end()) {
-      same->only_for.push_back(kind.word);
-      continue;
-    }
-    const auto last =
-        std::find_if(keys.rbegin(), keys.rend(), [&](const Key& known) { return known.name == key.name; });
-    key.only_for = {kind.word};
-    keys.insert(last == keys.rend() ? keys.end() : last.base(), std::move(key));
-  }
-}
-
 /// A kind is one of quantity_kinds(), and in a value its number there.
 Binding kind_binding() {
   return {[](void* object, const Value& value) {
@@ -51,7 +30,7 @@ Section quantity_section() {
   std::vector<Choice> kinds;
   for (const QuantityKind& kind : quantity_kinds()) {
     kinds.emplace_back(kind.word, kind.meaning, kinds.size());
-    add_keys(section.keys, kind);
+    if (kind.keys) add_keys_of(kind.word, kind.keys(), section.keys);
   }
   section.keys.insert(section.keys.begin(),
                       {text("name", to(&Quantity::name), "its name in results").distinct(),

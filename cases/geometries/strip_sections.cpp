@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A strip of film or a stack of layers, and what hangs from it.
+#include "cases/geometries/geometry_kinds.hpp"
 #include "cases/tables/bar_keys.hpp"
 
 namespace dielast::cases {

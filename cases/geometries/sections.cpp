@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/geometries/geometry_kinds.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/tables/bar_keys.hpp"
 
@@ -8,6 +9,7 @@
 #include <numbers>
 
 namespace dielast::cases {
+
 namespace {
 
 /// Cells of neighbouring columns interlock.
@@ -20,6 +22,8 @@ std::string interlocking(const Value& columns) {
           i, i + 1, columns[i - 1].number, columns[i].number);
   return "";
 }
+
+} // namespace
 
 Section honeycomb_section() {
   constexpr double degree = std::numbers::pi / 180;
@@ -135,6 +139,8 @@ Section annulus_section() {
   return section;
 }
 
+namespace {
+
 /// What contradicts a patch's mode or another of its keys.
 std::optional<Conflict> patch_conflict(const void* object) {
   const auto& patch = *static_cast<const Patch*>(object);
@@ -151,6 +157,8 @@ std::optional<Conflict> patch_conflict(const void* object) {
     return Conflict{"width", "in equal-biaxial tension the patch is a square: leave width out"};
   return std::nullopt;
 }
+
+} // namespace
 
 Section patch_section() {
   const auto stretch = [](std::string name, std::optional<Waveform> Patch::*part, std::string meaning) {
@@ -259,135 +267,6 @@ Section hollow_sphere_section() {
     const auto& sphere = *static_cast<const HollowSphere*>(object);
     if (sphere.inner_radius < sphere.outer_radius) return std::nullopt;
     return Conflict{"inner_radius", "must be below outer_radius"};
-  };
-  return section;
-}
-
-Binding mesh_file() {
-  return {[](void* object, const Value& value) {
-            static_cast<Part*>(object)->geometry = MeshFile{value.at(0).text};
-          },
-          [](const void* object) -> std::optional<Value> {
-            const auto* file = std::get_if<MeshFile>(&static_cast<const Part*>(object)->geometry);
-            return file ? value_of(file->path) : std::nullopt;
-          }};
-}
-
-template<class M>
-Binding mesh_option(M MeshOptions::*option) {
-  return to_part<Part>([option](auto& part) -> auto& { return part.mesh.*option; });
-}
-
-} // namespace
-
-std::vector<Section> geometry_sections() {
-  return {honeycomb_section(),     disc_section(),  annulus_section(), balloon_section(),
-          patch_section(),         strip_section(), roll_section(),    slab_section(),
-          hollow_sphere_section(), line_section(),  rolls_section()};
-}
-
-Section mesh_section() {
-  const auto points = [] {
-    return integer("quadrature", mesh_option(&MeshOptions::quadrature),
-                   "integration points of a 6-node triangle: 3 or 6")
-        .at_least(3)
-        .at_most(6)
-        .only_with(when::curved_triangles())
-        .checked([](const Value& value) {
-          const double count = value.at(0).number;
-          return count == 3 || count == 6 ? "" : fmt::format("found {}, allowed 3 or 6", count);
-        });
-  };
-  Section section;
-  section.name = "mesh";
-  section.meaning = "how fine the mesh is, or the user's own mesh";
-  section.access = same_object();
-  section.selector = "geometry";
-  section.keys = {
-      text(
-          "file", mesh_file(),
-          "the user's own gmsh mesh (MSH 4.1 or 2.2), beside the case file; physical names are places; or a "
-          "closed surface (.stl, .ply, .off), which is filled with tetrahedra: places face_1, face_2 ... end "
-          "where its triangles meet at more than 30 deg, x_min ... z_max lie in the sides of the box around "
-          "it")
-          .only({"file"}),
-      measure("size", "m", mesh_option(&MeshOptions::size),
-              "of a surface: longest side, nearly, of its tetrahedra; without it a tenth of its extent")
-          .above(0)
-          .optional()
-          .only({"file"})
-          .only_with(when::fills_a_surface()),
-      measure(
-          "unit", "m", mesh_option(&MeshOptions::unit),
-          "what one unit of length of the file stands for; without it 1 m, and a warning says how large the "
-          "film is")
-          .above(0)
-          .optional()
-          .only({"file"}),
-      integer("refine", mesh_option(&MeshOptions::refine),
-              "how often each triangle of the file is split into four")
-          .at_least(0)
-          .at_most(6)
-          .otherwise("0")
-          .only({"file"}),
-      integer("order", mesh_option(&MeshOptions::order),
-              "1: 3-node triangles, 2-node beams and meridians; 2: 6-node and 3-node")
-          .at_least(1)
-          .at_most(2)
-          .otherwise("2")
-          .only({"honeycomb", "disc", "annulus", "balloon", "strip", "roll", "line", "antagonistic_rolls"})
-          .only_with(when::elements()),
-      integer("wall_elements", mesh_option(&MeshOptions::wall_elements),
-              "beams per wall, along a line, a hinge or a ribbon")
-          .at_least(1)
-          .at_most(200)
-          .otherwise("8")
-          .only({"honeycomb", "line", "antagonistic_rolls"})
-          .only_with(when::elements()),
-      number("grading", mesh_option(&MeshOptions::grading),
-             "largest film element over the wall's; 1 is uniform")
-          .at_least(1)
-          .at_most(100)
-          .otherwise("3")
-          .only({"honeycomb"}),
-      number("grading", mesh_option(&MeshOptions::grading),
-             "element at the outer edge over that at the inner edge; 1 is uniform")
-          .at_least(1)
-          .at_most(100)
-          .otherwise("4")
-          .only({"annulus"}),
-      number(
-          "grading", mesh_option(&MeshOptions::grading),
-          "largest element along x over the height of one, as long as which they are at an electrode's end")
-          .at_least(1)
-          .at_most(100)
-          .otherwise("6")
-          .only({"slab"}),
-      integer("across", mesh_option(&MeshOptions::across), "elements across the height, or the wall")
-          .at_least(1)
-          .at_most(200)
-          .otherwise("12")
-          .only({"slab"}),
-      integer("across", mesh_option(&MeshOptions::across), "elements across the height, or the wall")
-          .at_least(1)
-          .at_most(200)
-          .otherwise("4")
-          .only({"hollow_sphere"}),
-      integer("rings", mesh_option(&MeshOptions::rings),
-              "elements along the radius, of a balloon from pole to pole, along a roll; without it 24, of a "
-              "film of "
-              "revolution 64")
-          .at_least(2)
-          .at_most(2000)
-          .optional()
-          .only({"disc", "annulus", "balloon", "roll"}),
-      integer("across", mesh_option(&MeshOptions::across), "elements from side to side of a strip")
-          .at_least(1)
-          .at_most(1000)
-          .otherwise("16")
-          .only({"strip"}),
-      points().otherwise("3").only({"honeycomb", "annulus", "strip", "file"}),
-      points().otherwise("6").only({"disc", "balloon"}),
   };
   return section;
 }
