@@ -204,6 +204,13 @@ struct Strip {
   double clamped_electrode() const { return electrode_length.value_or(length) - free_electrode(); }
 };
 
+/// [rectangle]: film held in a frame, about the origin; dimensions as clamped, after the prestretch
+struct Rectangle {
+  static constexpr GeometryTraits traits{.elements = &MeshOptions::across, .fewest = 2, .corners = true};
+  double length = 0, width = 0;                                ///< along x, along y, m
+  std::optional<double> electrode_length{}, electrode_width{}; ///< m; absent: all
+};
+
 /// What the core of a roll does to the film's radius.
 enum class RollCore {
   two_sided, ///< it keeps it, pressed or pulled
@@ -250,8 +257,8 @@ struct NoGeometry {
   static constexpr GeometryTraits traits{};
 };
 
-using Geometry = std::variant<NoGeometry, Honeycomb, Disc, Annulus, Balloon, Patch, Strip, Roll, Line,
-                              AntagonisticRolls, Slab, HollowSphere, MeshFile>;
+using Geometry = std::variant<NoGeometry, Honeycomb, Disc, Annulus, Balloon, Patch, Strip, Rectangle, Roll,
+                              Line, AntagonisticRolls, Slab, HollowSphere, MeshFile>;
 
 /// A film, rods of it, or bars, with a mesh of their own or in a place of the unnamed part's. The part
 /// without a name is what stands at the top of the file, in [film], [disc], [mesh] ...; others are
@@ -307,6 +314,7 @@ meshing::Mesh mesh_of(const Annulus& annulus, const Drawing& drawing);
 meshing::Mesh mesh_of(const Balloon& balloon, const Drawing& drawing);
 meshing::Mesh mesh_of(const Patch& patch, const Drawing& drawing);
 meshing::Mesh mesh_of(const Strip& strip, const Drawing& drawing);
+meshing::Mesh mesh_of(const Rectangle& rectangle, const Drawing& drawing);
 meshing::Mesh mesh_of(const Roll& roll, const Drawing& drawing);
 meshing::Mesh mesh_of(const Line& line, const Drawing& drawing);
 meshing::Mesh mesh_of(const AntagonisticRolls& rolls, const Drawing& drawing);

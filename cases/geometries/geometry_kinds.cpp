@@ -124,6 +124,7 @@ std::span<const GeometryKind> geometry_kinds() {
       {strip_section(),
        {order_key(), across_key("elements from side to side of a strip", 1000, "16"), quadrature_key("3")},
        strip_templates()},
+      rectangle_geometry(),
       {roll_section(), {order_key(), rings_key()}, roll_templates()},
       {rolls_section(), {order_key(), wall_elements_key()}, antagonistic_rolls_templates()},
       {slab_section(),

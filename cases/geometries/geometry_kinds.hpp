@@ -32,6 +32,8 @@ Key across_key(std::string meaning, int largest, std::string fallback);
 Key grading_key(std::string meaning, std::string fallback);
 Key quadrature_key(std::string fallback);
 
+GeometryKind rectangle_geometry();
+
 Section honeycomb_section();
 Section disc_section();
 Section annulus_section();
