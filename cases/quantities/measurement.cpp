@@ -34,7 +34,7 @@ void Measurement::prepare() {
   }
 }
 
-double Measurement::evaluate(std::size_t number, const Measured& measured) const {
+double Measurement::value(std::size_t number, const Measured& measured) const {
   const Quantity& quantity = case_.quantities[number];
   if (probes_[number]) return probes_[number](measured);
   if (!shapes_[number]) return no_value;
@@ -47,7 +47,7 @@ double Measurement::evaluate(std::size_t number, const Measured& measured) const
 
 std::vector<double> Measurement::all(const Measured& measured) {
   std::vector<double> values;
-  for (std::size_t q = 0; q < case_.quantities.size(); ++q) values.push_back(evaluate(q, measured));
+  for (std::size_t q = 0; q < case_.quantities.size(); ++q) values.push_back(value(q, measured));
   for (std::size_t q = 0; q < values.size(); ++q)
     if (const Quantity& quantity = case_.quantities[q]; quantity.kind->so_far)
       values[q] = quantity.kind->so_far(references, quantity, values[subject(quantity)], measured.state.time);
@@ -62,7 +62,7 @@ std::size_t Measurement::subject(const Quantity& quantity) const {
 void Measurement::pass(const Measured& measured) {
   for (const Quantity& quantity : case_.quantities)
     if (quantity.kind->so_far)
-      quantity.kind->so_far(references, quantity, evaluate(subject(quantity), measured), measured.state.time);
+      quantity.kind->so_far(references, quantity, value(subject(quantity), measured), measured.state.time);
 }
 
 bool Measurement::follows_course() const {

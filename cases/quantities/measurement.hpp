@@ -21,6 +21,9 @@ class Measurement {
   /// step that has not ended).
   std::vector<double> all(const Measured& measured);
 
+  /// One of them, by its number in the case; NaN of those of another's course, too.
+  double value(std::size_t number, const Measured& measured) const;
+
   /// Sees a state that is not recorded: for quantities of another's course.
   void pass(const Measured& measured);
   bool follows_course() const;
@@ -36,7 +39,6 @@ class Measurement {
  private:
   /// The number of the quantity whose course one follows.
   std::size_t subject(const Quantity& quantity) const;
-  double evaluate(std::size_t number, const Measured& measured) const;
 
   const Case& case_;
   const Device& device_;

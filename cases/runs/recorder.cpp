@@ -325,6 +325,7 @@ void Recorder::save_checkpoint() {
        {"active_events", progress.active_events},
        {"time_error", progress.time_error},
        {"let_go", post::pack({progress.let_go.data(), static_cast<std::size_t>(progress.let_go.size())})},
+       {"signals", progress.signals},
        {"results", post::pack(simulation_.results())},
        {"steps_ended", steps_ended_},
        {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
@@ -369,7 +370,7 @@ void Recorder::restore_checkpoint() try {
   simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
                       post::restore_energy(saved.at("energy"), sizes), saved.at("references"),
                       saved.at("active_events"), saved.at("time_error"),
-                      Eigen::Map<const Eigen::VectorXd>(let_go.data(), std::ssize(let_go))});
+                      Eigen::VectorXd::Map(let_go.data(), std::ssize(let_go)), saved.at("signals")});
   simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
   steps_ended_ = saved.at("steps_ended");
   if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();

@@ -4,6 +4,7 @@
 #include "cases/language/conditions.hpp"
 #include "cases/runs/phases.hpp"
 #include "post/engineering.hpp"
+#include "post/files/checkpoint_file.hpp"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step
 Simulation::Simulation(const Case& one, int threads)
     : case_(one), threads_(threads), holding_(holding_in(one, one.steps, 0)),
       now_(with_supports(one, holding_)), device_(build_device(now_)), measurement_(one, device_),
-      watch_(device_), steps_(one.steps),
+      signals_(signals_of(one)), watch_(device_), steps_(one.steps),
       results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
   equilibrium_.emplace(device_.model, threads);
   frame_ = frame_force();
@@ -69,7 +70,7 @@ Simulation::Simulation(const Case& one, int threads)
   fem::State drawn_state = device_.model.initial_state();
   drawn_state.dead_force = frame_;
   in_step_.ramp.points = {{0, std::move(drawn_state)}};
-  loads_.emplace(now_, device_, steps_, frame_);
+  loads_.emplace(now_, device_, steps_, signals_, frame_);
 }
 
 void Simulation::enter(int step) {
@@ -83,7 +84,7 @@ void Simulation::enter(int step) {
   measurement_.prepare();
   equilibrium_.emplace(device_.model, threads_);
   frame_ = Renumbering(before, device_.model.dofs)(frame_);
-  loads_.emplace(now_, device_, steps_, frame_);
+  loads_.emplace(now_, device_, steps_, signals_, frame_);
 }
 
 /// Supports let go and take hold at the beginning of the current step. What lets go hands its forces to the
@@ -115,8 +116,12 @@ Eigen::VectorXd Simulation::frame_force() {
 }
 
 SimulationProgress Simulation::progress() const {
-  return {step_,         records_,    in_step_,      energy_.record(), measurement_.references,
-          watch_.active, time_error_, loads_->let_go};
+  SimulationProgress progress{
+      step_,         records_,    in_step_,      energy_.record(), measurement_.references,
+      watch_.active, time_error_, loads_->let_go};
+  for (const auto& signal : signals_)
+    progress.signals.push_back(signal ? signal->memory() : std::vector<double>{});
+  return progress;
 }
 
 void Simulation::resume(const SimulationProgress& progress) {
@@ -129,6 +134,12 @@ void Simulation::resume(const SimulationProgress& progress) {
   watch_.active = progress.active_events;
   time_error_ = progress.time_error;
   loads_->let_go = progress.let_go;
+  if (progress.signals.size() != signals_.size()) throw post::CheckpointError("damaged");
+  for (std::size_t e = 0; e < signals_.size(); ++e) {
+    if (!signals_[e]) continue;
+    if (progress.signals[e].size() != signals_[e]->memory().size()) throw post::CheckpointError("damaged");
+    signals_[e]->recall(progress.signals[e]);
+  }
 }
 
 void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {
@@ -172,10 +183,27 @@ bool Simulation::admits(const Step& step, double load_factor, const fem::State& 
   return false;
 }
 
+/// Shows the state to the signals that want to see it; otherwise refusal_ says which cannot go on.
+bool Simulation::sample(const Step& step, double load_factor, const fem::State& state) {
+  if (step.kind != StepKind::transient) return true;
+  const double t = load_factor * *step.duration;
+  for (const auto& signal : signals_) {
+    if (!signal || !signal->samples(t)) continue;
+    Measured measured(device_, *equilibrium_, state, energy_);
+    measured.may_rest = false;
+    const std::string wrong = signal->sample(t, measured, measurement_);
+    if (wrong.empty()) continue;
+    refusal_ = {Ending::gave_up, "no measurement", fmt::format("step \"{}\" stopped: {}", step.name, wrong)};
+    return false;
+  }
+  return true;
+}
+
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
   if (!admits(step, increment.load_factor, state)) return false;
   account(state, increment, reached);
+  if (!sample(step, increment.load_factor, state)) return false;
   if (increment.lands) return record(observer, step, state, increment, reached);
   unrecorded_ = increment;
   if (measurement_.follows_course())
@@ -243,6 +271,9 @@ Outcome Simulation::run(const SimulationObserver& observer) {
       change_supports(state);
       loads_->begin(step_, state);
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
+      for (const auto& signal : signals_)
+        if (signal) signal->begin(step.duration.value_or(0));
+      if (!sample(step, 0, ramp.points.back().state)) return *std::exchange(refusal_, std::nullopt);
     }
     const fem::RampOptions options = loads_->options(step_);
     const fem::LoadPath path = loads_->path(step_, ramp.start);

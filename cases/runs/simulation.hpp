@@ -19,8 +19,9 @@ struct SimulationProgress {
   fem::EnergyBalance::Record energy;
   std::map<std::string, double> references;
   std::set<std::string> active_events;
-  double time_error = 0;    ///< sum over the time steps
-  Eigen::VectorXd let_go{}; ///< see StepLoads
+  double time_error = 0;                      ///< sum over the time steps
+  Eigen::VectorXd let_go{};                   ///< see StepLoads
+  std::vector<std::vector<double>> signals{}; ///< what each of them keeps
 };
 
 /// An accepted state.
@@ -82,6 +83,7 @@ class Simulation {
   Eigen::VectorXd frame_force();
   void change_supports(fem::State& state);
   bool admits(const Step& step, double load_factor, const fem::State& state);
+  bool sample(const Step& step, double load_factor, const fem::State& state);
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
               const fem::Increment& increment, Reached reached);
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);
@@ -95,6 +97,7 @@ class Simulation {
   Device device_;             ///< of it
   std::optional<fem::Equilibrium> equilibrium_;
   Measurement measurement_;
+  Signals signals_;
   Watch watch_;
   std::vector<Step> steps_;
   std::vector<std::string> warnings_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/runs/step_loads.hpp"
+#include "cases/loads/step_loads.hpp"
 #include "fem/paths/instability.hpp"
 #include "post/step_record.hpp"
 

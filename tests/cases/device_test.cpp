@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/device.hpp"
 
+#include "cases/loads/step_loads.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/runs/simulation.hpp"
-#include "cases/runs/step_loads.hpp"
 #include "meshing/mesh_error.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -69,7 +69,8 @@ TEST(FreeBody, ItsPinsExertNoForce) {
 /// The state at the end of the first step, a ramp.
 fem::State led_to(const Case& one, const Device& device) {
   fem::State state = device.model.initial_state();
-  const StepLoads loads(one, device, one.steps, state.dead_force);
+  const Signals signals = signals_of(one);
+  const StepLoads loads(one, device, one.steps, signals, state.dead_force);
   loads.path(0, fem::Loads::of(state, device.model.dofs)).apply(state, 1);
   return state;
 }

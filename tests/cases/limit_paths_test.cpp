@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/step_loads.hpp"
+#include "cases/loads/step_loads.hpp"
 #include "fem/paths/instability.hpp"
 #include "tests/campaign.hpp"
 #include "tests/cases/limit_cases.hpp"
@@ -154,7 +154,8 @@ class LimitPaths : public test::ScratchTest {
     fem::Equilibrium& equilibrium = simulation.equilibrium();
     const fem::DofMap& dofs = simulation.device().model.dofs;
     const int last = static_cast<int>(one.steps.size()) - 1;
-    const StepLoads loads(one, simulation.device(), one.steps, Eigen::VectorXd::Zero(dofs.count()));
+    const Signals signals = signals_of(one);
+    const StepLoads loads(one, simulation.device(), one.steps, signals, Eigen::VectorXd::Zero(dofs.count()));
     fem::State state = simulation.state();
     loads.begin(last, state);
     const fem::LoadPath path = loads.path(last, fem::Loads::of(state, dofs));

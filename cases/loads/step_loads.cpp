@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/step_loads.hpp"
+#include "cases/loads/step_loads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr double same_break = 2e-9;
 
 /// Where ramps lead: a wave that jumps at t = 0 jumps in the transient that follows it.
-constexpr StepLoads::Instant just_before_start{0, true};
+constexpr Instant just_before_start{0, true};
 
 /// Shortest relaxation time of the film's branches, of its circuits and of its sheets, s; infinite without.
 double shortest_relaxation(const materials::Material& material, const fem::Model& model) {
@@ -36,8 +36,8 @@ double shortest_relaxation(const materials::Material& material, const fem::Model
 } // namespace
 
 StepLoads::StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps,
-                     Eigen::VectorXd frame_force)
-    : case_(one), device_(device), steps_(steps), frame_force_(std::move(frame_force)) {}
+                     const Signals& signals, Eigen::VectorXd frame_force)
+    : case_(one), device_(device), steps_(steps), signals_(signals), frame_force_(std::move(frame_force)) {}
 
 const Drive* StepLoads::drive(std::size_t electrode) const {
   const auto found = case_.drives.find(case_.electrodes[electrode].name);
@@ -54,6 +54,12 @@ std::optional<double> StepLoads::goal_of(const Step& step, std::size_t electrode
   if (!step.electrode.empty() && step.electrode != case_.electrodes[electrode].name) return std::nullopt;
   const Drive* source = drive(electrode);
   return goal_of(step, source ? source->*part : std::nullopt, t);
+}
+
+std::optional<double> StepLoads::voltage_goal(const Step& step, std::size_t electrode, Instant t) const {
+  if (step.kind != StepKind::transient) return goal_of(step, electrode, &Drive::voltage, t);
+  const Signal* signal = signals_[electrode].get();
+  return signal ? std::optional(signal->at(t)) : std::nullopt;
 }
 
 /// Circuits take time; without, an electrode is at its source's voltage.
@@ -145,8 +151,7 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   if (does(StepKind::move)) move(loads.held, t);
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
     const bool isolated = supply(step, e) == fem::Supply::charge;
-    if (const auto goal = goal_of(step, e, &Drive::voltage, t);
-        does(StepKind::voltage) && goal && !isolated) {
+    if (const auto goal = voltage_goal(step, e, t); does(StepKind::voltage) && goal && !isolated) {
       loads.source[e] = *goal;
       const fem::Circuit* circuit = device_.model.circuit_of(e);
       loads.voltage[e] = loads.source[e] * (circuit ? circuit->steady_share() : 1);
@@ -174,9 +179,10 @@ std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
     const std::vector<double> kinks = wave.kinks(0, *step.duration);
     all.insert(all.end(), kinks.begin(), kinks.end());
   };
+  for (const auto& signal : signals_)
+    if (signal) std::ranges::copy(signal->kinks(*step.duration), std::back_inserter(all));
   for (const auto& [name, source] : case_.drives)
-    for (const auto& wave : {source.voltage, source.charge})
-      if (wave) add(*wave);
+    if (source.charge) add(*source.charge);
   for (const Load& load : case_.loads)
     for (int c = 0; c < fem::DofMap::components; ++c)
       if (const Waveform* wave = load.component(c)) add(*wave);

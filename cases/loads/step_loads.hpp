@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/devices/device.hpp"
+#include "cases/loads/signals.hpp"
 #include "fem/paths/ramp.hpp"
 
 namespace dielast::cases {
@@ -9,16 +10,9 @@ namespace dielast::cases {
 /// What the steps of a case do to the loads of its device.
 class StepLoads {
  public:
-  /// A time of a step, or the moment before it.
-  struct Instant {
-    double t = 0; ///< s
-    bool before = false;
-
-    double of(const Waveform& wave) const { return before ? wave.before(t) : wave.at(t); }
-  };
-
-  /// `frame_force`: dead forces by which a frame holds the free nodes as drawn, until a step releases them.
-  StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps,
+  /// `signals`: of the electrodes' sources in transients. `frame_force`: dead forces by which a frame holds
+  /// the free nodes as drawn, until a step releases them.
+  StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps, const Signals& signals,
             Eigen::VectorXd frame_force);
 
   /// Connects and isolates electrodes as the step wants; what becomes isolated keeps its charge. Without
@@ -37,6 +31,7 @@ class StepLoads {
   static std::optional<double> goal_of(const Step& step, const std::optional<Waveform>& wave, Instant t);
   std::optional<double> goal_of(const Step& step, std::size_t electrode, std::optional<Waveform> Drive::*part,
                                 Instant t) const;
+  std::optional<double> voltage_goal(const Step& step, std::size_t electrode, Instant t) const;
   void connect_chamber(const Step& step, const fem::Charges& held, fem::State& state) const;
   const Drive* drive(std::size_t electrode) const;
   /// Kinds of the steps up to this one.
@@ -56,6 +51,7 @@ class StepLoads {
   const Case& case_;
   const Device& device_;
   const std::vector<Step>& steps_;
+  const Signals& signals_;
   Eigen::VectorXd frame_force_;
 };
 
