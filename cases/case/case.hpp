@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/case/bodies.hpp"
+#include "cases/case/controller.hpp"
 #include "cases/case/part.hpp"
 #include "cases/case/quantity_kind.hpp"
 #include "cases/text/diagnostics.hpp"
@@ -268,6 +269,7 @@ struct Case {
   std::vector<Load> loads;
   std::map<std::string, Drive> drives;     ///< by the electrode's name
   std::map<std::string, Circuit> circuits; ///< likewise
+  std::vector<Controller> controllers;
   std::optional<Plate> plate;
   std::vector<PointMass> point_masses;
   std::vector<Body> bodies;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/loads/signals.hpp"
 
+#include "cases/loads/control_signal.hpp"
+
 namespace dielast::cases {
 namespace {
 
@@ -16,8 +18,11 @@ class WaveSignal : public Signal {
 
 std::unique_ptr<Signal> signal_of(const Electrode& electrode, const Case& one) {
   const auto drive = one.drives.find(electrode.name);
-  if (drive == one.drives.end() || !drive->second.voltage) return nullptr;
-  return std::make_unique<WaveSignal>(*drive->second.voltage);
+  const Waveform* wave =
+      drive != one.drives.end() && drive->second.voltage ? &*drive->second.voltage : nullptr;
+  for (const Controller& controller : one.controllers)
+    if (controller.electrode == electrode.name) return control_signal(one, controller, wave);
+  return wave ? std::make_unique<WaveSignal>(*wave) : nullptr;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/case/quantities.hpp"
 #include "cases/language/conditions.hpp"
+#include "cases/tables/schema_controllers.hpp"
 #include "cases/tables/sweep_keys.hpp"
 
 #include <algorithm>
@@ -198,8 +199,8 @@ Section linearise_section() {
 } // namespace
 
 std::vector<Section> result_sections() {
-  return {quantity_section(), profile_section(),   check_section(), solver_section(),
-          output_section(),   linearise_section(), study_section()};
+  return {quantity_section(), profile_section(), controller_section(), check_section(),
+          solver_section(),   output_section(),  linearise_section(),  study_section()};
 }
 
 } // namespace dielast::cases

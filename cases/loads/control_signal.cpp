@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/loads/control_signal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dielast::cases {
+namespace {
+
+/// Part of a step within which a time is that of a measurement: waves that turn as close to it share its
+/// break.
+constexpr double same_time = 4e-9;
+constexpr double most_samples = 1e6; ///< in a step
+
+class ControlSignal : public Signal {
+ public:
+  ControlSignal(const Case& one, const Controller& controller, const Waveform* drive)
+      : controller_(controller), drive_(drive) {
+    const auto found = std::ranges::find(one.quantities, controller.quantity, &Quantity::name);
+    quantity_ = static_cast<std::size_t>(found - one.quantities.begin());
+    for (const Step& step : one.steps)
+      if (step.kind == StepKind::transient && *step.duration > most_samples * controller.every)
+        throw CaseError({{{one.source.string()},
+                          "controller.every",
+                          fmt::format("step \"{}\" would have {:.3g} measurements, allowed {:.0f}", step.name,
+                                      *step.duration / controller.every, most_samples)}});
+    if (found->kind->so_far || found->kind->of_run)
+      throw CaseError({{{one.source.string()},
+                        "controller.quantity",
+                        fmt::format("\"{}\" is not told by a state alone: a controller cannot measure a {}",
+                                    controller.quantity, found->kind->word)}});
+  }
+
+  double at(Instant t) const override {
+    const double last = (samples_ - 1) * controller_.every;
+    const bool at_last = std::abs(t.t - last) <= close_;
+    return (at_last ? t.before : t.t < last) ? before_ : held_;
+  }
+
+  std::vector<double> kinks(double duration) const override {
+    std::vector<double> times;
+    for (int k = 0; k * controller_.every < duration; ++k) times.push_back(k * controller_.every);
+    return times;
+  }
+
+  void begin(double duration) override {
+    samples_ = 0;
+    close_ = same_time * duration;
+  }
+
+  bool samples(double t) const override { return t >= samples_ * controller_.every - close_; }
+
+  std::string sample(double t, const Measured& measured, const Measurement& measurement) override {
+    const double lack = controller_.target - measurement.value(quantity_, measured);
+    if (!std::isfinite(lack))
+      return fmt::format("quantity \"{}\", which the controller of electrode \"{}\" measures, has no value",
+                         controller_.quantity, controller_.electrode);
+    const double integral = samples_ > 0 ? integral_ + lack_ * controller_.every : integral_;
+    const double share = controller_.integral_gain * integral;
+    const double base = drive_ ? drive_->at(t) : 0;
+    const double wanted = base + controller_.gain * lack + share;
+    before_ = std::exchange(held_, std::clamp(wanted, controller_.lowest, controller_.highest));
+    // At a limit the integral stays, unless it leads away from there.
+    const double more = controller_.integral_gain * (integral - integral_);
+    if (!(wanted > controller_.highest && more > 0) && !(wanted < controller_.lowest && more < 0))
+      integral_ = integral;
+    lack_ = lack;
+    ++samples_;
+    return "";
+  }
+
+  std::vector<double> memory() const override {
+    return {static_cast<double>(samples_), close_, held_, before_, integral_, lack_};
+  }
+  void recall(const std::vector<double>& memory) override {
+    samples_ = static_cast<int>(memory.at(0));
+    close_ = memory.at(1), held_ = memory.at(2), before_ = memory.at(3);
+    integral_ = memory.at(4), lack_ = memory.at(5);
+  }
+
+ private:
+  const Controller& controller_;
+  const Waveform* drive_;
+  std::size_t quantity_ = 0;
+  int samples_ = 0;              ///< in this step
+  double close_ = 0;             ///< times as close as this are one, s
+  double held_ = 0, before_ = 0; ///< V, since the last measurement, and until then
+  double integral_ = 0;          ///< of what the quantity lacks, s times its unit
+  double lack_ = 0;              ///< at the last measurement
+};
+
+} // namespace
+
+std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller, const Waveform* drive) {
+  return std::make_unique<ControlSignal>(one, controller, drive);
+}
+
+} // namespace dielast::cases
