@@ -121,6 +121,7 @@ struct Linkage {
 
 /// A ramp leads from where the device is to the values that waves have at t = 0; `transient` follows the
 /// waves from t = 0 on; in `hold` time passes and everything stays.
+/// In `relax` everything stays, too, for as long as anything flows, and no time passes.
 /// `modes` and `harmonic` ask for small vibrations about where the device is, and leave it there.
 enum class StepKind {
   release,
@@ -133,6 +134,7 @@ enum class StepKind {
   inflate,
   transient,
   hold,
+  relax,
   modes,
   harmonic
 };

@@ -158,6 +158,9 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
     }
     if (const auto goal = goal_of(step, e, &Drive::charge, t); does(StepKind::charge) && goal && isolated)
       loads.charge[e] = *goal;
+    if (const fem::Circuit* circuit = device_.model.circuit_of(e);
+        step.kind == StepKind::relax && circuit && !isolated)
+      loads.voltage[e] = loads.source[e] * circuit->steady_share();
   }
   if (case_.chamber) {
     const std::size_t port = case_.electrodes.size();

@@ -166,6 +166,11 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
       reader.report(
           at.source, at.key,
           "nothing has a weight; add [plate], a [[point_mass]], a [[body]] or [gravity] with film = true");
+    if (step.kind == StepKind::relax && !when::branches().met(one, nullptr) && one.circuits.empty())
+      reader.warn(
+          at.source, at.key,
+          "has no effect here: without a [[film.material.branch]], a viscosity or a [circuit] nothing "
+          "flows");
     const auto& [x, y, z] = one.gravity.direction;
     if (step.kind == StepKind::weight && one.dimension == fem::Dimension::planar && !one.plate && x == 0 &&
         y == 0)

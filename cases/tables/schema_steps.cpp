@@ -9,8 +9,8 @@ namespace {
 const std::vector<std::string> ramps{"release", "voltage", "charge",   "force",
                                      "move",    "weight",  "pressure", "inflate"};
 const std::vector<std::string> timed{"transient", "hold"};
-const std::vector<std::string> moving{"release", "voltage",  "charge",  "force",     "move",
-                                      "weight",  "pressure", "inflate", "transient", "hold"};
+const std::vector<std::string> moving{"release",  "voltage", "charge",    "force", "move", "weight",
+                                      "pressure", "inflate", "transient", "hold",  "relax"};
 
 std::optional<Conflict> conflict(const void* object) {
   const auto& step = *static_cast<const Step*>(object);
@@ -58,6 +58,10 @@ Section step_section() {
             {"inflate", "pumps the chamber to its volume", StepKind::inflate},
             {"transient", "time passes: drives, loads and supports follow their waves", StepKind::transient},
             {"hold", "time passes: drives, loads and supports stay as they are", StepKind::hold},
+            {"relax",
+             "dashpots and the charges behind circuits flow to the end: drives, loads and supports stay as "
+             "they are, and no time passes",
+             StepKind::relax},
             {"modes", "small free vibrations about the state, branches relaxed", StepKind::modes},
             {"harmonic", "response to a small sine of the source, frequency by frequency, branches relaxed",
              StepKind::harmonic}},
@@ -82,7 +86,7 @@ Section step_section() {
           .optional()
           .refers_to(Reference::electrode)
           .only({"voltage", "charge"}),
-      increments("1", equal).only({"release"}),
+      increments("1", equal).only({"release", "relax"}),
       increments("10", equal).only({"voltage", "charge", "force", "move", "pressure", "inflate"}),
       increments("5", equal).only({"weight"}),
       increments("100", "the longest time step is the duration over this").only({"transient"}),
@@ -111,7 +115,7 @@ Section step_section() {
            to(&Step::control), "what the electrodes keep")
           .otherwise("voltage")
           .only_with(when::electrodes())
-          .only({"force", "move", "weight", "pressure", "inflate", "transient", "hold", "modes"}),
+          .only({"force", "move", "weight", "pressure", "inflate", "transient", "hold", "relax", "modes"}),
       integer("count", to(&Step::count), "number of modes")
           .at_least(1)
           .at_most(200)

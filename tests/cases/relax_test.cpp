@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/reader.hpp"
+#include "cases/runs/simulation.hpp"
+#include "tests/cases/scratch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+const std::string film =
+    "[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+    "relative_permittivity = 4\n";
+const std::string branch = "[[film.material.branch]]\nshear_modulus = \"60 kPa\"\nviscosity = \"6 kPa.s\"\n";
+const std::string patch =
+    "[patch]\nlength = \"10 mm\"\nmode = \"pure-shear\"\nstress_x = \"90 kPa\"\n[drive]\n"
+    "voltage = \"2 kV\"\n";
+const std::string loaded = "[[step]]\nkind = \"force\"\nresponse = \"instantaneous\"\n[[step]]\nkind = "
+                           "\"voltage\"\nresponse = \"instantaneous\"\n";
+
+class RelaxTest : public test::ScratchTest {
+ protected:
+  Case read(const std::string& text) const {
+    write("relax.toml", text);
+    return read_case(directory / "relax.toml");
+  }
+  static double last(const Case& one, const Simulation& simulation, const std::string& name) {
+    const auto found = std::ranges::find(one.quantities, name, &Quantity::name);
+    return simulation.results().at(static_cast<std::size_t>(found - one.quantities.begin()));
+  }
+};
+
+// Nominal stress along x of a film whose width stays: the branch carries nothing in the end.
+TEST_F(RelaxTest, LeadsToTheEquilibriumOfTheLawAlone) {
+  const Case one = read(film + branch + patch + loaded + "[[step]]\nkind = \"relax\"\n");
+  EXPECT_TRUE(one.warnings.empty());
+  Simulation simulation(one, 1);
+  const Outcome outcome = simulation.run({});
+  ASSERT_EQ(outcome.ending, Ending::complete) << outcome.message;
+  double low = 1, high = 6;
+  for (int i = 0; i < 200; ++i) {
+    const double x = (low + high) / 2, field = 2e3 * x * 2 / 1e-3;
+    const double stress = (40e3 * (x * x - 1 / (4 * x * x)) - 4 * 8.8541878128e-12 * field * field) / x;
+    (stress < 90e3 ? low : high) = x;
+  }
+  EXPECT_NEAR(last(one, simulation, "stretch_x"), low, 1e-8 * low);
+  EXPECT_EQ(simulation.state().time, 0);
+}
+
+// As after a hold that is far longer than anything flows: shape and heat.
+TEST_F(RelaxTest, IsWhereALongHoldLeads) {
+  const Case relaxed = read(film + branch + patch + loaded + "[[step]]\nkind = \"relax\"\nincrements = 20\n");
+  Simulation without_time(relaxed, 1);
+  ASSERT_EQ(without_time.run({}).ending, Ending::complete);
+  const Case held = read(film + branch + patch + loaded + "[[step]]\nkind = \"hold\"\nduration = \"20 s\"\n");
+  Simulation in_time(held, 1);
+  ASSERT_EQ(in_time.run({}).ending, Ending::complete);
+  for (const char* name : {"stretch_x", "capacitance", "stored_energy"}) {
+    const double expected = last(held, in_time, name);
+    EXPECT_NEAR(last(relaxed, without_time, name), expected, 1e-6 * std::abs(expected)) << name;
+  }
+  const double heat = last(held, in_time, "dissipated_energy");
+  EXPECT_GT(heat, 0.01 * last(held, in_time, "stored_energy"));
+  EXPECT_NEAR(last(relaxed, without_time, "dissipated_energy"), heat, 1e-3 * heat);
+  EXPECT_NEAR(last(relaxed, without_time, "mechanical_work"), last(held, in_time, "mechanical_work"),
+              1e-3 * heat);
+}
+
+// Isolated electrodes keep their charge.
+TEST_F(RelaxTest, KeepsTheChargeOfIsolatedElectrodes) {
+  const Case one =
+      read(film + branch + patch + loaded + "[[step]]\nkind = \"relax\"\ncontrol = \"charge\"\n");
+  Simulation simulation(one, 1);
+  double before = 0;
+  SimulationObserver observer;
+  const auto at = static_cast<std::size_t>(std::ranges::find(one.quantities, "charge", &Quantity::name) -
+                                           one.quantities.begin());
+  observer.on_accept = [&](const Frame& frame) {
+    if (frame.record.step == "voltage") before = frame.values[at];
+    return true;
+  };
+  ASSERT_EQ(simulation.run(observer).ending, Ending::complete);
+  EXPECT_GT(before, 0);
+  EXPECT_NEAR(last(one, simulation, "charge"), before, 1e-12 * before);
+  EXPECT_LT(simulation.state().voltage[0], 2e3); // thinner film takes its charge at less
+}
+
+// Behind a circuit that has had no time to charge the electrode, it comes to what the source and the leak
+// leave.
+TEST_F(RelaxTest, ChargesBehindCircuits) {
+  const Case one = read(film + patch +
+                        "[circuit]\nresistance = \"100 Mohm\"\nleakage_resistance = \"300 Mohm\"\n"
+                        "[[step]]\nkind = \"force\"\n[[step]]\nkind = \"transient\"\nduration = \"1 ms\"\n"
+                        "[[step]]\nkind = \"relax\"\n");
+  EXPECT_TRUE(one.warnings.empty());
+  Simulation simulation(one, 1);
+  double charged = 0;
+  SimulationObserver observer;
+  observer.on_accept = [&](const Frame& frame) {
+    if (frame.record.step == "transient") charged = frame.record.voltages[0];
+    return true;
+  };
+  ASSERT_EQ(simulation.run(observer).ending, Ending::complete);
+  EXPECT_LT(charged, 1000);
+  EXPECT_NEAR(simulation.state().voltage[0], 1500, 1e-6);
+}
+
+TEST_F(RelaxTest, WithoutAnythingThatFlowsItHasNoEffect) {
+  const Case one = read(film + patch + loaded + "[[step]]\nkind = \"relax\"\n");
+  ASSERT_FALSE(one.warnings.empty());
+  EXPECT_NE(one.warnings[0].text().find("nothing flows"), std::string::npos) << one.warnings[0].text();
+}
+
+} // namespace
+} // namespace dielast::cases
