@@ -8,6 +8,13 @@
 
 namespace dielast::post {
 
+namespace {
+
+/// std::hypot minds numbers whose squares are none, at several times the cost.
+double norm(double x, double y) { return std::sqrt(x * x + y * y); }
+
+} // namespace
+
 FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   if (sample.solid) {
     const fem::SolidSample& solid = *sample.solid;
@@ -28,14 +35,22 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   const double given_stretch = area.norm(), area_stretch = given_stretch * sample.widening;
 
   const double half_difference = (C(0, 0) - C(1, 1)) / 2;
-  const double radius = std::hypot(half_difference, C(0, 1));
+  const double radius = norm(half_difference, C(0, 1));
   stretch(0) = std::sqrt((C(0, 0) + C(1, 1)) / 2 + radius);
   stretch(1) = given_stretch / stretch(0); // not the other root: it cancels when the stretches differ much
   stretch(2) = 1 / area_stretch;
 
-  const double angle = std::atan2(C(0, 1), half_difference) / 2;
+  // Cosine and sine of half the angle of (half_difference, C12), the larger one first: the other would
+  // cancel.
+  double cosine = 1, sine = 0;
+  if (radius > 0) {
+    const double larger = std::sqrt((1 + std::abs(half_difference) / radius) / 2);
+    const double smaller = C(0, 1) / (2 * radius * larger);
+    cosine = half_difference >= 0 ? larger : std::abs(smaller);
+    sine = half_difference >= 0 ? smaller : std::copysign(larger, C(0, 1));
+  }
   Eigen::Matrix2d material; // columns: principal directions in the unstretched film
-  material << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  material << cosine, -sine, sine, cosine;
   direction.col(0) = (F * material.col(0)).normalized();
   direction.col(2) = area / given_stretch;
   direction.col(1) = direction.col(2).cross(direction.col(0));
@@ -44,7 +59,7 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   Eigen::Matrix2d in_plane = material.transpose() * sample.S * material;
   in_plane.array() *= (stretch.head<2>() * stretch.head<2>().transpose()).array();
   const double mean = in_plane.trace() / 2;
-  const double deviation = std::hypot((in_plane(0, 0) - in_plane(1, 1)) / 2, in_plane(0, 1));
+  const double deviation = norm((in_plane(0, 0) - in_plane(1, 1)) / 2, in_plane(0, 1));
   principal_stress = {mean + deviation, mean - deviation};
 
   thickness = sample.thickness * stretch(2);

@@ -18,11 +18,13 @@ double weight(const fem::MembraneSample& sample) { return sample.volume; }
 double weight(const fem::BeamSample& sample) { return sample.length; }
 
 template<class Sample, class Point>
-std::vector<std::vector<double>> weighted_average(std::span<const Sample> samples,
-                                                  std::span<const Field<Point>> fields, int cell_count) {
+std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::span<const Field<Point>> fields,
+                                        int cell_count) {
   const auto cells = static_cast<std::size_t>(cell_count);
-  std::vector<std::vector<double>> sums;
-  for (const auto& field : fields) sums.emplace_back(cells * static_cast<std::size_t>(field.width()));
+  std::vector<CellValues> result;
+  for (const auto& field : fields)
+    result.push_back({std::vector<double>(cells * static_cast<std::size_t>(field.width())),
+                      std::vector<double>(field.worst ? cells : 0, not_a_number)});
   std::vector<double> weights(cells);
   std::array<double, widest_field> values;
   for (const Sample& sample : samples) {
@@ -32,28 +34,21 @@ std::vector<std::vector<double>> weighted_average(std::span<const Sample> sample
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const auto width = static_cast<std::size_t>(fields[i].width());
       fields[i].evaluate(point, values.data());
-      for (std::size_t c = 0; c < width; ++c) sums[i][cell * width + c] += weight(sample) * values[c];
+      for (std::size_t c = 0; c < width; ++c)
+        result[i].average[cell * width + c] += weight(sample) * values[c];
+      if (!fields[i].worst) continue;
+      double& known = result[i].worst[cell];
+      known =
+          *fields[i].worst == Extreme::minimum ? std::fmin(known, values[0]) : std::fmax(known, values[0]);
     }
   }
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto width = static_cast<std::size_t>(fields[i].width());
-    for (std::size_t k = 0; k < sums[i].size(); ++k)
-      sums[i][k] = weights[k / width] > 0 ? sums[i][k] / weights[k / width] : not_a_number;
+    std::vector<double>& sums = result[i].average;
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      sums[k] = weights[k / width] > 0 ? sums[k] / weights[k / width] : not_a_number;
   }
-  return sums;
-}
-
-template<class Sample, class Point>
-std::vector<double> worst_in_cells(std::span<const Sample> samples, const Field<Point>& field,
-                                   int cell_count) {
-  std::vector<double> worst(static_cast<std::size_t>(cell_count), not_a_number);
-  for (const Sample& sample : samples) {
-    double value = 0;
-    field.evaluate(Point(sample), &value);
-    double& known = worst[static_cast<std::size_t>(sample.cell)];
-    known = *field.worst == Extreme::minimum ? std::fmin(known, value) : std::fmax(known, value);
-  }
-  return worst;
+  return result;
 }
 
 template<class Point>
@@ -108,14 +103,6 @@ bool same_kind(const fem::BeamSample&, const fem::BeamSample&) { return true; }
 
 } // namespace
 
-std::vector<double> worst(std::span<const fem::MembraneSample> samples, const FilmField& field,
-                          int cell_count) {
-  return worst_in_cells(samples, field, cell_count);
-}
-std::vector<double> worst(std::span<const fem::BeamSample> samples, const WallField& field, int cell_count) {
-  return worst_in_cells(samples, field, cell_count);
-}
-
 double rise_at(const Extremum& extremum, const fem::Samples& samples, const meshing::Mesh& mesh,
                std::string_view scalar) {
   const meshing::CellBlock& block = extremum.part == Part::film ? *mesh.film() : *mesh.walls();
@@ -137,14 +124,14 @@ double rise_at(const Extremum& extremum, const fem::Samples& samples, const mesh
                      });
 }
 
-std::vector<std::vector<double>> average(std::span<const fem::MembraneSample> samples,
-                                         std::span<const FilmField> fields, int cell_count) {
-  return weighted_average(samples, fields, cell_count);
+std::vector<CellValues> cell_values(std::span<const fem::MembraneSample> samples,
+                                    std::span<const FilmField> fields, int cell_count) {
+  return all_cell_values(samples, fields, cell_count);
 }
 
-std::vector<std::vector<double>> average(std::span<const fem::BeamSample> samples,
-                                         std::span<const WallField> fields, int cell_count) {
-  return weighted_average(samples, fields, cell_count);
+std::vector<CellValues> cell_values(std::span<const fem::BeamSample> samples,
+                                    std::span<const WallField> fields, int cell_count) {
+  return all_cell_values(samples, fields, cell_count);
 }
 
 std::vector<Scalar> scalars() {
@@ -204,17 +191,17 @@ std::optional<Extremum> Extremes::find(std::string_view scalar, Extreme which) c
 }
 
 std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count) {
-  return with_scalar(
-      samples, scalar,
-      [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field, int component,
-                                     Part) {
-        const auto all = weighted_average(points, std::span<const Field<Point>>(&field, 1), cell_count);
-        std::vector<double> one(static_cast<std::size_t>(cell_count));
-        for (std::size_t cell = 0; cell < one.size(); ++cell)
-          one[cell] =
-              all[0][cell * static_cast<std::size_t>(field.width()) + static_cast<std::size_t>(component)];
-        return one;
-      });
+  return with_scalar(samples, scalar,
+                     [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field,
+                                                    int component, Part) {
+                       const auto all =
+                           all_cell_values(points, std::span<const Field<Point>>(&field, 1), cell_count);
+                       std::vector<double> one(static_cast<std::size_t>(cell_count));
+                       for (std::size_t cell = 0; cell < one.size(); ++cell)
+                         one[cell] = all[0].average[cell * static_cast<std::size_t>(field.width()) +
+                                                    static_cast<std::size_t>(component)];
+                       return one;
+                     });
 }
 
 } // namespace dielast::post

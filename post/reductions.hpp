@@ -13,19 +13,18 @@
 
 namespace dielast::post {
 
-/// Averages over cells, weighted by undeformed volume (film) or length (walls). One array per field in their
-/// order; in it the components of cell 0, then of cell 1, ... NaN for a cell without integration points.
-/// Precondition: every sample's cell < cell_count.
-std::vector<std::vector<double>> average(std::span<const fem::MembraneSample> samples,
-                                         std::span<const FilmField> fields, int cell_count);
-std::vector<std::vector<double>> average(std::span<const fem::BeamSample> samples,
-                                         std::span<const WallField> fields, int cell_count);
+/// A field in the cells; NaN in a cell without integration points.
+struct CellValues {
+  /// Weighted by undeformed volume (film) or length (walls): the components of cell 0, then of cell 1, ...
+  std::vector<double> average;
+  std::vector<double> worst; ///< at the cell's integration points; empty for a field without a worst end
+};
 
-/// The worst value of a field at the integration points of each cell; NaN for a cell without any.
-/// Preconditions: the field is a scalar that has a worst end; every sample's cell < cell_count.
-std::vector<double> worst(std::span<const fem::MembraneSample> samples, const FilmField& field,
-                          int cell_count);
-std::vector<double> worst(std::span<const fem::BeamSample> samples, const WallField& field, int cell_count);
+/// One per field in their order. Precondition: every sample's cell < cell_count.
+std::vector<CellValues> cell_values(std::span<const fem::MembraneSample> samples,
+                                    std::span<const FilmField> fields, int cell_count);
+std::vector<CellValues> cell_values(std::span<const fem::BeamSample> samples,
+                                    std::span<const WallField> fields, int cell_count);
 
 /// One scalar of the film at an integration point. Throws std::invalid_argument for an unknown name.
 double film_value(const fem::MembraneSample& sample, std::string_view scalar);

@@ -245,17 +245,17 @@ class VtkSeries::PartFile {
   }
   template<class Sample, class Point>
   void set_cell_data(const std::vector<Sample>& samples, std::span<const Field<Point>> fields) {
-    const auto averages = average(samples, fields, cell_count_);
+    const auto values = cell_values(samples, fields, cell_count_);
     // Arrays replace those of the last step by their names.
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const Field<Point>& field = fields[i];
       grid_->GetCellData()->AddArray(cell_array(fmt::format("{} [{}]", field.name, field.unit),
-                                                field.components, averages[i], mesh_cells_));
+                                                field.components, values[i].average, mesh_cells_));
       if (field.worst)
         grid_->GetCellData()->AddArray(
             cell_array(fmt::format("{}_{} [{}]", field.name, *field.worst == Extreme::minimum ? "min" : "max",
                                    field.unit),
-                       {}, worst(samples, field, cell_count_), mesh_cells_));
+                       {}, values[i].worst, mesh_cells_));
     }
   }
 

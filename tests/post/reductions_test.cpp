@@ -38,11 +38,11 @@ TEST(Reductions, AverageIsWeightedByVolumeAndLength) {
 }
 
 TEST(Reductions, AveragesOfAllFieldsLieCellByCell) {
-  const auto arrays = average(two_points_in_cell_one().walls, wall_fields(), 3);
+  const auto arrays = cell_values(two_points_in_cell_one().walls, wall_fields(), 3);
   ASSERT_EQ(arrays.size(), wall_fields().size());
-  ASSERT_EQ(arrays[1].size(), 6u); // shear_force
-  EXPECT_DOUBLE_EQ(arrays[1][4], 2);
-  EXPECT_DOUBLE_EQ(arrays[1][5], 3);
+  ASSERT_EQ(arrays[1].average.size(), 6u); // shear_force
+  EXPECT_DOUBLE_EQ(arrays[1].average[4], 2);
+  EXPECT_DOUBLE_EQ(arrays[1].average[5], 3);
 }
 
 TEST(Reductions, ExtremeFindsThePoint) {
