@@ -58,6 +58,9 @@ constexpr double darkest = 0.55;
 
 /// Corners in px, y downwards.
 double light_on(const std::array<Corner, 3>& triangle, const Placement& place) {
+  if (place.light.z() == 1 && triangle[0].depth == triangle[1].depth &&
+      triangle[0].depth == triangle[2].depth)
+    return 1;
   const auto at = [&](std::size_t i) {
     const Corner& corner = triangle[i];
     return Eigen::Vector3d(corner.place.x(), corner.place.y(), place.relief * corner.depth);
@@ -67,50 +70,63 @@ double light_on(const std::array<Corner, 3>& triangle, const Placement& place) {
   return darkest + (1 - darkest) * std::abs(normal.dot(light)) / std::max(normal.norm(), 1e-300);
 }
 
+constexpr int most_parts = 3; ///< of a side
+
 /// A triangle of six nodes, perhaps with curved sides, as `parts`^2 flat ones.
 void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
                    const std::array<double, 6>& value, int parts, const Palette& palette,
                    const Placement& place) {
-  const auto corner = [&](int i, int j) {
-    const double r = static_cast<double>(i) / parts, s = static_cast<double>(j) / parts, t = 1 - r - s;
-    const std::array<double, 6> N{t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1),
-                                  4 * r * t,       4 * r * s,       4 * s * t};
-    Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    double v = 0;
-    for (std::size_t a = 0; a < 6; ++a) {
-      p += N[a] * x[a];
-      v += N[a] * value[a];
+  std::array<std::array<Corner, most_parts + 1>, most_parts + 1> corners;
+  for (int j = 0; j <= parts; ++j)
+    for (int i = 0; i <= parts - j; ++i) {
+      const double r = static_cast<double>(i) / parts, s = static_cast<double>(j) / parts, t = 1 - r - s;
+      const std::array<double, 6> N{t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1),
+                                    4 * r * t,       4 * r * s,       4 * s * t};
+      Eigen::Vector3d p = Eigen::Vector3d::Zero();
+      double v = 0;
+      for (std::size_t a = 0; a < 6; ++a) {
+        p += N[a] * x[a];
+        v += N[a] * value[a];
+      }
+      corners[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] = {p.head<2>(), p.z(), v};
     }
-    return Corner{p.head<2>(), p.z(), v};
-  };
   const auto draw = [&](const std::array<Corner, 3>& part) {
     raster.draw(part, palette, light_on(part, place));
   };
-  for (int j = 0; j < parts; ++j)
-    for (int i = 0; i < parts - j; ++i) {
-      draw({corner(i, j), corner(i + 1, j), corner(i, j + 1)});
-      if (i + j + 1 < parts) draw({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+  const auto count = static_cast<std::size_t>(parts);
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t i = 0; i < count - j; ++i) {
+      draw({corners[j][i], corners[j][i + 1], corners[j + 1][i]});
+      if (i + j + 1 < count) draw({corners[j][i + 1], corners[j + 1][i + 1], corners[j + 1][i]});
     }
 }
 
-/// Parts of a curved side of mean length: all have as many, so that neighbours leave no gap.
+/// Parts of a side: all have as many, so that neighbours leave no gap. Two follow a side that is bent by no
+/// more than `bend`, within half a pixel.
 int parts_of_sides(const meshing::Mesh& mesh, const Panel& panel, const Placement& place) {
-  constexpr double px_of_part = 8;
-  double px = 0;
+  constexpr double px_of_part = 8, bend = 2;
+  double px = 0, bent = 0;
   int sides = 0;
   for (const CellBlock& block : mesh.blocks)
     for (int cell = 0; cell < block.size() && !is_line(block.type); ++cell, ++sides) {
-      const auto at = [&](int node) { return panel.positions[static_cast<std::size_t>(node)]; };
-      px += place.scale * (at(block.cell(cell)[0]) - at(block.cell(cell)[1])).norm();
+      const std::span<const int> nodes = block.cell(cell);
+      const auto at = [&](std::size_t i) { return panel.positions[static_cast<std::size_t>(nodes[i])]; };
+      px += place.scale * (at(0) - at(1)).norm();
+      if (block.type != meshing::CellType::triangle6) continue;
+      for (std::size_t i = 0; i < 3; ++i)
+        bent = std::max(bent, place.scale * (at(3 + i) - (at(i) + at((i + 1) % 3)) / 2).norm());
     }
-  return std::clamp(static_cast<int>(std::lround(px / std::max(sides, 1) / px_of_part)), 1, 3);
+  return std::clamp(static_cast<int>(std::lround(px / std::max(sides, 1) / px_of_part)), 1,
+                    bent <= bend ? 2 : most_parts);
 }
 
 } // namespace
 
 Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range,
                    const Placement& place) {
-  Raster raster(static_cast<int>(place.size.x()), static_cast<int>(place.size.y()));
+  const bool flat = std::ranges::all_of(
+      panel.positions, [&](const Eigen::Vector3d& x) { return x.z() == panel.positions.front().z(); });
+  Raster raster(static_cast<int>(place.size.x()), static_cast<int>(place.size.y()), flat);
   const NodeValues values(mesh, panel);
   const Palette palette = panel.values.empty() ? Palette(plain_film) : Palette(range);
   const int parts = parts_of_sides(mesh, panel, place);

@@ -42,11 +42,12 @@ struct Canvas {
   Context context;
 };
 
-/// Of a line of two nodes, or of three, the last in its middle.
-void add_path(cairo_t* cr, const CellBlock& block, int cell, const std::vector<Eigen::Vector3d>& positions) {
+/// Of a line of two nodes, or of three, the last in its middle; `goes_on`: from where the path has come.
+void add_path(cairo_t* cr, const CellBlock& block, int cell, const std::vector<Eigen::Vector3d>& positions,
+              bool goes_on = false) {
   const auto n = block.cell(cell);
   const auto at = [&](int node) { return positions[static_cast<std::size_t>(node)]; };
-  cairo_move_to(cr, at(n[0]).x(), at(n[0]).y());
+  if (!goes_on) cairo_move_to(cr, at(n[0]).x(), at(n[0]).y());
   if (n.size() > 2) cairo_line_to(cr, at(n[2]).x(), at(n[2]).y());
   cairo_line_to(cr, at(n[1]).x(), at(n[1]).y());
 }
@@ -62,9 +63,8 @@ Box extent(const meshing::Mesh& mesh, const Picture& picture, const Panel& panel
   return {box.min() - half, box.max() + half};
 }
 
-/// By which the canvas is finer on which the film is drawn, with hard edges. Slides are many, and printers
-/// are finer than a page.
-constexpr int of_pages = 2, of_slides = 1, of_files = 1;
+/// How the film's edges are drawn: slides are many.
+enum class Edges { smooth, hard };
 /// Drawn width of a rod, over the diagonal of all that is drawn: its section is not in the mesh.
 constexpr double rod_width = 0.01;
 
@@ -91,13 +91,17 @@ void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, do
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_width(cr, width);
   set_colour(cr, wall_colour);
+  constexpr int most_together = 8; // Cairo's time grows faster than the length of a path
   for (const CellBlock& block : mesh.blocks) {
     if (!is_line(block.type)) continue;
-    // One stroke per cell: Cairo's time grows faster than the length of a path.
-    for (int cell = 0; cell < block.size(); ++cell) {
-      add_path(cr, block, cell, panel.positions);
-      cairo_stroke(cr);
+    for (int cell = 0, together = 0; cell < block.size(); ++cell) {
+      const bool goes_on =
+          together > 0 && together < most_together && block.cell(cell)[0] == block.cell(cell - 1)[1];
+      if (together > 0 && !goes_on) cairo_stroke(cr);
+      together = goes_on ? together + 1 : 1;
+      add_path(cr, block, cell, panel.positions, goes_on);
     }
+    cairo_stroke(cr);
   }
 }
 
@@ -195,15 +199,11 @@ struct View {
   double relief = 1;                                  ///< see Placement
 };
 
-/// Draws a panel with its box centred in the rectangle at (left, top), y upwards.
+/// Draws a panel with its box centred in the rectangle at (left, top), y upwards. `film`: as large.
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
-                std::pair<double, double> range, const View& view, double scale, int finer, double left,
-                double top, double width, double height) {
+                std::pair<double, double> range, double scale, Raster& film, double left, double top,
+                double width, double height) {
   const Box box = extent(mesh, picture, panel, picture.wall_width);
-  const Eigen::Vector2d size(std::ceil(width) * finer, std::ceil(height) * finer);
-  const Placement place{
-      scale * finer, {box.center().x(), box.center().y(), 0}, size, view.light, view.relief};
-  Raster film = film_raster(mesh, panel, range, place);
   const Surface surface(cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(film.pixels()),
                                                             CAIRO_FORMAT_ARGB32, film.width(), film.height(),
                                                             4 * film.width()),
@@ -211,11 +211,9 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
   if (cairo_surface_supports_mime_type(cairo_get_target(cr), CAIRO_MIME_TYPE_PNG)) keep_as_png(surface.get());
   cairo_save(cr);
   cairo_translate(cr, left, top);
-  cairo_save(cr);
-  cairo_scale(cr, 1.0 / finer, 1.0 / finer);
   cairo_set_source_surface(cr, surface.get(), 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST); // whole pixels
   cairo_paint(cr);
-  cairo_restore(cr);
   cairo_translate(cr, std::ceil(width) / 2, std::ceil(height) / 2);
   cairo_scale(cr, scale, -scale);
   cairo_translate(cr, -box.center().x(), -box.center().y());
@@ -308,18 +306,32 @@ class Drawing {
     coloured_ = std::ranges::any_of(picture.panels, [](const Panel& panel) { return !panel.values.empty(); });
   }
 
-  std::string png(std::span<const Panel> panels, int finer) const {
+  /// The films of panels, each as large as a panel's rectangle.
+  std::vector<Raster> films(std::span<const Panel> panels, Edges edges) const {
+    const int finer = edges == Edges::smooth ? 2 : 1;
+    const Eigen::Vector2d size(std::ceil(panel_width_), std::ceil(panel_height_));
+    std::vector<Raster> films;
+    for (const Panel& panel : panels) {
+      const Box box = extent(mesh_, picture_, panel, picture_.wall_width);
+      Raster film = film_raster(
+          mesh_, panel, range_,
+          {finer * scale_, {box.center().x(), box.center().y(), 0}, finer * size, view_.light, view_.relief});
+      films.push_back(edges == Edges::smooth ? film.halved() : std::move(film));
+    }
+    return films;
+  }
+  std::string png(std::span<const Panel> panels, std::vector<Raster>& films) const {
     const Canvas canvas(picture_.width, height());
-    draw(canvas.context.get(), panels, finer);
+    draw(canvas.context.get(), panels, films);
     return png_of(canvas.surface.get());
   }
-  std::string svg(std::span<const Panel> panels) const {
+  std::string svg(std::span<const Panel> panels, std::vector<Raster>& films) const {
     std::string text;
     const Surface surface(cairo_svg_surface_create_for_stream(append_bytes, &text, picture_.width, height()),
                           cairo_surface_destroy);
     {
       const Context context(cairo_create(surface.get()), cairo_destroy);
-      draw(context.get(), panels, of_files);
+      draw(context.get(), panels, films);
     }
     cairo_surface_finish(surface.get());
     require_drawn(cairo_surface_status(surface.get()));
@@ -338,15 +350,16 @@ class Drawing {
 
  private:
   int height() const { return static_cast<int>(std::ceil(legend_top_ + legend_height - margin / 2)); }
-  void draw(cairo_t* cr, std::span<const Panel> panels, int finer) const {
+  void draw(cairo_t* cr, std::span<const Panel> panels, std::vector<Raster>& films) const {
     cairo_set_source_rgb(cr, 1, 1, 1);
     cairo_paint(cr);
     if (!picture_.title.empty())
       draw_text(cr, picture_.title, margin, margin + 12, 28, ink, Align::left, CAIRO_FONT_WEIGHT_BOLD);
     double left = margin;
-    for (const Panel& panel : panels) {
+    for (std::size_t p = 0; p < panels.size(); ++p) {
+      const Panel& panel = panels[p];
       draw_text(cr, panel.title, left + panel_width_ / 2, panel_title_, 20, faint_ink, Align::centre);
-      draw_panel(cr, mesh_, picture_, panel, range_, view_, scale_, finer, left, panel_top_, panel_width_,
+      draw_panel(cr, mesh_, picture_, panel, range_, scale_, films[p], left, panel_top_, panel_width_,
                  panel_height_);
       left += panel_width_ + gap;
     }
@@ -368,21 +381,27 @@ class Drawing {
 } // namespace
 
 std::string render_png(const meshing::Mesh& mesh, Picture picture) {
-  return Drawing(mesh, picture, picture.panels.size()).png(picture.panels, of_pages);
+  const Drawing drawing(mesh, picture, picture.panels.size());
+  std::vector<Raster> films = drawing.films(picture.panels, Edges::smooth);
+  return drawing.png(picture.panels, films);
 }
 
 Image draw(const meshing::Mesh& mesh, Picture picture, const std::string& name) {
   const Drawing drawing(mesh, picture, picture.panels.size());
-  return {.data = drawing.png(picture.panels, of_pages),
+  std::vector<Raster> films = drawing.films(picture.panels, Edges::smooth);
+  return {.data = drawing.png(picture.panels, films),
           .name = name,
-          .drawing = name.empty() ? "" : drawing.svg(picture.panels),
+          .drawing = name.empty() ? "" : drawing.svg(picture.panels, films),
           .readings = drawing.readings()};
 }
 
 Slides draw_slides(const meshing::Mesh& mesh, Picture picture) {
   const Drawing drawing(mesh, picture, 1);
   Slides slides{.readings = drawing.readings()};
-  for (const Panel& panel : picture.panels) slides.pictures.push_back(drawing.png({&panel, 1}, of_slides));
+  for (const Panel& panel : picture.panels) {
+    std::vector<Raster> film = drawing.films({&panel, 1}, Edges::hard);
+    slides.pictures.push_back(drawing.png({&panel, 1}, film));
+  }
   return slides;
 }
 

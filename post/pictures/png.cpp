@@ -1,36 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/pictures/png.hpp"
 
-#include <png.h>
+#include <libdeflate.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
-#include <vector>
 
 namespace dielast::post {
 
+namespace {
+
+void append_number(std::string& bytes, std::size_t number) {
+  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(number >> shift & 0xff);
+}
+
+/// Length, name, data and checksum of name and data.
+void append_chunk(std::string& bytes, std::string_view name, std::string_view data) {
+  append_number(bytes, data.size());
+  const std::size_t begin = bytes.size();
+  bytes.append(name).append(data);
+  append_number(bytes, libdeflate_crc32(0, bytes.data() + begin, bytes.size() - begin));
+}
+
+} // namespace
+
 std::string png(std::span<const std::uint32_t> pixels, int width) {
-  const auto channel = [](std::uint32_t pixel, int shift) {
-    return static_cast<unsigned char>(pixel >> shift & 0xff);
-  };
+  const auto columns = static_cast<std::size_t>(width), rows = pixels.size() / columns;
   const bool opaque = std::ranges::all_of(pixels, [](std::uint32_t pixel) { return pixel >> 24 == 0xff; });
-  std::vector<unsigned char> channels;
-  channels.reserve((opaque ? 3 : 4) * pixels.size());
-  for (const std::uint32_t pixel : pixels) {
-    for (const int shift : {16, 8, 0}) channels.push_back(channel(pixel, shift));
-    if (!opaque) channels.push_back(channel(pixel, 24));
+  std::string lines(rows * (1 + (opaque ? 3 : 4) * columns), '\0'); // each begins with its filter: none
+  char* at = lines.data();
+  for (std::size_t row = 0; row < rows; ++row) {
+    ++at;
+    for (const std::uint32_t pixel : pixels.subspan(row * columns, columns)) {
+      const std::uint32_t opacity = pixel >> 24;
+      for (const int shift : {16, 8, 0}) {
+        const std::uint32_t channel = pixel >> shift & 0xff;
+        *at++ = static_cast<char>(opacity % 0xff == 0 ? channel : (0xff * channel + opacity / 2) / opacity);
+      }
+      if (!opaque) *at++ = static_cast<char>(opacity);
+    }
   }
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(width);
-  image.height = static_cast<png_uint_32>(pixels.size()) / image.width;
-  image.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
-  image.flags = PNG_IMAGE_FLAG_FAST;
-  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
-  png_alloc_size_t size = bytes.size();
-  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, channels.data(), 0, nullptr))
-    throw std::runtime_error(std::string("cannot write a picture: ") + image.message);
-  bytes.resize(size);
+  constexpr int fastest = 1;
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(fastest), libdeflate_free_compressor);
+  if (!compressor) throw std::runtime_error("cannot write a picture: no memory");
+  std::string packed(libdeflate_zlib_compress_bound(compressor.get(), lines.size()), '\0');
+  packed.resize(
+      libdeflate_zlib_compress(compressor.get(), lines.data(), lines.size(), packed.data(), packed.size()));
+
+  std::string header;
+  append_number(header, columns);
+  append_number(header, rows);
+  constexpr char bits = 8, rgb = 2, rgba = 6, deflate = 0, filters = 0, not_interlaced = 0;
+  header += {bits, opaque ? rgb : rgba, deflate, filters, not_interlaced};
+  std::string bytes = "\x89PNG\r\n\x1a\n";
+  append_chunk(bytes, "IHDR", header);
+  append_chunk(bytes, "IDAT", packed);
+  append_chunk(bytes, "IEND", "");
   return bytes;
 }
 

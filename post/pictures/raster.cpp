@@ -31,10 +31,10 @@ Palette::Palette(std::pair<double, double> range)
 
 Palette::Palette(const Colour& colour) : missing_(pixel(colour)) { colours_.fill(missing_); }
 
-Raster::Raster(int width, int height)
+Raster::Raster(int width, int height, bool flat)
     : width_(width), height_(height),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0),
-      depth_(pixels_.size(), -std::numeric_limits<float>::infinity()) {}
+      depth_(flat ? 0 : pixels_.size(), -std::numeric_limits<float>::infinity()) {}
 
 void Raster::draw(const std::array<Corner, 3>& corners, const Palette& palette, double light) {
   constexpr double seam = -1e-9; ///< of the triangle: edges belong to both neighbours
@@ -50,37 +50,62 @@ void Raster::draw(const std::array<Corner, 3>& corners, const Palette& palette, 
             right = std::min(width_ - 1, static_cast<int>(std::ceil(high.x() - 0.5))),
             top = std::max(0, static_cast<int>(std::floor(low.y() - 0.5))),
             bottom = std::min(height_ - 1, static_cast<int>(std::ceil(high.y() - 0.5)));
-  Eigen::Vector3d depths, values;
-  for (int i = 0; i < 3; ++i) {
-    depths[i] = corners[static_cast<std::size_t>(i)].depth;
-    values[i] = corners[static_cast<std::size_t>(i)].value;
-  }
   // Barycentric coordinates change along a row by this from pixel to pixel.
-  const Eigen::Vector3d change = Eigen::Vector3d(ab.y() - ac.y(), ac.y(), -ab.y()) / area;
-  const double depth_change = change.dot(depths), value_change = change.dot(values);
+  const std::array<double, 3> change{(ab.y() - ac.y()) / area, ac.y() / area, -ab.y() / area};
+  const std::array<double, 3> to_side{1 / change[0], 1 / change[1], 1 / change[2]};
+  const auto mean = [&](const std::array<double, 3>& weights, double Corner::*of) {
+    return weights[0] * corners[0].*of + weights[1] * corners[1].*of + weights[2] * corners[2].*of;
+  };
+  const double depth_change = mean(change, &Corner::depth), value_change = mean(change, &Corner::value);
   for (int y = top; y <= bottom; ++y) {
-    const Eigen::Vector2d p(0.5 - a.x(), y + 0.5 - a.y()); // the first pixel of the row
-    const double v = (p.x() * ac.y() - p.y() * ac.x()) / area, w = (ab.x() * p.y() - ab.y() * p.x()) / area;
-    const Eigen::Vector3d first(1 - v - w, v, w);
+    const double p = 0.5 - a.x(), q = y + 0.5 - a.y(); // from the first corner to the row's first pixel
+    const double v = (p * ac.y() - q * ac.x()) / area, w = (ab.x() * q - ab.y() * p) / area;
+    const std::array<double, 3> first{1 - v - w, v, w};
     double from = left, to = right;
-    for (int i = 0; i < 3; ++i) {
-      const double side = (seam - first[i]) / change[i];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double side = (seam - first[i]) * to_side[i];
       if (change[i] > 0) from = std::max(from, std::ceil(side));
       if (change[i] < 0) to = std::min(to, std::floor(side));
       if (change[i] == 0 && first[i] < seam) to = -1;
     }
     if (!(from <= to)) continue; // sides may be crossed farther away than whole numbers reach
-    const double depth_first = first.dot(depths), value_first = first.dot(values);
+    const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to) + 1;
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-    for (int x = static_cast<int>(from); x <= static_cast<int>(to); ++x) {
-      const std::size_t place = row + static_cast<std::size_t>(x);
-      const auto depth = static_cast<float>(depth_first + x * depth_change);
-      if (depth < depth_[place]) continue;
-      depth_[place] = depth;
-      const std::uint32_t colour = palette(value_first + x * value_change);
-      pixels_[place] = light == 1 ? colour : dimmed(colour, light);
+    const double value = mean(first, &Corner::value), depth = mean(first, &Corner::depth);
+    if (depth_.empty() && light == 1) {
+      palette.paint(value + from * value_change, value_change, {&pixels_[row + begin], end - begin});
+      continue;
+    }
+    for (std::size_t x = begin; x < end; ++x) {
+      if (!depth_.empty()) {
+        const auto here = static_cast<float>(depth + static_cast<double>(x) * depth_change);
+        if (here < depth_[row + x]) continue;
+        depth_[row + x] = here;
+      }
+      const std::uint32_t colour = palette(value + static_cast<double>(x) * value_change);
+      pixels_[row + x] = light == 1 ? colour : dimmed(colour, light);
     }
   }
+}
+
+Raster Raster::halved() const {
+  Raster half(width_ / 2, height_ / 2, true);
+  constexpr std::uint64_t apart = 0x00ff00ff00ff00ff, rounding = 0x0002000200020002;
+  const auto spread = [](std::uint32_t pixel) { // a channel in every sixteen bits
+    return (std::uint64_t{pixel} | std::uint64_t{pixel} << 24) & apart;
+  };
+  const auto width = static_cast<std::size_t>(width_);
+  std::uint32_t* target = half.pixels_.data();
+  for (int y = 0; y < half.height_; ++y) {
+    const std::uint32_t* upper = pixels_.data() + 2 * static_cast<std::size_t>(y) * width;
+    const std::uint32_t* lower = upper + width;
+    for (int x = 0; x < half.width_; ++x, upper += 2, lower += 2) {
+      const std::uint64_t mean =
+          (spread(upper[0]) + spread(upper[1]) + spread(lower[0]) + spread(lower[1]) + rounding) >> 2 & apart;
+      *target++ = static_cast<std::uint32_t>(mean | mean >> 24);
+    }
+  }
+  return half;
 }
 
 } // namespace dielast::post

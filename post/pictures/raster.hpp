@@ -5,8 +5,11 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,6 +35,17 @@ class Palette {
     if (!(part == part)) return missing_;
     return colours_[static_cast<std::size_t>(part <= 0 ? 0 : part >= last ? last : part)];
   }
+  /// The colours of value, value + change, value + 2 change, ...
+  void paint(double value, double change, std::span<std::uint32_t> row) const {
+    const double part = (value - low_) * steps_, step = change * steps_;
+    if (step == 0 || !(std::abs(part + step) < 1e300)) {
+      std::ranges::fill(row, (*this)(value));
+      return;
+    }
+    double number = 0;
+    for (std::uint32_t& pixel : row)
+      pixel = colours_[static_cast<std::size_t>(std::clamp(part + step * number++, 0.0, double(last)))];
+  }
 
  private:
   static constexpr int last = 511;
@@ -44,10 +58,14 @@ class Palette {
 /// hides what is farther; neighbours leave no seam.
 class Raster {
  public:
-  Raster(int width, int height);
+  /// `flat`: nothing lies before anything else, and what is drawn later is seen.
+  Raster(int width, int height, bool flat = false);
 
   /// `light`: by which the colours are multiplied, 0..1.
   void draw(const std::array<Corner, 3>& corners, const Palette& palette, double light = 1);
+
+  /// Of half the width and height: means of four pixels, the colours multiplied by the opacity.
+  Raster halved() const;
 
   /// Rows of width() pixels 0xAARRGGBB; what is not drawn is transparent.
   std::uint32_t* pixels() { return pixels_.data(); }
@@ -57,7 +75,7 @@ class Raster {
  private:
   int width_, height_;
   std::vector<std::uint32_t> pixels_;
-  std::vector<float> depth_;
+  std::vector<float> depth_; ///< empty: flat
 };
 
 } // namespace dielast::post

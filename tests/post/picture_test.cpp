@@ -3,6 +3,7 @@
 
 #include "meshing/meridian.hpp"
 #include "post/pictures/legend.hpp"
+#include "post/pictures/png.hpp"
 #include "post/pictures/raster.hpp"
 #include "tests/post/samples.hpp"
 
@@ -99,6 +100,39 @@ TEST(Raster, DrawsThePixelsWhoseCentresLieInATriangle) {
         EXPECT_EQ(raster.pixels()[40 * y + x] != 0, inside > 0) << draw << ": " << x << ", " << y;
       }
   }
+}
+
+// Of four pixels half are covered by a red triangle: half of the colour, seen through by half.
+TEST(Raster, HalvedHasMeansOfFourPixels) {
+  Raster raster(4, 2, true);
+  raster.draw({{{{0, 0}, 0, 0}, {{1, 0}, 0, 0}, {{0, 1e9}, 0, 0}}}, Palette(Colour{1, 0, 0}));
+  Raster half = raster.halved();
+  EXPECT_EQ(half.width(), 2);
+  EXPECT_EQ(half.height(), 1);
+  EXPECT_EQ(half.pixels()[0], 0x80800000u);
+  EXPECT_EQ(half.pixels()[1], 0u);
+}
+
+TEST(Png, DividesColoursByTheirOpacity) {
+  const std::vector<std::uint32_t> pixels{0x80800000u, 0u, 0xff123456u, 0x40004020u};
+  std::string bytes = png(pixels, 2);
+  const auto read = [](void* rest, unsigned char* data, unsigned length) {
+    auto& source = *static_cast<std::string*>(rest);
+    std::memcpy(data, source.data(), length);
+    source.erase(0, length);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  cairo_surface_t* surface = cairo_image_surface_create_from_png_stream(read, &bytes);
+  ASSERT_EQ(cairo_image_surface_get_width(surface), 2); // which multiplies them again
+  const unsigned char* data = cairo_image_surface_get_data(surface);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    std::uint32_t read_back = 0;
+    std::memcpy(
+        &read_back,
+        data + (i / 2) * static_cast<std::size_t>(cairo_image_surface_get_stride(surface)) + 4 * (i % 2), 4);
+    EXPECT_EQ(read_back, pixels[i]) << i;
+  }
+  cairo_surface_destroy(surface);
 }
 
 TEST(Picture, IsAPngOfTheWidthAskedFor) {

@@ -29,7 +29,7 @@ const std::map<std::string, std::vector<std::string>> libraries{
     {"LAPACK", {"LAPACK::"}},
     {"VTK", {"vtk", "VTK::"}},
     {"Cairo", {"cairo", "PkgConfig::cairo"}},
-    {"libpng", {"png.h", "PNG::"}},
+    {"libdeflate", {"libdeflate.h", "PkgConfig::libdeflate"}},
     {"toml++", {"toml++/", "PkgConfig::tomlplusplus"}},
     {"udunits", {"udunits2.h", "PkgConfig::udunits"}},
     {"muparser", {"muParser", "PkgConfig::muparser"}},
