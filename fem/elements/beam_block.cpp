@@ -203,27 +203,54 @@ BeamKinematics BeamBlock<Nodes>::kinematics(const Point& point, const Nodal& nod
   return BeamKinematics(y);
 }
 
-/// Chain rule y -> (x_a, q_a) -> (x_a, spin_a); the curvature of the rotation group adds -(g_a.q_a)/4 per
-/// node, where g_a is the gradient in q_a.
+/// Chain rule y -> (x_a, q_a) -> (x_a, spin_a), lower blocks; the curvature of the rotation group adds
+/// -(g_a.q_a)/4 per node, where g_a is the gradient in q_a. Blocks of derivatives in y that are zero, and
+/// what nodes share, are left out of the products.
 template<int Nodes>
 void BeamBlock<Nodes>::accumulate_tangent(const Point& point, const BeamKinematics& kinematics,
                                           const Vector6& stress, const Nodal& nodal,
                                           Eigen::Matrix<double, dofs, dofs>& tangent) const {
-  const Eigen::Matrix<double, 6, 11> gradient = kinematics.gradient();
-  const BeamKinematics::Matrix11 H =
-      point.length * (gradient.transpose() * stiffness_.asDiagonal() * gradient + kinematics.hessian(stress));
-  const BeamKinematics::Vector11 g = point.length * (gradient.transpose() * stress);
-  std::array<Eigen::Matrix<double, 11, 6>, Nodes> J; // dy / d(x_a, spin_a)
+  using Matrix43 = Eigen::Matrix<double, 4, 3>;
+  const auto d = kinematics.gradient();
+  const auto h = kinematics.power_hessian(stress);
+  const BeamKinematics::Vector11 g = point.length * kinematics.power_gradient(stress);
+  const Eigen::Matrix3d forces = // of changes of R^T x', in space
+      d.stretch_slope.transpose() * (point.length * stiffness_.template head<3>()).asDiagonal();
+  const Eigen::Matrix3d slopes = forces.lazyProduct(d.stretch_slope);
+  const Eigen::Vector3d turning = point.length * stiffness_.template tail<3>();
+  struct OfNode {
+    Eigen::Matrix3d stretch, turn, moment,
+        force; // moment, force: of spins, in the section's axes and in space
+    Matrix43 G, value, slope;
+  };
+  std::array<OfNode, Nodes> nodes;
   for (int a = 0; a < Nodes; ++a) {
-    const Eigen::Matrix<double, 4, 3> G = spin_gradient(nodal.q[a]);
-    J[a].setZero();
-    J[a].template block<3, 3>(BeamKinematics::slope, 0).diagonal().setConstant(point.slope[a]);
-    J[a].template block<4, 3>(BeamKinematics::quaternion, 3) = point.value[a] * G;
-    J[a].template block<4, 3>(BeamKinematics::quaternion_slope, 3) = point.slope[a] * G;
+    OfNode& n = nodes[a];
+    n.G = spin_gradient(nodal.q[a]);
+    n.stretch = point.value[a] * d.stretch_quaternion.lazyProduct(n.G);
+    n.turn = (point.value[a] * d.turn_quaternion + point.slope[a] * d.turn_quaternion_slope).lazyProduct(n.G);
+    n.moment = turning.asDiagonal() * n.turn;
+    n.force =
+        forces.lazyProduct(n.stretch) + (point.length * point.value[a]) * h.slope_quaternion.lazyProduct(n.G);
+    n.value =
+        point.length *
+        (point.value[a] * h.quaternion + point.slope[a] * h.quaternion_quaternion_slope).lazyProduct(n.G);
+    n.slope = (point.length * point.value[a]) * h.quaternion_quaternion_slope.transpose().lazyProduct(n.G);
   }
   for (int a = 0; a < Nodes; ++a) {
-    const Eigen::Matrix<double, 6, 11> JtH = J[a].transpose().lazyProduct(H); // too small for blocking
-    for (int b = 0; b <= a; ++b) tangent.template block<6, 6>(6 * a, 6 * b) += JtH.lazyProduct(J[b]);
+    const OfNode& n = nodes[a];
+    const Eigen::Matrix3d stretching =
+        (point.length * stiffness_.template head<3>()).asDiagonal() * n.stretch;
+    for (int b = 0; b <= a; ++b) {
+      const OfNode& other = nodes[b];
+      tangent.template block<3, 3>(6 * a, 6 * b) += (point.slope[a] * point.slope[b]) * slopes;
+      if (b < a) tangent.template block<3, 3>(6 * a, 6 * b + 3) += point.slope[a] * other.force;
+      tangent.template block<3, 3>(6 * a + 3, 6 * b) += point.slope[b] * n.force.transpose();
+      const Matrix43 curved = point.value[a] * other.value + point.slope[a] * other.slope;
+      tangent.template block<3, 3>(6 * a + 3, 6 * b + 3) +=
+          stretching.transpose().lazyProduct(other.stretch) + n.turn.transpose().lazyProduct(other.moment) +
+          n.G.transpose().lazyProduct(curved);
+    }
     const double curvature = -0.25 * (point.value[a] * g.segment<4>(BeamKinematics::quaternion) +
                                       point.slope[a] * g.segment<4>(BeamKinematics::quaternion_slope))
                                          .dot(nodal.q[a]);
@@ -250,7 +277,7 @@ Evaluation BeamBlock<Nodes>::evaluate(const State& state, int first, int last, c
       const Vector6 stress = stiffness_.cwiseProduct(strain);
       result.energy += 0.5 * point.length * stress.dot(strain);
       if (scatter.residual) {
-        const BeamKinematics::Vector11 g = point.length * (k.gradient().transpose() * stress);
+        const BeamKinematics::Vector11 g = point.length * k.power_gradient(stress);
         for (int a = 0; a < Nodes; ++a) {
           residual.template segment<3>(6 * a) += point.slope[a] * g.template head<3>();
           residual.template segment<3>(6 * a + 3) +=

@@ -12,24 +12,37 @@ namespace dielast::fem {
 ///   axial(R^T R') = B/N,  B = 2 (w u' - w' u - u x u'),  N = q.q
 /// for R = R(q/|q|).
 struct BeamKinematics {
+  using Vector6 = Eigen::Vector<double, 6>;
   using Vector11 = Eigen::Vector<double, 11>;
-  using Matrix11 = Eigen::Matrix<double, 11, 11>;
   static constexpr int slope = 0, quaternion = 3, quaternion_slope = 7; ///< places of x', q, q' in y
 
   explicit BeamKinematics(const Vector11& y);
 
+  /// The blocks of strain()'s derivative in y that are not zero: of R^T x' in x' and q, of axial(R^T R') in q
+  /// and q'.
+  struct Gradient {
+    Eigen::Matrix3d stretch_slope; ///< R^T
+    Eigen::Matrix<double, 3, 4> stretch_quaternion, turn_quaternion, turn_quaternion_slope;
+  };
+  /// The blocks of a second derivative in y that are not zero; that in q' and q is a transpose.
+  struct Hessian {
+    Eigen::Matrix<double, 3, 4> slope_quaternion;
+    Eigen::Matrix4d quaternion, quaternion_quaternion_slope;
+  };
+
   /// (R^T x', axial(R^T R')).
-  Eigen::Vector<double, 6> strain() const;
-  /// Derivative of strain() in y.
-  Eigen::Matrix<double, 6, 11> gradient() const;
-  /// Second derivative of stress . strain() in y, the stress being fixed.
-  Matrix11 hessian(const Eigen::Vector<double, 6>& stress) const;
+  Vector6 strain() const;
+  Gradient gradient() const;
+  /// Derivative of stress . strain() in y, the stress being fixed.
+  Vector11 power_gradient(const Vector6& stress) const;
+  /// Second derivative of the same.
+  Hessian power_hessian(const Vector6& stress) const;
 
   double N =
       0; ///< squared length of q; small when neighbouring nodes are turned against each other by a full turn
 
  private:
-  Eigen::Matrix<double, 6, 11> numerator_gradient() const;
+  Vector11 numerator_gradient(const Vector6& stress) const; // of (n.A + m.B)
 
   Eigen::Vector3d v_, u_, du_; // x', vector parts of q and q'
   double w_ = 0, dw_ = 0;      // their scalar parts

@@ -19,6 +19,25 @@ std::array<Dual11, 6> oracle(const BeamKinematics::Vector11& y) {
                                           {d[7], d[8], d[9], d[10]});
 }
 
+Eigen::Matrix<double, 6, 11> whole(const BeamKinematics::Gradient& blocks) {
+  Eigen::Matrix<double, 6, 11> gradient = Eigen::Matrix<double, 6, 11>::Zero();
+  gradient.block<3, 3>(0, BeamKinematics::slope) = blocks.stretch_slope;
+  gradient.block<3, 4>(0, BeamKinematics::quaternion) = blocks.stretch_quaternion;
+  gradient.block<3, 4>(3, BeamKinematics::quaternion) = blocks.turn_quaternion;
+  gradient.block<3, 4>(3, BeamKinematics::quaternion_slope) = blocks.turn_quaternion_slope;
+  return gradient;
+}
+
+Eigen::Matrix<double, 11, 11> whole(const BeamKinematics::Hessian& blocks) {
+  Eigen::Matrix<double, 11, 11> hessian = Eigen::Matrix<double, 11, 11>::Zero();
+  hessian.block<3, 4>(BeamKinematics::slope, BeamKinematics::quaternion) = blocks.slope_quaternion;
+  hessian.block<4, 4>(BeamKinematics::quaternion, BeamKinematics::quaternion_slope) =
+      blocks.quaternion_quaternion_slope;
+  hessian += hessian.transpose().eval();
+  hessian.block<4, 4>(BeamKinematics::quaternion, BeamKinematics::quaternion) = blocks.quaternion;
+  return hessian;
+}
+
 TEST(BeamKinematics, strain_gradient_and_hessian_are_those_of_the_definition) {
   std::mt19937 random(11);
   for (int sample = 0; sample < 200; ++sample) {
@@ -27,14 +46,18 @@ TEST(BeamKinematics, strain_gradient_and_hessian_are_those_of_the_definition) {
     const Eigen::Vector<double, 6> stress = test::random_vector(random, 6);
     const BeamKinematics kinematics(y);
     const auto expected = oracle(y);
+    const Eigen::Matrix<double, 6, 11> gradient = whole(kinematics.gradient());
     Dual11 power;
     for (int i = 0; i < 6; ++i) {
       const double scale = 1 + expected[i].gradient.norm();
       EXPECT_NEAR(kinematics.strain()[i], expected[i].value, 1e-13 * scale);
-      EXPECT_LT((kinematics.gradient().row(i).transpose() - expected[i].gradient).norm(), 1e-13 * scale);
+      EXPECT_LT((gradient.row(i).transpose() - expected[i].gradient).norm(), 1e-13 * scale);
       power += stress[i] * expected[i];
     }
-    EXPECT_LT((kinematics.hessian(stress) - power.hessian).norm(), 1e-12 * (1 + power.hessian.norm()));
+    EXPECT_LT((kinematics.power_gradient(stress) - power.gradient).norm(),
+              1e-13 * (1 + power.gradient.norm()));
+    EXPECT_LT((whole(kinematics.power_hessian(stress)) - power.hessian).norm(),
+              1e-12 * (1 + power.hessian.norm()));
     EXPECT_DOUBLE_EQ(kinematics.N, y.segment<4>(BeamKinematics::quaternion).squaredNorm());
   }
 }
