@@ -13,25 +13,22 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
 
 BeamKinematics::BeamKinematics(const Vector11& y)
     : N(y.segment<4>(quaternion).squaredNorm()), v_(y.segment<3>(slope)), u_(y.segment<3>(quaternion + 1)),
-      du_(y.segment<3>(quaternion_slope + 1)), w_(y[quaternion]), dw_(y[quaternion_slope]) {}
-
-BeamKinematics::Vector6 BeamKinematics::strain() const {
-  Vector6 numerator;
-  numerator.head<3>() = (w_ * w_ - u_.squaredNorm()) * v_ + 2 * u_.dot(v_) * u_ - 2 * w_ * u_.cross(v_);
-  numerator.tail<3>() = 2 * (w_ * du_ - dw_ * u_ - u_.cross(du_));
-  return numerator / N;
+      du_(y.segment<3>(quaternion_slope + 1)), w_(y[quaternion]), dw_(y[quaternion_slope]) {
+  const Eigen::Vector3d uxv = u_.cross(v_), uxdu = u_.cross(du_);
+  const double f = 1 / N, diagonal = f * (w_ * w_ - u_.squaredNorm()), along = 2 * f * u_.dot(v_);
+  strain_.head<3>() = diagonal * v_ + along * u_ - (2 * f * w_) * uxv;
+  strain_.tail<3>() = (2 * f * w_) * du_ - (2 * f * dw_) * u_ - (2 * f) * uxdu;
 }
 
 BeamKinematics::Gradient BeamKinematics::gradient() const {
   const Eigen::Matrix3d u_cross = cross_matrix(u_), v_cross = cross_matrix(v_);
   const Eigen::Vector3d uxv = u_.cross(v_);
-  const Vector6 strained = strain();
   const double f = 1 / N, g = 2 / N, uv = u_.dot(v_), diagonal = w_ * w_ - u_.squaredNorm();
   const Eigen::Vector4d dN(g * w_, g * u_.x(), g * u_.y(), g * u_.z()); // over N
   Gradient d;
   for (int i = 0; i < 3; ++i) {
-    d.stretch_quaternion(i, 0) = g * (w_ * v_[i] - uxv[i]) - strained[i] * dN[0];
-    d.turn_quaternion(i, 0) = g * du_[i] - strained[3 + i] * dN[0];
+    d.stretch_quaternion(i, 0) = g * (w_ * v_[i] - uxv[i]) - strain_[i] * dN[0];
+    d.turn_quaternion(i, 0) = g * du_[i] - strain_[3 + i] * dN[0];
     d.turn_quaternion_slope(i, 0) = -g * u_[i];
   }
   const Eigen::Matrix3d du_cross = cross_matrix(du_);
@@ -40,8 +37,8 @@ BeamKinematics::Gradient BeamKinematics::gradient() const {
       const double one = i == j ? 1 : 0;
       d.stretch_slope(i, j) = f * (diagonal * one + 2 * (u_[i] * u_[j] - w_ * u_cross(i, j)));
       d.stretch_quaternion(i, j + 1) =
-          g * (u_[i] * v_[j] - v_[i] * u_[j] + uv * one + w_ * v_cross(i, j)) - strained[i] * dN[j + 1];
-      d.turn_quaternion(i, j + 1) = g * (du_cross(i, j) - dw_ * one) - strained[3 + i] * dN[j + 1];
+          g * (u_[i] * v_[j] - v_[i] * u_[j] + uv * one + w_ * v_cross(i, j)) - strain_[i] * dN[j + 1];
+      d.turn_quaternion(i, j + 1) = g * (du_cross(i, j) - dw_ * one) - strain_[3 + i] * dN[j + 1];
       d.turn_quaternion_slope(i, j + 1) = g * (w_ * one - u_cross(i, j));
     }
   return d;
@@ -62,7 +59,7 @@ BeamKinematics::Vector11 BeamKinematics::numerator_gradient(const Vector6& stres
 
 BeamKinematics::Vector11 BeamKinematics::power_gradient(const Vector6& stress) const {
   Vector11 d = numerator_gradient(stress) / N;
-  const double change = 2 * stress.dot(strain()) / N;
+  const double change = 2 * stress.dot(strain_) / N;
   d[quaternion] -= change * w_;
   d.segment<3>(quaternion + 1) -= change * u_;
   return d;
@@ -91,7 +88,7 @@ BeamKinematics::Hessian BeamKinematics::power_hessian(const Vector6& stress) con
     }
   // Quotient rule for (n.A + m.B)/N; N depends on q only.
   const Vector11 first = numerator_gradient(stress);
-  const double f = 1 / N, power = stress.dot(strain());
+  const double f = 1 / N, power = stress.dot(strain_);
   const Eigen::Vector4d dN(2 * f * w_, 2 * f * u_.x(), 2 * f * u_.y(), 2 * f * u_.z()); // over N
   const Eigen::Vector4d first_q = f * first.segment<4>(quaternion),
                         first_dq = f * first.segment<4>(quaternion_slope);

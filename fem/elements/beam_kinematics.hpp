@@ -31,7 +31,7 @@ struct BeamKinematics {
   };
 
   /// (R^T x', axial(R^T R')).
-  Vector6 strain() const;
+  const Vector6& strain() const { return strain_; }
   Gradient gradient() const;
   /// Derivative of stress . strain() in y, the stress being fixed.
   Vector11 power_gradient(const Vector6& stress) const;
@@ -46,6 +46,7 @@ struct BeamKinematics {
 
   Eigen::Vector3d v_, u_, du_; // x', vector parts of q and q'
   double w_ = 0, dw_ = 0;      // their scalar parts
+  Vector6 strain_;
 };
 
 } // namespace dielast::fem

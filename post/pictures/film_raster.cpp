@@ -122,6 +122,22 @@ int parts_of_sides(const meshing::Mesh& mesh, const Panel& panel, const Placemen
 
 } // namespace
 
+View view_of(std::span<const Panel> panels) {
+  constexpr double flat = 0.02, even = 1e-6; ///< height over width
+  constexpr double turned = 0.45, raised = 0.5, shown = 0.1;
+  Eigen::AlignedBox3d box;
+  for (const Panel& panel : panels)
+    for (const Eigen::Vector3d& x : panel.positions) box.extend(x);
+  const double height = box.isEmpty() ? 0 : box.sizes().z() / box.sizes().head<2>().norm();
+  if (!(height > even)) return {};
+  if (height <= flat) return {.light = Eigen::Vector3d(-1, 1, 1).normalized(), .relief = shown / height};
+  const double c = std::cos(turned), s = std::sin(turned), up = std::sin(raised), aside = std::cos(raised);
+  View view;
+  view.axes << c, s, 0, -s * up, c * up, aside, s * aside, -c * aside, up;
+  view.light = view.axes.col(2);
+  return view;
+}
+
 Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<double, double> range,
                    const Placement& place) {
   const bool flat = std::ranges::all_of(

@@ -7,11 +7,22 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <utility>
 
 namespace dielast::post {
 
 constexpr Colour plain_film{0.86, 0.89, 0.92};
+
+/// A device that is not flat is seen from aside and above; otherwise along z, what is nearly flat in a light
+/// from aside that shows its relief.
+struct View {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< rows: right, up and towards the viewer
+  Eigen::Vector3d light = Eigen::Vector3d::UnitZ();   ///< towards it, in these axes
+  double relief = 1;                                  ///< see Placement
+};
+
+View view_of(std::span<const Panel> panels);
 
 /// From a state's positions to px of a canvas, y downwards, z towards the viewer.
 struct Placement {

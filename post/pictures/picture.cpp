@@ -191,14 +191,6 @@ void keep_as_png(cairo_surface_t* surface) {
   bytes.release();
 }
 
-/// A device that is not flat is seen from aside and above; otherwise along z, what is nearly flat in a light
-/// from aside that shows its relief.
-struct View {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< rows: right, up and towards the viewer
-  Eigen::Vector3d light = Eigen::Vector3d::UnitZ();   ///< towards it, in these axes
-  double relief = 1;                                  ///< see Placement
-};
-
 /// Draws a panel with its box centred in the rectangle at (left, top), y upwards. `film`: as large.
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
                 std::pair<double, double> range, double scale, Raster& film, double left, double top,
@@ -244,22 +236,6 @@ std::pair<double, double> value_range(const Picture& picture) {
   return range;
 }
 
-View view_of(const Picture& picture) {
-  constexpr double flat = 0.02, even = 1e-6; ///< height over width
-  constexpr double turned = 0.45, raised = 0.5, shown = 0.1;
-  Eigen::AlignedBox3d box;
-  for (const Panel& panel : picture.panels)
-    for (const Eigen::Vector3d& x : panel.positions) box.extend(x);
-  const double height = box.isEmpty() ? 0 : box.sizes().z() / box.sizes().head<2>().norm();
-  if (!(height > even)) return {};
-  if (height <= flat) return {.light = Eigen::Vector3d(-1, 1, 1).normalized(), .relief = shown / height};
-  const double c = std::cos(turned), s = std::sin(turned), up = std::sin(raised), aside = std::cos(raised);
-  View view;
-  view.axes << c, s, 0, -s * up, c * up, aside, s * aside, -c * aside, up;
-  view.light = view.axes.col(2);
-  return view;
-}
-
 void check(const meshing::Mesh& mesh, const Picture& picture) {
   std::size_t triangles = 0;
   for (const CellBlock& block : mesh.blocks)
@@ -288,7 +264,7 @@ class Drawing {
   /// Moves the picture's positions into the view.
   Drawing(const meshing::Mesh& mesh, Picture& picture, std::size_t together)
       : mesh_(mesh), picture_(picture), range_((check(mesh, picture), value_range(picture))) {
-    view_ = view_of(picture);
+    view_ = view_of(picture.panels);
     for (Panel& panel : picture.panels)
       for (Eigen::Vector3d& x : panel.positions) x = view_.axes * x;
     const auto panels = static_cast<double>(together);

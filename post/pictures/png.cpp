@@ -4,6 +4,8 @@
 #include <libdeflate.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -28,26 +30,32 @@ void append_chunk(std::string& bytes, std::string_view name, std::string_view da
 std::string png(std::span<const std::uint32_t> pixels, int width) {
   const auto columns = static_cast<std::size_t>(width), rows = pixels.size() / columns;
   const bool opaque = std::ranges::all_of(pixels, [](std::uint32_t pixel) { return pixel >> 24 == 0xff; });
-  std::string lines(rows * (1 + (opaque ? 3 : 4) * columns), '\0'); // each begins with its filter: none
-  char* at = lines.data();
+  const std::size_t size = rows * (1 + (opaque ? 3 : 4) * columns);
+  const auto lines = std::make_unique_for_overwrite<char[]>(size + 1); // the last pixel may write one more
+  char* at = lines.get();
   for (std::size_t row = 0; row < rows; ++row) {
-    ++at;
+    *at++ = 0; // the line's filter: none
     for (const std::uint32_t pixel : pixels.subspan(row * columns, columns)) {
-      const std::uint32_t opacity = pixel >> 24;
-      for (const int shift : {16, 8, 0}) {
-        const std::uint32_t channel = pixel >> shift & 0xff;
-        *at++ = static_cast<char>(opacity % 0xff == 0 ? channel : (0xff * channel + opacity / 2) / opacity);
-      }
-      if (!opaque) *at++ = static_cast<char>(opacity);
+      const std::uint32_t opacity = opaque ? 0xff : pixel >> 24;
+      const auto channel = [&](int shift) {
+        const std::uint32_t value = pixel >> shift & 0xff;
+        return opacity % 0xff == 0 ? value : (0xff * value + opacity / 2) / opacity;
+      };
+      const std::array<std::uint8_t, 4> four{
+          static_cast<std::uint8_t>(channel(16)), static_cast<std::uint8_t>(channel(8)),
+          static_cast<std::uint8_t>(channel(0)), static_cast<std::uint8_t>(opacity)};
+      std::memcpy(at, four.data(), four.size());
+      at += opaque ? 3 : 4;
     }
   }
   constexpr int fastest = 1;
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(fastest), libdeflate_free_compressor);
   if (!compressor) throw std::runtime_error("cannot write a picture: no memory");
-  std::string packed(libdeflate_zlib_compress_bound(compressor.get(), lines.size()), '\0');
-  packed.resize(
-      libdeflate_zlib_compress(compressor.get(), lines.data(), lines.size(), packed.data(), packed.size()));
+  const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), size);
+  const auto packed = std::make_unique_for_overwrite<char[]>(bound);
+  const std::size_t packed_size =
+      libdeflate_zlib_compress(compressor.get(), lines.get(), size, packed.get(), bound);
 
   std::string header;
   append_number(header, columns);
@@ -56,7 +64,7 @@ std::string png(std::span<const std::uint32_t> pixels, int width) {
   header += {bits, opaque ? rgb : rgba, deflate, filters, not_interlaced};
   std::string bytes = "\x89PNG\r\n\x1a\n";
   append_chunk(bytes, "IHDR", header);
-  append_chunk(bytes, "IDAT", packed);
+  append_chunk(bytes, "IDAT", {packed.get(), packed_size});
   append_chunk(bytes, "IEND", "");
   return bytes;
 }
