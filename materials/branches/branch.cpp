@@ -40,13 +40,15 @@ LogFlow log_flow(const Branch& branch, const TimeScheme& scheme, const Internal&
 NominalFlow nominal_flow(const Branch& branch, const TimeScheme& scheme, const Internal& now,
                          const Internal& before) {
   const double rate = branch.viscosity / (2 * scheme.dt); // 0: relaxed
-  const NominalFlow euler{rate, 1, {now[0], now[1]}, branch.directions};
+  const NominalFlow euler{rate, 1, {now[0], now[1]}, branch.directions, {now[0], now[1]}};
   if (scheme.h2 == 0) return euler;
+  const double longer = scheme.h1 - 1; // than the step before
   const NominalFlow flow{
       rate / scheme.a0,
       scheme.a0,
       {scheme.h1 * now[0] + scheme.h2 * before[0], scheme.h1 * now[1] + scheme.h2 * before[1]},
-      branch.directions};
+      branch.directions,
+      {now[0] + longer * (now[0] - before[0]), now[1] + longer * (now[1] - before[1])}};
   return flow.h[0] > 0 && flow.h[1] > 0 ? flow : euler;
 }
 
@@ -62,20 +64,25 @@ InPlaneC<double> neo_hookean_flow(double mu, const LogFlow& flow, const InPlaneC
 
 /// Starts where a neo-Hookean branch would end, or, where the law cannot be there, fully relaxed.
 template<class Law>
-Settled settle(const Law& law, const LogFlow& flow, const InPlaneC<double>& C) {
+Settled<LogFlow> settle(const Law& law, const LogFlow& flow, const InPlaneC<double>& C) {
   const auto y = [](const InPlaneC<double>& G) { return Eigen::Vector3d(G.C11, G.C22, G.C12); };
   const Eigen::Vector3d start = y(inverse(neo_hookean_flow(law.initial_shear_modulus(), flow, C)));
-  const Settled settled = settle(law, flow, C, start);
+  const auto settled = settle(law, flow, C, start);
   return settled.found ? settled : settle(law, flow, C, y(inverse(C)));
 }
 
+/// Starts where the branch was going, or, where the law cannot be there, where it would be without its
+/// spring, or relaxed.
 template<class Law>
-Settled settle(const Law& law, const NominalFlow& flow, const InPlaneC<double>& C) {
-  Eigen::Vector3d start(flow.h[0] / flow.a0, flow.h[1] / flow.a0, 0), relaxed(sqrt(C.C11), sqrt(C.C22), 0);
-  for (int i = 0; i < 2; ++i)
-    if (!flow.directions[static_cast<std::size_t>(i)]) start[i] = relaxed[i] = 1;
-  const Settled settled = settle(law, flow, C, start);
-  return settled.found ? settled : settle(law, flow, C, relaxed);
+Settled<NominalFlow> settle(const Law& law, const NominalFlow& flow, const InPlaneC<double>& C) {
+  Settled<NominalFlow> settled{false, {}};
+  for (const std::array<double, 2>& start :
+       {flow.expected, {flow.h[0] / flow.a0, flow.h[1] / flow.a0}, {std::sqrt(C.C11), std::sqrt(C.C22)}}) {
+    const Eigen::Vector2d y(flow.directions[0] ? start[0] : 1, flow.directions[1] ? start[1] : 1);
+    if (flow.admits(y)) settled = settle(law, flow, C, y);
+    if (settled.found) break;
+  }
+  return settled;
 }
 
 } // namespace
@@ -107,7 +114,7 @@ Internal advance(const Branch& branch, const InPlaneC<double>& C, const TimeSche
   return std::visit(
       [&](const auto& law) -> Internal {
         if (branch.dashpot == Dashpot::nominal) {
-          const Eigen::Vector3d xi = settle(law, nominal_flow(branch, scheme, now, before), C).y;
+          const Eigen::Vector2d xi = settle(law, nominal_flow(branch, scheme, now, before), C).y;
           return {xi[0], xi[1], 0};
         }
         const LogFlow flow = log_flow(branch, scheme, now, before);
