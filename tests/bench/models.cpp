@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/models.hpp"
 
+#include "fem/elements/distance_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/solids/solid_block.hpp"
+#include "materials/catalog.hpp"
+#include "meshing/patch.hpp"
 #include "meshing/rings.hpp"
 #include "meshing/solids/slab.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dielast::bench {
 
@@ -109,6 +114,44 @@ Task stack_on_table(int across) {
   voltage.voltage = {750};
   task.steps = {{voltage, 1}};
   return task;
+}
+
+Task rolled_muscle() {
+  const auto found = std::ranges::find(materials::named_films(), "VHB F9473PC", &materials::NamedFilm::name);
+  Task task{.mesh = meshing::patch_mesh(muscle_prestretch * muscle_length, 0.25),
+            .model = {.dofs = fem::DofMap(0)}};
+  fem::Model& model = task.model;
+  model.dofs = fem::DofMap(task.mesh.node_count());
+  model.electrodes = {"film"};
+  model.extent = model.length_scale = 0.25;
+  model.blocks.push_back(fem::make_membrane_block(
+      task.mesh, task.mesh.blocks.front(),
+      {.material = found->material, .thickness = 0.254e-3, .prestretch = {muscle_prestretch, 1}}, {0, 0},
+      fem::Dimension::planar, 1));
+  const auto& sets = task.mesh.node_sets;
+  const fem::Distance along{{sets.at("left"), sets.at("right")}, 0};
+  model.blocks.push_back(fem::make_distance_block(task.mesh, along, fem::Spring{180, 110e-3}));
+  model.blocks.push_back(
+      fem::make_distance_block(task.mesh, along, fem::Linkage{0.712206, 110e-3, 60e-3, 47.3e-3}));
+  for (const auto& block : model.blocks) block->claim_dofs(model.dofs, fem::Dimension::planar);
+  hold(task, "left", {0});
+  hold(task, "bottom", {1});
+  hold(task, "top", {1});
+  for (const int n : sets.at("right")) model.dofs.share(sets.at("right").front(), n, 0);
+  model.dofs.number();
+  model.place_histories();
+  task.node = sets.at("right").front();
+  task.component = 0;
+  task.steps = {{fem::Loads::of(model.initial_state(), model.dofs), 10}};
+  return task;
+}
+
+fem::LoadPath rolled_muscle_cycles() {
+  fem::LoadPath path;
+  path.apply = [](fem::State& state, double s) {
+    state.voltage = {4e3 * std::sin(2 * std::numbers::pi * 0.5 * muscle_duration * s)};
+  };
+  return path;
 }
 
 } // namespace dielast::bench

@@ -30,4 +30,12 @@ Task plate_diaphragm(int k);
 /// and 130 000 unknowns. Result: the rise of the upper electrode's first corner.
 Task stack_on_table(int across);
 
+/// B5: the spring-rolled muscle of gallery/rolled_muscle/cycles.toml, two triangles with a Gent law and four
+/// nominal dashpots on a spring and a linkage. Its only step lets it go at once; then a 4 kV sine of 0.5 Hz
+/// acts for 1200 s. Result: the displacement of the end that moves.
+Task rolled_muscle();
+fem::LoadPath rolled_muscle_cycles();
+constexpr double muscle_length = 40e-3, muscle_prestretch = 1.94999, muscle_duration = 1200; ///< m, 1, s
+constexpr int muscle_steps = 19200;
+
 } // namespace dielast::bench
