@@ -13,11 +13,9 @@
 namespace dielast::fem {
 
 /// Membrane elements of one kinematics and one law, `lanes` at a time.
-///
-/// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see
-/// materials/laws/plane_stress.hpp and FilmResponse), where that is a sheet by the voltages of its corners: k
-/// = eps sum_a N_a (V_a/H)^2 with N_a linear (see SheetPoint). A point's volume is that of the film, of a
-/// full turn where it is a film of revolution.
+/// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see FilmResponse), where
+/// that is a sheet by the voltages of its corners: k = eps sum_a N_a (V_a/H)^2 with N_a linear (see
+/// SheetPoint). A point's volume is that of the film, of a full turn where it is a film of revolution.
 template<class Kinematics, class Law>
 class MembraneBlock final : public ElementBlock {
  public:
@@ -203,9 +201,11 @@ MembraneBlock<Kinematics, Law>::potential(const State& state, int pack, int poin
                                           bool& lost) const {
   Potential psi = film_.simple(C, k);
   if (film_.is_simple()) return psi;
+  materials::TensionField field{}; // that of the lane before holds for triangles of a patch
   for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
-    const materials::TensionField field =
-        film_.resolve(state, (pack * lanes + l) * points_ + point, lane_of(C, l), k[l], lane_of(psi, l));
+    const int here = (pack * lanes + l) * points_ + point;
+    if (l == 0 || k[l] != k[l - 1] || !film_.alike(state, here - points_, here, C, l))
+      field = film_.resolve(state, here, lane_of(C, l), k[l], lane_of(psi, l));
     lost |= field.tension == materials::Tension::lost;
     set_lane(psi, l, field.potential);
   }

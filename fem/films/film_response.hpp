@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fem/films/lanes.hpp"
 #include "fem/films/membrane_section.hpp"
 #include "fem/model/element_block.hpp"
 #include "fem/model/relaxation.hpp"
@@ -113,6 +114,18 @@ class FilmResponse {
       }
     }
     return psi;
+  }
+
+  /// Whether a point in lane l is deformed like one in the lane before, and has the same past, to the last
+  /// bit.
+  bool alike(const State& state, int before, int point, const materials::InPlaneC<Lanes>& at, int l) const {
+    if (at.C11[l] != at.C11[l - 1] || at.C22[l] != at.C22[l - 1] || at.C12[l] != at.C12[l - 1]) return false;
+    const auto same = [&](const std::vector<double>& all) {
+      const auto of = [&](int p) { return all.begin() + static_cast<std::ptrdiff_t>(place(p, 0)); };
+      return all.empty() || branches() == 0 ||
+             std::equal(of(before), of(before) + history_size(1), of(point));
+    };
+    return !state.history || (same(state.history->now) && same(state.history->before));
   }
 
   const materials::Dielectric& dielectric() const { return material_.dielectric; }
