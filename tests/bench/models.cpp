@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/models.hpp"
 
+#include "fem/elements/beam_block.hpp"
 #include "fem/elements/distance_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/solids/solid_block.hpp"
 #include "materials/catalog.hpp"
+#include "meshing/meridian.hpp"
 #include "meshing/patch.hpp"
 #include "meshing/rings.hpp"
 #include "meshing/solids/slab.hpp"
@@ -37,10 +39,10 @@ Task begin(meshing::Mesh mesh, double prestretch, std::vector<int> electrodes, f
   model.dofs = fem::DofMap(task.mesh.node_count());
   model.electrodes = {"film"};
   model.extent = model.length_scale = extent;
-  model.blocks.push_back(
-      fem::make_membrane_block(task.mesh, task.mesh.blocks.front(),
-                               {.material = film, .thickness = 1e-3, .prestretch = {prestretch, prestretch}},
-                               std::move(electrodes), dimension, integration_points));
+  model.blocks.push_back(fem::make_membrane_block(
+      task.mesh, task.mesh.blocks.front(),
+      {.material = film, .thickness = 1e-3, .prestretch = {prestretch, prestretch}}, std::move(electrodes),
+      dimension, dimension == fem::Dimension::axisymmetric ? 3 : integration_points));
   model.blocks.front()->claim_dofs(model.dofs, dimension);
   return task;
 }
@@ -141,9 +143,61 @@ Task rolled_muscle() {
   model.dofs.number();
   model.place_histories();
   task.node = sets.at("right").front();
-  task.component = 0;
+  task.framed = true;
   task.steps = {{fem::Loads::of(model.initial_state(), model.dofs), 10}};
   return task;
+}
+
+Task film_in_a_ring() {
+  auto mesh = meshing::disc_mesh(8e-3, 4e-3, 6, order, curved);
+  meshing::CellBlock ring{meshing::CellType::line3, {}};
+  const auto& rim = mesh.node_sets.at("rim");
+  const auto on_rim = [&](int node) { return std::ranges::count(rim, node) > 0; };
+  for (int cell = 0; cell < mesh.blocks.front().size(); ++cell) {
+    const auto nodes = mesh.blocks.front().cell(cell);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const int a = nodes[i], b = nodes[(i + 1) % 3]; on_rim(a) && on_rim(b))
+        ring.nodes.insert(ring.nodes.end(), {a, b, nodes[3 + i]});
+  }
+  std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), 0);
+  Task task = begin(std::move(mesh), 1.5, std::move(electrodes), fem::Dimension::planar, 8e-3);
+  fem::Model& model = task.model;
+  model.blocks.push_back(fem::make_beam_block(
+      task.mesh, ring, materials::rectangular_section({78e6, 0.36, 0.55}, 1.6e-3, 2e-3)));
+  model.blocks.back()->claim_dofs(model.dofs, fem::Dimension::planar);
+  hold(task, "centre", {0, 1});
+  task.node = node_on_x_axis(task.mesh, "rim");
+  model.dofs.hold(task.node, 1);
+  model.dofs.number();
+  task.framed = true;
+  const fem::Loads free = fem::Loads::of(model.initial_state(), model.dofs);
+  fem::Loads voltage = free;
+  voltage.voltage = {4e3};
+  task.steps = {{free, 1}, {voltage, 4}};
+  return task;
+}
+
+Task meridian_of_diaphragm() {
+  auto mesh = meshing::annulus_meridian(12.7e-3, 68.58e-3, 40, order, 4);
+  Task task = begin(std::move(mesh), 2, std::vector<int>(40, 0), fem::Dimension::axisymmetric, 0.06858);
+  hold(task, "outer", {0, 2});
+  hold(task, "inner", {0});
+  task.model.dofs.number();
+  task.node = task.mesh.node_sets.at("inner").front();
+  task.component = 2;
+  fem::Loads weight = fem::Loads::of(task.model.initial_state(), task.model.dofs);
+  weight.dead_force[task.model.dofs.equation(task.node, 2)] = 0.981;
+  fem::Loads voltage = weight;
+  voltage.voltage = {5e3};
+  task.steps = {{weight, 5}, {voltage, 10}};
+  return task;
+}
+
+fem::State begun(const Task& task, fem::Equilibrium& equilibrium) {
+  fem::State state = task.model.initial_state();
+  if (task.framed) equilibrium.internal_force(state, state.dead_force);
+  state.dead_force.tail(task.model.dofs.held_count()).setZero();
+  return state;
 }
 
 fem::LoadPath rolled_muscle_cycles() {

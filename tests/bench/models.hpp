@@ -12,8 +12,9 @@ struct Task {
   meshing::Mesh mesh; ///< drawn after the prestretch, m
   fem::Model model;
   std::vector<std::pair<fem::Loads, int>> steps; ///< target and increments
-  int node = 0;                                  ///< where the result is read
-  int component = 0;                             ///< displacement component of the result
+  bool framed = false; ///< a frame holds it as drawn, and lets it go in the first step
+  int node = 0;        ///< where the result is read
+  int component = 0;   ///< displacement component of the result
 };
 
 /// B1: disc of undeformed radius 30 mm, electrode inside 10 mm, rim held at 3 x 3; 0 -> 5 kV in 10 steps.
@@ -35,6 +36,17 @@ Task stack_on_table(int across);
 /// acts for 1200 s. Result: the displacement of the end that moves.
 Task rolled_muscle();
 fem::LoadPath rolled_muscle_cycles();
+
+/// Film stretched 1.5 x 1.5 in a ring of walls, 8 mm in radius, let go, then 4 kV in 4 steps. Result: the
+/// displacement of the ring along x.
+Task film_in_a_ring();
+
+/// 40 elements along the meridian of B2's film and plate; the same loads and result.
+Task meridian_of_diaphragm();
+
+/// The state that the first step starts from.
+fem::State begun(const Task& task, fem::Equilibrium& equilibrium);
+
 constexpr double muscle_length = 40e-3, muscle_prestretch = 1.94999, muscle_duration = 1200; ///< m, 1, s
 constexpr int muscle_steps = 19200;
 

@@ -78,15 +78,13 @@ void muscle(benchmark::State& bench) {
     const Task task = rolled_muscle();
     const fem::DofMap& dofs = task.model.dofs;
     fem::Equilibrium equilibrium(task.model, threads);
-    fem::State state = task.model.initial_state();
+    fem::State state = begun(task, equilibrium);
     const auto take = [&](const fem::LoadPath& path, const fem::RampOptions& options) {
       fem::RampProgress progress = fem::RampProgress::begin(state, dofs, options);
       const bool complete = fem::ramp(equilibrium, path, options, progress, {}).end == fem::RampEnd::complete;
       state = progress.points.back().state;
       return complete;
     };
-    // What holds the film as drawn lets go.
-    equilibrium.assembler().residual(state, state.dead_force);
     const auto& [free, increments] = task.steps.front();
     const bool let_go = take(fem::linear_path(dofs, fem::Loads::of(state, dofs), free),
                              {.increments = increments, .instantaneous = true});
