@@ -27,9 +27,8 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e)
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
-  double height = 0;
-  for (const ShellLayer& layer : section.layers) height += layer.thickness;
-  double bottom = section.offset - height / 2;
+  for (const ShellLayer& layer : section.layers) height_ += layer.thickness;
+  double bottom = section.offset - height_ / 2;
   for (std::size_t l = 0; l < section.layers.size(); ++l) {
     const ShellLayer& layer = section.layers[l];
     const double H = layer.thickness, middle = bottom + H / 2;
@@ -57,6 +56,8 @@ void ShellBlock::place_element(int element) {
     D.col(a) = t.col(0).cross(t.col(1)).normalized();
   }
   const Eigen::Vector3d middle = X.col(0);
+  const double slenderness = std::sqrt((X.col(1) - middle).cross(X.col(2) - middle).norm()) / height_,
+               stiffness = std::min(1.0, std::pow(slenderest / slenderness, 2)); // see make_shell_block()
   for (int p = 0; p < points; ++p) {
     const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
     ShellPoint& place = geometry_[static_cast<std::size_t>(pack * points + p)];
@@ -93,7 +94,7 @@ void ShellBlock::place_element(int element) {
       for (int j = 0; j < 3; ++j) place.T[i][j][lane] = map(i, j);
       place.a[i][lane] = a0[i];
       place.b[i][lane] = b0[i];
-      place.shear[i][lane] = i < 2 ? inverse_metric(i, i) : inverse_metric(0, 1);
+      place.shear[i][lane] = stiffness * (i < 2 ? inverse_metric(i, i) : inverse_metric(0, 1));
     }
     for (std::size_t c = 0; c < 2; ++c) {
       double sum = 0;

@@ -57,7 +57,7 @@ class ShellBlock final : public ElementBlock {
  private:
   static constexpr int Nodes = ShellTables::nodes, points = ShellTables::points;
   static constexpr int dofs = ShellSum<true>::dofs;
-  static constexpr double shear_correction = 5.0 / 6, drilling_share = 1e-3;
+  static constexpr double shear_correction = 5.0 / 6, drilling_share = 1e-3, slenderest = 30;
 
   struct Layer {
     std::unique_ptr<FilmLayer> film;
@@ -113,6 +113,7 @@ class ShellBlock final : public ElementBlock {
 
   std::vector<Layer> layers_;
   std::array<double, 2> prestretch_;
+  double height_ = 0;          ///< sum H, m
   double shear_stiffness_ = 0; ///< k_s sum mu H, N/m
   double surface_density_ = 0; ///< sum rho H, kg/m^2
   int count_ = 0;

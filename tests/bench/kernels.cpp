@@ -31,6 +31,8 @@ void planar_residual(benchmark::State& bench) { assemble(bench, partial_electrod
 void planar_tangent(benchmark::State& bench) { assemble(bench, partial_electrode_disc(66), What::tangent); }
 void spatial_residual(benchmark::State& bench) { assemble(bench, plate_diaphragm(3), What::residual); }
 void spatial_tangent(benchmark::State& bench) { assemble(bench, plate_diaphragm(3), What::tangent); }
+void shell_residual(benchmark::State& bench) { assemble(bench, plate_diaphragm_shell(3), What::residual); }
+void shell_tangent(benchmark::State& bench) { assemble(bench, plate_diaphragm_shell(3), What::tangent); }
 void solid_residual(benchmark::State& bench) { assemble(bench, stack_on_table(3), What::residual); }
 void solid_tangent(benchmark::State& bench) { assemble(bench, stack_on_table(3), What::tangent); }
 
@@ -38,6 +40,8 @@ BENCHMARK(planar_residual)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(planar_tangent)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(spatial_residual)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(spatial_tangent)->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK(shell_residual)->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK(shell_tangent)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(solid_residual)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(solid_tangent)->Arg(1)->Arg(2)->UseRealTime();
 

@@ -4,6 +4,7 @@
 #include "fem/elements/beam_block.hpp"
 #include "fem/elements/distance_block.hpp"
 #include "fem/films/membrane_block.hpp"
+#include "fem/shells/shell_block.hpp"
 #include "fem/solids/solid_block.hpp"
 #include "materials/catalog.hpp"
 #include "meshing/meridian.hpp"
@@ -32,19 +33,24 @@ int node_on_x_axis(const meshing::Mesh& mesh, const std::string& place) {
   return -1;
 }
 
-Task begin(meshing::Mesh mesh, double prestretch, std::vector<int> electrodes, fem::Dimension dimension,
+Task begin(meshing::Mesh mesh, std::unique_ptr<fem::ElementBlock> block, fem::Dimension dimension,
            double extent) {
   Task task{.mesh = std::move(mesh), .model = {.dofs = fem::DofMap(0)}};
   fem::Model& model = task.model;
   model.dofs = fem::DofMap(task.mesh.node_count());
   model.electrodes = {"film"};
   model.extent = model.length_scale = extent;
-  model.blocks.push_back(fem::make_membrane_block(
-      task.mesh, task.mesh.blocks.front(),
-      {.material = film, .thickness = 1e-3, .prestretch = {prestretch, prestretch}}, std::move(electrodes),
-      dimension, dimension == fem::Dimension::axisymmetric ? 3 : integration_points));
+  model.blocks.push_back(std::move(block));
   model.blocks.front()->claim_dofs(model.dofs, dimension);
   return task;
+}
+
+std::unique_ptr<fem::ElementBlock> membrane(const meshing::Mesh& mesh, double prestretch,
+                                            std::vector<int> electrodes, fem::Dimension dimension) {
+  return fem::make_membrane_block(
+      mesh, mesh.blocks.front(),
+      {.material = film, .thickness = 1e-3, .prestretch = {prestretch, prestretch}}, std::move(electrodes),
+      dimension, dimension == fem::Dimension::axisymmetric ? 3 : integration_points);
 }
 
 void hold(Task& task, const std::string& place, std::initializer_list<int> components) {
@@ -58,7 +64,8 @@ Task partial_electrode_disc(int rings) {
   auto mesh = meshing::disc_mesh(0.09, 0.03, rings, order, curved);
   std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), fem::passive);
   for (const int cell : mesh.cell_sets.at("electrode").cells) electrodes[static_cast<std::size_t>(cell)] = 0;
-  Task task = begin(std::move(mesh), 3, std::move(electrodes), fem::Dimension::planar, 0.09);
+  auto block = membrane(mesh, 3, std::move(electrodes), fem::Dimension::planar);
+  Task task = begin(std::move(mesh), std::move(block), fem::Dimension::planar, 0.09);
   hold(task, "rim", {0, 1});
   task.model.dofs.number();
   task.node = node_on_x_axis(task.mesh, "electrode_edge");
@@ -68,10 +75,17 @@ Task partial_electrode_disc(int rings) {
   return task;
 }
 
-Task plate_diaphragm(int k) {
-  auto mesh = meshing::annulus_mesh(12.7e-3, 68.58e-3, 22 * k, order, curved);
-  const auto triangles = static_cast<std::size_t>(mesh.blocks.front().size());
-  Task task = begin(std::move(mesh), 2, std::vector<int>(triangles, 0), fem::Dimension::spatial, 0.06858);
+namespace {
+
+constexpr double diaphragm_extent = 0.06858;
+
+meshing::Mesh diaphragm_mesh(int k) {
+  return meshing::annulus_mesh(12.7e-3, diaphragm_extent, 22 * k, order, curved);
+}
+
+/// Loads of a film as thick as `thickness` times that of the task, such that all stresses are alike.
+Task diaphragm(meshing::Mesh mesh, std::unique_ptr<fem::ElementBlock> block, double thickness) {
+  Task task = begin(std::move(mesh), std::move(block), fem::Dimension::spatial, diaphragm_extent);
   hold(task, "outer", {0, 1, 2});
   hold(task, "inner", {0, 1});
   const auto& inner = task.mesh.node_sets.at("inner");
@@ -80,11 +94,30 @@ Task plate_diaphragm(int k) {
   task.node = inner.front();
   task.component = 2;
   fem::Loads weight = fem::Loads::of(task.model.initial_state(), task.model.dofs);
-  weight.dead_force[task.model.dofs.equation(inner.front(), 2)] = 0.981;
+  weight.dead_force[task.model.dofs.equation(inner.front(), 2)] = 0.981 * thickness;
   fem::Loads voltage = weight;
-  voltage.voltage = {5e3};
+  voltage.voltage = {5e3 * thickness};
   task.steps = {{weight, 5}, {voltage, 10}};
   return task;
+}
+
+} // namespace
+
+Task plate_diaphragm(int k) {
+  auto mesh = diaphragm_mesh(k);
+  std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), 0);
+  auto block = membrane(mesh, 2, std::move(electrodes), fem::Dimension::spatial);
+  return diaphragm(std::move(mesh), std::move(block), 1);
+}
+
+Task plate_diaphragm_shell(int k) {
+  constexpr double thickness = 0.01;
+  auto mesh = diaphragm_mesh(k);
+  std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), 0);
+  auto block = fem::make_shell_block(mesh, mesh.blocks.front(),
+                                     {.layers = {{film, thickness * 1e-3}}, .prestretch = {2, 2}},
+                                     {std::move(electrodes)});
+  return diaphragm(std::move(mesh), std::move(block), thickness);
 }
 
 Task stack_on_table(int across) {
@@ -160,7 +193,8 @@ Task film_in_a_ring() {
         ring.nodes.insert(ring.nodes.end(), {a, b, nodes[3 + i]});
   }
   std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), 0);
-  Task task = begin(std::move(mesh), 1.5, std::move(electrodes), fem::Dimension::planar, 8e-3);
+  auto block = membrane(mesh, 1.5, std::move(electrodes), fem::Dimension::planar);
+  Task task = begin(std::move(mesh), std::move(block), fem::Dimension::planar, 8e-3);
   fem::Model& model = task.model;
   model.blocks.push_back(fem::make_beam_block(
       task.mesh, ring, materials::rectangular_section({78e6, 0.36, 0.55}, 1.6e-3, 2e-3)));
@@ -179,7 +213,8 @@ Task film_in_a_ring() {
 
 Task meridian_of_diaphragm() {
   auto mesh = meshing::annulus_meridian(12.7e-3, 68.58e-3, 40, order, 4);
-  Task task = begin(std::move(mesh), 2, std::vector<int>(40, 0), fem::Dimension::axisymmetric, 0.06858);
+  auto block = membrane(mesh, 2, std::vector<int>(40, 0), fem::Dimension::axisymmetric);
+  Task task = begin(std::move(mesh), std::move(block), fem::Dimension::axisymmetric, diaphragm_extent);
   hold(task, "outer", {0, 2});
   hold(task, "inner", {0});
   task.model.dofs.number();

@@ -27,6 +27,10 @@ Task partial_electrode_disc(int rings);
 /// displacement.
 Task plate_diaphragm(int k);
 
+/// B2 with a film that resists bending, a hundredth as thick, and loads such that all stresses are alike:
+/// its result is that of plate_diaphragm() but for what bending adds.
+Task plate_diaphragm_shell(int k);
+
 /// The incompressible stack of gallery/stack_on_table in space, 750 V at once. `across` = 3, 4 give 65 000
 /// and 130 000 unknowns. Result: the rise of the upper electrode's first corner.
 Task stack_on_table(int across);

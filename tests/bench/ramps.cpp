@@ -70,6 +70,7 @@ void run(benchmark::State& bench, Task (*make_task)(int)) {
 
 void disc(benchmark::State& bench) { run(bench, partial_electrode_disc); }
 void diaphragm(benchmark::State& bench) { run(bench, plate_diaphragm); }
+void diaphragm_shell(benchmark::State& bench) { run(bench, plate_diaphragm_shell); }
 void stack(benchmark::State& bench) { run(bench, stack_on_table); }
 
 void muscle(benchmark::State& bench) {
@@ -100,6 +101,7 @@ void muscle(benchmark::State& bench) {
 
 BENCHMARK(disc)->ArgsProduct({{21, 66, 129}, {1, 2, 4}})->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(diaphragm)->ArgsProduct({{1, 2, 4}, {1, 2, 4}})->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(diaphragm_shell)->ArgsProduct({{1, 2, 4}, {1}})->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(muscle)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(stack)->ArgsProduct({{3, 4}, {1, 2, 4}})->Unit(benchmark::kMillisecond)->Iterations(1);
 
