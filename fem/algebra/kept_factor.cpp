@@ -104,7 +104,7 @@ double KeptFactor::sum_of_blocks(const Function& f) {
 
 bool KeptFactor::make() {
   ++factorisations_;
-  fresh_ = 0;
+  fresh_ = debt_ = 0;
   made_ = factor_.factor(matrix_.values) && factor_.smallest_pivot().relative > least_pivot;
   fails_ = !made_;
   return made_;
@@ -113,7 +113,6 @@ bool KeptFactor::make() {
 bool KeptFactor::prepare() {
   if (fails_) return false;
   if (made_ && debt_ < cost_) return true;
-  debt_ = 0;
   return make();
 }
 
@@ -165,8 +164,8 @@ bool KeptFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tole
     else
       debt_ += std::max(0.0, *iterations - expected);
   } else {
-    debt_ = cost_; // the next matrix may be as far from this one
     fails_ = fresh || !make() || !iterate(x, square, tolerance, most_iterations);
+    debt_ = cost_; // the next matrix may be as far from this one
   }
   x *= largest;
   return !fails_;

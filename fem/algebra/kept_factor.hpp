@@ -21,9 +21,14 @@ class KeptFactor {
   static double cost(const Supernodes& supernodes);
   /// Where a factor costs less, it is not worth keeping.
   static constexpr double least_cost = 3;
+  /// Where a factor costs less, one in double precision is had for what more iterations cost.
+  static constexpr double least_cost_to_prove = 8;
   /// To be called when the matrix has changed. False: single precision does not do for matrices like this
   /// one.
   [[nodiscard]] bool prepare();
+  /// The same where nothing is known of the matrix: factors it. True proves it to be positive definite: no
+  /// pivot is as small as what single precision makes of one.
+  [[nodiscard]] bool prove() { return !fails_ && make(); }
   /// x = A^-1 b with the current values, by corrections until one is below `tolerance` of x, in the norm of
   /// A. False: A has turned out not to be positive definite, or not in single precision.
   [[nodiscard]] bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance);

@@ -145,10 +145,11 @@ bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
 
 int SymmetricSolver::negative_pivots() const { return definite_ ? 0 : indefinite_->negative_pivots(); }
 
-bool SymmetricSolver::precondition() {
-  if (!cholesky_ || KeptFactor::cost(cholesky_->supernodes) < KeptFactor::least_cost) return factor();
+bool SymmetricSolver::precondition(bool known) {
+  const double least = known ? KeptFactor::least_cost : KeptFactor::least_cost_to_prove;
+  if (!cholesky_ || KeptFactor::cost(cholesky_->supernodes) < least) return factor();
   if (!cholesky_->kept) cholesky_->kept.emplace(matrix_, cholesky_->supernodes, workers_);
-  if (!cholesky_->kept->prepare()) return factor();
+  if (!(known ? cholesky_->kept->prepare() : cholesky_->kept->prove())) return factor();
   definite_ = iterates_ = true;
   return true;
 }

@@ -33,9 +33,9 @@ class SymmetricSolver {
   int singular_equation() const { return singular_equation_; }
   /// Number of negative eigenvalues of the matrix last factored; 0 means positive definite.
   int negative_pivots() const;
-  /// Instead of factor(), where the current values are known to be positive definite: solve() may do with the
-  /// factor of earlier ones.
-  [[nodiscard]] bool precondition();
+  /// Instead of factor(): a factor in single precision, where it proves the current values to be positive
+  /// definite. Where that is `known`, the factor of earlier values may do.
+  [[nodiscard]] bool precondition(bool known);
   /// x with A x = b, size entries each. Requires a successful factor() or precondition(). After the latter
   /// the error in the norm of A is about `tolerance` times x; not a number where A was singular after all.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance = exact);

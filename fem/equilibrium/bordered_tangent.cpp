@@ -129,10 +129,11 @@ bool BorderedTangent::factor(const State& state, const PathBorder* path, const E
 }
 
 bool BorderedTangent::precondition(const State& state) {
-  if (!assembler_.convex() || any_follows(state)) return factor(state);
+  if (any_follows(state)) return factor(state);
   set_borders(state, nullptr);
-  negative_pivots_ = unstable_modes_ = 0;
-  return solver_.precondition();
+  if (!solver_.precondition(assembler_.convex())) return false;
+  negative_pivots_ = unstable_modes_ = solver_.negative_pivots() - model_.dofs.scalar_count();
+  return true;
 }
 
 double BorderedTangent::solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g, double tolerance) {

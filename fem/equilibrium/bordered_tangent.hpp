@@ -40,8 +40,8 @@ class BorderedTangent {
   /// singular under this control.
   [[nodiscard]] bool factor(const State& state, const PathBorder* path = nullptr,
                             const Eigen::VectorXd* added = nullptr);
-  /// As factor(), for steps of Newton's method: where K is known to be positive definite and has no borders,
-  /// an earlier factor does, and solve() is as good as its tolerance.
+  /// As factor(), for steps of Newton's method: where K has no borders and is positive definite a factor in
+  /// single precision does, an earlier one where that is known, and solve() is as good as its tolerance.
   [[nodiscard]] bool precondition(const State& state);
   /// Negative eigenvalues of K less those that the scalars of the model bring (see DofMap): unstable
   /// directions at fixed voltages.

@@ -131,9 +131,9 @@ TEST(SymmetricSolver, tells_where_a_pivot_vanished_and_takes_a_stiffness_there) 
 TEST(SymmetricSolver, solves_what_only_seemed_positive_definite) {
   SparseSymmetric matrix = test::grid(200, 1); // large enough for a factor to be kept
   SymmetricSolver solver(matrix, one_thread);
-  ASSERT_TRUE(solver.precondition());
+  ASSERT_TRUE(solver.precondition(true));
   matrix.values[static_cast<std::size_t>(matrix.column_start[1234])] = -5;
-  ASSERT_TRUE(solver.precondition());
+  ASSERT_TRUE(solver.precondition(true));
   EXPECT_EQ(solver.work().factorisations, 1);
   std::mt19937 random(65);
   const Eigen::VectorXd expected = test::random_vector(random, matrix.size);
@@ -141,6 +141,35 @@ TEST(SymmetricSolver, solves_what_only_seemed_positive_definite) {
   solver.solve(test::times(matrix, expected), x);
   EXPECT_LT((x - expected).norm(), 1e-8 * expected.norm());
   EXPECT_EQ(solver.negative_pivots(), 1);
+}
+
+// Large enough for a factor in single precision to tell.
+TEST(SymmetricSolver, proves_what_is_positive_definite_and_counts_what_is_not) {
+  SparseSymmetric matrix = test::grid(400, 1);
+  SymmetricSolver solver(matrix);
+  std::mt19937 random(66);
+  const Eigen::VectorXd expected = test::random_vector(random, matrix.size);
+  const auto solves = [&](double tolerance) {
+    Eigen::VectorXd x;
+    solver.solve(test::times(matrix, expected), x, tolerance);
+    EXPECT_LT((x - expected).norm(), 10 * tolerance * expected.norm());
+  };
+  ASSERT_TRUE(solver.precondition(false));
+  solves(1e-3);
+  EXPECT_EQ(solver.negative_pivots(), 0);
+  double& diagonal = matrix.values[static_cast<std::size_t>(matrix.column_start[1234])];
+  const double before = diagonal;
+  // Nearly singular, and next to it unstable: the double precision tells them apart.
+  Eigen::VectorXd response;
+  ASSERT_TRUE(solver.factor());
+  solver.solve(Eigen::VectorXd::Unit(matrix.size, 1234), response);
+  const double singular = before - 1 / response[1234];
+  for (const int sign : {1, -1}) {
+    diagonal = singular + sign * 1e-7 * before;
+    ASSERT_TRUE(solver.precondition(false));
+    EXPECT_EQ(solver.negative_pivots(), sign > 0 ? 0 : 1);
+    solves(1e-6);
+  }
 }
 
 } // namespace
