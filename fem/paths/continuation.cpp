@@ -11,8 +11,7 @@ namespace dielast::fem {
 
 namespace {
 
-constexpr double difference = 1e-4;  ///< of load factors; central differences are exact for quadratic loads
-constexpr double least_cosine = 0.7; ///< between the tangents at both ends of a step
+constexpr double difference = 1e-4; ///< of load factors; central differences are exact for quadratic loads
 
 /// D du / E: the row that makes . du an inner product.
 Eigen::VectorXd dual(const Equilibrium& equilibrium, const Eigen::VectorXd& du) {
@@ -81,7 +80,7 @@ std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium,
 
 std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const LoadPath& path,
                                              const ContinuationProgress& from, double arc,
-                                             const NewtonOptions& options) {
+                                             const NewtonOptions& options, double least_cosine) {
   const DofMap& dofs = equilibrium.model().dofs;
   ContinuationProgress to = from;
   to.load_factor += arc * from.load_direction;

@@ -48,10 +48,10 @@ std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium,
                                                        const ContinuationOptions& options);
 
 /// One step of length `arc`: along the tangent, then Newton's method in the plane normal to it. Nothing where
-/// it does not converge or where the path has turned by more than 45 degrees.
+/// it does not converge or where the path has turned by more than an angle, of which the cosine is given.
 std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const LoadPath& path,
                                              const ContinuationProgress& from, double arc,
-                                             const NewtonOptions& options);
+                                             const NewtonOptions& options, double least_cosine = 0.7);
 
 /// Change of the unbalanced forces per load factor at fixed displacements of the free unknowns, N.
 Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s);

@@ -27,6 +27,7 @@ constexpr int most_trials = 80;
 constexpr double near = 1e-2;
 constexpr double vanished = 1e-5;       ///< eigenvalue of a state from which no path leads on
 constexpr double load_tolerance = 1e-7; ///< of a critical load factor
+constexpr double along_mode = 0.7;      ///< cosine between a mode and the way to the branch
 /// Part of the way to the extrapolated critical load that the next trial goes.
 constexpr double approach = 0.9;
 
@@ -272,8 +273,17 @@ std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, cons
                               .load_factor = critical.load_factor,
                               .direction = std::copysign(1 / length, amplitude) * mode,
                               .arc = options.first_arc};
-  auto branch = arc_step(equilibrium, path, across, std::abs(amplitude) * length, options.newton);
-  if (branch) branch->steps = 0;
+  // The load of a branch may rise so steeply that its tangent is soon next to normal to the mode; how far the
+  // branch has gone along it tells.
+  auto branch = arc_step(equilibrium, path, across, std::abs(amplitude) * length, options.newton, 0);
+  if (!branch) return branch;
+  const auto product = [&D = equilibrium.stiffness()](const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
+    return u.dot(D.cwiseProduct(v));
+  };
+  const Eigen::VectorXd way = equilibrium.model().dofs.increment(critical.state, branch->state);
+  if (std::abs(product(way, mode)) < along_mode * std::sqrt(product(way, way) * product(mode, mode)))
+    return std::nullopt;
+  branch->steps = 0;
   return branch;
 }
 

@@ -55,6 +55,23 @@ TEST_F(Paths, a_clamped_disc_buckles_at_its_voltage) {
   }
 }
 
+// The load of the dome rises so steeply that its path is soon next to normal to the mode.
+TEST_F(Paths, a_clamped_disc_goes_over_to_its_dome_by_the_branch_and_by_a_jump_alike) {
+  const auto ends = [this](const std::string& way) {
+    const Run one =
+        run(clamped_disc(fmt::format("[drive]\nvoltage = \"{} V\"\n[[quantity]]\nname = \"depth\"\nkind = "
+                                     "\"size\"\nof = \"film\"\nalong = \"z\"\n[[step]]\nkind = "
+                                     "\"voltage\"\nincrements = 4\n{}\n",
+                                     1.3 * buckling_voltage(), way)),
+            "depth");
+    EXPECT_EQ(one.outcome.ending, Ending::complete) << one.outcome.message;
+    return one.rows.back().value;
+  };
+  const double dome = ends("on_bifurcation = \"switch\"");
+  EXPECT_GT(dome, thickness);
+  EXPECT_NEAR(dome, ends("on_instability = \"jump\""), 1e-6 * dome);
+}
+
 // Leissa 1969, Vibration of Plates, table 2.1: lambda^2 = 10.2158.
 TEST_F(Paths, a_clamped_disc_vibrates_as_a_plate) {
   const Run modes =
