@@ -102,10 +102,10 @@ double KeptFactor::sum_of_blocks(const Function& f) {
   return std::accumulate(sums_.begin(), sums_.end(), 0.0);
 }
 
-bool KeptFactor::make() {
+bool KeptFactor::make(double lessened) {
   ++factorisations_;
   fresh_ = debt_ = 0;
-  made_ = factor_.factor(matrix_.values) && factor_.smallest_pivot().relative > least_pivot;
+  made_ = factor_.factor(matrix_.values, lessened) && factor_.smallest_pivot().relative > least_pivot;
   fails_ = !made_;
   return made_;
 }

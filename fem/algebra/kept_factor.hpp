@@ -26,9 +26,9 @@ class KeptFactor {
   /// To be called when the matrix has changed. False: single precision does not do for matrices like this
   /// one.
   [[nodiscard]] bool prepare();
-  /// The same where nothing is known of the matrix: factors it. True proves it to be positive definite: no
-  /// pivot is as small as what single precision makes of one.
-  [[nodiscard]] bool prove() { return !fails_ && make(); }
+  /// The same where nothing is known of the matrix: factors what is left when a part of its diagonal is taken
+  /// off, much more than the rounding of single precision. True proves it to be positive definite.
+  [[nodiscard]] bool prove() { return !fails_ && make(rounded); }
   /// x = A^-1 b with the current values, by corrections until one is below `tolerance` of x, in the norm of
   /// A. False: A has turned out not to be positive definite, or not in single precision.
   [[nodiscard]] bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance);
@@ -49,7 +49,8 @@ class KeptFactor {
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y);
   template<class Function>
   double sum_of_blocks(const Function& f);
-  bool make();
+  static constexpr double rounded = 1e-5;
+  bool make(double lessened = 0);
   std::optional<int> iterate(Eigen::VectorXd& x, double& square, double tolerance, int most);
 
   const SparseSymmetric& matrix_;

@@ -67,11 +67,14 @@ typename MultifrontalCholesky<Real>::Front MultifrontalCholesky<Real>::front(int
 
 /// The panel of the matrix, and what the children change in it.
 template<class Real>
-void MultifrontalCholesky<Real>::gather(const std::vector<double>& entries, int s) {
+void MultifrontalCholesky<Real>::gather(const std::vector<double>& entries, double lessened, int s) {
   const Front own = front(s);
   std::fill(own.panel, own.panel + static_cast<std::ptrdiff_t>(own.width) * own.height, Real(0));
   for (auto e = at(nodes_.entry_start[at(s)]); e < at(nodes_.entry_start[at(s) + 1]); ++e)
     own.panel[nodes_.entry_place[e]] = static_cast<Real>(entries[at(nodes_.entry[e])]);
+  if (lessened != 0)
+    for (int k = 0; k < own.width; ++k)
+      own.panel[static_cast<std::ptrdiff_t>(k) * own.height + k] *= static_cast<Real>(1 - lessened);
   for (int c = nodes_.child_start[at(s)]; c < nodes_.child_start[at(s) + 1]; ++c) {
     const Front child = front(nodes_.child[at(c)]);
     const int* const place = nodes_.place_in_parent(nodes_.child[at(c)]);
@@ -100,8 +103,9 @@ void MultifrontalCholesky<Real>::pass_on(int s) {
 }
 
 template<class Real>
-bool MultifrontalCholesky<Real>::factor_front(const std::vector<double>& entries, int s, Workers& workers) {
-  gather(entries, s);
+bool MultifrontalCholesky<Real>::factor_front(const std::vector<double>& entries, double lessened, int s,
+                                              Workers& workers) {
+  gather(entries, lessened, s);
   const auto [width, height, below, panel, update] = front(s);
   if (!factor_panel(width, height, panel, workers)) return false;
   smallest_[at(s)] = smallest_pivot(entries, s);
@@ -112,11 +116,11 @@ bool MultifrontalCholesky<Real>::factor_front(const std::vector<double>& entries
 }
 
 template<class Real>
-bool MultifrontalCholesky<Real>::factor(const std::vector<double>& entries) {
+bool MultifrontalCholesky<Real>::factor(const std::vector<double>& entries, double lessened) {
   std::atomic<bool> definite = true;
   workers_.run(nodes_.roots.size(), [&](std::size_t root) {
     climb(nodes_.roots[root], [&](int s, Workers& workers) {
-      if (definite && !factor_front(entries, s, workers)) definite = false;
+      if (definite && !factor_front(entries, lessened, s, workers)) definite = false;
     });
   });
   return definite;

@@ -20,9 +20,9 @@ class MultifrontalCholesky {
   /// Both must outlive this. Throws std::runtime_error where there is less memory than it takes.
   MultifrontalCholesky(const Supernodes& supernodes, Workers& workers);
 
-  /// `entries`: those of the matrix that the supernodes were made for. False: not positive definite in this
-  /// precision, and no solve is possible.
-  [[nodiscard]] bool factor(const std::vector<double>& entries);
+  /// `entries`: those of the matrix that the supernodes were made for; `lessened`: part of its diagonal that
+  /// is taken off. False: not positive definite in this precision, and no solve is possible.
+  [[nodiscard]] bool factor(const std::vector<double>& entries, double lessened = 0);
 
   struct Pivot {
     double relative = 1; ///< over the diagonal entry that it came from: no units
@@ -44,8 +44,8 @@ class MultifrontalCholesky {
   void climb(int s, const Function& f);
   template<class Function>
   void descend(int s, const Function& f);
-  bool factor_front(const std::vector<double>& entries, int s, Workers& workers);
-  void gather(const std::vector<double>& entries, int s);
+  bool factor_front(const std::vector<double>& entries, double lessened, int s, Workers& workers);
+  void gather(const std::vector<double>& entries, double lessened, int s);
   void pass_on(int s);
   Pivot smallest_pivot(const std::vector<double>& entries, int s);
   void forward(int s);

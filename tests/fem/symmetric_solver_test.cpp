@@ -143,10 +143,25 @@ TEST(SymmetricSolver, solves_what_only_seemed_positive_definite) {
   EXPECT_EQ(solver.negative_pivots(), 1);
 }
 
+// A spring that pulls or pushes every node of a grid that nothing else holds: softer than what single
+// precision rounds, it must be left to double precision.
+TEST(SymmetricSolver, does_not_take_rounding_for_a_proof) {
+  constexpr double held = 1e-3; // test::grid
+  for (const double spring : {1e-4, 1e-9, -1e-9, -1e-4}) {
+    SparseSymmetric matrix = test::grid(400, 1);
+    for (int c = 0; c < matrix.size; ++c)
+      matrix.values[static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(c)])] +=
+          spring - held;
+    SymmetricSolver solver(matrix, one_thread);
+    ASSERT_TRUE(solver.precondition(false));
+    EXPECT_EQ(solver.negative_pivots() > 0, spring < 0) << spring;
+  }
+}
+
 // Large enough for a factor in single precision to tell.
 TEST(SymmetricSolver, proves_what_is_positive_definite_and_counts_what_is_not) {
   SparseSymmetric matrix = test::grid(400, 1);
-  SymmetricSolver solver(matrix);
+  SymmetricSolver solver(matrix, one_thread);
   std::mt19937 random(66);
   const Eigen::VectorXd expected = test::random_vector(random, matrix.size);
   const auto solves = [&](double tolerance) {
