@@ -49,7 +49,7 @@ class KeptFactor {
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y);
   template<class Function>
   double sum_of_blocks(const Function& f);
-  static constexpr double rounded = 1e-5;
+  static constexpr double rounded = 2e-6; ///< some thirty roundings
   bool make(double lessened = 0);
   std::optional<int> iterate(Eigen::VectorXd& x, double& square, double tolerance, int most);
 
