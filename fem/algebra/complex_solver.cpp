@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/algebra/complex_solver.hpp"
 
+#include "fem/algebra/nested_dissection.hpp"
+
 #include <zmumps_c.h>
 
 #include <new>
@@ -28,6 +30,11 @@ struct ComplexSolver::Factorisation {
     mumps.icntl[11] = 1;  // usual ordering: both would read the values in the analysis
     mumps.icntl[23] = 1;  // detect null pivots
     mumps.icntl[13] = 50; // % spare workspace
+    // Ordered by us: its own choice, SCOTCH, draws another order at random each time.
+    order = metis_positions(matrix.column_start, matrix.rows);
+    for (int& place : order) ++place;
+    mumps.icntl[6] = 1;
+    mumps.perm_in = order.data();
     mumps.n = matrix.size;
     mumps.nnz = static_cast<MUMPS_INT8>(rows.size());
     mumps.irn = rows.data();
@@ -45,7 +52,7 @@ struct ComplexSolver::Factorisation {
   }
 
   ZMUMPS_STRUC_C mumps{};
-  std::vector<int> rows, columns;
+  std::vector<int> rows, columns, order;
 };
 
 ComplexSolver::ComplexSolver(const SparseSymmetric& matrix)

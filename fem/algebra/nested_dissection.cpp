@@ -63,17 +63,16 @@ Graph part_of(const Graph& graph, const std::vector<int>& number) {
   return part;
 }
 
-/// Position of every vertex in METIS's order.
-std::vector<int> metis_positions(const Graph& graph) {
+} // namespace
+
+std::vector<int> metis_positions(const std::vector<int>& start, const std::vector<int>& neighbours) {
   CholmodSession session;
-  cholmod_sparse pattern = cholmod_pattern(graph.start, graph.neighbours);
-  std::vector<int> order(at(graph.size())), position(order.size());
+  cholmod_sparse pattern = cholmod_pattern(start, neighbours);
+  std::vector<int> order(start.size() - 1), position(order.size());
   if (!cholmod_metis(&pattern, nullptr, 0, 1, order.data(), &session.common)) throw std::bad_alloc();
   for (std::size_t k = 0; k < order.size(); ++k) position[at(order[k])] = static_cast<int>(k);
   return position;
 }
-
-} // namespace
 
 std::vector<int> nested_dissection(const SparseSymmetric& matrix) {
   const Graph equations = graph_of(matrix);
@@ -103,7 +102,8 @@ std::vector<int> nested_dissection(const SparseSymmetric& matrix) {
     if (covers.size() == before) kept[at(v)] = kept_vertices++;
   }
 
-  const std::vector<int> kept_positions = metis_positions(part_of(graph, kept));
+  const Graph of_kept = part_of(graph, kept);
+  const std::vector<int> kept_positions = metis_positions(of_kept.start, of_kept.neighbours);
   std::vector<int> position(at(vertices), kept_vertices);
   for (int v = 0; v < vertices; ++v)
     if (kept[at(v)] >= 0) position[at(v)] = kept_positions[at(kept[at(v)])];

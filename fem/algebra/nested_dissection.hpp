@@ -15,4 +15,8 @@ namespace dielast::fem {
 /// eighth is left to METIS. Throws std::bad_alloc.
 std::vector<int> nested_dissection(const SparseSymmetric& matrix);
 
+/// Place of each vertex of a graph in the order by METIS of them all. `neighbours`, from `start` on: at least
+/// those with higher numbers. Throws std::bad_alloc.
+std::vector<int> metis_positions(const std::vector<int>& start, const std::vector<int>& neighbours);
+
 } // namespace dielast::fem

@@ -3,6 +3,7 @@
 
 #include "fem/algebra/kept_factor.hpp"
 #include "fem/algebra/memory.hpp"
+#include "fem/algebra/nested_dissection.hpp"
 #include "fem/algebra/one_thread.hpp"
 
 #include <dmumps_c.h>
@@ -76,6 +77,11 @@ struct SymmetricSolver::Indefinite {
     for (const int output : {0, 1, 2, 3}) mumps.icntl[output] = output == 3 ? 0 : -1; // silent
     mumps.icntl[23] = 1;                                                              // detect null pivots
     mumps.icntl[13] = 50;                                                             // % spare workspace
+    // Ordered by us: its own choice, SCOTCH, draws another order at random each time.
+    order = metis_positions(matrix.column_start, matrix.rows);
+    for (int& place : order) ++place;
+    mumps.icntl[6] = 1;
+    mumps.perm_in = order.data();
     mumps.n = matrix.size;
     mumps.nnz = static_cast<MUMPS_INT8>(rows.size());
     mumps.irn = rows.data();
@@ -113,7 +119,7 @@ struct SymmetricSolver::Indefinite {
   }
 
   DMUMPS_STRUC_C mumps{};
-  std::vector<int> rows, columns;
+  std::vector<int> rows, columns, order;
 };
 
 SymmetricSolver::SymmetricSolver(const SparseSymmetric& matrix, Workers& workers, bool indefinite)

@@ -158,6 +158,25 @@ TEST(SymmetricSolver, does_not_take_rounding_for_a_proof) {
   }
 }
 
+// The order in which a solver eliminates must not be drawn by lot.
+TEST(SymmetricSolver, gives_the_same_bits_again_where_the_matrix_is_indefinite) {
+  SparseSymmetric matrix = test::grid(60, 1);
+  for (int c = 0; c < matrix.size; ++c)
+    matrix.values[static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(c)])] -= 0.5;
+  std::mt19937 random(66);
+  const Eigen::VectorXd b = test::random_vector(random, matrix.size);
+  const auto solved = [&] {
+    SymmetricSolver solver(matrix, one_thread);
+    EXPECT_TRUE(solver.factor());
+    EXPECT_GT(solver.negative_pivots(), 1);
+    Eigen::VectorXd x;
+    solver.solve(b, x);
+    return x;
+  };
+  const Eigen::VectorXd first = solved();
+  for (int again = 0; again < 4; ++again) EXPECT_EQ(solved(), first);
+}
+
 // Large enough for a factor in single precision to tell.
 TEST(SymmetricSolver, proves_what_is_positive_definite_and_counts_what_is_not) {
   SparseSymmetric matrix = test::grid(400, 1);
