@@ -31,11 +31,8 @@ post::SeriesModel series_model(const Case& one, const Device& device) {
 
 namespace {
 
-/// Shorter runs are repeated faster than their checkpoints are written.
+/// Shorter runs are repeated faster than their checkpoints are written; these take a 30th of a run at most.
 constexpr std::chrono::seconds checkpoint_interval{2};
-
-/// Nor are they written more often than in this many times what one takes.
-constexpr int checkpoint_share = 30;
 
 json archive(const post::StepRecord& record) {
   json events = json::array();
@@ -299,17 +296,13 @@ void Recorder::write_waiting() {
 void Recorder::save_checkpoint() {
   const auto begin = std::chrono::steady_clock::now();
   const SimulationProgress progress = simulation_.progress();
-  json records = json::array(), values = json::array(), snapshots = json::array(), analyses = json::array();
-  for (const auto& analysis : journal_.analyses) analyses.push_back(archive(analysis));
-  for (const auto& record : journal_.records) records.push_back(archive(record));
+  const auto all = [](const auto& list) {
+    json archived = json::array();
+    for (const auto& one : list) archived.push_back(archive(one));
+    return archived;
+  };
+  json values = json::array();
   for (const auto& row : journal_.values) values.push_back(post::pack(row));
-  for (const auto& one : journal_.snapshots) snapshots.push_back(archive(one));
-  json stills = json::array();
-  for (const auto& one : journal_.stills) stills.push_back(archive(one));
-  json critical = json::array();
-  for (const auto& one : journal_.critical) critical.push_back(archive(one));
-  json shapes = json::array();
-  for (const auto& one : journal_.shapes) shapes.push_back(archive(one));
   const auto entries = [](const auto& series) { return series ? json(series->entries()) : json::array(); };
   post::write_checkpoint(
       folder_ / checkpoint_name,
@@ -333,18 +326,17 @@ void Recorder::save_checkpoint() {
        {"waiting", waiting_ ? archive(waiting_->step, waiting_->state) : json(nullptr)},
        {"modes_series", entries(modes_)},
        {"journal",
-        {{"records", records},
+        {{"records", all(journal_.records)},
          {"values", values},
-         {"snapshots", snapshots},
-         {"stills", stills},
+         {"snapshots", all(journal_.snapshots)},
+         {"stills", all(journal_.stills)},
          {"stills_every", journal_.stills_every},
          {"modes", journal_.modes},
-         {"critical", critical},
-         {"shapes", shapes},
-         {"analyses", analyses}}}});
-  const auto end = std::chrono::steady_clock::now();
-  next_checkpoint_ =
-      end + std::max<std::chrono::nanoseconds>(checkpoint_interval, checkpoint_share * (end - begin));
+         {"critical", all(journal_.critical)},
+         {"shapes", all(journal_.shapes)},
+         {"analyses", all(journal_.analyses)}}}});
+  const std::chrono::nanoseconds taken = std::chrono::steady_clock::now() - begin;
+  next_checkpoint_ = begin + std::max<std::chrono::nanoseconds>(checkpoint_interval, 30 * taken);
 }
 
 void Recorder::restore_checkpoint() try {
@@ -400,8 +392,8 @@ void Recorder::restore_checkpoint() try {
 } catch (const json::exception&) {
   throw FileError((folder_ / checkpoint_name).string() + ": damaged; run again without --resume");
 } catch (const post::CheckpointError& error) {
-  throw FileError(
-      fmt::format("{}: {}; run again without --resume", (folder_ / checkpoint_name).string(), error.what()));
+  throw FileError((folder_ / checkpoint_name).string() + ": " + error.what() +
+                  "; run again without --resume");
 }
 
 } // namespace dielast::cases

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/algebra/workers.hpp"
+#include "fem/machine/workers.hpp"
 
 namespace dielast::fem {
 

@@ -2,8 +2,8 @@
 #include "fem/algebra/multifrontal_cholesky.hpp"
 
 #include "fem/algebra/dense_products.hpp"
-#include "fem/algebra/memory.hpp"
 #include "fem/algebra/panel.hpp"
+#include "fem/machine/memory.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/algebra/large_vector.hpp"
 #include "fem/algebra/supernodes.hpp"
-#include "fem/algebra/workers.hpp"
+#include "fem/machine/large_vector.hpp"
+#include "fem/machine/workers.hpp"
 
 #include <Eigen/Core>
 

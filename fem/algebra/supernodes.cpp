@@ -3,7 +3,7 @@
 
 #include "fem/algebra/cholmod_session.hpp"
 #include "fem/algebra/nested_dissection.hpp"
-#include "fem/algebra/one_thread.hpp"
+#include "fem/machine/one_thread.hpp"
 
 #include <algorithm>
 #include <new>

@@ -2,9 +2,9 @@
 #include "fem/algebra/symmetric_solver.hpp"
 
 #include "fem/algebra/kept_factor.hpp"
-#include "fem/algebra/memory.hpp"
 #include "fem/algebra/nested_dissection.hpp"
-#include "fem/algebra/one_thread.hpp"
+#include "fem/machine/memory.hpp"
+#include "fem/machine/one_thread.hpp"
 
 #include <dmumps_c.h>
 #include <sys/mman.h>

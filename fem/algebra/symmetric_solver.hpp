@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fem/algebra/sparse_matrix.hpp"
-#include "fem/algebra/workers.hpp"
+#include "fem/machine/workers.hpp"
 
 #include <Eigen/Core>
 

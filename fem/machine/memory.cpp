@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/algebra/memory.hpp"
+#include "fem/machine/memory.hpp"
 
 #include <algorithm>
 #include <cstdio>
