@@ -38,7 +38,7 @@ Section honeycomb_section() {
           .at_most(179.99 * degree)
           .because("cells close up at 60 deg and are flat at 180 deg"),
       integer("columns", to(&Honeycomb::columns), "number of cells in each column, left to right")
-          .values(1, 100)
+          .values(1, 200)
           .at_least(1)
           .at_most(200)
           .otherwise("[7, 6, 7, 6, 7]")
