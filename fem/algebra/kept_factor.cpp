@@ -94,11 +94,18 @@ void KeptFactor::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) {
     for (std::size_t i = 0; i < block.row.size(); ++i) y[block.row[i]] += block.spilled[i];
 }
 
-/// Sum of f(first, count) of the blocks' ranges.
+/// f(first, count) of each block's range.
 template<class Function>
-double KeptFactor::sum_of_blocks(const Function& f) {
+void KeptFactor::for_blocks(const Function& f) {
   workers_.run(blocks_.size(),
-               [&](std::size_t b) { sums_[b] = f(blocks_[b].first, blocks_[b].last - blocks_[b].first); });
+               [&](std::size_t b) { f(blocks_[b].first, blocks_[b].last - blocks_[b].first); });
+}
+
+double KeptFactor::dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  workers_.run(blocks_.size(), [&](std::size_t b) {
+    const int first = blocks_[b].first, count = blocks_[b].last - first;
+    sums_[b] = x.segment(first, count).dot(y.segment(first, count));
+  });
   return std::accumulate(sums_.begin(), sums_.end(), 0.0);
 }
 
@@ -123,24 +130,20 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
   for (int iteration = 1; iteration <= most; ++iteration) {
     factor_.solve(r_, z_);
     ++solves_;
-    const double rz = sum_of_blocks(
-        [&](int first, int count) { return r_.segment(first, count).dot(z_.segment(first, count)); });
+    const double rz = dot(r_, z_);
     if (rz == 0) return iteration;
     const double kept = iteration == 1 ? 0 : rz / product;
     if (iteration == 1) p_.setZero(z_.size());
-    sum_of_blocks([&](int first, int count) {
+    for_blocks([&](int first, int count) {
       p_.segment(first, count) = z_.segment(first, count) + kept * p_.segment(first, count);
-      return 0.0;
     });
     product = rz;
     multiply(p_, Ap_);
-    const double curvature = sum_of_blocks(
-        [&](int first, int count) { return p_.segment(first, count).dot(Ap_.segment(first, count)); });
+    const double curvature = dot(p_, Ap_);
     if (!(curvature > 0)) return std::nullopt;
-    sum_of_blocks([&](int first, int count) {
+    for_blocks([&](int first, int count) {
       x.segment(first, count) += rz / curvature * p_.segment(first, count);
       r_.segment(first, count) -= rz / curvature * Ap_.segment(first, count);
-      return 0.0;
     });
     const double correction = rz / curvature * rz;
     square += correction;

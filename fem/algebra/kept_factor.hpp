@@ -48,7 +48,8 @@ class KeptFactor {
   void divide_columns();
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y);
   template<class Function>
-  double sum_of_blocks(const Function& f);
+  void for_blocks(const Function& f);
+  double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
   static constexpr double rounded = 2e-6; ///< some thirty roundings
   bool make(double lessened = 0);
   std::optional<int> iterate(Eigen::VectorXd& x, double& square, double tolerance, int most);

@@ -51,7 +51,6 @@ class SymmetricSolver {
   struct Cholesky;
   struct Indefinite;
   const SparseSymmetric& matrix_;
-  Workers& workers_;
   std::unique_ptr<Cholesky> cholesky_;
   std::unique_ptr<Indefinite> indefinite_; ///< made when first needed
   std::vector<double> shifted_;            ///< values with something on the diagonal

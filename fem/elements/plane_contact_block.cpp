@@ -195,10 +195,6 @@ class PlaneContactBlock final : public ContactBlock {
   int first_ = 0;
 };
 
-} // namespace
-
-namespace {
-
 PlaneContact of_nodes(const std::map<int, double>& areas) {
   PlaneContact surface;
   for (const auto& [node, area] : areas) {

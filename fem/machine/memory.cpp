@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/machine/memory.hpp"
 
+#include "fem/machine/one_thread.hpp"
+
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+
+extern "C" void dpotrf_(const char* uplo, const int* n, double* A, const int* stride, int* info);
 
 namespace dielast::fem {
 
@@ -44,6 +50,24 @@ void require_memory(double bytes, const std::string& what, double available) {
   std::snprintf(text, sizeof text, " takes %.1f GB of memory, and %.1f GB are free: use a coarser mesh",
                 bytes / gigabyte, available / gigabyte);
   throw std::runtime_error(what + text);
+}
+
+void require_blas_buffer() {
+  // Asked for beforehand, and taken at once by the smallest factorisation: then the buffer is there for good.
+  [[maybe_unused]] static const bool taken = [] {
+    if (!openblas_set_num_threads) return true;
+    constexpr std::size_t buffer = (128 << 20) + (1 << 16);
+    void* const memory = mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED)
+      throw std::runtime_error(
+          "the limit of memory is too low for OpenBLAS, which needs 128 MB: see ulimit -v");
+    munmap(memory, buffer);
+    double number = 1;
+    const int one = 1;
+    int info = 0;
+    dpotrf_("L", &one, &number, &one, &info);
+    return info == 0;
+  }();
 }
 
 } // namespace dielast::fem

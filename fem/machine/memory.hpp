@@ -13,4 +13,8 @@ double available_memory();
 /// Linux gives any memory away, and ends a process that uses what there is not.
 void require_memory(double bytes, const std::string& what, double available = available_memory());
 
+/// To be called before BLAS is: throws std::runtime_error where it gets no buffer. OpenBLAS would try for
+/// ever to get one where memory is limited.
+void require_blas_buffer();
+
 } // namespace dielast::fem
