@@ -255,7 +255,6 @@ struct Linearise {
   Sweep sweep;                     ///< over which it is compared with the full response
   std::vector<std::string> driven; ///< electrodes whose sources swing together; empty: see driven_ports
   std::vector<TransferFunction> compare;
-  bool written = false; ///< the case has a section [linearise]
 };
 
 /// Everything the user asked for: validated, complete, in SI. No type of the file format gets past the
@@ -290,7 +289,7 @@ struct Case {
   std::vector<Check> checks;
   int skipped_checks = 0; ///< checks of another device than this one: the file's, before an override
   SolverOptions solver;
-  Linearise linearise;
+  std::optional<Linearise> linearise{};
   bool error_estimate = true;  ///< [output] error_estimate: solve again with other elements and steps
   bool fields = true;          ///< [output] fields: write the VTK series
   double margins_up_to = 1;    ///< [output] margins_up_to: factor on the voltages, 1: what the run knows

@@ -119,7 +119,7 @@ ExitCode fit(const Arguments& arguments) {
 }
 
 ExitCode linearise(const Arguments& arguments) {
-  return linearise_case(cases::read_case(arguments.case_file, arguments.overrides),
+  return linearise_case(cases::read_case_to_linearise(arguments.case_file, arguments.overrides),
                         {arguments.output("-linear"), arguments.threads});
 }
 

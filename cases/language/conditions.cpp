@@ -19,7 +19,7 @@ bool has_mass(const Case& one) {
          std::ranges::any_of(one.bodies, heavy) || !one.fins.empty();
 }
 
-bool is_linearised(const Case& one) { return one.linearise.written || has_step(one, {StepKind::harmonic}); }
+bool is_linearised(const Case& one) { return one.linearise || has_step(one, {StepKind::harmonic}); }
 
 namespace {
 

@@ -131,7 +131,6 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   one.places = reader.mentions(Reference::place);
   one.keys = reader.keys();
-  one.linearise.written = tree.find("linearise");
   one.warnings = reader.warnings();
   for (Diagnostic& idle : idle_keys(tree, one)) one.warnings.push_back(std::move(idle));
   return one;

@@ -161,7 +161,7 @@ void check_solid(SectionReader& reader, const Node& tree, const Case& one, const
   if (std::ranges::any_of(one.steps, &Step::inertia))
     report("section", "solids move without inertia; of small vibrations ask in steps of kind \"modes\" and "
                       "\"harmonic\"");
-  if (tree.find("linearise") && film.potential)
+  if (one.linearise && film.potential)
     report("field", "a field that is solved for has no linear model; ask for a step of kind \"harmonic\"");
   if (std::ranges::any_of(one.steps,
                           [](const Step& step) { return step.on_instability == OnInstability::jump; }))

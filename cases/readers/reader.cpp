@@ -19,9 +19,7 @@ bool keeps_the_device(std::string_view assignment) {
   return key.starts_with("step") && key.ends_with(".increments");
 }
 
-} // namespace
-
-Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+Case read(const std::filesystem::path& path, const std::vector<std::string>& overrides, bool to_linearise) {
   Node tree = read_case_file(path);
   std::vector<Diagnostic> wrong;
   std::size_t more = 0;
@@ -36,6 +34,7 @@ Case read_case(const std::filesystem::path& path, const std::vector<std::string>
       gather(error);
     }
   }
+  if (to_linearise && !tree.find("linearise")) tree.add("linearise", {}).source = tree.source;
   try {
     Case one = interpret(std::move(tree), path);
     if (!std::all_of(overrides.begin(), overrides.end(), keeps_the_device)) {
@@ -47,6 +46,16 @@ Case read_case(const std::filesystem::path& path, const std::vector<std::string>
     gather(error);
   }
   throw CaseError(wrong, more);
+}
+
+} // namespace
+
+Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return read(path, overrides, false);
+}
+
+Case read_case_to_linearise(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return read(path, overrides, true);
 }
 
 void check_places(const Case& one, const std::vector<std::string>& places) {

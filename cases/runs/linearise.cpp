@@ -48,14 +48,14 @@ Complex polynomial(const std::vector<double>& coefficients, Complex s) {
 Linearised linearise(const Case& one, Simulation& simulation) {
   const Device& device = simulation.device();
   require_rest(simulation.equilibrium(), simulation.state());
-  const Quantity& output = *response_quantity(one, one.linearise.output);
+  const Quantity& output = *response_quantity(one, one.linearise->output);
   const fem::State state = operating_point(device, simulation.state());
-  const std::vector<std::size_t> driven = driven_ports(one, one.linearise.driven);
+  const std::vector<std::size_t> driven = driven_ports(one, one.linearise->driven);
   const fem::HarmonicDrive drive = common_drive(device, state, driven);
   const fem::Channels channels{driven, response_row(one, device, state, output).transpose(), {}};
   Linearised result{.output = output.name,
                     .unit = unit_of(output, one.quantities),
-                    .frequency = frequencies(one.linearise.sweep)};
+                    .frequency = frequencies(one.linearise->sweep)};
   for (const std::size_t port : driven) {
     result.driven.push_back(device.model.electrodes[port]);
     result.voltage.push_back(state.voltage[port]);
@@ -66,21 +66,21 @@ Linearised linearise(const Case& one, Simulation& simulation) {
       fem::state_space(simulation.equilibrium(), state, channels, {.highest_frequency = omega.back()});
   large.B = large.B.rowwise().sum().eval(); // the sources swing together: one input
   large.D = large.D.rowwise().sum().eval();
-  result.model = fem::balanced_truncation(large, one.linearise.order);
+  result.model = fem::balanced_truncation(large, one.linearise->order);
   const fem::Linearisation full(simulation.equilibrium(), state);
   for (const auto& at : fem::harmonic_response(full, drive, omega))
     result.full.push_back((channels.rows.row(0) * at.displacement).value());
   if (std::ranges::all_of(result.full, [](const Complex& y) { return y == 0.0; }))
     throw AnalysisError(std::string(no_response));
-  result.compared.resize(one.linearise.compare.size());
+  result.compared.resize(one.linearise->compare.size());
   for (const double w : omega) {
     const Complex s(0, w);
     const Complex y = result.full[result.reduced.size()];
     result.reduced.push_back(result.model.transfer(s)(0, 0));
     result.error = std::max(result.error, std::abs(result.reduced.back() - y) / std::abs(y));
     for (std::size_t c = 0; c < result.compared.size(); ++c)
-      result.compared[c].push_back(polynomial(one.linearise.compare[c].numerator, s) /
-                                   polynomial(one.linearise.compare[c].denominator, s));
+      result.compared[c].push_back(polynomial(one.linearise->compare[c].numerator, s) /
+                                   polynomial(one.linearise->compare[c].denominator, s));
   }
   return result;
 }
@@ -146,7 +146,7 @@ post::Report report_of(const Case& one, const Linearised& found) {
       {"full model", found.frequency, found.full, post::Series::Style::points},
       {fmt::format("order {}", found.model.order()), found.frequency, found.reduced}};
   for (std::size_t c = 0; c < found.compared.size(); ++c)
-    curves.push_back({one.linearise.compare[c].name, found.frequency, found.compared[c]});
+    curves.push_back({one.linearise->compare[c].name, found.frequency, found.compared[c]});
   post::Section plots{"Response", {}};
   for (post::Image& image :
        post::draw(post::bode(found.output, fmt::format("{} [{}/V]", found.output, found.unit), curves)))
@@ -182,7 +182,7 @@ post::Report report_of(const Case& one, const Linearised& found) {
 } // namespace
 
 ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
-  if (one.electrodes.empty() || !response_quantity(one, one.linearise.output))
+  if (one.electrodes.empty() || !response_quantity(one, one.linearise->output))
     throw CaseError({{{one.source.string()},
                       "linearise",
                       "needs an electrode and a quantity of kind " + response_kinds(" with a direction")}});
@@ -206,7 +206,7 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
         "{}\n",
         found.model.order(), 100 * found.error, found.model.transfer(0)(0, 0).real(), found.unit,
         fmt::format("{}", fmt::join(found.driven, ", ")));
-    if (found.model.order() < one.linearise.order)
+    if (found.model.order() < one.linearise->order)
       say("the response tells no more than {} states apart\n", found.model.order());
     if (found.error > poor)
       say(stderr,

@@ -171,8 +171,9 @@ Section linearise_section() {
   };
   Section section;
   section.name = "linearise";
+  section.presence = Section::Presence::optional;
   section.meaning = "the linear model that `dielast linearise` makes about the state at the end of the steps";
-  section.access = member(&Case::linearise);
+  section.access = present(&Case::linearise);
   section.keys = {
       integer("order", to(&Linearise::order), "number of its states").at_least(1).at_most(100).otherwise("3"),
       text("output", to(&Linearise::output),

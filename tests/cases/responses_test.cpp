@@ -97,6 +97,22 @@ TEST_F(Responses, ALinearModelThatIsNoneIsToldSo) {
   EXPECT_NE(rings.err.find("does not answer as the device does"), std::string::npos) << rings.err;
 }
 
+// A case without a section [linearise] gets the default one, and what this one asks of the case.
+TEST_F(Responses, AnyCaseHasALinearModel) {
+  write("disc.toml", disc + "[circuit]\nresistance = \"1 Mohm\"\n");
+  const Ended run = dielast({"check", "disc.toml"});
+  EXPECT_NE(run.err.find("has no effect"), std::string::npos) << run.err;
+  const Ended made = dielast({"linearise", "disc.toml", "-o", "model"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.err.find("has no effect"), std::string::npos) << made.err;
+  write("sheet.toml",
+        disc + "[[electrode]]\nname = \"film\"\nplace = \"electrode\"\nsheet_resistance = \"1 kohm\"\n"
+               "terminal = \"centre\"\n");
+  const Ended refused = dielast({"linearise", "sheet.toml", "-o", "sheet"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("know of no resistance along an electrode"), std::string::npos) << refused.err;
+}
+
 TEST_F(Responses, RefuseTheRadiusOfAnArea) {
   std::string area = disc;
   area.replace(area.find("of = \"electrode_edge\""), 21, "of = \"electrode\"");
