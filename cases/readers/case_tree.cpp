@@ -100,13 +100,16 @@ Case interpret(Node tree, const std::filesystem::path& path) {
         {{tree.source, "",
           fmt::format("the file's name is too long: results are called after it, allowed {} letters",
                       longest_name)}});
-  SectionReader reader({geometry_of, path.parent_path(),
-                        [&] { return names_of(one.electrodes, &Electrode::name); },
-                        [&](const std::string& name) -> std::optional<std::string> {
-                          for (const Quantity& quantity : one.quantities)
-                            if (quantity.name == name) return unit_of(quantity, one.quantities);
-                          return std::nullopt;
-                        }});
+  SectionReader reader(
+      {geometry_of, path.parent_path(), [&] { return names_of(one.electrodes, &Electrode::name); },
+       [&](const std::string& name) -> std::optional<std::string> {
+         // where a kind was misspelt its unit, and that of means of it, are not known
+         const bool all_known = std::ranges::all_of(one.quantities, &Quantity::kind);
+         for (const Quantity& quantity : one.quantities)
+           if (quantity.name == name && quantity.kind && (all_known || !quantity.kind->unit_by))
+             return unit_of(quantity, one.quantities);
+         return std::nullopt;
+       }});
   require_one_geometry(reader, tree);
   reader.read_table(case_schema(), tree, &one, "");
   for (int i = 0; i < std::min<int>(standard, static_cast<int>(one.quantities.size())); ++i)
