@@ -287,6 +287,7 @@ Device build_device(const Case& one) {
   const meshing::CellBlock* film = mesh.film();
   if (!film) throw meshing::MeshError("the case has no film: neither triangles nor rods");
   std::vector<int> parts = film_parts(one, mesh);
+  std::ranges::move(thickness_warnings(one, mesh, parts), std::back_inserter(warnings));
   const bool of_solid = one.any_film([](const Film& f) { return f.is_solid(); });
   if (meshing::is_triangle(film->type) && !of_solid) require_flat_films(mesh, parts, model.extent);
   const auto elements = static_cast<double>(film->size());

@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+
 namespace dielast::cases {
 
 std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mesh) {
@@ -22,6 +25,37 @@ std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mes
     warnings.push_back(fmt::format("mesh.unit{}: the film is {} x {}",
                                    has_unit ? "" : " is missing, one unit of the mesh file is taken for 1 m",
                                    post::engineering(size.x(), "m"), post::engineering(size.y(), "m")));
+  return warnings;
+}
+
+std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh& mesh,
+                                            std::span<const int> parts) {
+  constexpr double thin = 5; // times its thickness a film is wide at least
+  const meshing::CellBlock& cells = *mesh.film();
+  const bool meridian = meshing::is_meridian(cells.type);
+  if (!meridian && !meshing::is_triangle(cells.type)) return {};
+  std::vector<Eigen::AlignedBox3d> bounds(one.parts.size());
+  for (int c = 0; c < cells.size(); ++c)
+    for (const int node : cells.cell(c))
+      bounds[static_cast<std::size_t>(parts[static_cast<std::size_t>(c)])].extend(
+          mesh.nodes[static_cast<std::size_t>(node)]);
+  std::vector<std::string> warnings;
+  for (std::size_t p = 0; p < one.parts.size(); ++p) {
+    const std::optional<Film>& film = one.parts[p].film;
+    if (!film || film->is_solid() || bounds[p].isEmpty() ||
+        std::holds_alternative<Patch>(one.parts[p].geometry))
+      continue;
+    Eigen::Vector3d size = bounds[p].sizes();
+    std::ranges::sort(size, std::greater<>());
+    const double width = meridian ? size[0] : size[1],
+                 thickness = film->thickness / (film->prestretch[0] * film->prestretch[1]);
+    if (width < thin * thickness)
+      warnings.push_back(
+          fmt::format("{}film.thickness: the film is {} thick and {} wide; membranes and shells are "
+                      "of thin films, section = \"solid\" of thick ones",
+                      one.parts[p].name.empty() ? "" : "part." + one.parts[p].name + ".",
+                      post::engineering(thickness, "m"), post::engineering(width, "m")));
+  }
   return warnings;
 }
 

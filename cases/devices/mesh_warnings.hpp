@@ -4,6 +4,7 @@
 #include "cases/case/case.hpp"
 #include "meshing/mesh.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,10 @@ namespace dielast::cases {
 /// What the user should know of an own mesh, one sentence each: it has no unit in its file, and its regions
 /// may meet without being joined.
 std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mesh);
+
+/// A sentence for every part whose film is thick for its width: membranes and shells are of thin films.
+/// `parts` says which part each cell of the film belongs to.
+std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh& mesh,
+                                            std::span<const int> parts);
 
 } // namespace dielast::cases

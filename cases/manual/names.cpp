@@ -17,6 +17,7 @@ namespace {
 struct Entry {
   std::string name; ///< of a section or key its path
   std::function<std::string()> text;
+  bool again = false; ///< of a part, and the same stands at the top of the file
 };
 
 std::string key_entry(const Section& section, const Key& key, const std::string& path) {
@@ -35,14 +36,20 @@ std::string word_entry(const Section& section, const Key& key, const Choice& cho
 }
 
 void add_section(std::vector<Entry>& entries, const Section& section, const std::string& path) {
+  constexpr std::string_view part = "part.";
+  const bool again =
+      path.starts_with(part) &&
+      case_schema().find_section(path.substr(part.size(), path.find('.', part.size()) - part.size()));
   if (!path.empty())
-    entries.push_back({path, [&section, path] { return section_text(section, path).substr(1); }});
+    entries.push_back({path, [&section, path] { return section_text(section, path).substr(1); }, again});
   const auto below = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
   for (const Key& key : section.keys) {
-    entries.push_back({below(key.name), [&section, &key, path] { return key_entry(section, key, path); }});
+    entries.push_back(
+        {below(key.name), [&section, &key, path] { return key_entry(section, key, path); }, again});
     for (const Choice& choice : key.choices)
-      entries.push_back(
-          {choice.word, [&section, &key, &choice, path] { return word_entry(section, key, choice, path); }});
+      entries.push_back({choice.word,
+                         [&section, &key, &choice, path] { return word_entry(section, key, choice, path); },
+                         again});
   }
   for (const Section& inner : section.sections) add_section(entries, inner, below(inner.name));
 }
@@ -93,10 +100,10 @@ std::string explain_name(const std::string& name) {
       }
   }
   for (const Entry& entry : all_entries())
-    if (entry.name == name) add(entry);
+    if (entry.name == name && (!entry.again || name.find('.') != std::string::npos)) add(entry);
   if (name.find('.') == std::string::npos)
     for (const Entry& entry : all_entries())
-      if (entry.name != name && last_part(entry.name) == name) add(entry);
+      if (!entry.again && entry.name != name && last_part(entry.name) == name) add(entry);
   return text;
 }
 

@@ -168,6 +168,12 @@ void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Column
   if (!test.strain_column.empty()) {
     stretch_name = test.strain_column;
     stretch = columns.values("strain", test.strain_column, "1");
+    constexpr double largest = 15; // no elastomer stretches so far
+    if (const auto top = std::ranges::max_element(stretch); top != stretch.end() && *top > largest)
+      columns.report("strain",
+                     fmt::format("found {}, which rises to {:.6g}: a strain of {:.6g} %; where it is "
+                                 "in percent, its name says so, as in \"strain (%)\"",
+                                 toml_string(test.strain_column), *top, 100 * *top));
     for (double& one : stretch) one += 1;
   } else if (!test.displacement_column.empty()) {
     stretch_name = test.displacement_column;

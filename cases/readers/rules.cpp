@@ -236,6 +236,15 @@ void check_supports(SectionReader& reader, const Node& tree, const Case& one) {
   const Node* list = tree.find("support");
   for (std::size_t i = 0; list && i < list->items.size(); ++i) {
     const Support& support = one.supports[i];
+    bool holds = false;
+    for (int c = 0; c < fem::DofMap::components; ++c)
+      holds = holds || (support.fixed[static_cast<std::size_t>(c)] && fem::moves(one.dimension, c));
+    if (const Node* fixed = list->items[i].find("fix"); !holds && fixed && fixed->source.is_written())
+      reader.report(fixed->source, fmt::format("support[{}].fix", i + 1),
+                    fmt::format("found {}, which holds nothing: {}", text_of(*fixed),
+                                one.dimension == fem::Dimension::planar
+                                    ? "a planar model moves along x and y, and turns about z"
+                                    : "an axisymmetric model moves along x, the radius, and z"));
     const auto from = std::ranges::find(one.steps, support.from, &Step::name),
                until = std::ranges::find(one.steps, support.until, &Step::name);
     for (const auto& [key, step] : {std::pair{"from", from}, {"until", until}})

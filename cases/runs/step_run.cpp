@@ -332,12 +332,12 @@ std::vector<std::size_t> StepRun::lost_film(double s) const {
 Outcome StepRun::failure(const Trouble& trouble) const {
   const double reached = progress_.ramp.load_factor;
   if (trouble.ramp.failure.outcome == fem::Outcome::singular)
-    return {Ending::gave_up, "singular tangent",
-            fmt::format(
-                "step \"{}\" stopped at {}: the tangent is singular. Part of the device can "
-                "move freely: hold it with [[support]]; an unstretched film in space has no stiffness normal "
-                "to itself: stretch it or use model = \"planar\"",
-                step_.name, load_text(reached))};
+    return {
+        Ending::gave_up, "singular tangent",
+        fmt::format("step \"{}\" stopped at {}: the tangent is singular. Part of the device can "
+                    "move freely: hold it with [[support]]; with model = \"3d\" an unstretched film has no "
+                    "stiffness normal to itself: stretch it or use model = \"planar\"",
+                    step_.name, load_text(reached))};
   if (const auto lost = lost_film(trouble.ramp.failed_at); !lost.empty())
     return {Ending::gave_up, "electromechanical loss",
             fmt::format(

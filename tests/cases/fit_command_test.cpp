@@ -171,6 +171,9 @@ TEST_F(FitCommand, TablesOfTestingMachinesAreRead) {
   EXPECT_NE(wrong("strain = \"travel (mm)\"\nstress = \"P\"\nforce = \"F (N)\"\narea = \"20 mm^2\"\n")
                 .find("write either stress or force"),
             std::string::npos);
+  write("force.csv", "strain,stress (kPa)\n20,7.5\n50,16\n");
+  EXPECT_NE(wrong("strain = \"strain\"\n").find("rises to 50: a strain of 5000 %; where it is in percent"),
+            std::string::npos);
 }
 
 // A fit's material goes into a case by the name of its file; what the case writes beside it comes first.

@@ -153,6 +153,8 @@ TEST(Describe, WavesHaveATopicWithAllTheirKeys) {
 TEST(Describe, EveryTopicHasAText) {
   for (const std::string& topic : topics()) EXPECT_GT(describe(topic).size(), 100u) << topic;
   EXPECT_THROW(describe("laaws"), std::invalid_argument);
+  EXPECT_EQ(describe("mesh").find("[part.mesh]"), std::string::npos);
+  EXPECT_EQ(describe("part.mesh").find("[part.mesh]"), 0u);
 }
 
 TEST(Describe, TellsEveryMaterialPlaceAndKey) {
