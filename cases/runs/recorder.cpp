@@ -4,7 +4,6 @@
 #include "cases/case/quantities.hpp"
 #include "cases/readers/resolved.hpp"
 #include "post/engineering.hpp"
-#include "post/files/checkpoint.hpp"
 #include "post/reductions.hpp"
 
 #include <fmt/format.h>
@@ -295,7 +294,6 @@ void Recorder::write_waiting() {
 
 void Recorder::save_checkpoint() {
   const auto begin = std::chrono::steady_clock::now();
-  const SimulationProgress progress = simulation_.progress();
   const auto all = [](const auto& list) {
     json archived = json::array();
     for (const auto& one : list) archived.push_back(archive(one));
@@ -304,37 +302,26 @@ void Recorder::save_checkpoint() {
   json values = json::array();
   for (const auto& row : journal_.values) values.push_back(post::pack(row));
   const auto entries = [](const auto& series) { return series ? json(series->entries()) : json::array(); };
-  post::write_checkpoint(
-      folder_ / checkpoint_name,
-      {{"case", fingerprint_},
-       {"files", folder_.names().size()},
-       {"step", progress.step},
-       {"records", progress.records},
-       {"ramp", post::archive(progress.in_step.ramp)},
-       {"followed", progress.in_step.followed ? post::archive(*progress.in_step.followed) : json(nullptr)},
-       {"jumps", progress.in_step.jumps},
-       {"energy", post::archive(progress.energy)},
-       {"references", progress.references},
-       {"active_events", progress.active_events},
-       {"time_error", progress.time_error},
-       {"let_go", post::pack({progress.let_go.data(), static_cast<std::size_t>(progress.let_go.size())})},
-       {"signals", progress.signals},
-       {"results", post::pack(simulation_.results())},
-       {"steps_ended", steps_ended_},
-       {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
-       {"series", entries(series_)},
-       {"waiting", waiting_ ? archive(waiting_->step, waiting_->state) : json(nullptr)},
-       {"modes_series", entries(modes_)},
-       {"journal",
-        {{"records", all(journal_.records)},
-         {"values", values},
-         {"snapshots", all(journal_.snapshots)},
-         {"stills", all(journal_.stills)},
-         {"stills_every", journal_.stills_every},
-         {"modes", journal_.modes},
-         {"critical", all(journal_.critical)},
-         {"shapes", all(journal_.shapes)},
-         {"analyses", all(journal_.analyses)}}}});
+  post::write_checkpoint(folder_ / checkpoint_name,
+                         {{"case", fingerprint_},
+                          {"files", folder_.names().size()},
+                          {"progress", archive(simulation_.progress())},
+                          {"results", post::pack(simulation_.results())},
+                          {"steps_ended", steps_ended_},
+                          {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
+                          {"series", entries(series_)},
+                          {"waiting", waiting_ ? archive(waiting_->step, waiting_->state) : json(nullptr)},
+                          {"modes_series", entries(modes_)},
+                          {"journal",
+                           {{"records", all(journal_.records)},
+                            {"values", values},
+                            {"snapshots", all(journal_.snapshots)},
+                            {"stills", all(journal_.stills)},
+                            {"stills_every", journal_.stills_every},
+                            {"modes", journal_.modes},
+                            {"critical", all(journal_.critical)},
+                            {"shapes", all(journal_.shapes)},
+                            {"analyses", all(journal_.analyses)}}}});
   const std::chrono::nanoseconds taken = std::chrono::steady_clock::now() - begin;
   next_checkpoint_ = begin + std::max<std::chrono::nanoseconds>(checkpoint_interval, 30 * taken);
 }
@@ -351,18 +338,10 @@ void Recorder::restore_checkpoint() try {
   for (const std::string& name : kept)
     if (!std::filesystem::exists(folder_ / name))
       throw post::CheckpointError(fmt::format("{}, which belongs to it, is missing", name));
-  simulation_.enter(saved.at("step"));
+  simulation_.enter(saved.at("progress").at("step"));
   const Device& device = simulation_.device();
   const auto sizes = post::StateSizes::of(device.model);
-  const std::vector<double> let_go = post::unpack(saved.at("let_go"));
-  if (!let_go.empty() && let_go.size() != sizes.equations) throw post::CheckpointError("damaged");
-  StepProgress in_step{post::restore_ramp(saved.at("ramp"), sizes), {}, saved.at("jumps")};
-  if (const json& followed = saved.at("followed"); !followed.is_null())
-    in_step.followed = post::restore_continuation(followed, sizes);
-  simulation_.resume({saved.at("step"), saved.at("records"), std::move(in_step),
-                      post::restore_energy(saved.at("energy"), sizes), saved.at("references"),
-                      saved.at("active_events"), saved.at("time_error"),
-                      Eigen::VectorXd::Map(let_go.data(), std::ssize(let_go)), saved.at("signals")});
+  simulation_.resume(restore_progress(saved.at("progress"), sizes));
   simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
   steps_ended_ = saved.at("steps_ended");
   if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/runs/simulation.hpp"
+#include "post/files/checkpoint.hpp"
 #include "post/files/history.hpp"
 #include "post/files/vtk_series.hpp"
 
@@ -45,6 +46,11 @@ struct Journal {
       shapes; ///< of the vibrations that the last step of kind "modes" has found, the lowest
   std::vector<Analysis> analyses;
 };
+
+/// A simulation's progress in a checkpoint, bit for bit.
+nlohmann::json archive(const SimulationProgress& progress);
+/// Throws CheckpointError and what JSON throws where it is not that of a model of these sizes.
+SimulationProgress restore_progress(const nlohmann::json& archived, const post::StateSizes& sizes);
 
 /// Writes history.csv, the ParaView series and the checkpoint of a run as it goes, and keeps its journal.
 /// Everything throws post::WriteError when a file cannot be written.

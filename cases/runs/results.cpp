@@ -4,16 +4,14 @@
 #include "cases/analyses/analysis_report.hpp"
 #include "cases/case/quantities.hpp"
 #include "cases/readers/resolved.hpp"
+#include "cases/runs/curves.hpp"
 #include "meshing/quality.hpp"
-#include "post/pictures/plot.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace dielast::cases {
 
@@ -33,37 +31,10 @@ const char* word(Ending ending) {
   return "";
 }
 
-post::Ratio ratio_of(const Quantity& quantity) {
-  return quantity.kind->relative ? post::Ratio::percent : post::Ratio::plain;
-}
-
 std::string meshing_summary(const Device& device) {
   return meshing::format(meshing::quality(device.mesh)) + fmt::format("unknowns: {} free, {} held\n",
                                                                       device.model.dofs.free_count(),
                                                                       device.model.dofs.held_count());
-}
-
-/// The largest magnitude that a unit's numbers have in the run.
-std::map<std::string, double> sizes_of_units(const Case& one, const Journal& journal) {
-  std::map<std::string, double> sizes;
-  for (const auto& row : journal.values)
-    for (std::size_t q = 0; q < one.quantities.size(); ++q)
-      if (std::isfinite(row[q])) {
-        double& size = sizes[unit_of(one.quantities[q], one.quantities)];
-        size = std::max(size, std::abs(row[q]));
-      }
-  return sizes;
-}
-
-constexpr double round_off = 1e-9; ///< of the largest number of the same unit in the run
-
-/// Numbers of the quantities: the user's own before the standard ones.
-std::vector<std::size_t> users_first(const Case& one) {
-  std::vector<std::size_t> order(one.quantities.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t q) { return !one.quantities[q].standard; });
-  return order;
 }
 
 /// Numbers worth seeing first: the user's own before the standard ones; none that is 0, round-off or all
@@ -80,81 +51,6 @@ std::vector<post::Highlight> highlights(const Case& one, const Results& results,
     shown.push_back({row.name, post::engineering(row.value, row.unit, row.ratio), post::error_note(row)});
   }
   return shown;
-}
-
-/// The state in which the first step that takes time begins.
-std::vector<post::StepRecord>::const_iterator
-before_time_passes(const std::vector<post::StepRecord>& records) {
-  const auto later =
-      std::ranges::find_if(records, [](const post::StepRecord& record) { return record.time > 0; });
-  const auto first = std::ranges::find(records, later->step, &post::StepRecord::step);
-  return first == records.begin() ? first : first - 1;
-}
-
-/// Every quantity against time, where it passes; otherwise against the largest voltage from where it rises,
-/// or against the load factor of the last step in a run without voltage; strains in one plot. Quantities that
-/// have hardly any values there, or that do not change beyond round-off, are `left_out` by their names.
-std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vector<std::string>& left_out) {
-  std::vector<post::Plot> plots;
-  const auto sizes = sizes_of_units(one, journal);
-  std::map<std::string, std::size_t> by_label;
-  const auto& records = journal.records;
-  const auto charged = std::find_if(records.begin(), records.end(), [](const post::StepRecord& record) {
-    return record.largest_voltage() != 0;
-  });
-  const bool electric = charged != records.end();
-  const bool timed = records.back().time > 0;
-  const auto begin = timed ? before_time_passes(records)
-                     : electric
-                         ? charged - (charged != records.begin())
-                         : std::find_if(records.begin(), records.end(), [&](const post::StepRecord& record) {
-                             return record.step == records.back().step;
-                           });
-  const std::string x_label = timed ? "time [s]"
-                              : electric
-                                  ? (one.electrodes.size() > 1 ? "largest voltage [kV]" : "voltage [kV]")
-                                  : fmt::format("load factor of \"{}\"", begin->step);
-  for (const std::size_t q : users_first(one)) {
-    const Quantity& quantity = one.quantities[q];
-    if (!quantity.at.empty()) continue;
-    double size = 0;
-    for (const auto& row : journal.values)
-      if (std::isfinite(row[q])) size = std::max(size, std::abs(row[q]));
-    const auto scaled = post::scaled_unit(size, unit_of(quantity, one.quantities), ratio_of(quantity));
-    const bool strain = quantity.kind->relative;
-    post::Series series{.label = quantity.name,
-                        .style = records.size() > 100 ? post::Series::Style::line
-                                                      : post::Series::Style::line_and_points};
-    for (auto r = static_cast<std::size_t>(begin - records.begin()); r < records.size(); ++r) {
-      series.x.push_back(timed      ? records[r].time
-                         : electric ? records[r].largest_voltage() / 1000
-                                    : records[r].load_factor);
-      series.y.push_back(journal.values[r][q] * scaled.factor);
-    }
-    std::vector<double> values;
-    for (const double value : series.y)
-      if (std::isfinite(value)) values.push_back(value / scaled.factor);
-    const auto ends = std::ranges::minmax_element(values);
-    if (values.size() < std::max<std::size_t>(2, series.y.size() / 10) ||
-        !(*ends.max - *ends.min > round_off * sizes.at(unit_of(quantity, one.quantities)))) {
-      left_out.push_back(quantity.name);
-      continue;
-    }
-    const std::string label = strain                ? "strain [%]"
-                              : scaled.unit.empty() ? quantity.name
-                                                    : fmt::format("{} [{}]", quantity.name, scaled.unit);
-    const auto [place, fresh] = by_label.try_emplace(label, plots.size());
-    if (fresh) {
-      std::string heading = strain ? "strains" : meaning_of(quantity);
-      heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
-      plots.push_back({.title = strain ? "strains" : quantity.name,
-                       .x_label = x_label,
-                       .y_label = label,
-                       .heading = std::move(heading)});
-    }
-    plots[place->second].series.push_back(std::move(series));
-  }
-  return plots;
 }
 
 /// What happened, and whether it depends on the mesh.
@@ -193,7 +89,7 @@ bool Results::checks_passed() const {
 }
 
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
-                        const Estimates& estimates, std::vector<Margin> margins) {
+                        const Journal& journal, const Estimates& estimates, std::vector<Margin> margins) {
   Results results{.outcome = outcome,
                   .warnings = simulation.warnings(),
                   .no_errors_because = estimates.reason,
@@ -206,7 +102,8 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                           .value = simulation.results()[q],
                           .unit = unit_of(quantity, one.quantities),
                           .ratio = ratio_of(quantity),
-                          .meaning = meaning_of(quantity)};
+                          .meaning = meaning_of(quantity),
+                          .peak = peak_of(quantity, q, journal)};
     if (quantity.kind->of_run) {
       const auto margin = std::ranges::find(results.margins, quantity.of, &Margin::limit);
       if (margin != results.margins.end()) {
@@ -264,6 +161,8 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                             {"error_estimate", row.error ? number(*row.error) : json(nullptr)},
                             {"error_remark", row.error_remark},
                             {"meaning", row.meaning}};
+  for (const auto& row : results.quantities)
+    if (row.peak) quantities[row.name]["peak"] = {{"value", row.peak->value}, {"time", row.peak->time}};
   summary["quantities"] = quantities;
   summary["no_error_estimate_because"] = results.no_errors_because;
   json checks = json::array();

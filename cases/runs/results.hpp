@@ -40,13 +40,13 @@ struct Results {
 
 /// Values and checks of a run.
 Results collect_results(const Case& one, const Simulation& simulation, const Outcome& outcome,
-                        const Estimates& estimates, std::vector<Margin> margins = {});
+                        const Journal& journal, const Estimates& estimates, std::vector<Margin> margins = {});
 
 /// The case's profiles in the last state; none where the run ended before the step since which one is taken.
 std::vector<std::optional<ProfileTable>> profiles_of(const Case& one, const Device& device,
                                                      const Outcome& outcome, const Journal& journal);
 
-/// summary.json: status, quantities.<name>.{value, unit, error_estimate, error_remark}, checks, events,
+/// summary.json: status, quantities.<name>.{value, unit, error_estimate, error_remark, peak}, checks, events,
 /// warnings, mesh.
 /// Nothing in it depends on the machine or the time.
 nlohmann::json summary_json(const Case& one, const Device& device, const Results& results,

@@ -171,13 +171,13 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     estimates = estimate_errors(one, simulation, recorder.journal().records, settings.threads);
   }
   Results results =
-      collect_results(one, simulation, outcome, estimates,
+      collect_results(one, simulation, outcome, recorder.journal(), estimates,
                       margins_of(one, simulation, recorder.journal(), outcome, settings.threads));
   results.profiles = profiles_of(one, device, outcome, recorder.journal());
 
   log.info("results");
   for (const post::QuantityRow& row : results.quantities)
-    log.info("  {:<24} {}", row.name, post::with_error(row));
+    log.info("  {:<24} {}{}{}", row.name, post::with_error(row), row.peak ? ", " : "", post::peak_note(row));
   if (one.error_estimate && outcome.ending == Ending::complete && !estimates.reason.empty())
     log.warn("  no error estimate: {}", estimates.reason);
   for (const EventRemark& event : estimates.events) log.warn("  {}: {}", event.kind, event.remark);

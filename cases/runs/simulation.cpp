@@ -35,6 +35,22 @@ post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step
                       step.name, step.duration ? " or [solver] a smaller time_tolerance" : "")};
 }
 
+post::Event left_out(double ratio, const Step& step) {
+  return {"inertia left out", "",
+          fmt::format(
+              "step \"{}\" moves so fast that its kinetic energy would be {:.2g} times the work that takes "
+              "the device as far: with inertia = true it would move otherwise",
+              step.name, ratio)};
+}
+
+/// Whether a step is about voltages, and the case has none.
+bool lacks_voltage(const Case& one, const Step& step) {
+  const auto charged = [](const auto& drive) { return drive.second.voltage || drive.second.charge; };
+  return step.kind == StepKind::voltage && !one.electrodes.empty() && one.controllers.empty() &&
+         std::ranges::none_of(one.drives, charged) &&
+         std::ranges::none_of(one.steps, [](const Step& other) { return other.to.has_value(); });
+}
+
 } // namespace
 
 Simulation::Simulation(const Case& one, int threads)
@@ -117,8 +133,8 @@ Eigen::VectorXd Simulation::frame_force() {
 
 SimulationProgress Simulation::progress() const {
   SimulationProgress progress{
-      step_,         records_,    in_step_,      energy_.record(), measurement_.references,
-      watch_.active, time_error_, loads_->let_go};
+      step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
+      time_error_, loads_->let_go, {},       unseen_};
   for (const auto& signal : signals_)
     progress.signals.push_back(signal ? signal->memory() : std::vector<double>{});
   return progress;
@@ -133,6 +149,7 @@ void Simulation::resume(const SimulationProgress& progress) {
   measurement_.references = progress.references;
   watch_.active = progress.active_events;
   time_error_ = progress.time_error;
+  unseen_ = progress.unseen;
   loads_->let_go = progress.let_go;
   if (progress.signals.size() != signals_.size()) throw post::CheckpointError("damaged");
   for (std::size_t e = 0; e < signals_.size(); ++e) {
@@ -146,7 +163,7 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
   if (increment.turns) energy_.corner();
   fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length);
   if (!energy_.empty()) point.flow = fem::flow_heat(*equilibrium_, accounted_, state);
-  accounted_ = state;
+  const fem::State before = std::exchange(accounted_, state);
   time_error_ += increment.time_error;
   if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release)
     energy_.add_cut_free(std::move(point));
@@ -154,6 +171,10 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     energy_.add_after_jump(std::move(point));
   else
     energy_.add(std::move(point));
+  if (records_ == 0) return;
+  const Step& step = steps_[static_cast<std::size_t>(step_)];
+  if (step.duration && !step.inertia && device_.model.inertia.mass.nonZeros() > 0)
+    unseen_.pass(device_.model, before, state);
 }
 
 /// Whether the permittivity of film under an electrode is positive everywhere; otherwise refusal_ says where
@@ -233,6 +254,12 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
   energy_.judge();
   if (const auto energy = energy_.worst(); ends && energy.is_poor())
     events.push_back(poor_energy(energy, step));
+  if (ends && unseen_.kinetic > 0) {
+    constexpr double notable = 0.02; // the square of a frequency over the lowest natural one
+    const double work = unseen_.work(equilibrium_->assembler(), state);
+    if (work > 0 && unseen_.kinetic > notable * work)
+      events.push_back(left_out(unseen_.kinetic / work, step));
+  }
   for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes))
     events.push_back(std::move(event));
   const post::StepRecord record{
@@ -270,9 +297,14 @@ Outcome Simulation::run(const SimulationObserver& observer) {
       fem::State state = std::move(ramp.points.back().state);
       change_supports(state);
       loads_->begin(step_, state);
+      unseen_ = {};
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
       for (const auto& signal : signals_)
         if (signal) signal->begin(step.duration.value_or(0));
+      if (lacks_voltage(case_, step))
+        news_.push_back(
+            {"no voltage", "",
+             fmt::format("step \"{}\" leaves every electrode at 0 V: give [drive] a voltage", step.name)});
       if (!sample(step, 0, ramp.points.back().state)) return *std::exchange(refusal_, std::nullopt);
     }
     const fem::RampOptions options = loads_->options(step_);

@@ -5,6 +5,7 @@
 #include "cases/quantities/measurement.hpp"
 #include "cases/runs/step_run.hpp"
 #include "cases/runs/watch.hpp"
+#include "fem/equilibrium/unseen_motion.hpp"
 #include "fem/paths/energy_balance.hpp"
 
 #include <functional>
@@ -22,6 +23,7 @@ struct SimulationProgress {
   double time_error = 0;                      ///< sum over the time steps
   Eigen::VectorXd let_go{};                   ///< see StepLoads
   std::vector<std::vector<double>> signals{}; ///< what each of them keeps
+  fem::UnseenMotion unseen{};                 ///< of the current step
 };
 
 /// An accepted state.
@@ -111,7 +113,8 @@ class Simulation {
   fem::EnergyBalance energy_;
   std::optional<fem::Increment> unrecorded_; ///< that led to the last accepted state
   double time_error_ = 0;
-  fem::State accounted_; ///< the last state in energy_
+  fem::UnseenMotion unseen_; ///< of the current step
+  fem::State accounted_;     ///< the last state in energy_
 };
 
 } // namespace dielast::cases

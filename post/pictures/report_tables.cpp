@@ -51,12 +51,21 @@ std::string error_note(const QuantityRow& row) {
   return fmt::format("± {}{}{}", error_text(row, scaled), scaled.unit.empty() ? "" : " ", scaled.unit);
 }
 
+std::string peak_note(const QuantityRow& row) {
+  if (!row.peak) return "";
+  return fmt::format("peak {} at {}", engineering(row.peak->value, row.unit, row.ratio),
+                     engineering(row.peak->time, "s"));
+}
+
 Table quantity_table(std::span<const QuantityRow> rows) {
+  const bool peaks = std::ranges::any_of(rows, [](const QuantityRow& row) { return row.peak.has_value(); });
   Table table{{"Quantity", "Value", "Error", "Unit", "Meaning"}, {}};
+  if (peaks) table.header.insert(table.header.end() - 1, "On the way");
   for (const QuantityRow& row : rows) {
     const ScaledUnit scaled = scaled_unit(row.value, row.unit, row.ratio);
     table.rows.push_back(
         {row.name, value_text(row, scaled), error_text(row, scaled), scaled.unit, row.meaning});
+    if (peaks) table.rows.back().insert(table.rows.back().end() - 1, peak_note(row));
   }
   return table;
 }

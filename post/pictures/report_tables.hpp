@@ -12,6 +12,11 @@
 namespace dielast::post {
 
 /// A number of the run as the summary shows it.
+/// The largest value in size that a quantity has had, SI, and when, s.
+struct Peak {
+  double value = 0, time = 0;
+};
+
 struct QuantityRow {
   std::string name;
   double value = 0; ///< SI; NaN where it could not be had
@@ -20,6 +25,7 @@ struct QuantityRow {
   std::optional<double> error; ///< estimated discretisation error, in the quantity's unit
   std::string meaning;
   std::string error_remark{}; ///< why there is no error; may be empty
+  std::optional<Peak> peak{}; ///< of a run in time, where it is not the value at its end
 };
 
 /// A check of the case file and what came out.
@@ -37,6 +43,9 @@ std::string with_error(const QuantityRow& row);
 
 /// Its error alone, as with_error() says it: "± 0.05 %"; empty where there is none.
 std::string error_note(const QuantityRow& row);
+
+/// Its peak: "peak 16.9 MV/m at 0.95 s"; empty where there is none.
+std::string peak_note(const QuantityRow& row);
 
 Table quantity_table(std::span<const QuantityRow> rows);
 Table check_table(std::span<const CheckRow> rows);

@@ -165,6 +165,29 @@ TEST_F(Outputs, ACompressingPrestretchIsWarnedOf) {
   }
 }
 
+TEST_F(Outputs, AFilmWithoutVoltageOrTooThickIsWarnedOf) {
+  write("disc.toml", "[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nlaw = \"neo-hookean\"\n"
+                     "shear_modulus = \"40 kPa\"\nrelative_permittivity = 4.7\n[disc]\nradius = \"20 mm\"\n"
+                     "electrode_radius = \"10 mm\"\n");
+  const auto told = [&](const std::string& warning, std::vector<std::string> more) {
+    more.insert(more.begin(), {"check", "disc.toml"});
+    const Ended ended = dielast(more);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return (ended.out + ended.err).find(warning) != std::string::npos;
+  };
+  const std::string thick = "the film is 2.000 mm thick and 4.000 mm wide";
+  EXPECT_TRUE(told(thick, {"--set", "film.thickness=8 mm", "--set", "disc.radius=2 mm", "--set",
+                           "disc.electrode_radius=1 mm"}));
+  EXPECT_FALSE(told("thick and", {}));
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", "disc.toml", "-o", "out", "--set", "mesh.rings=4"});
+    return dielast(more).out;
+  };
+  const std::string idle = "leaves every electrode at 0 V";
+  EXPECT_NE(run({}).find(idle), std::string::npos);
+  EXPECT_EQ(run({"--set", "drive.voltage=0"}).find(idle), std::string::npos);
+}
+
 TEST_F(Outputs, OfAHoneycomb) {
   ASSERT_EQ(dielast({"run", "small.toml", "-o", "out"}).exit_code, 0);
   for (const char* file :

@@ -36,7 +36,7 @@ class Paths : public test::CaseTest {
       return true;
     };
     result.outcome = simulation.run(observer);
-    result.results = collect_results(one, simulation, result.outcome, {});
+    result.results = collect_results(one, simulation, result.outcome, {}, {});
     return result;
   }
   static std::string steps(const std::string& drive, const std::string& last) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/recorder.hpp"
+
+namespace dielast::cases {
+
+using nlohmann::json;
+
+namespace {
+
+json pack(const Eigen::VectorXd& values) {
+  return post::pack({values.data(), static_cast<std::size_t>(values.size())});
+}
+
+/// A value per equation, or none.
+Eigen::VectorXd unpack(const json& packed, const post::StateSizes& sizes) {
+  const std::vector<double> values = post::unpack(packed);
+  if (!values.empty() && values.size() != sizes.equations) throw post::CheckpointError("damaged");
+  return Eigen::VectorXd::Map(values.data(), std::ssize(values));
+}
+
+} // namespace
+
+json archive(const SimulationProgress& progress) {
+  const std::optional<fem::ContinuationProgress>& followed = progress.in_step.followed;
+  return {{"step", progress.step},
+          {"records", progress.records},
+          {"ramp", post::archive(progress.in_step.ramp)},
+          {"followed", followed ? post::archive(*followed) : json(nullptr)},
+          {"jumps", progress.in_step.jumps},
+          {"energy", post::archive(progress.energy)},
+          {"references", progress.references},
+          {"active_events", progress.active_events},
+          {"time_error", progress.time_error},
+          {"let_go", pack(progress.let_go)},
+          {"signals", progress.signals},
+          {"unseen",
+           {{"kinetic", progress.unseen.kinetic},
+            {"size", progress.unseen.size},
+            {"start", pack(progress.unseen.start)},
+            {"farthest", pack(progress.unseen.farthest)}}}};
+}
+
+SimulationProgress restore_progress(const json& archived, const post::StateSizes& sizes) {
+  SimulationProgress progress;
+  progress.step = archived.at("step");
+  progress.records = archived.at("records");
+  progress.in_step = {post::restore_ramp(archived.at("ramp"), sizes), {}, archived.at("jumps")};
+  if (const json& followed = archived.at("followed"); !followed.is_null())
+    progress.in_step.followed = post::restore_continuation(followed, sizes);
+  progress.energy = post::restore_energy(archived.at("energy"), sizes);
+  progress.references = archived.at("references");
+  progress.active_events = archived.at("active_events");
+  progress.time_error = archived.at("time_error");
+  progress.let_go = unpack(archived.at("let_go"), sizes);
+  progress.signals = archived.at("signals");
+  const json& unseen = archived.at("unseen");
+  progress.unseen = {unseen.at("kinetic"), unseen.at("size"), unpack(unseen.at("start"), sizes),
+                     unpack(unseen.at("farthest"), sizes)};
+  return progress;
+}
+
+} // namespace dielast::cases

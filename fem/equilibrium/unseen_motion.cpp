@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/equilibrium/unseen_motion.hpp"
+
+namespace dielast::fem {
+
+void UnseenMotion::pass(const Model& model, const State& from, const State& to) {
+  const Eigen::VectorXd x = position(to, model.dofs);
+  if (start.size() == 0) start = position(from, model.dofs);
+  const Eigen::VectorXd d = x - start;
+  if (const double now = d.dot(model.inertia.mass * d); now > size) {
+    size = now;
+    farthest = d;
+  }
+  const double time = to.time - from.time;
+  if (time <= 0) return;
+  const Eigen::VectorXd velocity = (x - position(from, model.dofs)) / time;
+  kinetic = std::max(kinetic, velocity.dot(model.inertia.mass * velocity) / 2);
+}
+
+double UnseenMotion::work(Assembler& assembler, const State& state) const {
+  if (farthest.size() == 0) return 0;
+  assembler.tangent(state);
+  const SparseSymmetric& K = assembler.matrix();
+  double work = 0;
+  for (int c = 0; c < K.size; ++c)
+    for (int k = K.column_start[static_cast<std::size_t>(c)];
+         k < K.column_start[static_cast<std::size_t>(c) + 1]; ++k) {
+      const int r = K.rows[static_cast<std::size_t>(k)];
+      work += (r == c ? 0.5 : 1) * farthest[c] * K.values[static_cast<std::size_t>(k)] * farthest[r];
+    }
+  return work;
+}
+
+} // namespace dielast::fem
