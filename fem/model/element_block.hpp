@@ -31,6 +31,13 @@ struct Scatter {
     for (std::size_t i = 0; i < values.size(); ++i)
       if (e[i] >= 0) residual[e[i]] += values[i];
   }
+  /// Has an element's places fetched that add_tangent() will write, while the element is computed: most of
+  /// what adding takes is waiting for them.
+  void fetch_tangent(int element, std::size_t entries) const {
+    const int* s = slot + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(entries);
+    for (std::size_t i = 0; i < entries; ++i)
+      if (s[i] >= 0) __builtin_prefetch(tangent + s[i], 1);
+  }
   void add_tangent(int element, std::span<const double> packed) const {
     const int* s = slot + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(packed.size());
     for (std::size_t i = 0; i < packed.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -15,6 +16,8 @@
 #include <string>
 
 namespace dielast::fem {
+
+using materials::Pack;
 
 template<class Element>
 Eigen::Matrix3d SolidElementState<Element>::deformation(const SolidPoint<Element>& at) const {
@@ -180,56 +183,103 @@ void SolidBlock<Element>::add_point(const Point& at, const Eigen::Matrix3d& F, c
   sums.first.template segment<corners>(motions) += at.volume * density.in_p * P;
   if (has_potential()) sums.first.template tail<nodes>() += at.volume * (E * density.in_E.head<dim>());
   if (wanted == materials::Derivatives::first) return;
-  const auto CC = density.in_CC.topLeftCorner<strains, strains>();
-  const auto of_axis = [&B](int i) { return B.template middleCols<3>(3 * i); };
   const double volume = at.volume;
-  const Eigen::Matrix<double, 3, nodes, Eigen::RowMajor> G = volume * at.gradient.transpose();
-  const int row = 3 * sums.points++;
-  sums.slope.template middleRows<3>(row) = at.gradient.transpose();
+  const auto row = static_cast<std::size_t>(3 * sums.points++);
+  using Row = typename Sums::Row;
+  std::array<Row, 3> G; // volume * gradients
+  for (int k = 0; k < 3; ++k) {
+    Row& slope = sums.slope[row + static_cast<std::size_t>(k)];
+    slope = {};
+    std::memcpy(slope.data(), at.gradient.col(k).data(), nodes * sizeof(double));
+    for (std::size_t c = 0; c < slope.size(); ++c) G[static_cast<std::size_t>(k)][c] = volume * slope[c];
+  }
+  const auto with_nodes = [&G](const Pack& in_F) { // what goes with F's row i goes with displacements along i
+    Row of_nodes;
+    for (std::size_t c = 0; c < of_nodes.size(); ++c)
+      of_nodes[c] = in_F[0] * G[0][c] + in_F[1] * G[1][c] + in_F[2] * G[2][c];
+    return of_nodes;
+  };
+  std::array<std::array<Pack, strains>, dim> in_axis; // rows of B, by F's row
+  for (int i = 0; i < dim; ++i)
+    for (int c = 0; c < strains; ++c)
+      in_axis[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)] =
+          Pack{B(c, 3 * i), B(c, 3 * i + 1), B(c, 3 * i + 2), 0};
+  const auto with_axis = [&](const auto& in_C, std::size_t j) { // of a row vector
+    Pack sum{};
+    for (std::size_t c = 0; c < strains; ++c) sum += in_C[static_cast<int>(c)] * in_axis[j][c];
+    return sum;
+  };
   Eigen::Matrix3d S; // second Piola-Kirchhoff, of axes that F keeps apart
   S.setZero();
   for (int c = 0; c < strains; ++c) {
     const auto [j, k] = materials::solid_components[static_cast<std::size_t>(c)];
     if (j < dim) S(j, k) = S(k, j) = (j == k ? 2 : 1) * density.in_C[c];
   }
-  for (int j = 0; j < dim; ++j) {
-    const Eigen::Matrix<double, strains, 3> in_C = CC.lazyProduct(of_axis(j));
-    for (int i = j; i < dim; ++i) {
-      Eigen::Matrix3d A = of_axis(i).transpose().lazyProduct(in_C); // d(stress)/dF, per volume
-      if (i == j) A += S;
-      if constexpr (dim == 2)
-        if (i == 0) A(2, 2) += 2 * density.in_C[2];
-      sums.stiff[static_cast<std::size_t>(dim * i + j)].template middleRows<3>(row) = A.lazyProduct(G);
+  for (std::size_t j = 0; j < dim; ++j) {
+    std::array<Pack, strains> in_C;
+    for (std::size_t c = 0; c < strains; ++c) in_C[c] = with_axis(density.in_CC.col(static_cast<int>(c)), j);
+    for (std::size_t i = j; i < dim; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        Pack A{}; // row k of d(stress)/dF, per volume
+        for (std::size_t c = 0; c < strains; ++c) A += in_axis[i][c][k] * in_C[c];
+        if (i == j)
+          for (std::size_t l = 0; l < 3; ++l) A[l] += S(static_cast<int>(k), static_cast<int>(l));
+        if (dim == 2 && i == 0 && k == 2) A[2] += 2 * density.in_C[2];
+        sums.stiff[dim * i + j][row + k] = with_nodes(A);
+      }
+    const auto add = [&](std::size_t scalar, double factor, const Row& of_nodes) {
+      Row& sum = sums.mixed[scalar][j];
+      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += factor * of_nodes[c];
+    };
+    const Row in_p = with_nodes(with_axis(density.in_Cp, j));
+    for (int r = 0; r < corners; ++r) add(static_cast<std::size_t>(r), P[r], in_p);
+    for (int k = 0; has_potential() && k < dim; ++k) {
+      const Row in_E = with_nodes(with_axis(density.in_CE.col(k), j));
+      for (int r = 0; r < nodes; ++r) add(static_cast<std::size_t>(corners + r), E(r, k), in_E);
     }
-    const Eigen::RowVector<double, nodes> in_p =
-        (density.in_Cp.head<strains>().transpose() * of_axis(j)).lazyProduct(G);
-    sums.second.template block<corners, nodes>(motions, nodes * j) += P.lazyProduct(in_p);
-    if (!has_potential()) continue;
-    const Eigen::Matrix<double, dim, nodes, Eigen::RowMajor> in_E =
-        (density.in_CE.topLeftCorner<strains, dim>().transpose() * of_axis(j)).lazyProduct(G);
-    sums.second.template block<nodes, nodes>(potential_place, nodes * j) += E.lazyProduct(in_E);
   }
-  sums.second.template block<corners, corners>(motions, motions) +=
-      (volume * density.in_pp * P) * P.transpose();
+  sums.of_scalars.template topLeftCorner<corners, corners>() += (volume * density.in_pp * P) * P.transpose();
   if (has_potential())
-    sums.second.template bottomRightCorner<nodes, nodes>() +=
+    sums.of_scalars.template bottomRightCorner<nodes, nodes>() +=
         volume * (E * density.in_EE.topLeftCorner<dim, dim>() * E.transpose());
 }
 
 template<class Element>
-void SolidSums<Element>::add_stiffness() {
-  constexpr int dim = Element::dim, nodes = Element::nodes;
-  for (int i = 0; i < dim; ++i)
-    for (int j = 0; j <= i; ++j) {
-      const Slopes& stress = stiff[static_cast<std::size_t>(dim * i + j)];
-      for (int a = 0; a < nodes; ++a) {
-        std::array<double, nodes> row{};
-        for (int k = 0; k < 3 * points; ++k)
-          for (int b = 0; b < nodes; ++b) row[static_cast<std::size_t>(b)] += slope(k, a) * stress(k, b);
-        for (int b = 0; b < nodes; ++b)
-          second(nodes * i + a, nodes * j + b) += row[static_cast<std::size_t>(b)];
+std::span<const double> SolidSums<Element>::lower_triangle(int used, std::span<double> packed) const {
+  constexpr std::size_t dim = Element::dim, count = nodes, rows = count / 2, lanes = materials::pack_lanes;
+  const auto block = [&]<bool of_one_axis>(std::size_t i, std::size_t j) {
+    const Slopes& stress = stiff[dim * i + j];
+    const auto half = [&]<std::size_t first>() {
+      constexpr std::size_t wide = of_one_axis ? (first + rows - 1) / lanes + 1 : packs;
+      std::array<std::array<materials::Pack, wide>, rows> sum{};
+      for (std::size_t k = 0; k < slope.size(); ++k)
+        for (std::size_t r = 0; r < rows; ++r) {
+          const double of_row = slope[k][(first + r) / lanes][(first + r) % lanes];
+          for (std::size_t c = 0; c < wide; ++c) sum[r][c] += of_row * stress[k][c];
+        }
+      for (std::size_t r = 0; r < rows; ++r) {
+        const std::size_t row = count * i + first + r;
+        double* out = &packed[row * (row + 1) / 2 + count * j];
+        for (std::size_t b = 0; b < (of_one_axis ? first + r + 1 : count); ++b)
+          out[b] = sum[r][b / lanes][b % lanes];
       }
+    };
+    half.template operator()<0>();
+    half.template operator()<rows>();
+  };
+  for (std::size_t i = 0; i < dim; ++i) {
+    for (std::size_t j = 0; j < i; ++j) block.template operator()<false>(i, j);
+    block.template operator()<true>(i, i);
+  }
+  double* out = packed.data() + motions * (motions + 1) / 2;
+  for (int i = 0; i < used - motions; ++i) {
+    for (const Row& of_axis : mixed[static_cast<std::size_t>(i)]) {
+      std::memcpy(out, of_axis.data(), nodes * sizeof(double));
+      out += nodes;
     }
+    out = std::copy_n(&of_scalars(i, 0), i + 1, out);
+  }
+  return {packed.data(), out};
 }
 
 template<class Element>
@@ -239,6 +289,7 @@ Evaluation SolidBlock<Element>::evaluate(const State& state, int first, int last
   std::array<double, dofs*(dofs + 1) / 2> packed;
   const int used = dofs_per_element();
   for (int e = first; e < last; ++e) {
+    if (scatter.tangent) scatter.fetch_tangent(e, static_cast<std::size_t>(used * (used + 1) / 2));
     const ElementState now = at(state, e);
     const auto wanted = scatter.tangent ? materials::Derivatives::second : materials::Derivatives::first;
     Sums sums(wanted);
@@ -257,11 +308,7 @@ Evaluation SolidBlock<Element>::evaluate(const State& state, int first, int last
     const auto size = static_cast<std::size_t>(used);
     if (scatter.residual) scatter.add_residual(e, std::span(sums.first.data(), size));
     if (!scatter.tangent) continue;
-    sums.add_stiffness();
-    std::size_t k = 0;
-    for (int i = 0; i < used; ++i)
-      for (int j = 0; j <= i; ++j) packed[k++] = sums.second(i, j);
-    scatter.add_tangent(e, std::span(packed).first(k));
+    scatter.add_tangent(e, sums.lower_triangle(used, packed));
   }
   if (!std::isfinite(result.energy)) result.feasible = false; // beyond a stretch limit
   return result;

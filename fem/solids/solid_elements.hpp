@@ -6,10 +6,12 @@
 #include "fem/solids/solid_block.hpp"
 #include "fem/solids/solid_response.hpp"
 #include "fem/solids/tetrahedron.hpp"
+#include "materials/laws/pack.hpp"
 #include "meshing/mesh.hpp"
 
 #include <array>
 #include <optional>
+#include <span>
 #include <type_traits>
 
 namespace dielast::fem {
@@ -92,22 +94,31 @@ struct SolidElementState {
 /// the next), pressures, and potentials where they are unknowns.
 template<class Element>
 struct SolidSums {
-  static constexpr int motions = Element::dim * Element::nodes, potential_place = motions + Element::corners,
-                       dofs = potential_place + Element::nodes;
-  using Slopes = Eigen::Matrix<double, 3 * Element::points, Element::nodes, Eigen::RowMajor>;
+  static constexpr int nodes = Element::nodes, motions = Element::dim * nodes,
+                       potential_place = motions + Element::corners, dofs = potential_place + nodes;
+  /// Of the nodes, filled up with zeros to whole packs.
+  static constexpr int packs = (nodes + materials::pack_lanes - 1) / materials::pack_lanes;
+  using Row = std::array<materials::Pack, static_cast<std::size_t>(packs)>;
+  using Slopes = std::array<Row, static_cast<std::size_t>(3 * Element::points)>; ///< three rows per point
 
   explicit SolidSums(materials::Derivatives wanted) {
     first.setZero();
-    if (wanted == materials::Derivatives::second) second.setZero();
+    if (wanted == materials::Derivatives::first) return;
+    mixed = {};
+    of_scalars.setZero();
   }
-  /// Adds what the points' stresses resist displacements with: all points at once, as sums in registers.
-  void add_stiffness();
+  /// The second derivatives in the first `used` unknowns, rows of the lower triangle one after the other.
+  /// Those of displacements are summed over all points at once, so that sums stay in registers.
+  std::span<const double> lower_triangle(int used, std::span<double> packed) const;
 
   Eigen::Vector<double, dofs> first;
-  /// On and below the diagonal; what is above it is not read.
-  Eigen::Matrix<double, dofs, dofs, Eigen::RowMajor> second;
-  int points = 0; ///< so far
-  Slopes slope;   ///< gradients of the shape functions, three rows per point
+  /// How the derivatives in pressures and potentials go with displacements along each axis.
+  std::array<std::array<Row, static_cast<std::size_t>(Element::dim)>,
+             static_cast<std::size_t>(dofs - motions)>
+      mixed;
+  Eigen::Matrix<double, dofs - motions, dofs - motions, Eigen::RowMajor> of_scalars; ///< both in these
+  int points = 0;                                                                    ///< so far
+  Slopes slope; ///< gradients of the shape functions
   /// How the stress of axis i goes with displacements along axis j <= i, at dim i + j.
   std::array<Slopes, static_cast<std::size_t>(Element::dim* Element::dim)> stiff;
 };
@@ -163,8 +174,7 @@ class SolidBlock final : public ElementBlock {
   int electrode(int element) const { return electrodes_[static_cast<std::size_t>(element)]; }
   double potential_at(const State& state, int node) const;
   ElementState at(const State& state, int element) const;
-  /// Adds volume * (derivatives of the potential); where rows of displacements are read, add_stiffness()
-  /// follows the last point.
+  /// Adds volume * (derivatives of the potential); those twice in displacements follow in lower_triangle().
   void add_point(const Point& at, const Eigen::Matrix3d& F, const SolidDensity& density, Sums& sums,
                  materials::Derivatives wanted) const;
   /// Minus the second derivatives of the energy in the nodes' potentials: positive semi-definite, F.

@@ -104,8 +104,15 @@ void SolidBlock<Element>::add_charges(const State& state, const DofMap* dof_map,
       for (const int b : local)
         if (potentials_[static_cast<std::size_t>(node(e, b))] == static_cast<int>(port))
           charges.capacitance[port] -=
-              sums.second(potential + a, potential + b) / (potential_unit_ * potential_unit_);
-      couple(port, Eigen::Vector<double, dofs>(sums.second.row(potential + a).transpose() / potential_unit_));
+              sums.of_scalars(corners + a, corners + b) / (potential_unit_ * potential_unit_);
+      Eigen::Vector<double, dofs> minus;
+      const auto& in_motions = sums.mixed[static_cast<std::size_t>(corners + a)];
+      for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t b = 0; b < nodes; ++b)
+          minus[static_cast<int>(nodes * i + b)] =
+              in_motions[i][b / materials::pack_lanes][b % materials::pack_lanes];
+      minus.template tail<dofs - motions>() = sums.of_scalars.row(corners + a);
+      couple(port, Eigen::Vector<double, dofs>(minus / potential_unit_));
     }
   }
 }
@@ -141,11 +148,7 @@ void SolidBlock<Element>::add_relaxation(const State& state, const RateWeight& w
       add_point(here, F, part(e).response.relaxation(state, place(e, p), F.transpose() * F, weight), sums,
                 materials::Derivatives::second);
     }
-    sums.add_stiffness();
-    std::size_t k = 0;
-    for (int i = 0; i < used; ++i)
-      for (int j = 0; j <= i; ++j) packed[k++] = sums.second(i, j);
-    scatter.add_tangent(e, std::span(packed).first(k));
+    scatter.add_tangent(e, sums.lower_triangle(used, packed));
   }
 }
 

@@ -30,10 +30,10 @@ SolidResponse::SolidResponse(const SolidSection& section)
       has_pressure_(!std::holds_alternative<materials::StVenantKirchhoff>(section.material.law)),
       compliance_(1 / section.bulk_modulus) {}
 
-SolidDensity SolidResponse::electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0,
-                                     materials::Derivatives wanted) const {
+SolidDensity SolidResponse::electric(const Eigen::Matrix3d& C, const materials::SolidPotential& J,
+                                     const Eigen::Vector3d& E0, materials::Derivatives wanted) const {
   const double half = -material_.dielectric.permittivity / 2;
-  const materials::SolidField field = materials::solid_field(C, E0, wanted);
+  const materials::SolidField field = materials::solid_field(C, J, E0, wanted);
   SolidDensity density;
   density.value = half * field.value;
   density.in_C = half * field.in_C;
@@ -49,7 +49,8 @@ SolidDensity SolidResponse::electric(const Eigen::Matrix3d& C, const Eigen::Vect
 SolidDensity SolidResponse::potential(const State& state, int point, const Eigen::Matrix3d& C, double p,
                                       const Eigen::Vector3d& E0, materials::Derivatives wanted) const {
   const bool second = wanted == materials::Derivatives::second;
-  SolidDensity density = electric(C, E0, wanted);
+  const materials::SolidPotential J = materials::volume_ratio(C, wanted);
+  SolidDensity density = electric(C, J, E0, wanted);
   const auto add = [&](const materials::SolidPotential& part) {
     density.value += part.value;
     density.in_C += part.first;
@@ -62,7 +63,6 @@ SolidDensity SolidResponse::potential(const State& state, int point, const Eigen
                                           read(state.history->now, i), read(state.history->before, i)));
   }
   if (has_pressure_) {
-    const materials::SolidPotential J = materials::volume_ratio(C, wanted);
     density.value -= p * (J.value - 1) + compliance_ * p * p / 2;
     density.in_C -= p * J.first;
     density.in_p = 1 - J.value - compliance_ * p;

@@ -36,8 +36,9 @@ class SolidResponse {
   SolidDensity potential(const State& state, int point, const Eigen::Matrix3d& C, double p,
                          const Eigen::Vector3d& E0, materials::Derivatives wanted) const;
   /// The part of the field alone, -(eps/2) J E0 . C^-1 E0.
-  SolidDensity electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0,
-                        materials::Derivatives wanted = materials::Derivatives::second) const;
+  SolidDensity electric(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0) const {
+    return electric(C, materials::volume_ratio(C), E0, materials::Derivatives::second);
+  }
   /// What relaxed branches resist besides that, by C alone: sum_j weight(rate_j) w_j w_j^T, see
   /// relaxation_spectrum(). Throws std::domain_error where their dashpots flow.
   SolidDensity relaxation(const State& state, int point, const Eigen::Matrix3d& C,
@@ -55,6 +56,9 @@ class SolidResponse {
 
  private:
   static constexpr int per_branch = 6;
+
+  SolidDensity electric(const Eigen::Matrix3d& C, const materials::SolidPotential& J,
+                        const Eigen::Vector3d& E0, materials::Derivatives wanted) const;
 
   int branches() const { return static_cast<int>(material_.branches.size()); }
   std::size_t place(int point, int branch) const {

@@ -103,6 +103,39 @@ Dual<N> volumetric(double bulk_modulus, const Dual<N>& I3) {
   return 0.5 * bulk_modulus * swelling * swelling;
 }
 
+void add_volumetric(double bulk_modulus, const Scalar& I3, Derivatives wanted, SolidPotential& potential) {
+  if (bulk_modulus == 0) return;
+  const double J = std::sqrt(I3.value), swelling = J - 1;
+  const Gradient first = I3.first / (2 * J);
+  potential.value += bulk_modulus / 2 * swelling * swelling;
+  potential.first += bulk_modulus * swelling * first;
+  if (wanted == Derivatives::second)
+    potential.second += bulk_modulus * (first * first.transpose() / J + swelling / (2 * J) * I3.second);
+}
+
+/// W(I3^(-1/3) I1), what most parts are made of: with less than compose() takes.
+template<FirstInvariantLaw Law>
+SolidPotential potential_of(const Law& law, const Eigen::Matrix3d& C, double bulk_modulus,
+                            Derivatives wanted) {
+  const Scalar I3 = third_invariant(C, wanted);
+  const double I1 = C.trace(), shrink = 1 / std::cbrt(I3.value), inverse = 1 / (3 * I3.value);
+  const auto [W, W1, W11] = law.derivatives(I1 * shrink);
+  const Gradient shrinking = -inverse * I3.first; // d(I3^(-1/3)), and below d(I3^(-1/3) I1), over I3^(-1/3)
+  Gradient slope = I1 * shrinking;
+  slope.head<3>().array() += 1;
+  SolidPotential potential;
+  potential.value = W;
+  potential.first = W1 * shrink * slope;
+  if (wanted == Derivatives::second) {
+    const Gradient along = W11 * shrink * shrink * slope + W1 * shrink * shrinking,
+                   across = W1 * shrink * (slope + 2 * I1 * shrinking);
+    potential.second =
+        along * slope.transpose() + across * shrinking.transpose() - (W1 * shrink * I1 * inverse) * I3.second;
+  }
+  add_volumetric(bulk_modulus, I3, wanted, potential);
+  return potential;
+}
+
 template<class Law>
 SolidPotential potential_of(const Law& law, const Eigen::Matrix3d& C, double bulk_modulus,
                             Derivatives wanted) {
@@ -116,12 +149,9 @@ SolidPotential potential_of(const Law& law, const Eigen::Matrix3d& C, double bul
                           0.25 * law.initial_shear_modulus() * (I1 * I1 - 2.0 * I2 - 2.0 * I1 + 3.0),
                       I, wanted);
   } else {
-    const Dual3 shrink = pow(I3, -1.0 / 3), I1_bar = I1 * shrink;
-    if constexpr (FirstInvariantLaw<Law>)
-      return compose<3>(law.energy(I1_bar) + volumetric(bulk_modulus, I3), I, wanted);
-    else
-      return compose<3>(law.energy(I1_bar, Dual3(I2 * shrink * shrink)) + volumetric(bulk_modulus, I3), I,
-                        wanted);
+    const Dual3 shrink = pow(I3, -1.0 / 3);
+    return compose<3>(law.energy(I1 * shrink, Dual3(I2 * shrink * shrink)) + volumetric(bulk_modulus, I3), I,
+                      wanted);
   }
 }
 

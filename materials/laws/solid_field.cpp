@@ -5,7 +5,8 @@
 
 namespace dielast::materials {
 
-SolidField solid_field(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0, Derivatives wanted) {
+SolidField solid_field(const Eigen::Matrix3d& C, const SolidPotential& J, const Eigen::Vector3d& E0,
+                       Derivatives wanted) {
   const Eigen::Matrix3d inverse = C.inverse();
   if (E0.isZero(0))
     return {0,
@@ -13,8 +14,7 @@ SolidField solid_field(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0, Deri
             Eigen::Vector3d::Zero(),
             Eigen::Matrix<double, 6, 6>::Zero(),
             Eigen::Matrix<double, 6, 3>::Zero(),
-            2 * std::sqrt(C.determinant()) * inverse};
-  const SolidPotential J = volume_ratio(C, wanted);
+            2 * J.value * inverse};
   const Eigen::Vector3d v = inverse * E0;
   const double g = E0.dot(v);    // squared length of the true field
   Eigen::Matrix<double, 3, 6> w; // dC v for a unit change of each component of C

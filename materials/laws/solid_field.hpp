@@ -17,7 +17,8 @@ struct SolidField {
   Eigen::Matrix3d in_EE;
 };
 
-SolidField solid_field(const Eigen::Matrix3d& C, const Eigen::Vector3d& E0,
+/// `J`: volume_ratio() of C.
+SolidField solid_field(const Eigen::Matrix3d& C, const SolidPotential& J, const Eigen::Vector3d& E0,
                        Derivatives wanted = Derivatives::second);
 
 } // namespace dielast::materials

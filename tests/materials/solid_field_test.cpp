@@ -45,7 +45,7 @@ TEST(SolidField, VolumeRatioHasTheDerivativesOfDualNumbers) {
 
 TEST(SolidField, FieldHasTheDerivativesOfDualNumbers) {
   const Sample at = sample();
-  const SolidField field = solid_field(at.C, at.E);
+  const SolidField field = solid_field(at.C, volume_ratio(at.C), at.E);
   const std::array<Dual9, 9> x = variables(at);
   const auto& [a, b, c, d, e, f, u, v, w] = x;
   // E . cof(C) E / det C, the cofactors written out
