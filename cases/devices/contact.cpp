@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
-#include "fem/elements/centreline.hpp"
-#include "fem/elements/plane_contact_block.hpp"
-#include "fem/elements/surface_contact_block.hpp"
-#include "fem/elements/wall_contact.hpp"
-#include "fem/elements/wall_contact_block.hpp"
+#include "fem/contact/centreline.hpp"
+#include "fem/contact/plane_contact_block.hpp"
+#include "fem/contact/surface_contact_block.hpp"
+#include "fem/contact/wall_contact.hpp"
+#include "fem/contact/wall_contact_block.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/solids/sides.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/devices/device.hpp"
-#include "fem/elements/wall_contact.hpp"
+#include "fem/contact/wall_contact.hpp"
 #include "post/reductions.hpp"
 #include "post/step_record.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Walls of a honeycomb that touch: [contact].
 #include "cases/devices/device.hpp"
-#include "fem/elements/wall_contact.hpp"
+#include "fem/contact/wall_contact.hpp"
 #include "meshing/mesh_error.hpp"
 #include "tests/cases/path_cases.hpp"
 

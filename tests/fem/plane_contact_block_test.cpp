@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/elements/plane_contact_block.hpp"
+#include "fem/contact/plane_contact_block.hpp"
 
 #include "fem/elements/point_mass_block.hpp"
 #include "fem/films/membrane_block.hpp"

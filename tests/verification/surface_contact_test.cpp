@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Deformable solids against one another: the patch test across meshes that do not match, and Hertz.
-#include "fem/elements/surface_contact_block.hpp"
+#include "fem/contact/surface_contact_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/paths/ramp.hpp"
 #include "fem/solids/solid_block.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/elements/barrier.hpp"
+#include "fem/contact/barrier.hpp"
 #include "fem/model/contact_block.hpp"
 #include "meshing/mesh.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/elements/wall_contact_block.hpp"
+#include "fem/contact/wall_contact_block.hpp"
 
-#include "fem/elements/barrier.hpp"
-#include "fem/elements/centreline.hpp"
+#include "fem/contact/barrier.hpp"
+#include "fem/contact/centreline.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/elements/centreline.hpp"
+#include "fem/contact/centreline.hpp"
 
 #include <algorithm>
 #include <cmath>

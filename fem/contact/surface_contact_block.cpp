@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/elements/surface_contact_block.hpp"
+#include "fem/contact/surface_contact_block.hpp"
 
-#include "fem/elements/centreline.hpp"
+#include "fem/contact/centreline.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/elements/wall_contact.hpp"
+#include "fem/contact/wall_contact.hpp"
 
 #include <algorithm>
 #include <map>
