@@ -28,8 +28,21 @@ bool any_follows(const State& state) {
 
 BorderedTangent::BorderedTangent(const Model& model, const Assembler& assembler,
                                  const Eigen::VectorXd& stiffness)
-    : model_(model), assembler_(assembler), matrix_(assembler.matrix()), stiffness_(stiffness),
-      solver_(matrix_, assembler.workers(), model.dofs.scalar_count() > 0) {}
+    : model_(model), assembler_(assembler), matrix_(assembler.matrix()), stiffness_(stiffness) {
+  follow_pattern();
+}
+
+void BorderedTangent::follow_pattern() {
+  if (pattern_ == assembler_.patterns()) return;
+  pattern_ = assembler_.patterns();
+  if (solver_) earlier_ = work();
+  solver_ = std::make_unique<SymmetricSolver>(matrix_, assembler_.workers(), model_.dofs.scalar_count() > 0);
+}
+
+SymmetricSolver::Work BorderedTangent::work() const {
+  const SymmetricSolver::Work now = solver_->work();
+  return {earlier_.factorisations + now.factorisations, earlier_.solves + now.solves};
+}
 
 void BorderedTangent::append_border(const Eigen::VectorXd& column, const Eigen::VectorXd& row,
                                     double corner) {
@@ -67,7 +80,7 @@ void BorderedTangent::eliminate() {
   solved_.resize(matrix_.size, columns_.cols());
   Eigen::VectorXd x;
   for (Eigen::Index i = 0; i < columns_.cols(); ++i) {
-    solver_.solve(columns_.col(i), x);
+    solver_->solve(columns_.col(i), x);
     solved_.col(i) = x;
   }
   schur_ = -rows_.transpose() * solved_;
@@ -91,7 +104,7 @@ bool BorderedTangent::shift(int equation, const Eigen::VectorXd* added) {
   const double sigma = stiffness_[equation];
   Eigen::VectorXd stiffer = added ? *added : Eigen::VectorXd::Zero(matrix_.size);
   stiffer[equation] += sigma;
-  if (!solver_.factor(&stiffer)) return false;
+  if (!solver_->factor(&stiffer)) return false;
   const Eigen::VectorXd column = -std::sqrt(sigma) * Eigen::VectorXd::Unit(matrix_.size, equation);
   append_border(column, column, 1);
   eliminate();
@@ -100,17 +113,18 @@ bool BorderedTangent::shift(int equation, const Eigen::VectorXd* added) {
 
 void BorderedTangent::count_modes(bool shifted) {
   const Eigen::Index symmetric = columns_.cols() - paths_;
-  negative_pivots_ = solver_.negative_pivots() - model_.dofs.scalar_count();
+  negative_pivots_ = solver_->negative_pivots() - model_.dofs.scalar_count();
   unstable_modes_ = negative_pivots_ + negative_eigenvalues(schur_.bottomRightCorner(symmetric, symmetric)) -
                     static_cast<int>(following_.size());
   if (shifted) negative_pivots_ += negative_eigenvalues(schur_.bottomRightCorner(1, 1));
 }
 
 bool BorderedTangent::factor(const State& state, const PathBorder* path, const Eigen::VectorXd* added) {
+  follow_pattern();
   set_borders(state, path);
-  const bool regular = solver_.factor(added);
+  const bool regular = solver_->factor(added);
   if (columns_.cols() == 0) {
-    if (regular) negative_pivots_ = unstable_modes_ = solver_.negative_pivots() - model_.dofs.scalar_count();
+    if (regular) negative_pivots_ = unstable_modes_ = solver_->negative_pivots() - model_.dofs.scalar_count();
     return regular;
   }
   if (!columns_.allFinite()) return false;
@@ -119,7 +133,7 @@ bool BorderedTangent::factor(const State& state, const PathBorder* path, const E
     eliminate();
     weakest = weakest_equation();
   } else {
-    weakest = solver_.singular_equation();
+    weakest = solver_->singular_equation();
     if (*weakest < 0) return false;
   }
   if (weakest && !shift(*weakest, added)) return false;
@@ -130,14 +144,15 @@ bool BorderedTangent::factor(const State& state, const PathBorder* path, const E
 
 bool BorderedTangent::precondition(const State& state) {
   if (any_follows(state)) return factor(state);
+  follow_pattern();
   set_borders(state, nullptr);
-  if (!solver_.precondition(assembler_.convex())) return false;
-  negative_pivots_ = unstable_modes_ = solver_.negative_pivots() - model_.dofs.scalar_count();
+  if (!solver_->precondition(assembler_.convex())) return false;
+  negative_pivots_ = unstable_modes_ = solver_->negative_pivots() - model_.dofs.scalar_count();
   return true;
 }
 
 double BorderedTangent::solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g, double tolerance) {
-  solver_.solve(f, du, tolerance);
+  solver_->solve(f, du, tolerance);
   if (columns_.cols() == 0) return 0;
   Eigen::VectorXd right = -rows_.transpose() * du;
   if (paths_) right[0] += g;

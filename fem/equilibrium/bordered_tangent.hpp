@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include <memory>
 #include <optional>
 
 namespace dielast::fem {
@@ -57,9 +58,10 @@ class BorderedTangent {
   /// K^-1 B of a port that follows: displacements per voltage (pressure) at fixed other ones.
   Eigen::VectorXd response(std::size_t port) const;
 
-  SymmetricSolver::Work work() const { return solver_.work(); }
+  SymmetricSolver::Work work() const;
 
  private:
+  void follow_pattern();
   void set_borders(const State& state, const PathBorder* path);
   void append_border(const Eigen::VectorXd& column, const Eigen::VectorXd& row, double corner);
   void eliminate();
@@ -71,7 +73,9 @@ class BorderedTangent {
   const Assembler& assembler_;
   const SparseSymmetric& matrix_;
   const Eigen::VectorXd& stiffness_;
-  SymmetricSolver solver_;
+  std::unique_ptr<SymmetricSolver> solver_; ///< of the assembler's pattern `pattern_`
+  int pattern_ = 0;
+  SymmetricSolver::Work earlier_; ///< of solvers of other patterns
   int paths_ = 0;                        ///< borders: the path, the electrodes that follow, the shift
   std::vector<std::size_t> following_;   ///< ports that follow
   Eigen::VectorXd root_capacitance_;     ///< theirs

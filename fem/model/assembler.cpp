@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/model/assembler.hpp"
 
+#include "fem/model/contact_block.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
@@ -22,26 +24,55 @@ constexpr int worth_threads = 16000;
 } // namespace
 
 Assembler::Assembler(const Model& model, int threads) : model_(model) {
-  for (const auto& block : model_.blocks) {
-    const int dofs = block->dofs_per_element();
-    auto& equations = equations_.emplace_back(static_cast<std::size_t>(block->element_count() * dofs));
-    for (int e = 0; e < block->element_count(); ++e)
-      block->element_equations(
-          e, model_.dofs,
-          std::span(equations).subspan(static_cast<std::size_t>(e * dofs), static_cast<std::size_t>(dofs)));
-  }
+  equations_.resize(model_.blocks.size());
   int elements = 0;
-  for (const auto& block : model_.blocks) elements += block->element_count();
+  for (std::size_t b = 0; b < model_.blocks.size(); ++b) {
+    number_elements(b);
+    elements += model_.blocks[b]->element_count();
+    if (auto* contact = dynamic_cast<ContactBlock*>(model_.blocks[b].get()))
+      contacts_.push_back({b, contact, contact->choose_elements(model_.initial_state())});
+  }
+  for (const Contact& contact : contacts_) number_elements(contact.block);
   workers_ = std::make_unique<Workers>(elements < worth_threads ? 1 : threads);
-  build_pattern();
+  find_pattern();
   colour_chunks();
+  block_residual_.assign(model_.blocks.size(), Eigen::VectorXd::Zero(model_.dofs.count()));
+}
+
+void Assembler::number_elements(std::size_t b) {
+  const ElementBlock& block = *model_.blocks[b];
+  const int dofs = block.dofs_per_element();
+  equations_[b].resize(static_cast<std::size_t>(block.element_count() * dofs));
+  for (int e = 0; e < block.element_count(); ++e)
+    block.element_equations(e, model_.dofs,
+                            std::span(equations_[b])
+                                .subspan(static_cast<std::size_t>(e * dofs), static_cast<std::size_t>(dofs)));
+}
+
+/// Residuals need no pattern: of trial states that are not taken none is found.
+void Assembler::choose_elements(const State& state) {
+  bool changed = false;
+  for (Contact& contact : contacts_) {
+    const std::size_t choice = contact.elements->choose_elements(state);
+    if (choice == contact.choice) continue;
+    contact.choice = choice;
+    number_elements(contact.block);
+    changed = stale_ = true;
+  }
+  if (changed) colour_chunks();
+}
+
+void Assembler::find_pattern() {
+  stale_ = false;
+  ++patterns_;
+  matrix_ = {};
+  slots_.clear();
+  build_pattern();
   mass_ = on_pattern(model_.inertia.mass);
   damping_ = on_pattern(model_.inertia.damping);
-  block_residual_.assign(model_.blocks.size(), Eigen::VectorXd::Zero(model_.dofs.count()));
-  if (!model_.dofs.ties().empty()) {
-    reduction_.emplace(model_.dofs, matrix_);
-    reduced_ = reduction_->pattern();
-  }
+  if (model_.dofs.ties().empty()) return;
+  reduction_.emplace(model_.dofs, matrix_);
+  reduced_ = reduction_->pattern();
 }
 
 void Assembler::build_pattern() {
@@ -135,6 +166,7 @@ std::vector<double> Assembler::on_pattern(const Eigen::SparseMatrix<double>& con
 
 void Assembler::colour_chunks() {
   constexpr int most_colours = 64;
+  colours_.clear();
   std::vector<Chunk> alone;
   std::vector<std::uint64_t> taken(static_cast<std::size_t>(model_.dofs.count()), 0);
   for (std::size_t b = 0; b < equations_.size(); ++b) {
@@ -188,6 +220,7 @@ Evaluation Assembler::run(const State& state, bool want_residual, bool want_tang
 }
 
 Evaluation Assembler::residual(const State& state, Eigen::VectorXd& residual) {
+  choose_elements(state);
   for (auto& block : block_residual_) block.setZero();
   const Evaluation evaluation = run(state, true, false);
   residual = block_residual_.front();
@@ -204,6 +237,8 @@ std::vector<double> Assembler::relaxation(const State& state, const RateWeight& 
 }
 
 void Assembler::tangent(const State& state) {
+  choose_elements(state);
+  if (stale_) find_pattern();
   workers_->run_blocks(static_cast<int>(matrix_.values.size()), cleared_together,
                        [this](int first, int last) {
                          std::fill(matrix_.values.begin() + first, matrix_.values.begin() + last, 0.0);

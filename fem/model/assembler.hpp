@@ -11,8 +11,11 @@
 
 namespace dielast::fem {
 
+class ContactBlock;
+
 /// Assembles the energy, residual and tangent of a model. The sparsity pattern, the place of every element
-/// entry in it and a colouring of element chunks are found once. Chunks of one colour share no unknown, so
+/// entry in it and a colouring of element chunks are found once, and again where a contact chooses other
+/// elements. Chunks of one colour share no unknown, so
 /// that they are computed by any number of threads without locks and every sum is formed in the same order:
 /// results are identical bit for bit.
 class Assembler {
@@ -38,6 +41,8 @@ class Assembler {
   std::vector<double> mass(const State& state) const { return without_ties(state, mass_); }
   std::vector<double> damping(const State& state) const { return without_ties(state, damping_); }
   const SparseSymmetric& matrix() const { return reduction_ ? reduced_ : matrix_; }
+  /// How often the pattern of matrix() has been found: tangent() may find another one.
+  int patterns() const { return patterns_; }
 
   /// One where the model is too small for more.
   Workers& workers() const { return *workers_; }
@@ -47,6 +52,16 @@ class Assembler {
     int block, first, last;
   };
 
+  /// A block whose elements may change, with the choice that the equations are of.
+  struct Contact {
+    std::size_t block;
+    ContactBlock* elements;
+    std::size_t choice;
+  };
+
+  void number_elements(std::size_t block);
+  void choose_elements(const State& state);
+  void find_pattern();
   void build_pattern();
   void colour_chunks();
   int equation(int unknown) const; ///< of matrix_
@@ -60,6 +75,9 @@ class Assembler {
   SparseSymmetric matrix_; ///< over the free unknowns, then those of tied nodes
   std::optional<TieReduction> reduction_;
   SparseSymmetric reduced_;                 ///< over the free unknowns, where there are ties
+  int patterns_ = 0;
+  bool stale_ = false; ///< the pattern is not that of the elements
+  std::vector<Contact> contacts_;
   std::vector<std::vector<int>> equations_; ///< per block, see Scatter
   std::vector<std::vector<int>> slots_;
   std::vector<std::vector<Chunk>> colours_;

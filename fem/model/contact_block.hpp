@@ -3,6 +3,7 @@
 
 #include "fem/model/model.hpp"
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct NodalPressure {
 /// Elements that keep things apart.
 class ContactBlock : public ElementBlock {
  public:
+  /// Chooses its elements anew where some that may touch in this state are not among them; returns a number
+  /// that changes with every choice. Only they touch: evaluate() is for such states.
+  virtual std::size_t choose_elements(const State& /*state*/) { return 0; }
   /// The part of the straight way between two states, 0..1, that can be gone without passing through what
   /// is touched; 1: all of it.
   virtual double free_way(const State& from, const State& to) const = 0;
