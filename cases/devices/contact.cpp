@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
 #include "fem/contact/centreline.hpp"
+#include "fem/contact/face.hpp"
+#include "fem/contact/face_contact_block.hpp"
 #include "fem/contact/plane_contact_block.hpp"
 #include "fem/contact/surface_contact_block.hpp"
 #include "fem/contact/wall_contact.hpp"
@@ -142,20 +144,35 @@ bool cross(const meshing::Mesh& mesh, const meshing::CellBlock& one, const meshi
   return false;
 }
 
+bool cross(const meshing::Mesh& mesh, const meshing::CellBlock& one, const meshing::CellBlock& other) {
+  const auto face = [&](std::span<const int> nodes) {
+    fem::FaceNodes x;
+    for (std::size_t a = 0; a < 6; ++a)
+      x.col(static_cast<int>(a)) = mesh.nodes[static_cast<std::size_t>(nodes[a])];
+    return x;
+  };
+  for (int i = 0; i < one.size(); ++i)
+    for (int j = 0; j < other.size(); ++j)
+      if (fem::cross(face(one.cell(i)), face(other.cell(j)))) return true;
+  return false;
+}
+
 /// Every surface and each other one.
 void add_surfaces(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric,
+             in_space = one.dimension == fem::Dimension::spatial;
   const double thickness = one.contact->thickness;
   double modulus = std::numeric_limits<double>::infinity(), width = 0; // of the softest solid
   for (const Part& part : one.parts)
-    if (part.film) {
+    if (part.film && part.film->is_solid()) {
       modulus = std::min(modulus, 3 * materials::initial_shear_modulus(part.film->material.law));
       width = part.film->width;
     }
   const std::vector<std::string>& places = one.contact->between;
-  std::vector<meshing::CellBlock> sides;
+  std::vector<meshing::CellBlock> surfaces;
   for (const std::string& place : places)
-    sides.push_back(meshing::sides_at(mesh, place, meshing::CellType::meridian3));
+    surfaces.push_back(in_space ? meshing::faces_at(mesh, place)
+                                : meshing::sides_at(mesh, place, meshing::CellType::meridian3));
   for (std::size_t a = 0; a < places.size(); ++a)
     for (std::size_t b = a + 1; b < places.size(); ++b) {
       const auto fail = [&](const std::string& reason) {
@@ -163,25 +180,30 @@ void add_surfaces(const Case& one, const meshing::Mesh& mesh, fem::Model& model)
             fmt::format("the surfaces \"{}\" and \"{}\" {}", places[a], places[b], reason));
       };
       constexpr int most = 1'000'000;
-      if (std::int64_t{2} * sides[a].size() * sides[b].size() > most)
+      if (!in_space && std::int64_t{2} * surfaces[a].size() * surfaces[b].size() > most)
         fail(fmt::format("have {} and {} sides: any may meet any, which is too much; name the parts of "
                          "them that may touch",
-                         sides[a].size(), sides[b].size()));
-      // A gap of half the barrier's thickness bears about 1 % of Young's modulus, as on a table.
-      fem::SurfaceContact contact{
-          {places[a], places[b]},
-          {sides[a], sides[b]},
-          of_revolution ? std::nullopt : std::optional(width),
-          {.thickness = thickness, .stiffness = 0.01 * modulus / thickness, .foot = 1}};
+                         surfaces[a].size(), surfaces[b].size()));
+      const auto contact = [&](double reach) {
+        // A gap of half the barrier's thickness bears about 1 % of Young's modulus, as on a table.
+        const fem::Barrier barrier{.thickness = reach, .stiffness = 0.01 * modulus / thickness, .foot = 1};
+        const std::array<std::string, 2> names{places[a], places[b]};
+        if (in_space) return fem::make_face_contact_block(mesh, {names, {surfaces[a], surfaces[b]}, barrier});
+        return fem::make_surface_contact_block(mesh, {names,
+                                                      {surfaces[a], surfaces[b]},
+                                                      of_revolution ? std::nullopt : std::optional(width),
+                                                      barrier});
+      };
       try {
-        model.blocks.push_back(fem::make_surface_contact_block(mesh, contact));
+        model.blocks.push_back(contact(thickness));
       } catch (const std::invalid_argument&) {
         fail("have nodes in common");
       }
-      if (cross(mesh, sides[a], sides[b], of_revolution ? 2 : 1)) fail("cross as drawn");
-      contact.barrier.thickness *= 1 - 1e-6; // as far apart as the barrier reaches, to rounding
-      const auto slightly_less = fem::make_surface_contact_block(mesh, std::move(contact));
-      const fem::Evaluation drawn = as_drawn(*slightly_less, mesh);
+      if (in_space ? cross(mesh, surfaces[a], surfaces[b])
+                   : cross(mesh, surfaces[a], surfaces[b], of_revolution ? 2 : 1))
+        fail("cross as drawn");
+      // As far apart as the barrier reaches, to rounding.
+      const fem::Evaluation drawn = as_drawn(*contact((1 - 1e-6) * thickness), mesh);
       if (!drawn.feasible || drawn.energy > 0)
         fail(fmt::format("are closer as drawn than the {:.6g} mm of contact.thickness", 1e3 * thickness));
     }

@@ -32,7 +32,6 @@ void check_surfaces_in_contact(SectionReader& reader, const Node& contact, const
   };
   if (!one.any_film([](const Film& film) { return film.is_solid(); }))
     return report("only for surfaces of solids");
-  if (one.dimension == fem::Dimension::spatial) report("for solids in plane strain and of revolution");
   const std::vector<std::string>& places = one.contact->between;
   for (auto place = places.begin(); place != places.end(); ++place)
     if (std::find(places.begin(), place, *place) != place)

@@ -175,6 +175,41 @@ TEST_F(Contacts, pass_the_force_on_from_solid_to_solid) {
   }
 }
 
+/// In space, one of 10 x 10 mm below one of 5 x 5 mm.
+std::string two_blocks_in_space(double gap, const std::string& upper = "upper.bottom") {
+  const auto part = [&](const char* name, const char* size, const std::string& at) {
+    return fmt::format(
+        "[part.{0}]\n{2}[part.{0}.film]\nthickness = \"1 mm\"\nsection = \"solid\"\nmaterial = "
+        "\"VHB 4910 (honeycomb)\"\n[part.{0}.slab]\nlength = \"{1}\"\nwidth = \"{1}\"\nheight = "
+        "\"2 mm\"\n[part.{0}.mesh]\nacross = 1\ngrading = 1\n",
+        name, size, at);
+  };
+  return "model = \"3d\"\n" + part("lower", "10 mm", "") +
+         part("upper", "5 mm", fmt::format("at = [\"2 mm\", \"{} mm\", \"0.3 mm\"]\n", 2 + gap)) +
+         fmt::format("[contact]\nthickness = \"0.01 mm\"\nbetween = [\"lower.top\", \"{}\"]\n", upper) +
+         "[[support]]\nplace = \"lower.bottom\"\nfix = [\"x\", \"y\", \"z\"]\n"
+         "[[support]]\nplace = \"upper.top\"\nfix = [\"x\", \"z\"]\ndisplacement = { y = \"-0.1 mm\" }\n"
+         "[[step]]\nkind = \"move\"\nincrements = 2\n[output]\nerror_estimate = false\n"
+         "[[quantity]]\nname = \"pressed\"\nkind = \"contact force\"\n"
+         "[[quantity]]\nname = \"below\"\nkind = \"contact force\"\nof = \"lower.top\"\n"
+         "[[quantity]]\nname = \"pressure\"\nkind = \"contact pressure\"\nof = \"upper.bottom\"\n"
+         "[[quantity]]\nname = \"held\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"y\"\n"
+         "[[quantity]]\nname = \"pushed\"\nkind = \"force\"\nof = \"upper.top\"\nalong = \"y\"\n";
+}
+
+TEST_F(Contacts, pass_the_force_on_from_solid_to_solid_in_space) {
+  const auto end = values(two_blocks_in_space(0.02));
+  EXPECT_GT(end.at("held"), 0);
+  EXPECT_NEAR(end.at("pushed"), -end.at("held"), 1e-6 * end.at("held"));
+  EXPECT_NEAR(end.at("pressed"), end.at("held"), 0.15 * end.at("held")); // at the edges some of it aside
+  EXPECT_EQ(end.at("below"), end.at("pressed"));
+  EXPECT_GT(end.at("pressure"), end.at("held") / 25e-6);
+  EXPECT_NO_THROW(build_device(read(two_blocks_in_space(0.01))));
+  EXPECT_THROW(build_device(read(two_blocks_in_space(0.009))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(two_blocks_in_space(-0.5, "upper.left"))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(two_blocks_in_space(0.1, "lower.left"))), meshing::MeshError);
+}
+
 TEST_F(Contacts, refuse_surfaces_that_touch_or_cross_as_drawn) {
   EXPECT_NO_THROW(build_device(read(two_blocks(0.01))));
   EXPECT_THROW(build_device(read(two_blocks(0.009))), meshing::MeshError);

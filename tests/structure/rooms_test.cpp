@@ -16,7 +16,7 @@ using Names = std::set<std::string>;
 
 /// Libraries by the words with which their headers and their CMake targets begin.
 const std::map<std::string, std::vector<std::string>> libraries{
-    {"Eigen", {"Eigen/", "Eigen3::"}},
+    {"Eigen", {"Eigen/", "unsupported/Eigen/", "Eigen3::"}},
     {"CGAL", {"CGAL/", "CGAL::"}},
     {"TetGen", {"tetgen.h", "${TETGEN_LIBRARY}"}},
     {"gmsh", {"gmsh.h", "${GMSH_LIBRARY}"}},

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Deformable solids against one another: the patch test across meshes that do not match, and Hertz.
+#include "fem/contact/face.hpp"
+#include "fem/contact/face_contact_block.hpp"
 #include "fem/contact/surface_contact_block.hpp"
 #include "fem/films/membrane_block.hpp"
+#include "fem/films/triangle.hpp"
 #include "fem/paths/ramp.hpp"
 #include "fem/solids/solid_block.hpp"
 #include "meshing/assembly.hpp"
+#include "meshing/solids/extruded.hpp"
 #include "meshing/solids/grid.hpp"
 #include "meshing/solids/sides.hpp"
 
@@ -23,35 +27,46 @@ constexpr double pi = std::numbers::pi;
 constexpr double mu = 45e3, contact_modulus = 4 * mu; ///< E / (1 - nu^2), incompressible
 
 /// Two bodies, `upper` and `lower`, with the places `axis` (x = 0), `face` (what may touch) and `back`; the
-/// lower back keeps its height, the upper one is moved down.
+/// lower back keeps its height, the upper one is moved down. In space they have the place `deep`, too (z =
+/// 0).
 struct TwoBodies {
   TwoBodies(const meshing::Mesh& lower, const meshing::Mesh& upper, Dimension drawn, Barrier barrier,
-            bool backs_stick, double size)
+            bool backs_stick, double size, bool lower_is_rigid = false)
       : dimension(drawn), up(drawn == Dimension::axisymmetric ? 2 : 1) {
     meshing::append(mesh, lower, "lower");
     meshing::append(mesh, upper, "upper");
-    const auto count = static_cast<std::size_t>(mesh.blocks[0].size());
-    SolidCells cells{mesh.blocks[0], std::vector<int>(count, passive), std::vector<int>(count, 0)};
+    meshing::CellBlock solid = mesh.blocks[0];
+    if (lower_is_rigid)
+      solid.nodes.erase(solid.nodes.begin(), solid.nodes.begin() + std::ssize(lower.blocks[0].nodes));
+    const auto count = static_cast<std::size_t>(solid.size());
+    SolidCells cells{solid, std::vector<int>(count, passive), std::vector<int>(count, 0)};
     const SolidSection section{.material = {.law = materials::NeoHookean{mu}}, .thickness = 1};
+    const bool in_space = dimension == Dimension::spatial;
     const auto face = [&](const char* place) {
-      return meshing::sides_at(mesh, place, meshing::CellType::meridian3);
+      return in_space ? meshing::faces_at(mesh, place)
+                      : meshing::sides_at(mesh, place, meshing::CellType::meridian3);
     };
     model.dofs = DofMap(mesh.node_count());
     model.blocks.push_back(make_solid_block(mesh, cells, {section}, {}, dimension));
-    model.blocks.push_back(make_surface_contact_block(mesh, {{"lower.face", "upper.face"},
-                                                             {face("lower.face"), face("upper.face")},
-                                                             up == 2 ? std::nullopt : std::optional(1.0),
-                                                             barrier}));
+    const std::array<std::string, 2> places{"lower.face", "upper.face"};
+    const std::array<meshing::CellBlock, 2> faces{face("lower.face"), face("upper.face")};
+    const std::optional<double> width = up == 2 ? std::nullopt : std::optional(1.0);
+    model.blocks.push_back(in_space ? make_face_contact_block(mesh, {places, faces, barrier})
+                                    : make_surface_contact_block(mesh, {places, faces, width, barrier}));
     for (const auto& block : model.blocks) {
       block->place_scalars(model.dofs);
       block->claim_dofs(model.dofs, dimension);
     }
     for (const char* body : {"lower.", "upper."}) {
+      if (lower_is_rigid && body[0] == 'l') continue;
       for (const int node : nodes(std::string(body) + "axis")) model.dofs.hold(node, 0);
       for (const int node : nodes(std::string(body) + "back")) {
         model.dofs.hold(node, up);
         if (backs_stick) model.dofs.hold(node, 0);
+        if (backs_stick && in_space) model.dofs.hold(node, 2);
       }
+      if (!in_space) continue;
+      for (const int node : nodes(std::string(body) + "deep")) model.dofs.hold(node, 2);
     }
     model.dofs.number();
     model.place_histories();
@@ -59,7 +74,7 @@ struct TwoBodies {
     model.length_scale = 0.01 * size;
   }
   const std::vector<int>& nodes(const std::string& place) const { return mesh.node_sets.at(place); }
-  State press(double depth, double tolerance) {
+  State press(double depth, double tolerance, int increments = 10) {
     Equilibrium equilibrium(model, 1);
     LoadPath path;
     path.apply = [&](State& state, double s) {
@@ -67,7 +82,7 @@ struct TwoBodies {
         state.displacement[static_cast<std::size_t>(node)][up] = -s * depth;
     };
     const RampOptions options{.newton = {.tolerance = tolerance, .max_iterations = 80},
-                              .increments = 10,
+                              .increments = increments,
                               .smallest_increment = 1e-6};
     RampProgress progress = RampProgress::begin(model.initial_state(), model.dofs, options);
     EXPECT_EQ(ramp(equilibrium, path, options, progress, {}).end, RampEnd::complete) << progress.load_factor;
@@ -205,6 +220,124 @@ TEST(SurfaceContact, spheres_on_one_another_bear_the_force_of_hertz) {
   const double a = std::sqrt(2.5 * (lower + upper) / 2);
   RecordProperty("force over Hertz", std::to_string(force / (4.0 / 3 * contact_modulus * a * a * a)));
   EXPECT_NEAR(force, 4.0 / 3 * contact_modulus * a * a * a, 0.02 * force);
+}
+
+/// The least gap of the bodies' faces, m, at many more points than they are integrated with; negative where
+/// one is behind the other.
+double least_gap(const TwoBodies& bodies, const State& state) {
+  const auto faces = [&](const char* place) {
+    const meshing::CellBlock cells = meshing::faces_at(bodies.mesh, place); // their normals point inwards
+    std::vector<FaceNodes> all(static_cast<std::size_t>(cells.size()));
+    for (int i = 0; i < cells.size(); ++i)
+      for (std::size_t a = 0; a < 6; ++a) {
+        const auto n = static_cast<std::size_t>(cells.cell(i)[a]);
+        all[static_cast<std::size_t>(i)].col(static_cast<int>(a)) =
+            bodies.mesh.nodes[n] + state.displacement[n];
+      }
+    return all;
+  };
+  const std::vector<FaceNodes> lower = faces("lower.face"), upper = faces("upper.face");
+  double least = 1;
+  constexpr int parts = 13;
+  for (const FaceNodes& own : lower)
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j) {
+        const Eigen::Vector3d x =
+            own * shape_values<6>(static_cast<double>(i) / parts, static_cast<double>(j) / parts);
+        double nearest = 1e-2, gap = nearest;
+        for (const FaceNodes& other : upper) {
+          if (box_of(other).exteriorDistance(x) >= nearest) continue;
+          const FacePlace place = nearest_place(other, {}, x);
+          if (place.distance >= nearest) continue;
+          nearest = place.distance;
+          gap = place.normal.y() < 0 ? nearest : -nearest; // the lower one is below
+        }
+        least = std::min(least, gap);
+      }
+  return least;
+}
+
+/// Two cubes of 2 and 3 elements along each edge, pressed by a fifth of their height, free to widen.
+TEST(SurfaceContact, passes_the_patch_test_in_space) {
+  constexpr double thickness = 1e-3;
+  const auto block = [](int elements, double bottom, double face) {
+    const auto place = [](double u, double v) { return Eigen::Vector3d(u, v, 0); };
+    const meshing::Mesh side =
+        named({even_line(0, 1, elements), even_line(bottom, bottom + 1, elements), place}, bottom + face,
+              bottom + 1 - face);
+    return meshing::extruded(
+        side, even_line(0, 1, elements),
+        [](const Eigen::Vector3d& drawn, double level) {
+          return Eigen::Vector3d(drawn.x(), drawn.y(), level);
+        },
+        "deep", "front");
+  };
+  TwoBodies blocks(block(2, 0, 1), block(3, 1 + thickness, 0), Dimension::spatial,
+                   {thickness, 0.03 * mu / thickness, 1}, false, 1);
+  const State state = blocks.press(0.4, 1e-12);
+  EXPECT_GT(least_gap(blocks, state), 0);
+  const double pressed = contact_force(blocks.model, state);
+  EXPECT_NEAR(-blocks.reaction("upper.back"), blocks.reaction("lower.back"), 1e-9 * pressed);
+  EXPECT_NEAR(-blocks.reaction("upper.back"), pressed, 1e-3 * pressed);
+  // mu (1/l^2 - l) of the stretch l along y, per area as drawn.
+  for (const char* place : {"lower.face", "upper.face"}) {
+    const double way = state.displacement[static_cast<std::size_t>(blocks.nodes(place).front())].y();
+    const double l = place[0] == 'l' ? 1 + way : 1 - 0.4 - way;
+    EXPECT_NEAR(blocks.reaction("lower.back"), mu * (1 / (l * l) - l), 2e-3 * pressed) << place;
+  }
+  const NodalPressure pressure = blocks.pressure(state);
+  double worst = 0;
+  for (const char* place : {"lower.face", "upper.face"})
+    for (const int node : blocks.nodes(place)) {
+      const auto n = static_cast<std::size_t>(node);
+      if (blocks.mesh.nodes[n].x() < 0.6 && blocks.mesh.nodes[n].z() < 0.6)
+        worst = std::max(worst, std::abs(pressure.force[n] / pressure.area[n] / pressed - 1));
+    }
+  RecordProperty("largest error of a pressure", std::to_string(worst));
+  EXPECT_LT(worst, 0.02);
+}
+
+/// A quarter of a body whose face is that of a sphere, of a radius at which strains are small, on a block
+/// that does not give way: F = 4 E* a^3 / (3 R), the mean r^2 of the pressures is 2 a^2 / 5.
+TEST(SurfaceContact, sphere_in_space_bears_the_force_of_hertz) {
+  constexpr double size = 0.4, radius = 4, thickness = 2e-5;
+  const auto drawn_out = [](const meshing::Mesh& side, const std::vector<double>& levels, double curvature) {
+    return meshing::extruded(
+        side, levels,
+        [curvature](const Eigen::Vector3d& drawn, double z) {
+          const double sag = curvature * (drawn.x() * drawn.x() + z * z) / 2 * (1 - drawn.y() / size);
+          return Eigen::Vector3d(drawn.x(), drawn.y() + sag, z);
+        },
+        "deep", "front");
+  };
+  const auto flat = [](double u, double v) { return Eigen::Vector3d(u, v, 0); };
+  const std::vector<double> across = meshing::graded_line({0, size}, {0, 0.13}, 0.04, size / 3),
+                            heights = meshing::graded_line({0, size}, {0}, 0.04, size / 3);
+  meshing::TriangleGrid side(even_line(0, size, 9), {-0.1, -thickness}, flat);
+  side.name_nodes("axis", [](double u, double) { return u == 0; });
+  side.name_nodes("face", [](double, double v) { return v == -thickness; });
+  side.name_nodes("back", [](double, double v) { return v == -0.1; });
+  TwoBodies bodies(drawn_out(side.take(), even_line(0, size, 9), 0),
+                   drawn_out(named({across, heights, flat}, 0, size), across, 1 / radius), Dimension::spatial,
+                   {thickness, 0.1 * mu / thickness, 1}, true, size, true);
+  const State state = bodies.press(0.004, 1e-7, 2);
+  const double gap = least_gap(bodies, state);
+  RecordProperty("unknowns", bodies.model.dofs.free_count());
+  RecordProperty("least gap over thickness", std::to_string(gap / thickness));
+  EXPECT_GT(gap, 0);
+  const double quarter = contact_force(bodies.model, state);
+  const NodalPressure pressure = bodies.pressure(state);
+  double second = 0, sum = 0;
+  for (const int node : bodies.nodes("lower.face")) {
+    const auto n = static_cast<std::size_t>(node);
+    const Eigen::Vector3d x = bodies.mesh.nodes[n];
+    sum += pressure.force[n];
+    second += pressure.force[n] * (x.x() * x.x() + x.z() * x.z());
+  }
+  const double a = std::sqrt(2.5 * second / sum), hertz = 4.0 / 3 * contact_modulus * a * a * a / radius;
+  RecordProperty("half width", std::to_string(a));
+  RecordProperty("force over Hertz", std::to_string(4 * quarter / hertz));
+  EXPECT_NEAR(4 * quarter, hertz, 0.02 * hertz);
 }
 
 } // namespace

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/contact/face_contact_block.hpp"
+
+#include "fem/contact/face.hpp"
+#include "fem/films/triangle.hpp"
+
+#include <Eigen/LU>
+#include <unsupported/Eigen/BVH>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace dielast::fem {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Box = Eigen::AlignedBox3d;
+
+constexpr int dofs = 36;       ///< of a face's nodes, then of the other surface's face
+constexpr double margin = 0.3; ///< of the finer faces' size, up to which pairs are elements
+constexpr double kept = 0.1;   ///< of a gap on any way
+constexpr double near = 1.2;   ///< times that: where a way ends
+constexpr int most_advances = 100;
+
+const std::vector<FacePoint>& rule = face_rule();
+
+/// Numbers of the boxes of a tree that meet another one.
+struct Meeting {
+  const Box& box;
+  const std::vector<Box>& boxes;
+  std::vector<int> found;
+  bool intersectVolume(const Box& volume) const { return volume.intersects(box); }
+  bool intersectObject(int number) {
+    if (boxes[static_cast<std::size_t>(number)].intersects(box)) found.push_back(number);
+    return false;
+  }
+};
+
+class FaceContactBlock final : public ContactBlock {
+ public:
+  FaceContactBlock(const meshing::Mesh& mesh, FaceContact contact)
+      : contact_(std::move(contact)), drawn_(mesh.nodes) {
+    std::array<std::set<int>, 2> nodes;
+    std::array<double, 2> mean{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const meshing::CellBlock& faces = contact_.faces[k];
+      if (faces.type != meshing::CellType::triangle6)
+        throw std::invalid_argument("surfaces in contact in space are made of 6-node triangles");
+      nodes[k] = {faces.nodes.begin(), faces.nodes.end()};
+      add_areas(k);
+      parts_[k] = parts_beside(faces);
+      mean[k] = std::accumulate(areas_[k].begin(), areas_[k].end(), 0.0) / faces.size();
+    }
+    if (std::ranges::any_of(nodes[0], [&](int node) { return nodes[1].contains(node); }))
+      throw std::invalid_argument("surfaces in contact have no nodes in common");
+    share_ = {mean[1] / (mean[0] + mean[1]), mean[0] / (mean[0] + mean[1])};
+    margin_ = margin * std::sqrt(std::min(mean[0], mean[1]));
+    State as_drawn;
+    as_drawn.displacement.assign(drawn_.size(), Vector3d::Zero());
+    FaceContactBlock::choose_elements(as_drawn);
+  }
+
+  int element_count() const override { return static_cast<int>(pairs_.size()); }
+  int dofs_per_element() const override { return dofs; }
+  void claim_dofs(DofMap& /*those of the solids*/, Dimension /*dimension*/) const override {}
+  void element_equations(int element, const DofMap& map, std::span<int> equations) const override {
+    const Pair& pair = pairs_[static_cast<std::size_t>(element)];
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const int node : nodes(pair, k))
+        for (int i = 0; i < 3; ++i) equations[at++] = map.equation(node, i);
+  }
+  std::size_t choose_elements(const State& state) override {
+    if (choice_ > 0 && covers(state)) return choice_;
+    chosen_ = moved(state);
+    std::vector<Pair> pairs = meeting(chosen_, chosen_, contact_.barrier.thickness + margin_);
+    if (choice_ == 0 || pairs != pairs_) {
+      pairs_ = std::move(pairs);
+      ++choice_;
+    }
+    return choice_;
+  }
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override {
+    if (first == 0 && !covers(state))
+      throw std::logic_error("a contact's elements are those of another state");
+    Evaluation result;
+    for (int e = first; e < last; ++e) {
+      const Pair& pair = pairs_[static_cast<std::size_t>(e)];
+      const FaceNodes own = face(state, nodes(pair, 0)), other = face(state, nodes(pair, 1));
+      Sums sums;
+      for_each_near(pair, own, other, [&](std::size_t q, const FacePlace& place, double factor) {
+        add(pair, q, other, place, factor, scatter, sums);
+      });
+      result.energy += sums.energy;
+      result.feasible = result.feasible && sums.feasible;
+      if (!sums.any) continue;
+      if (scatter.residual) scatter.add_residual(e, std::span(sums.first.data(), dofs));
+      if (!scatter.tangent) continue;
+      std::array<double, dofs*(dofs + 1) / 2> packed;
+      std::size_t k = 0;
+      for (int i = 0; i < dofs; ++i)
+        for (int j = 0; j <= i; ++j) packed[k++] = sums.second(i, j);
+      scatter.add_tangent(e, packed);
+    }
+    return result;
+  }
+  double free_way(const State& from, const State& to) const override {
+    const Moved before = moved(from), after = moved(to);
+    double part = 1;
+    for (const Pair& pair : meeting(before, after, 0)) {
+      const FaceNodes &own = before.of(pair, 0), &other = before.of(pair, 1);
+      const FaceNodes own_way = after.of(pair, 0) - own, other_way = after.of(pair, 1) - other;
+      const double fastest = way_of(other, after.of(pair, 1));
+      const Box box = box_of(other);
+      for (const FacePoint& at : rule) {
+        const Vector3d x = own * at.shape, way = own_way * at.shape;
+        const double away = (1 - kept) * box.exteriorDistance(x);
+        if (away > part * (way.norm() + fastest)) continue;
+        const double speed = way_of(other, after.of(pair, 1).colwise() - way); // as seen from the point
+        if (away > part * speed) continue;
+        const auto gap = [&](double s) {
+          return nearest_place(other + s * other_way, {}, x + s * way).distance;
+        };
+        part = advance(gap, speed, part);
+      }
+    }
+    return part;
+  }
+  double contact_force(const State& state) const override {
+    double sum = 0;
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const BarrierEnergy& energy) {
+      sum -= share_[pair.surface] * area(pair, q) * energy.slope;
+    });
+    return sum;
+  }
+  bool is_between(std::string_view place) const override {
+    return std::ranges::find(contact_.places, place) != contact_.places.end();
+  }
+  void add_pressure(const State& state, NodalPressure& pressure) const override {
+    for (std::size_t k = 0; k < 2; ++k)
+      for (int i = 0; i < contact_.faces[k].size(); ++i)
+        for (std::size_t q = 0; q < rule.size(); ++q) share({k, i, 0}, q, area({k, i, 0}, q), pressure.area);
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const BarrierEnergy& energy) {
+      share(pair, q, -area(pair, q) * energy.slope, pressure.force);
+    });
+  }
+  void add_energies(const State& state, EnergyParts& parts) const override {
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const BarrierEnergy& energy) {
+      parts.elastic += share_[pair.surface] * area(pair, q) * energy.value;
+    });
+  }
+  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
+
+ private:
+  /// A face that is integrated, of the surface 0 or 1, and one of the other surface.
+  struct Pair {
+    std::size_t surface;
+    int own, other;
+    auto operator<=>(const Pair&) const = default;
+  };
+  struct Sums {
+    double energy = 0;
+    bool feasible = true, any = false;
+    Eigen::Vector<double, dofs> first = Eigen::Vector<double, dofs>::Zero();
+    Eigen::Matrix<double, dofs, dofs> second = Eigen::Matrix<double, dofs, dofs>::Zero();
+  };
+  /// All faces in a state.
+  struct Moved {
+    std::array<std::vector<FaceNodes>, 2> faces;
+    const FaceNodes& of(const Pair& pair, std::size_t k) const {
+      return faces[k == 0 ? pair.surface : 1 - pair.surface]
+                  [static_cast<std::size_t>(k == 0 ? pair.own : pair.other)];
+    }
+  };
+
+  std::span<const int> nodes(const Pair& pair, std::size_t k) const {
+    return k == 0 ? contact_.faces[pair.surface].cell(pair.own)
+                  : contact_.faces[1 - pair.surface].cell(pair.other);
+  }
+  double area(const Pair& pair, std::size_t q) const {
+    return areas_[pair.surface][static_cast<std::size_t>(pair.own) * rule.size() + q];
+  }
+  FaceNodes face(const State& state, std::span<const int> own) const {
+    FaceNodes x;
+    for (std::size_t a = 0; a < 6; ++a) {
+      const auto n = static_cast<std::size_t>(own[a]);
+      x.col(static_cast<int>(a)) = drawn_[n] + state.displacement[n];
+    }
+    return x;
+  }
+  Moved moved(const State& state) const {
+    Moved all;
+    for (std::size_t k = 0; k < 2; ++k)
+      for (int i = 0; i < contact_.faces[k].size(); ++i)
+        all.faces[k].push_back(face(state, contact_.faces[k].cell(i)));
+    return all;
+  }
+  /// Whether what may touch in a state is among the elements.
+  bool covers(const State& state) const {
+    double way = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      double farthest = 0;
+      for (int i = 0; i < contact_.faces[k].size(); ++i)
+        farthest = std::max(farthest, way_of(chosen_.faces[k][static_cast<std::size_t>(i)],
+                                             face(state, contact_.faces[k].cell(i))));
+      way += farthest;
+    }
+    return way <= margin_;
+  }
+  /// Pairs of which boxes about the ways between two states are nearer than `reach`.
+  std::vector<Pair> meeting(const Moved& from, const Moved& to, double reach) const {
+    std::array<std::vector<Box>, 2> boxes;
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t i = 0; i < from.faces[k].size(); ++i) {
+        Box box = box_of(from.faces[k][i]).merged(box_of(to.faces[k][i]));
+        const Vector3d wider = Vector3d::Constant(reach / 2);
+        boxes[k].emplace_back(box.min() - wider, box.max() + wider);
+      }
+    std::vector<int> numbers(boxes[1].size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    const Eigen::KdBVH<double, 3, int> tree(numbers.begin(), numbers.end(), boxes[1].begin(), boxes[1].end());
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < boxes[0].size(); ++i) {
+      Meeting near{boxes[0][i], boxes[1], {}};
+      Eigen::BVIntersect(tree, near);
+      for (const int j : near.found) {
+        pairs.push_back({0, static_cast<int>(i), j});
+        pairs.push_back({1, j, static_cast<int>(i)});
+      }
+    }
+    std::ranges::sort(pairs);
+    return pairs;
+  }
+  /// use(point, place, how often) for all that the other face and its edges and corners may push.
+  template<class Use>
+  void for_each_near(const Pair& pair, const FaceNodes& own, const FaceNodes& other, const Use& use) const {
+    const double reach = contact_.barrier.thickness;
+    const Box box = box_of(other);
+    if (box_of(own).exteriorDistance(box) >= reach) return;
+    for (std::size_t q = 0; q < rule.size(); ++q) {
+      const Vector3d x = own * rule[q].shape;
+      if (box.exteriorDistance(x) >= reach) continue;
+      const FacePlace whole = nearest_place(other, {}, x);
+      if (!contact_.barrier.touches(whole.distance)) continue;
+      use(q, whole, 1);
+      for (const auto& [part, factor] : parts_[1 - pair.surface][static_cast<std::size_t>(pair.other)])
+        if (const FacePlace place = nearest_place(other, part, x); contact_.barrier.touches(place.distance))
+          use(q, place, factor);
+    }
+  }
+  /// use(pair, point, the barrier as often as it counts).
+  template<class Use>
+  void for_each_touching(const State& state, const Use& use) const {
+    const Moved now = moved(state);
+    for (const Pair& pair : meeting(now, now, contact_.barrier.thickness))
+      for_each_near(pair, now.of(pair, 0), now.of(pair, 1),
+                    [&](std::size_t q, const FacePlace& place, double factor) {
+                      const BarrierEnergy energy = contact_.barrier.at(place.distance);
+                      use(pair, q, {factor * energy.value, factor * energy.slope, factor * energy.curvature});
+                    });
+  }
+  /// The gap's derivatives in what goes with the nodes: the way from the place to the point, r, and its
+  /// slopes along the directions in which the place may move; these follow, as the gap is the least.
+  void add(const Pair& pair, std::size_t q, const FaceNodes& other, const FacePlace& place, double factor,
+           const Scatter& scatter, Sums& sums) const {
+    if (!(place.distance > 0)) {
+      sums.feasible = false;
+      return;
+    }
+    const double area = factor * share_[pair.surface] * this->area(pair, q);
+    const BarrierEnergy energy = contact_.barrier.at(place.distance);
+    sums.any = true;
+    sums.energy += area * energy.value;
+    if (!scatter.residual && !scatter.tangent) return;
+    Eigen::Matrix<double, 12, 3> weight = Eigen::Matrix<double, 12, 3>::Zero(); // of nodes in r, its slopes
+    weight.col(0) << rule[q].shape, -place.shape;
+    for (int k = 0; k < place.free; ++k)
+      weight.col(1 + k).tail<6>() = -place.slope[static_cast<std::size_t>(k)];
+    const Vector3d& n = place.normal;
+    for (int a = 0; a < 12; ++a) sums.first.segment<3>(3 * a) += (area * energy.slope * weight(a, 0)) * n;
+    if (!scatter.tangent) return;
+    const Matrix3d across = (Matrix3d::Identity() - n * n.transpose()) / place.distance;
+    Eigen::Matrix<double, 9, 9> second = Eigen::Matrix<double, 9, 9>::Zero(); // of the gap
+    second.topLeftCorner<3, 3>() = across;
+    Eigen::Matrix2d stiff = Eigen::Matrix2d::Identity();
+    Eigen::Matrix<double, 9, 2> mixed = Eigen::Matrix<double, 9, 2>::Zero();
+    for (int k = 0; k < place.free; ++k) {
+      const Vector3d slope = -(other * place.slope[static_cast<std::size_t>(k)]);
+      mixed.col(k).head<3>() = across * slope;
+      mixed.col(k).segment<3>(3 + 3 * k) = n;
+      for (int l = 0; l < place.free; ++l)
+        stiff(k, l) = -slope.dot(across * (other * place.slope[static_cast<std::size_t>(l)])) -
+                      n.dot(other * place.bend[static_cast<std::size_t>(k + l)]);
+    }
+    if (place.free > 0) second -= mixed * stiff.inverse() * mixed.transpose();
+    second *= area * energy.slope;
+    second.topLeftCorner<3, 3>() += area * energy.curvature * n * n.transpose();
+    Eigen::Matrix<double, 9, dofs> of_nodes; // second, with nodes
+    for (int b = 0; b < 12; ++b)
+      of_nodes.middleCols<3>(3 * b) = weight(b, 0) * second.leftCols<3>() +
+                                      weight(b, 1) * second.middleCols<3>(3) +
+                                      weight(b, 2) * second.rightCols<3>();
+    for (int a = 0; a < 12; ++a)
+      sums.second.middleRows<3>(3 * a) += weight(a, 0) * of_nodes.topRows<3>() +
+                                          weight(a, 1) * of_nodes.middleRows<3>(3) +
+                                          weight(a, 2) * of_nodes.bottomRows<3>();
+  }
+  /// The part of a way, at most `most`, on which a gap that changes no quicker than with `speed` keeps a part
+  /// of itself (conservative advancement).
+  template<class Gap>
+  static double advance(const Gap& gap, double speed, double most) {
+    const double first = gap(0), least = kept * first;
+    double now = first, s = 0;
+    for (int k = 0; k < most_advances; ++k) {
+      s += (now - least) / speed;
+      if (!(s < most)) return most;
+      now = gap(s);
+      if (now <= near * least) return s;
+    }
+    return s;
+  }
+  /// Adds what lies at a point to the face's nodes, linearly between neighbours.
+  void share(const Pair& pair, std::size_t q, double amount, std::vector<double>& of_nodes) const {
+    const auto own = nodes(pair, 0);
+    for (std::size_t a = 0; a < 6; ++a)
+      of_nodes[static_cast<std::size_t>(own[a])] += rule[q].share[static_cast<int>(a)] * amount;
+  }
+  void add_areas(std::size_t k) {
+    State as_drawn;
+    as_drawn.displacement.assign(drawn_.size(), Vector3d::Zero());
+    for (int i = 0; i < contact_.faces[k].size(); ++i)
+      for (const FacePoint& at : rule) {
+        const Eigen::Matrix<double, 3, 2> slope =
+            face(as_drawn, contact_.faces[k].cell(i)) * shape_gradients<6>(at.xi, at.eta);
+        areas_[k].push_back(at.weight * slope.col(0).cross(slope.col(1)).norm());
+      }
+  }
+  FaceContact contact_;
+  std::vector<Vector3d> drawn_;
+  std::array<std::vector<std::vector<CountedPart>>, 2> parts_; ///< of the faces, besides themselves
+  std::array<double, 2> share_{};            ///< of the two integrals: the finer surface has the greater one
+  std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' faces
+  double margin_ = 0;                        ///< m
+  std::vector<Pair> pairs_;                  ///< the elements
+  Moved chosen_;                             ///< the state that they were chosen for
+  std::size_t choice_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<ContactBlock> make_face_contact_block(const meshing::Mesh& mesh, FaceContact contact) {
+  return std::make_unique<FaceContactBlock>(mesh, std::move(contact));
+}
+
+} // namespace dielast::fem
