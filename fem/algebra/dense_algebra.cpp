@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/algebra/dense_algebra.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
 namespace dielast::fem {
-
-SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
-  return {solver.eigenvalues(), solver.eigenvectors()};
-}
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) {
   if (A.rows() == 0) return {}; // Eigen's solver would read beyond it
@@ -27,8 +21,6 @@ SingularValues singular_values(const Eigen::MatrixXd& A) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
-
-Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& A) { return Eigen::LLT<Eigen::MatrixXd>(A).matrixL(); }
 
 Eigen::MatrixXcd solve_dense(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b) {
   return A.partialPivLu().solve(b);

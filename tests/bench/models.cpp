@@ -4,13 +4,10 @@
 #include "fem/elements/beam_block.hpp"
 #include "fem/elements/distance_block.hpp"
 #include "fem/films/membrane_block.hpp"
-#include "fem/shells/shell_block.hpp"
-#include "fem/solids/solid_block.hpp"
 #include "materials/catalog.hpp"
 #include "meshing/meridian.hpp"
 #include "meshing/patch.hpp"
 #include "meshing/rings.hpp"
-#include "meshing/solids/slab.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +19,6 @@ namespace {
 
 constexpr int order = 2, integration_points = 6;
 constexpr bool curved = false;
-
-const materials::Material film{materials::NeoHookean{45e3}, materials::Dielectric{4e-11, 100e6}, 960};
 
 int node_on_x_axis(const meshing::Mesh& mesh, const std::string& place) {
   for (const int n : mesh.node_sets.at(place)) {
@@ -53,12 +48,12 @@ std::unique_ptr<fem::ElementBlock> membrane(const meshing::Mesh& mesh, double pr
       dimension, dimension == fem::Dimension::axisymmetric ? 3 : integration_points);
 }
 
+} // namespace
+
 void hold(Task& task, const std::string& place, std::initializer_list<int> components) {
   for (const int n : task.mesh.node_sets.at(place))
     for (const int c : components) task.model.dofs.hold(n, c);
 }
-
-} // namespace
 
 Task partial_electrode_disc(int rings) {
   auto mesh = meshing::disc_mesh(0.09, 0.03, rings, order, curved);
@@ -75,15 +70,12 @@ Task partial_electrode_disc(int rings) {
   return task;
 }
 
-namespace {
-
 constexpr double diaphragm_extent = 0.06858;
 
 meshing::Mesh diaphragm_mesh(int k) {
   return meshing::annulus_mesh(12.7e-3, diaphragm_extent, 22 * k, order, curved);
 }
 
-/// Loads of a film as thick as `thickness` times that of the task, such that all stresses are alike.
 Task diaphragm(meshing::Mesh mesh, std::unique_ptr<fem::ElementBlock> block, double thickness) {
   Task task = begin(std::move(mesh), std::move(block), fem::Dimension::spatial, diaphragm_extent);
   hold(task, "outer", {0, 1, 2});
@@ -101,54 +93,11 @@ Task diaphragm(meshing::Mesh mesh, std::unique_ptr<fem::ElementBlock> block, dou
   return task;
 }
 
-} // namespace
-
 Task plate_diaphragm(int k) {
   auto mesh = diaphragm_mesh(k);
   std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), 0);
   auto block = membrane(mesh, 2, std::move(electrodes), fem::Dimension::spatial);
   return diaphragm(std::move(mesh), std::move(block), 1);
-}
-
-Task plate_diaphragm_shell(int k) {
-  constexpr double thickness = 0.01;
-  auto mesh = diaphragm_mesh(k);
-  std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks.front().size()), 0);
-  auto block = fem::make_shell_block(mesh, mesh.blocks.front(),
-                                     {.layers = {{film, thickness * 1e-3}}, .prestretch = {2, 2}},
-                                     {std::move(electrodes)});
-  return diaphragm(std::move(mesh), std::move(block), thickness);
-}
-
-Task stack_on_table(int across) {
-  Task task{.mesh = meshing::block_mesh({{24e-3, 0.6e-3, 0, {4e-3, 20e-3}, 50e-6}, 13e-3, 10e-3}, across, 6),
-            .model = {.dofs = fem::DofMap(0)}};
-  fem::Model& model = task.model;
-  model.dofs = fem::DofMap(task.mesh.node_count());
-  model.electrodes = {"film"};
-  model.extent = 24e-3;
-  model.length_scale = 0.6e-3 / across;
-  const meshing::CellBlock& cells = task.mesh.blocks.front();
-  const auto count = static_cast<std::size_t>(cells.size());
-  fem::SolidCells solid{cells, std::vector<int>(count, fem::passive), std::vector<int>(count, 0)};
-  for (const int cell : task.mesh.cell_sets.at("electrode").cells)
-    solid.electrodes[static_cast<std::size_t>(cell)] = 0;
-  const materials::Material silicone{materials::NeoHookean{0.4e6}, materials::Dielectric{2.48e-11, 100e6},
-                                     960};
-  model.blocks.push_back(fem::make_solid_block(task.mesh, std::move(solid),
-                                               {{.material = silicone, .thickness = 50e-6}}, {},
-                                               fem::Dimension::spatial));
-  model.blocks.front()->place_scalars(model.dofs);
-  model.blocks.front()->claim_dofs(model.dofs, fem::Dimension::spatial);
-  hold(task, "bottom", {0, 1, 2});
-  model.dofs.number();
-  model.place_histories();
-  task.node = task.mesh.node_sets.at("upper_electrode").front();
-  task.component = 1;
-  fem::Loads voltage = fem::Loads::of(model.initial_state(), model.dofs);
-  voltage.voltage = {750};
-  task.steps = {{voltage, 1}};
-  return task;
 }
 
 Task rolled_muscle() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem/paths/ramp.hpp"
+#include "materials/material.hpp"
 #include "meshing/mesh.hpp"
 
 namespace dielast::bench {
@@ -47,6 +48,13 @@ Task film_in_a_ring();
 
 /// 40 elements along the meridian of B2's film and plate; the same loads and result.
 Task meridian_of_diaphragm();
+
+// What more than one of them is made of.
+inline const materials::Material film{materials::NeoHookean{45e3}, materials::Dielectric{4e-11, 100e6}, 960};
+void hold(Task& task, const std::string& place, std::initializer_list<int> components);
+meshing::Mesh diaphragm_mesh(int k);
+/// Loads of a film as thick as `thickness` times that of B2, such that all stresses are alike.
+Task diaphragm(meshing::Mesh mesh, std::unique_ptr<fem::ElementBlock> block, double thickness);
 
 /// The state that the first step starts from.
 fem::State begun(const Task& task, fem::Equilibrium& equilibrium);
