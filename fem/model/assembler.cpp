@@ -12,28 +12,37 @@ namespace dielast::fem {
 
 namespace {
 
-/// Large enough to hide the call, small enough to balance two threads on a thousand elements.
-constexpr int chunk_size = 64;
-
 /// Entries of the tangent that a thread clears at once, not less.
 constexpr int cleared_together = 1 << 16;
 
 /// Below this many elements waking and waiting for threads costs more than they save.
 constexpr int worth_threads = 16000;
 
+/// Elements that are computed one after the other. The more, the more of what they add to is still near from
+/// the neighbours before, but threads must find enough chunks of a colour. By the model alone: it is the
+/// order of the sums.
+int chunk_size(int elements) {
+  constexpr int chunks = 64, least = 256, most = 1024;
+  return elements < worth_threads ? elements : std::clamp(elements / chunks, least, most);
+}
+
+int element_count(const Model& model) {
+  int elements = 0;
+  for (const auto& block : model.blocks) elements += block->element_count();
+  return elements;
+}
+
 } // namespace
 
 Assembler::Assembler(const Model& model, int threads) : model_(model) {
   equations_.resize(model_.blocks.size());
-  int elements = 0;
   for (std::size_t b = 0; b < model_.blocks.size(); ++b) {
     number_elements(b);
-    elements += model_.blocks[b]->element_count();
     if (auto* contact = dynamic_cast<ContactBlock*>(model_.blocks[b].get()))
       contacts_.push_back({b, contact, contact->choose_elements(model_.initial_state())});
   }
   for (const Contact& contact : contacts_) number_elements(contact.block);
-  workers_ = std::make_unique<Workers>(elements < worth_threads ? 1 : threads);
+  workers_ = std::make_unique<Workers>(element_count(model_) < worth_threads ? 1 : threads);
   find_pattern();
   colour_chunks();
   block_residual_.assign(model_.blocks.size(), Eigen::VectorXd::Zero(model_.dofs.count()));
@@ -167,11 +176,12 @@ std::vector<double> Assembler::on_pattern(const Eigen::SparseMatrix<double>& con
 void Assembler::colour_chunks() {
   constexpr int most_colours = 64;
   colours_.clear();
+  const int size = chunk_size(element_count(model_));
   std::vector<Chunk> alone;
   std::vector<std::uint64_t> taken(static_cast<std::size_t>(model_.dofs.count()), 0);
   for (std::size_t b = 0; b < equations_.size(); ++b) {
     const ElementBlock& block = *model_.blocks[b];
-    const int step = (chunk_size + block.granularity() - 1) / block.granularity() * block.granularity();
+    const int step = (size + block.granularity() - 1) / block.granularity() * block.granularity();
     for (int first = 0; first < block.element_count(); first += step) {
       const Chunk chunk{static_cast<int>(b), first, std::min(first + step, block.element_count())};
       const auto begin =
