@@ -7,10 +7,18 @@
 #include "fem/model/element_block.hpp"
 #include "meshing/mesh.hpp"
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
 namespace dielast::fem {
+
+template<std::size_t size>
+std::array<double, size> lane_of(const Lanes (&all)[size], int l) {
+  std::array<double, size> one;
+  for (std::size_t i = 0; i < size; ++i) one[i] = all[i][l];
+  return one;
+}
 
 /// Membrane elements of one kinematics and one law, `lanes` at a time.
 /// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see FilmResponse), where
@@ -38,7 +46,7 @@ class MembraneBlock final : public ElementBlock {
   void add_energies(const State& state, EnergyParts& parts) const override;
   void add_relaxation(const State& state, const RateWeight& weight, const Scatter& scatter) const override;
   int history_size() const override { return film_.history_size(count_ * points_); }
-  void place_history(int first) override { film_.place_history(first); }
+  void place_history(int first) override { film_.place_history(first, count_ * points_); }
   void start_history(std::vector<double>& all) const override { film_.start_history(count_ * points_, all); }
   void advance_history(const State& state, std::vector<double>& all) const override;
 
@@ -215,6 +223,7 @@ MembraneBlock<Kinematics, Law>::potential(const State& state, int pack, int poin
 template<class Kinematics, class Law>
 template<class Visitor>
 void MembraneBlock<Kinematics, Law>::for_each_point(const State& state, const Visitor& visit) const {
+  std::vector<Deformation> of_pack(static_cast<std::size_t>(points_));
   for (int pack = 0; pack * lanes < count_; ++pack) {
     Lanes x[Nodes][Dim];
     gather(state, pack, x);
@@ -222,7 +231,8 @@ void MembraneBlock<Kinematics, Law>::for_each_point(const State& state, const Vi
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
       for (int p = 0; p < points_; ++p) {
         const Point& geometry = geometry_[static_cast<std::size_t>(pack * points_ + p)];
-        const Deformation d = Kinematics::deformation(x, geometry);
+        Deformation& d = of_pack[static_cast<std::size_t>(p)];
+        if (l == 0) d = Kinematics::deformation(x, geometry);
         const int element = pack * lanes + l, point = element * points_ + p;
         const Lanes here = sheets_.vary(state) ? under_sheets(state, pack, p, k) : k;
         visit(Visit{element, p, point, geometry, d, l, lane_of(d.C, l), here[l]});
@@ -258,16 +268,8 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
     }
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
       const int element = pack * lanes + l;
-      if (scatter.residual) {
-        double values[dofs];
-        for (int i = 0; i < dofs; ++i) values[i] = residual[i][l];
-        scatter.add_residual(element, values);
-      }
-      if constexpr (with_tangent) {
-        double values[packed_size];
-        for (int i = 0; i < packed_size; ++i) values[i] = tangent[i][l];
-        scatter.add_tangent(element, values);
-      }
+      if (scatter.residual) scatter.add_residual(element, lane_of(residual, l));
+      if constexpr (with_tangent) scatter.add_tangent(element, lane_of(tangent, l));
     }
   }
   for (int l = 0; l < lanes; ++l) result.energy += energy[l];
@@ -301,11 +303,8 @@ void MembraneBlock<Kinematics, Law>::add_relaxation(const State& state, const Ra
                  film_.relaxation(state, (pack * lanes + l) * points_ + p, lane_of(d.C, l), here[l], weight));
       Kinematics::template accumulate<true>(point, d, WeightedStress(point.volume, psi), unused, tangent);
     }
-    for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
-      double values[packed_size];
-      for (int i = 0; i < packed_size; ++i) values[i] = tangent[i][l];
-      scatter.add_tangent(pack * lanes + l, values);
-    }
+    for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
+      scatter.add_tangent(pack * lanes + l, lane_of(tangent, l));
   }
 }
 
@@ -392,6 +391,7 @@ template<class Kinematics, class Law>
 void MembraneBlock<Kinematics, Law>::advance_history(const State& state, std::vector<double>& all) const {
   if (film_.history_size(1) == 0) return;
   for_each_point(state, [&](const Visit& at) {
+    if (film_.repeats(state, at.point, points_, at.deformation.C, at.lane, all)) return;
     film_.advance_history(state, at.point, film_.shape(state, at.point, at.C, at.k), all);
   });
 }

@@ -10,6 +10,7 @@
 #include "materials/tension_field.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 
@@ -132,7 +133,13 @@ class FilmResponse {
 
   // --- internal variables: branch by branch, point by point
   int history_size(int points) const { return points * branches() * per_branch; }
-  void place_history(int first) { first_ = first; }
+  /// `points`: of which what the branches do is kept until they are deformed otherwise; none with a tension
+  /// field.
+  void place_history(int first, int points = 0) {
+    first_ = first;
+    if (branches() > 0 && !tension_field_)
+      kept_.assign(static_cast<std::size_t>(points * kept_size()), std::numeric_limits<double>::quiet_NaN());
+  }
   void start_history(int points, std::vector<double>& all) const {
     for (int p = 0; p < points; ++p)
       for (int b = 0; b < branches(); ++b) write(all, place(p, b), materials::undeformed());
@@ -145,6 +152,14 @@ class FilmResponse {
             materials::advance(material_.branches[static_cast<std::size_t>(b)], field.natural, state.scheme,
                                read(state.history->now, i), read(state.history->before, i)));
     }
+  }
+  /// Where the point `points` before it, in the lane before, is alike and has advanced, so does this one.
+  bool repeats(const State& state, int point, int points, const materials::InPlaneC<Lanes>& at, int l,
+               std::vector<double>& all) const {
+    if (tension_field_ || l == 0 || !alike(state, point - points, point, at, l)) return false;
+    const auto of = [&](int p) { return all.begin() + static_cast<std::ptrdiff_t>(place(p, 0)); };
+    std::copy_n(of(point - points), history_size(1), of(point));
+    return true;
   }
 
  private:
@@ -160,7 +175,35 @@ class FilmResponse {
     if (all.empty()) return {}; // no such past: its weight is 0
     return {all[place], all[place + 1], all[place + 2]};
   }
-  Potential with_branches(const State& state, int point, const C& at, Potential psi) const {
+  Potential with_branches(const State& state, int point, const C& at, const Potential& psi) const {
+    if (branches() == 0) return psi;
+    if (kept_.empty()) return sum(psi, of_branches(state, point, at));
+    // The tangent is asked for where the residual was: what the branches do is kept with all that it depends
+    // on. A thread has its own points.
+    const materials::TimeScheme& scheme = state.scheme;
+    const std::array<double, 7> given{at.C11, at.C22, at.C12, scheme.dt, scheme.a0, scheme.h1, scheme.h2};
+    const int past = history_size(1);
+    const auto begin = static_cast<std::ptrdiff_t>(place(point, 0));
+    const auto now = state.history->now.begin() + begin;
+    const bool remembers = scheme.h2 != 0;
+    const auto before = remembers ? state.history->before.begin() + begin : now;
+    double* const kept = kept_.data() + static_cast<std::ptrdiff_t>(point) * kept_size();
+    double* const known = kept + given.size() + 2 * past;
+    if (!(std::equal(given.begin(), given.end(), kept) && std::equal(now, now + past, kept + given.size()) &&
+          std::equal(before, before + past, kept + given.size() + past))) {
+      const Potential made = of_branches(state, point, at);
+      std::copy_n(before, past, std::copy_n(now, past, std::copy(given.begin(), given.end(), kept)));
+      *known = made.value;
+      std::ranges::copy(made.second, std::ranges::copy(made.first, known + 1).out);
+      return sum(psi, made);
+    }
+    Potential made{*known, {}, {}};
+    std::copy_n(known + 1, made.first.size(), made.first.begin());
+    std::copy_n(known + 1 + made.first.size(), made.second.size(), made.second.begin());
+    return sum(psi, made);
+  }
+  Potential of_branches(const State& state, int point, const C& at) const {
+    Potential psi{};
     for (int b = 0; b < branches(); ++b) {
       const std::size_t i = place(point, b);
       psi = sum(psi,
@@ -169,6 +212,8 @@ class FilmResponse {
     }
     return psi;
   }
+  /// C, the scheme, two pasts, and the potential with its derivatives.
+  int kept_size() const { return 7 + 2 * history_size(1) + 10; }
   static Potential scaled(Potential p, double factor) {
     p.value *= factor;
     for (double& x : p.first) x *= factor;
@@ -198,6 +243,7 @@ class FilmResponse {
   materials::Material material_;
   bool tension_field_;
   int first_ = 0;
+  mutable std::vector<double> kept_; ///< kept_size() per point
 };
 
 } // namespace dielast::fem

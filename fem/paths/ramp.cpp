@@ -359,18 +359,20 @@ RampResult Ramp::run() {
       if (progress_.increment < smallest) return {RampEnd::gave_up, s, newton_};
       continue;
     }
-    State arrived = equilibrium_.model().settled(trial);
+    const auto flow = trial.history;
+    const auto motion = trial.motion;
+    const GeneralisedAlpha motion_scheme = trial.motion_scheme;
+    State arrived = equilibrium_.model().settled(std::move(trial));
     if (!timed()) {
       progress_.increment = std::min(largest_, 2 * std::max(progress_.increment, tried));
     } else {
-      double error = trial.history ? history_error(*trial.history, *arrived.history) : 0;
+      double error = flow ? history_error(*flow, *arrived.history) : 0;
       if (options_.inertia)
-        error = std::max(
-            error, motion_error(equilibrium_.model(), trial.motion_scheme, *trial.motion, *arrived.motion));
+        error = std::max(error, motion_error(equilibrium_.model(), motion_scheme, *motion, *arrived.motion));
       const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, tiny));
       progress_.increment = std::min(largest_, tried * std::clamp(growth, 0.2, most_growth));
       if (error > options_.time_tolerance && tried > smallest_) continue;
-      const bool flows = trial.history && trial.history->now != arrived.history->now;
+      const bool flows = flow && flow->now != arrived.history->now;
       time_error_ = error == 0 && flows ? options_.time_tolerance : error;
     }
     if (!accept(std::move(arrived), s)) return {RampEnd::stopped};
