@@ -11,6 +11,7 @@ namespace dielast::fem {
 namespace {
 
 constexpr double difference = 1e-3; ///< of the reach
+constexpr double accuracy = 1e-6;   ///< of a slope's equations: the difference leaves a thousandth
 constexpr double still = 1e-7;      ///< mean displacement over the extent that tells nothing of a path
 constexpr double rounding = 1e-12;  ///< of potentials
 constexpr double linear = 0.01;     ///< part of the works that a film may miss which answers loads linearly
@@ -89,7 +90,7 @@ Eigen::VectorXd slope_at(Equilibrium& equilibrium, const LoadPath& path, const S
   equilibrium.balance(at, there);
   Eigen::VectorXd slope;
   equilibrium.tangent().solve((here.force - there.force).head(equilibrium.model().dofs.free_count()) / ds,
-                              slope);
+                              slope, 0, accuracy);
   return slope;
 }
 
