@@ -53,9 +53,9 @@ void Assembler::number_elements(std::size_t b) {
   const int dofs = block.dofs_per_element();
   equations_[b].resize(static_cast<std::size_t>(block.element_count() * dofs));
   for (int e = 0; e < block.element_count(); ++e)
-    block.element_equations(e, model_.dofs,
-                            std::span(equations_[b])
-                                .subspan(static_cast<std::size_t>(e * dofs), static_cast<std::size_t>(dofs)));
+    block.element_equations(
+        e, model_.dofs,
+        std::span(equations_[b]).subspan(static_cast<std::size_t>(e * dofs), static_cast<std::size_t>(dofs)));
 }
 
 /// Residuals need no pattern: of trial states that are not taken none is found.
