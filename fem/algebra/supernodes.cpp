@@ -20,7 +20,7 @@ constexpr int dense_up_to = 64;
 constexpr int parts_of_thread = 16;
 
 /// Above this many unknowns nested dissection repays its slower analysis.
-constexpr int nested_dissection_from = 20000;
+constexpr int nested_dissection_from = 12000;
 
 } // namespace
 
