@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 namespace dielast::fem {
 namespace {
@@ -45,6 +47,46 @@ TEST_P(FilmWithBranches, has_consistent_derivatives_frozen_relaxed_and_in_time) 
                             materials::TimeScheme::relaxed()}) {
     next.scheme = scheme;
     test::expect_consistent_derivatives(*model, next, side, 1e-8);
+  }
+}
+
+// What branches do is kept at every point: it must not outlive anything that it depends on.
+TEST_P(FilmWithBranches, is_that_of_the_state_whatever_was_asked_for_before) {
+  const auto model = film(test::viscoelastic_vhb(), GetParam());
+  std::mt19937 random(5);
+  State state = disturbed(*model, random, 1.3, 1.1);
+  state.scheme = materials::TimeScheme::backward_euler(0.7);
+  state.history = model->advanced_history(state);
+  State after = disturbed(*model, random, 1.4, 1.3);
+  after.history = state.history;
+  after.scheme = materials::TimeScheme::bdf2(0.5, 0.7);
+  std::vector<State> states{state};
+  const auto twice = model->advanced_history(after);
+  History other_past = *twice, other = *twice;
+  other_past.before.back() += 1e-3;
+  other.now.back() += 1e-3;
+  for (const History& history : {*state.history, *twice, other_past, other}) {
+    after.history = std::make_shared<const History>(history);
+    for (const auto scheme :
+         {materials::TimeScheme::backward_euler(0.7), materials::TimeScheme::bdf2(1.0, 0.7),
+          materials::TimeScheme::bdf2(1.0, 0.5), materials::TimeScheme::frozen()}) {
+      after.scheme = scheme;
+      if (scheme.h2 == 0 || history.step > 0) states.push_back(after);
+    }
+  }
+  const auto values = [](const Model& of, const State& at) {
+    Assembler assembler(of, 1);
+    Eigen::VectorXd force;
+    const double energy = assembler.residual(at, force).energy;
+    assembler.tangent(at);
+    return std::tuple(energy, force, assembler.matrix().values, of.advanced_history(at)->now);
+  };
+  for (const State& now : states) {
+    const auto alone = values(*film(test::viscoelastic_vhb(), GetParam()), now);
+    for (const State& before : states) {
+      values(*model, before);
+      EXPECT_TRUE(values(*model, now) == alone);
+    }
   }
 }
 
