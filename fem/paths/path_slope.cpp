@@ -128,7 +128,9 @@ bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& fr
   const WorkOfLoads work0 = work_of_loads(equilibrium, path, from, from.s, to.s),
                     work1 = work_of_loads(equilibrium, path, to, from.s, to.s);
   const double missing = std::abs(work1.potential - work0.potential - (work0.work + work1.work) / 2);
-  const double round_off = rounding * (std::abs(work0.potential) + std::abs(work1.potential));
+  // What moves rigidly stores and does nothing but rounding.
+  const double round_off = rounding * (std::abs(work0.potential) + std::abs(work1.potential)) +
+                           equilibrium.round_off() * equilibrium.model().extent;
   const double energy = n1 > n0 ? steadiness.energy_of_faster : steadiness.energy;
   // not a number where loads cannot be
   if (!(missing <= energy * std::abs(work1.work - work0.work) + round_off)) return false;
