@@ -176,7 +176,7 @@ TEST_F(Contacts, pass_the_force_on_from_solid_to_solid) {
 }
 
 /// In space, one of 10 x 10 mm below one of 5 x 5 mm.
-std::string two_blocks_in_space(double gap, const std::string& upper = "upper.bottom") {
+std::string two_blocks_in_space(double gap, const std::string& besides = "") {
   const auto part = [&](const char* name, const char* size, const std::string& at) {
     return fmt::format(
         "[part.{0}]\n{2}[part.{0}.film]\nthickness = \"1 mm\"\nsection = \"solid\"\nmaterial = "
@@ -186,7 +186,8 @@ std::string two_blocks_in_space(double gap, const std::string& upper = "upper.bo
   };
   return "model = \"3d\"\n" + part("lower", "10 mm", "") +
          part("upper", "5 mm", fmt::format("at = [\"2 mm\", \"{} mm\", \"0.3 mm\"]\n", 2 + gap)) +
-         fmt::format("[contact]\nthickness = \"0.01 mm\"\nbetween = [\"lower.top\", \"{}\"]\n", upper) +
+         fmt::format("[contact]\nthickness = \"0.01 mm\"\nbetween = [\"lower.top\", \"upper.bottom\"{}]\n",
+                     besides) +
          "[[support]]\nplace = \"lower.bottom\"\nfix = [\"x\", \"y\", \"z\"]\n"
          "[[support]]\nplace = \"upper.top\"\nfix = [\"x\", \"z\"]\ndisplacement = { y = \"-0.1 mm\" }\n"
          "[[step]]\nkind = \"move\"\nincrements = 2\n[output]\nerror_estimate = false\n"
@@ -206,8 +207,8 @@ TEST_F(Contacts, pass_the_force_on_from_solid_to_solid_in_space) {
   EXPECT_GT(end.at("pressure"), end.at("held") / 25e-6);
   EXPECT_NO_THROW(build_device(read(two_blocks_in_space(0.01))));
   EXPECT_THROW(build_device(read(two_blocks_in_space(0.009))), meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks_in_space(-0.5, "upper.left"))), meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks_in_space(0.1, "lower.left"))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(two_blocks_in_space(-0.5, ", \"upper.left\""))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(two_blocks_in_space(0.1, ", \"lower.left\""))), meshing::MeshError);
 }
 
 TEST_F(Contacts, refuse_surfaces_that_touch_or_cross_as_drawn) {
