@@ -45,6 +45,11 @@ struct Support {
   bool standard = false;       ///< brought by the geometry, not written by the user
 
   bool moves() const { return motion[0] || motion[1] || motion[2]; }
+  /// One or two of them.
+  bool holds_some_rotations() const {
+    const int held = fixed[3] + fixed[4] + fixed[5];
+    return held == 1 || held == 2;
+  }
 };
 
 /// [[load]]: a dead force spread evenly over the nodes of a place, or a moment over those that can turn
@@ -267,6 +272,7 @@ struct Case {
   std::vector<TiedPlaces> ties;
   std::vector<Electrode> electrodes;
   std::vector<Support> supports;
+  std::vector<std::string> places_of_spins; ///< where supports that do not hold now hold some rotations
   std::vector<Load> loads;
   std::map<std::string, Drive> drives;     ///< by the electrode's name
   std::map<std::string, Circuit> circuits; ///< likewise

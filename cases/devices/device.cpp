@@ -142,6 +142,17 @@ void hold(const Support& support, const Case& one, const meshing::Mesh& mesh, fe
                       support.place)}});
 }
 
+/// What acts on single rotations needs all three of a shell's nodes, in every step alike.
+void keep_spins(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  std::vector<std::string> places = one.places_of_spins;
+  for (const Support& support : one.supports)
+    if (support.holds_some_rotations()) places.push_back(support.place);
+  for (const Load& load : one.loads)
+    if (load.component(3) || load.component(4) || load.component(5)) places.push_back(load.place);
+  for (const std::string& place : places)
+    for (const int node : mesh.node_sets.at(place)) dofs.keep_spins(node);
+}
+
 /// The plate keeps its edge round and level: it moves along z only.
 void carry_plate(const Plate& plate, const meshing::Mesh& mesh, fem::DofMap& dofs) {
   const auto& edge = mesh.node_sets.at(plate.place);
@@ -320,6 +331,7 @@ Device build_device(const Case& one) {
   hold_radii(one, mesh, model.dofs);
   link_bars(links, dimension, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
+  keep_spins(one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty() && !one.table;
   if (free_body) pin(mesh, dimension, model.dofs);
   if (dimension == fem::Dimension::axisymmetric)

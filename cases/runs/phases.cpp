@@ -2,6 +2,7 @@
 #include "cases/runs/phases.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace dielast::cases {
@@ -22,17 +23,22 @@ std::vector<char> holding_in(const Case& one, const std::vector<Step>& steps, in
 Case with_supports(Case one, const std::vector<char>& holding) {
   std::vector<Support> all = std::exchange(one.supports, {});
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (holding[i]) one.supports.push_back(std::move(all[i]));
+    if (holding[i])
+      one.supports.push_back(std::move(all[i]));
+    else if (all[i].holds_some_rotations())
+      one.places_of_spins.push_back(all[i].place);
   return one;
 }
 
 Renumbering::Renumbering(const fem::DofMap& from, const fem::DofMap& to)
     : to_(to), from_(static_cast<std::size_t>(to.count())), was_held_(from_.size()) {
   for (int node = 0; node < to.node_count(); ++node)
-    for (int c = 0; c < fem::DofMap::components; ++c)
+    for (int c = 0; c < fem::DofMap::unknowns; ++c)
       if (const int e = to.equation(node, c); e != fem::DofMap::absent) {
         const auto at = static_cast<std::size_t>(e);
         from_[at] = from.equation(node, c);
+        if (from_[at] == fem::DofMap::absent)
+          throw std::logic_error("a node turns in another way than before");
         was_held_[at] = from.is_held(from_[at]);
       }
 }

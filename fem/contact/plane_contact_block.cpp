@@ -39,7 +39,7 @@ class PlaneContactBlock final : public ContactBlock {
 
   int element_count() const override { return static_cast<int>(contact_.nodes.size()); }
   int dofs_per_element() const override { return size; }
-  void claim_dofs(DofMap& /*those of the surface*/, Dimension /*dimension*/) const override {}
+  void claim_dofs(DofMap& /*those of the surface*/, Dimension /*dimension*/) override {}
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
     for (int i = 0; i < size; ++i) equations[static_cast<std::size_t>(i)] = dofs.equation(node(element), i);
   }

@@ -79,7 +79,7 @@ class SurfaceContactBlock final : public ContactBlock {
 
   int element_count() const override { return 2 * contact_.sides[0].size() * contact_.sides[1].size(); }
   int dofs_per_element() const override { return dofs; }
-  void claim_dofs(DofMap& /*those of the solids*/, Dimension /*dimension*/) const override {}
+  void claim_dofs(DofMap& /*those of the solids*/, Dimension /*dimension*/) override {}
   void element_equations(int element, const DofMap& map, std::span<int> equations) const override {
     const Pair pair = this->pair(element);
     for (std::size_t k = 0; k < 2; ++k)

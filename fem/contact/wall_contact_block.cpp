@@ -23,7 +23,7 @@ class WallContactBlock final : public ContactBlock {
 
   int element_count() const override { return static_cast<int>(pairs_.size()); }
   int dofs_per_element() const override { return size; }
-  void claim_dofs(DofMap& /*those of the walls*/, Dimension /*dimension*/) const override {}
+  void claim_dofs(DofMap& /*those of the walls*/, Dimension /*dimension*/) override {}
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
     for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
       const int node = nodes(pair(element))[i / 2];

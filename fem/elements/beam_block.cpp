@@ -66,7 +66,7 @@ class BeamBlock final : public ElementBlock {
 
   int element_count() const override { return static_cast<int>(elements_.size()); }
   int dofs_per_element() const override { return dofs; }
-  void claim_dofs(DofMap& dofs, Dimension dimension) const override;
+  void claim_dofs(DofMap& dofs, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
   void sample(const State& state, Samples& samples) const override;
@@ -148,7 +148,7 @@ BeamBlock<Nodes>::BeamBlock(const meshing::Mesh& mesh, const meshing::CellBlock&
 }
 
 template<int Nodes>
-void BeamBlock<Nodes>::claim_dofs(DofMap& dof_map, Dimension dimension) const {
+void BeamBlock<Nodes>::claim_dofs(DofMap& dof_map, Dimension dimension) {
   for (const Element& element : elements_)
     for (const int n : element.node)
       for (int c = 0; c < DofMap::components; ++c)

@@ -11,7 +11,7 @@ class CapacitorBlock final : public ElementBlock {
 
   int element_count() const override { return 1; }
   int dofs_per_element() const override { return 0; }
-  void claim_dofs(DofMap& /*dofs*/, Dimension /*dimension*/) const override {}
+  void claim_dofs(DofMap& /*dofs*/, Dimension /*dimension*/) override {}
   void element_equations(int /*element*/, const DofMap& /*dofs*/,
                          std::span<int> /*equations*/) const override {}
   Evaluation evaluate(const State& state, int /*first*/, int /*last*/,

@@ -88,7 +88,7 @@ class PressureBlock final : public ElementBlock {
 
   int element_count() const override { return static_cast<int>(nodes_.size()) / Nodes; }
   int dofs_per_element() const override { return size; }
-  void claim_dofs(DofMap& dofs, Dimension /*the film's*/) const override {
+  void claim_dofs(DofMap& dofs, Dimension /*the film's*/) override {
     for (const int node : nodes_)
       for (const int c : Under::components) dofs.add(node, c);
   }
@@ -157,7 +157,7 @@ class LidBlock final : public ElementBlock {
 
   int element_count() const override { return 1; }
   int dofs_per_element() const override { return 1; }
-  void claim_dofs(DofMap& /*those of the film*/, Dimension /*dimension*/) const override {}
+  void claim_dofs(DofMap& /*those of the film*/, Dimension /*dimension*/) override {}
   void element_equations(int /*element*/, const DofMap& dofs, std::span<int> equations) const override {
     equations[0] = dofs.equation(lid_.node, 2);
   }

@@ -45,7 +45,7 @@ class DistanceBlock final : public ElementBlock {
 
   int element_count() const override { return 1; }
   int dofs_per_element() const override { return static_cast<int>(nodes_.size()); }
-  void claim_dofs(DofMap& dofs, Dimension dimension) const override {
+  void claim_dofs(DofMap& dofs, Dimension dimension) override {
     for (const int node : nodes_)
       if (moves(dimension, axis_)) dofs.add(node, axis_);
   }

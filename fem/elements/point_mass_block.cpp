@@ -11,7 +11,7 @@ class PointMassBlock final : public ElementBlock {
 
   int element_count() const override { return 1; }
   int dofs_per_element() const override { return 1; }
-  void claim_dofs(DofMap& dofs, Dimension dimension) const override {
+  void claim_dofs(DofMap& dofs, Dimension dimension) override {
     if (moves(dimension, point_.axis)) dofs.add(point_.node, point_.axis);
   }
   void element_equations(int /*element*/, const DofMap& dofs, std::span<int> equations) const override {

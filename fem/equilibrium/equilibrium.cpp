@@ -67,7 +67,7 @@ Equilibrium::Equilibrium(const Model& model, int threads)
     : model_(model), assembler_(model, threads), tangent_(model, assembler_, stiffness_) {
   weight_ = Eigen::VectorXd::Ones(model.dofs.count());
   for (int n = 0; n < model.dofs.node_count(); ++n)
-    for (int c = 3; c < DofMap::components; ++c)
+    for (int c = 3; c < DofMap::unknowns; ++c)
       if (const int e = model.dofs.equation(n, c); e != DofMap::absent) weight_[e] = 1 / model.length_scale;
   for (int s = 0; s < model.dofs.scalar_count(); ++s)
     weight_[model.dofs.scalar_equation(s)] = 1 / model.length_scale; // residuals are energies

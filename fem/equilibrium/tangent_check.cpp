@@ -29,7 +29,7 @@ TangentCheck check_tangent(Equilibrium& equilibrium, const State& state, double 
   std::uniform_real_distribution<double> uniform(-1, 1);
   Eigen::VectorXd scale = Eigen::VectorXd::Constant(model.dofs.free_count(), amplitude);
   for (int n = 0; n < model.dofs.node_count(); ++n)
-    for (int c = 3; c < DofMap::components; ++c)
+    for (int c = 3; c < DofMap::unknowns; ++c)
       if (const int e = model.dofs.equation(n, c); e != DofMap::absent && e < scale.size())
         scale[e] = amplitude / model.length_scale;
   const auto draw = [&] {

@@ -33,7 +33,7 @@ class MembraneBlock final : public ElementBlock {
   int element_count() const override { return count_; }
   int dofs_per_element() const override { return dofs; }
   int granularity() const override { return lanes; }
-  void claim_dofs(DofMap& dof_map, Dimension dimension) const override;
+  void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
   void sample(const State& state, Samples& samples) const override;
@@ -145,7 +145,7 @@ void MembraneBlock<Kinematics, Law>::add_mass(int element, std::span<double> pac
 }
 
 template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::claim_dofs(DofMap& dof_map, Dimension /*the kinematics say it*/) const {
+void MembraneBlock<Kinematics, Law>::claim_dofs(DofMap& dof_map, Dimension /*the kinematics say it*/) {
   for (const int n : nodes_)
     for (int d = 0; d < Dim; ++d) dof_map.add(n, component(d));
 }

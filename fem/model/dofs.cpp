@@ -2,16 +2,52 @@
 #include "fem/model/dofs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
 namespace dielast::fem {
 
+namespace {
+
+/// Directors whose difference is less are one: roundings of flat film in any direction.
+constexpr double parallel = 1e-10;
+
+Eigen::Vector3d director(const TiltAxes& axes) { return axes.col(0).cross(axes.col(1)); }
+
+/// Along x, or along y where the director is next to x, and to the left of that.
+TiltAxes axes_about(const Eigen::Vector3d& director) {
+  const int along = std::abs(director.x()) < 0.9 ? 0 : 1;
+  TiltAxes axes;
+  axes.col(0) = (Eigen::Vector3d::Unit(along) - director[along] * director).normalized();
+  axes.col(1) = director.cross(axes.col(0));
+  return axes;
+}
+
+} // namespace
+
 void DofMap::add(int node, int component) {
+  if (component >= 3) keep_spins(node);
   int& mark = equation_[static_cast<std::size_t>(node)][static_cast<std::size_t>(component)];
   if (mark == absent) mark = free_mark;
 }
+
+void DofMap::add_director(int node, const Eigen::Vector3d& director) {
+  if (!tilt_axes_) tilt_axes_ = std::make_shared<std::vector<TiltAxes>>(equation_.size(), TiltAxes::Zero());
+  const auto n = static_cast<std::size_t>(node);
+  auto& marks = equation_[n];
+  if (std::all_of(marks.begin() + 3, marks.begin() + components, [](int mark) { return mark == absent; })) {
+    turns_[n] = Turns::by_tilts;
+    (*tilt_axes_)[n] = axes_about(director);
+  } else if (turns_[n] == Turns::by_tilts && (fem::director(axes_of(n)) - director).norm() > parallel) {
+    turns_[n] = Turns::by_spins;
+  }
+  for (int c = 3; c < components; ++c)
+    if (int& mark = marks[static_cast<std::size_t>(c)]; mark == absent) mark = free_mark;
+}
+
+void DofMap::keep_spins(int node) { turns_[static_cast<std::size_t>(node)] = Turns::by_spins; }
 
 void DofMap::hold(int node, int component) {
   int& mark = equation_[static_cast<std::size_t>(node)][static_cast<std::size_t>(component)];
@@ -56,17 +92,18 @@ void DofMap::number() {
       else
         share(tie.master, tie.node, c);
     }
-  // Union-find over (node, component): the smallest index of a group stands for it.
-  const auto index = [](int node, int component) {
-    return static_cast<std::size_t>(node * components + component);
+  choose_tilts();
+  // Union-find over (node, unknown): the smallest index of a group stands for it.
+  const auto index = [](int node, int unknown) {
+    return static_cast<std::size_t>(node * unknowns + unknown);
   };
-  std::vector<std::size_t> leader(equation_.size() * components);
+  std::vector<std::size_t> leader(equation_.size() * unknowns);
   std::iota(leader.begin(), leader.end(), std::size_t{0});
   const auto find = [&](std::size_t i) {
     while (leader[i] != i) i = leader[i] = leader[leader[i]];
     return i;
   };
-  const auto mark = [&](std::size_t i) -> int& { return equation_[i / components][i % components]; };
+  const auto mark = [&](std::size_t i) -> int& { return equation_[i / unknowns][i % unknowns]; };
   for (const auto& [node, component, other, other_component] : shared_) {
     const std::size_t a = find(index(node, component)), b = find(index(other, other_component));
     if (mark(a) == tied_mark || mark(b) == tied_mark)
@@ -97,6 +134,26 @@ void DofMap::number() {
   }
 }
 
+/// Instead of spins, where nothing asks for these.
+void DofMap::choose_tilts() {
+  for (const Tie& tie : ties_)
+    for (const int node : {tie.node, tie.master}) keep_spins(node);
+  for (const auto& [node, component, other, other_component] : shared_) {
+    if (component >= 3) keep_spins(node);
+    if (other_component >= 3) keep_spins(other);
+  }
+  for (std::size_t n = 0; n < equation_.size(); ++n) {
+    auto& marks = equation_[n];
+    const auto held = std::count(marks.begin() + 3, marks.begin() + components, held_mark);
+    if (turns_[n] == Turns::by_tilts && (held == 0 || held == components - 3)) {
+      std::fill(marks.begin() + tilt, marks.end(), held == 0 ? free_mark : held_mark);
+      std::fill(marks.begin() + 3, marks.begin() + tilt, absent);
+    } else if (tilt_axes_) {
+      (*tilt_axes_)[n].setZero();
+    }
+  }
+}
+
 void DofMap::advance(State& state, const Eigen::VectorXd& increment, double scale) const {
   for (std::size_t n = 0; n < equation_.size(); ++n) {
     const auto& equation = equation_[n];
@@ -113,6 +170,9 @@ void DofMap::advance(State& state, const Eigen::VectorXd& increment, double scal
       }
     }
     if (turns) state.rotation[n] = rotation_of(spin) * state.rotation[n];
+    if (const int e = equation[tilt]; is_free(e))
+      state.rotation[n] = state.rotation[n] *
+                          rotation_of(scale * (axes_of(n) * Eigen::Vector2d(increment[e], increment[e + 1])));
   }
   for (std::size_t s = 0; s < scalars_.size(); ++s)
     state.scalar[s] += scale * scalars_[s].unit * increment[scalars_[s].equation];
@@ -141,6 +201,17 @@ void DofMap::gather(const State& state, Eigen::VectorXd& force) const {
 Eigen::Vector3d DofMap::lever(const Tie& tie, const State& state, int component) {
   const Eigen::Vector3d arm = state.rotation[static_cast<std::size_t>(tie.master)] * tie.arm;
   return arm.cross(Eigen::Vector3d::Unit(component));
+}
+
+Eigen::Vector3d DofMap::spin(const State& state, int node, const Eigen::VectorXd& values) const {
+  const auto n = static_cast<std::size_t>(node);
+  if (tilts(node))
+    return state.rotation[n] *
+           (axes_of(n) * Eigen::Vector2d(values[equation(node, tilt)], values[equation(node, tilt + 1)]));
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+  for (int c = 0; c < 3; ++c)
+    if (const int e = equation(node, 3 + c); e != absent) spin[c] = values[e];
+  return spin;
 }
 
 Eigen::SparseMatrix<double> DofMap::jacobian(const State& state) const {
@@ -177,7 +248,16 @@ Eigen::VectorXd DofMap::increment(const State& from, const State& to) const {
     for (int c = 0; c < 3; ++c)
       if (const int e = equation[static_cast<std::size_t>(c)]; is_free(e))
         increment[e] = to.displacement[n][c] - from.displacement[n][c];
-    if (std::none_of(equation.begin() + 3, equation.end(), [this](int e) { return is_free(e); })) continue;
+    if (const int e = equation[tilt]; is_free(e)) { // the turn without spin from one director to the other
+      const TiltAxes& axes = axes_of(n);
+      const Eigen::Vector3d old = director(axes), now = from.rotation[n].conjugate() * (to.rotation[n] * old);
+      const Eigen::Vector2d sines(-axes.col(1).dot(now), axes.col(0).dot(now));
+      const double sine = sines.norm();
+      increment.segment<2>(e) = (sine < 1e-8 ? 1 : std::atan2(sine, old.dot(now)) / sine) * sines;
+      continue;
+    }
+    const auto free = [this](int e) { return is_free(e); };
+    if (std::none_of(equation.begin() + 3, equation.begin() + components, free)) continue;
     const Eigen::Vector3d spin = spin_of(to.rotation[n] * from.rotation[n].conjugate());
     for (int c = 3; c < components; ++c)
       if (const int e = equation[static_cast<std::size_t>(c)]; is_free(e)) increment[e] = spin[c - 3];

@@ -26,8 +26,11 @@ struct Scatter {
   double* tangent = nullptr;     ///< null: not wanted
 
   void add_residual(int element, std::span<const double> values) const {
-    const int* e =
-        equation + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(values.size());
+    add_residual(element, values, values.size());
+  }
+  /// Of the first of `all` dofs of the element.
+  void add_residual(int element, std::span<const double> values, std::size_t all) const {
+    const int* e = equation + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(all);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (e[i] >= 0) residual[e[i]] += values[i];
   }
@@ -39,7 +42,11 @@ struct Scatter {
       if (s[i] >= 0) __builtin_prefetch(tangent + s[i], 1);
   }
   void add_tangent(int element, std::span<const double> packed) const {
-    const int* s = slot + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(packed.size());
+    add_tangent(element, packed, packed.size());
+  }
+  /// Likewise, of the first of `all` entries.
+  void add_tangent(int element, std::span<const double> packed, std::size_t all) const {
+    const int* s = slot + static_cast<std::ptrdiff_t>(element) * static_cast<std::ptrdiff_t>(all);
     for (std::size_t i = 0; i < packed.size(); ++i) {
       if (s[i] >= 0)
         tangent[s[i]] += packed[i];
@@ -93,7 +100,7 @@ class ElementBlock {
   /// Adds this block's scalars and remembers their places; to be called before the unknowns are numbered.
   virtual void place_scalars(DofMap& /*dofs*/) {}
   /// Adds the unknowns of this block's nodes, as far as the model can move.
-  virtual void claim_dofs(DofMap& dofs, Dimension dimension) const = 0;
+  virtual void claim_dofs(DofMap& dofs, Dimension dimension) = 0;
   /// Equations of one element, DofMap::absent where an unknown does not exist.
   virtual void element_equations(int element, const DofMap& dofs, std::span<int> equations) const = 0;
   /// Evaluates elements first..last-1 and scatters what is wanted.

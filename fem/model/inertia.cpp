@@ -62,6 +62,10 @@ Eigen::VectorXd position(const State& state, const DofMap& dofs) {
         if (spin.isZero()) spin = spin_of(state.rotation[i]);
         position[e] = spin[c];
       }
+    if (dofs.tilts(n)) {
+      const Eigen::Vector2d along = dofs.tilt_axes()->at(i).transpose() * spin_of(state.rotation[i]);
+      for (int k = 0; k < 2; ++k) position[dofs.equation(n, DofMap::tilt + k)] = along[k];
+    }
   }
   for (int s = 0; s < dofs.scalar_count(); ++s)
     position[dofs.scalar_equation(s)] = state.scalar[static_cast<std::size_t>(s)] / dofs.scalar_unit(s);

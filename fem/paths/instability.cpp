@@ -49,29 +49,22 @@ struct LoadPoint {
 
 } // namespace
 
-namespace {
-
-/// Three unknowns of each node along a direction, from the `first` on; 0 where a node has them not.
-std::vector<Eigen::Vector3d> vectors(const DofMap& dofs, const State& state, const Eigen::VectorXd& direction,
-                                     int first) {
+std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
+                                           const Eigen::VectorXd& direction) {
   const Eigen::VectorXd all = dofs.jacobian(state) * direction;
   std::vector<Eigen::Vector3d> result(static_cast<std::size_t>(dofs.node_count()), Eigen::Vector3d::Zero());
   for (int n = 0; n < dofs.node_count(); ++n)
     for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(n, first + c); e != DofMap::absent)
+      if (const int e = dofs.equation(n, c); e != DofMap::absent)
         result[static_cast<std::size_t>(n)][c] = all[e];
   return result;
 }
 
-} // namespace
-
-std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
-                                           const Eigen::VectorXd& direction) {
-  return vectors(dofs, state, direction, 0);
-}
-
 std::vector<Eigen::Vector3d> spins(const DofMap& dofs, const State& state, const Eigen::VectorXd& direction) {
-  return vectors(dofs, state, direction, 3);
+  const Eigen::VectorXd all = dofs.jacobian(state) * direction;
+  std::vector<Eigen::Vector3d> result;
+  for (int n = 0; n < dofs.node_count(); ++n) result.push_back(dofs.spin(state, n, all));
+  return result;
 }
 
 std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {

@@ -10,6 +10,20 @@
 
 namespace dielast::fem {
 
+namespace {
+
+/// Of unit quaternions x, y, z, w.
+void rotation_matrix(const Lanes (&q)[4], Lanes (&R)[3][3]) {
+  const auto &x = q[0], &y = q[1], &z = q[2], &w = q[3];
+  const Lanes matrix[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                              {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                              {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) R[i][j] = matrix[i][j];
+}
+
+} // namespace
+
 Matrix32 axes(const Matrix32& tangents) {
   const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1)).normalized();
   const int along = std::abs(normal.x()) < 0.9 ? 0 : 1;
@@ -22,7 +36,7 @@ Matrix32 axes(const Matrix32& tangents) {
 ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                        const ShellSection& section, std::vector<std::vector<int>> electrodes,
                        std::vector<int> numbers)
-    : prestretch_(section.prestretch), count_(cells.size()), nodes_(cells.nodes),
+    : prestretch_(section.prestretch), drilling_(section.drilling), count_(cells.size()), nodes_(cells.nodes),
       numbers_(std::move(numbers)), reference_(mesh.nodes) {
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e)
@@ -109,15 +123,31 @@ void ShellBlock::place_element(int element) {
   }
 }
 
-void ShellBlock::claim_dofs(DofMap& dof_map, Dimension /*only space will do*/) const {
-  for (const int n : nodes_)
-    for (int c = 0; c < DofMap::components; ++c) dof_map.add(n, c);
+void ShellBlock::claim_dofs(DofMap& dof_map, Dimension /*only space will do*/) {
+  for (int e = 0; e < count_; ++e) {
+    const Matrix36 X = drawn(e);
+    for (int a = 0; a < Nodes; ++a) {
+      for (int c = 0; c < 3; ++c) dof_map.add(node(e, a), c);
+      const Matrix32 t = X * matrix(shell_tables().node[static_cast<std::size_t>(a)]);
+      dof_map.add_director(node(e, a), t.col(0).cross(t.col(1)).normalized());
+    }
+  }
+  tilt_axes_ = dof_map.tilt_axes();
 }
 
+/// In the order of ShellSum.
 void ShellBlock::element_equations(int element, const DofMap& dof_map, std::span<int> equations) const {
-  for (int a = 0; a < Nodes; ++a)
-    for (int c = 0; c < 6; ++c)
-      equations[static_cast<std::size_t>(6 * a + c)] = dof_map.equation(node(element, a), c);
+  using Sum = ShellSum<true, 3>;
+  const auto at = [&](int place) -> int& { return equations[static_cast<std::size_t>(place)]; };
+  if (dof_map.tilt_axes() != tilt_axes_) throw std::logic_error("a shell asks for unknowns of another model");
+  for (int a = 0; a < Nodes; ++a) {
+    const int n = node(element, a);
+    for (int c = 0; c < 3; ++c) at(Sum::moved(a, c)) = dof_map.equation(n, c);
+    for (int k = 0; k < 3; ++k)
+      at(Sum::spun(a, k)) = !dof_map.tilts(n) ? dof_map.equation(n, 3 + k)
+                            : k < 2           ? dof_map.equation(n, DofMap::tilt + k)
+                                              : DofMap::absent;
+  }
 }
 
 /// Consistent.
@@ -138,7 +168,7 @@ void ShellBlock::add_mass(int element, std::span<double> packed) const {
       for (int a = 0; a < Nodes; ++a)
         for (int b = 0; b <= a; ++b)
           for (int c = 0; c < 3; ++c) {
-            const int row = 6 * a + c, column = 6 * b + c;
+            const int row = ShellSum<false, 3>::moved(a, c), column = ShellSum<false, 3>::moved(b, c);
             packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] +=
                 surface_density_ * undrawn / area * here * N[a] * N[b];
           }
@@ -147,26 +177,56 @@ void ShellBlock::add_mass(int element, std::span<double> packed) const {
 
 ShellNodes ShellBlock::gather(const State& state, int pack) const {
   ShellNodes nodes;
+  const auto axes_of = [&](int n) -> const TiltAxes& { return (*tilt_axes_)[static_cast<std::size_t>(n)]; };
+  const auto first = nodes_.begin() + pack * lanes * Nodes;
+  nodes.tilt = std::all_of(first, first + lanes * Nodes, [&](int n) { return !axes_of(n).isZero(0); });
   for (int l = 0; l < lanes; ++l) {
     const int element = pack * lanes + l;
-    const Matrix36 X = drawn(element);
-    const auto first = static_cast<std::size_t>(node(element, 0));
+    const auto corner = static_cast<std::size_t>(node(element, 0));
     for (int a = 0; a < Nodes; ++a) {
       const auto n = static_cast<std::size_t>(node(element, a));
-      const Eigen::Vector3d x = X.col(a) - X.col(0) + (state.displacement[n] - state.displacement[first]);
-      const Matrix32 t = X * matrix(shell_tables().node[static_cast<std::size_t>(a)]);
-      const Matrix32 along = state.rotation[n].toRotationMatrix() * t;
-      const Eigen::Vector3d normal = along.col(0).cross(along.col(1));
-      const double area = normal.norm();
-      nodes.per_area[a][l] = 1 / area;
-      for (int c = 0; c < 3; ++c) {
-        nodes.x[a][c][l] = x[c];
-        nodes.d[a][c][l] = normal[c] / area;
-        for (int i = 0; i < 2; ++i) nodes.along[i][a][c][l] = along(c, i);
-      }
+      const Eigen::Vector3d x =
+          reference_[n] - reference_[corner] + (state.displacement[n] - state.displacement[corner]);
+      for (int c = 0; c < 3; ++c) nodes.x[a][c][l] = x[c];
     }
   }
+  for (int a = 0; a < Nodes; ++a) {
+    Lanes q[4], A[2][3], R[3][3];
+    for (int l = 0; l < lanes; ++l) {
+      const int n = node(pack * lanes + l, a);
+      for (int i = 0; i < 4; ++i) q[i][l] = state.rotation[static_cast<std::size_t>(n)].coeffs()[i];
+      for (int c = 0; c < 3; ++c)
+        for (int k = 0; k < 2; ++k) A[k][c][l] = axes_of(n)(c, k);
+    }
+    rotation_matrix(q, R);
+    for (int k = 0; k < 2; ++k) times(R, A[k], nodes.axis[a][k]);
+    cross(nodes.axis[a][0], nodes.axis[a][1], nodes.d[a]);
+    for (int c = 0; c < 3; ++c) nodes.axis[a][2][c] = Lanes{};
+    if (!nodes.tilt) turn(pack, a, R, nodes);
+  }
   return nodes;
+}
+
+/// What else there is of nodes that may have three spins.
+void ShellBlock::turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes) const {
+  const auto& gradient = shell_tables().node[static_cast<std::size_t>(a)];
+  Lanes drawn[2][3], normal[3];
+  for (int l = 0; l < lanes; ++l) {
+    const Matrix32 t = this->drawn(pack * lanes + l) * matrix(gradient);
+    for (int c = 0; c < 3; ++c)
+      for (int i = 0; i < 2; ++i) drawn[i][c][l] = t(c, i);
+  }
+  for (int i = 0; i < 2; ++i) times(R, drawn[i], nodes.along[i][a]);
+  cross(nodes.along[0][a], nodes.along[1][a], normal);
+  const Lanes per_area = 1.0 / materials::sqrt(dot(normal, normal));
+  for (int l = 0; l < lanes; ++l) {
+    const bool tilts = !(*tilt_axes_)[static_cast<std::size_t>(node(pack * lanes + l, a))].isZero(0);
+    nodes.per_area[a][l] = tilts ? 0 : per_area[l];
+    for (int c = 0; c < 3 && !tilts; ++c) {
+      nodes.d[a][c][l] = normal[c][l] * per_area[l];
+      for (int k = 0; k < 3; ++k) nodes.axis[a][k][c][l] = k == c ? 1 : 0;
+    }
+  }
 }
 
 Lanes ShellBlock::electric_modulus(const State& state, const Layer& layer, int pack) const {
@@ -188,37 +248,47 @@ Lanes ShellBlock::add_shear(const ShellPoint& here, const ShellDeformation& f, S
   return 0.5 * (stress.gamma[0] * g[0] + stress.gamma[1] * g[1]);
 }
 
+template<bool with_tangent, int axes>
+bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& nodes, const Scatter& scatter,
+                               Lanes& energy) const {
+  bool feasible = true;
+  ShellSum<with_tangent, axes> sum(nodes);
+  for (int p = 0; p < points; ++p) {
+    const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
+    const ShellPoint& here = point(pack, p);
+    const ShellDeformation f = deformation(table, nodes);
+    const ShellStrain at = strain(here, f);
+    const Lanes det = at.a.det();
+    SectionPotential section(at);
+    for (const Layer& layer : layers_)
+      across(state, layer, pack, p, at, [&](const Place& place) {
+        const Lanes within = place.C.det();
+        for (int l = 0; l < lanes; ++l)
+          if (!(within[l] > 0)) feasible = false;
+        section.add(place.Z, Lanes{} + place.weight,
+                    layer.film->potential(state, place.point, lanes_of(pack), place.C, place.k));
+      });
+    for (int l = 0; l < lanes; ++l)
+      if (!(f.normal[l] > 0 && det[l] > 0)) feasible = false;
+    ShellStress stress = ShellStress::of<with_tangent>(here, section.derivatives<with_tangent>());
+    energy += here.area * section.value() + add_shear(here, f, stress);
+    sum.add(table, f, stress);
+  }
+  if constexpr (axes == 3) energy += sum.add_drilling(drilling_stiffness(pack));
+  sum.finish();
+  scatter_pack(pack, sum, scatter);
+  return feasible;
+}
+
 template<bool with_tangent>
 Evaluation ShellBlock::evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const {
   Evaluation result;
   Lanes energy{};
   for (int pack = first / lanes; pack * lanes < last; ++pack) {
     const ShellNodes nodes = gather(state, pack);
-    ShellSum<with_tangent> sum;
-    for (int p = 0; p < points; ++p) {
-      const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
-      const ShellPoint& here = point(pack, p);
-      const ShellDeformation f = deformation(table, nodes);
-      const ShellStrain at = strain(here, f);
-      const Lanes det = at.a.det();
-      SectionPotential section(at);
-      for (const Layer& layer : layers_)
-        across(state, layer, pack, p, at, [&](const Place& place) {
-          const Lanes within = place.C.det();
-          for (int l = 0; l < lanes; ++l)
-            if (!(within[l] > 0)) result.feasible = false;
-          section.add(place.Z, Lanes{} + place.weight,
-                      layer.film->potential(state, place.point, lanes_of(pack), place.C, place.k));
-        });
-      for (int l = 0; l < lanes; ++l)
-        if (!(f.normal[l] > 0 && det[l] > 0)) result.feasible = false;
-      ShellStress stress = ShellStress::of<with_tangent>(here, section.derivatives<with_tangent>());
-      energy += here.area * section.value() + add_shear(here, f, stress);
-      sum.add(table, nodes, f, stress);
-    }
-    energy += sum.add_drilling(nodes, drilling_stiffness(pack));
-    sum.finish(nodes);
-    scatter_pack(pack, sum, scatter);
+    const bool feasible = nodes.tilt ? evaluate_pack<with_tangent, 2>(state, pack, nodes, scatter, energy)
+                                     : evaluate_pack<with_tangent, 3>(state, pack, nodes, scatter, energy);
+    result.feasible = result.feasible && feasible;
   }
   for (int l = 0; l < lanes; ++l) result.energy += energy[l];
   if (!std::isfinite(result.energy)) result.feasible = false; // beyond a stretch limit

@@ -15,8 +15,9 @@ namespace dielast::fem {
 /// C(Z) of ShellStrain, k = eps (Phi/H)^2 of each layer, and the transverse shear gamma_i = x,i . d, k_s =
 /// 5/6. The director d_a = R_a D_a of a node turns with it; D_a is normal to this element as drawn, so that
 /// folds and junctions are rigid corners. Strains are interpolated as ShellTables says: neither thin nor
-/// curved elements lock. Three Gauss points across each layer. Rotations about the directors are held to the
-/// film's own by a stiffness of 1e-3 k_s mu H times the area. In elements that are more than 30 thicknesses
+/// curved elements lock. Three Gauss points across each layer. Nodes tilt, where DofMap::add_director() lets
+/// them; where they have three spins, those about the directors are held to the film's own rotation by a
+/// stiffness of 1e-3 k_s mu H times the area. In elements that are more than 30 thicknesses
 /// long (h, the root of twice the drawn area) the shear is resisted by (30 H/h)^2 of that only: still a
 /// thousand times stiffer than the shortest waves that they can bend in, while thinner ones would let
 /// directors buckle against each other where the film turns. As drawn, the shell is free of stress, but for

@@ -41,7 +41,7 @@ class ShellBlock final : public ElementBlock {
   int element_count() const override { return count_; }
   int dofs_per_element() const override { return dofs; }
   int granularity() const override { return lanes; }
-  void claim_dofs(DofMap& dof_map, Dimension dimension) const override;
+  void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
   void sample(const State& state, Samples& samples) const override;
@@ -56,8 +56,8 @@ class ShellBlock final : public ElementBlock {
 
  private:
   static constexpr int Nodes = ShellTables::nodes, points = ShellTables::points;
-  static constexpr int dofs = ShellSum<true>::dofs;
-  static constexpr double shear_correction = 5.0 / 6, drilling_share = 1e-3, slenderest = 30;
+  static constexpr int dofs = ShellSum<true, 3>::dofs;
+  static constexpr double shear_correction = 5.0 / 6, slenderest = 30;
 
   struct Layer {
     std::unique_ptr<FilmLayer> film;
@@ -85,6 +85,7 @@ class ShellBlock final : public ElementBlock {
   }
   void place_element(int element);
   ShellNodes gather(const State& state, int pack) const;
+  void turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes) const;
   Lanes electric_modulus(const State& state, const Layer& layer, int pack) const;
   template<class Visitor>
   void across(const State& state, const Layer& layer, int pack, int p, const ShellStrain& strain,
@@ -101,14 +102,18 @@ class ShellBlock final : public ElementBlock {
   };
   template<class Visitor>
   void for_each_point(const State& state, const Visitor& visit) const;
+  /// Adds the energy of a pack to `energy`; whether it can be in this state.
+  template<bool with_tangent, int axes>
+  bool evaluate_pack(const State& state, int pack, const ShellNodes& nodes, const Scatter& scatter,
+                     Lanes& energy) const;
   template<bool with_tangent>
   Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const;
-  template<bool with_tangent>
-  void scatter_pack(int pack, const ShellSum<with_tangent>& sum, const Scatter& scatter) const;
+  template<bool with_tangent, int axes>
+  void scatter_pack(int pack, const ShellSum<with_tangent, axes>& sum, const Scatter& scatter) const;
   /// Energy of the transverse shear, J, and its stresses.
   Lanes add_shear(const ShellPoint& here, const ShellDeformation& f, ShellStress& stress) const;
   Lanes drilling_stiffness(int pack) const { // N m
-    return drilling_share * shear_stiffness_ / Nodes * areas_[static_cast<std::size_t>(pack)];
+    return drilling_ * shear_stiffness_ / Nodes * areas_[static_cast<std::size_t>(pack)];
   }
 
   std::vector<Layer> layers_;
@@ -116,12 +121,14 @@ class ShellBlock final : public ElementBlock {
   double height_ = 0;          ///< sum H, m
   double shear_stiffness_ = 0; ///< k_s sum mu H, N/m
   double surface_density_ = 0; ///< sum rho H, kg/m^2
+  double drilling_;            ///< see ShellSection
   int count_ = 0;
   std::vector<int> nodes_;   ///< padded to whole packs by repeating the last element
   std::vector<int> numbers_; ///< of the elements, in the mesh's block
   std::vector<Eigen::Vector3d> reference_;
-  std::vector<ShellPoint> geometry_; ///< `points` per pack
-  std::vector<Lanes> areas_;         ///< undeformed, of the elements, per pack
+  std::vector<ShellPoint> geometry_;                       ///< `points` per pack
+  std::vector<Lanes> areas_;                               ///< undeformed, of the elements, per pack
+  std::shared_ptr<const std::vector<TiltAxes>> tilt_axes_; ///< see DofMap
 };
 
 template<class Visitor>
@@ -155,19 +162,21 @@ void ShellBlock::for_each_point(const State& state, const Visitor& visit) const 
   }
 }
 
-template<bool with_tangent>
-void ShellBlock::scatter_pack(int pack, const ShellSum<with_tangent>& sum, const Scatter& scatter) const {
+template<bool with_tangent, int axes>
+void ShellBlock::scatter_pack(int pack, const ShellSum<with_tangent, axes>& sum,
+                              const Scatter& scatter) const {
+  using Sum = ShellSum<with_tangent, axes>;
   for (int l = 0; l < lanes_of(pack); ++l) {
     const int element = pack * lanes + l;
     if (scatter.residual) {
-      double values[dofs];
-      for (int i = 0; i < dofs; ++i) values[i] = sum.residual(i)[l];
-      scatter.add_residual(element, values);
+      double values[Sum::dofs];
+      for (int i = 0; i < Sum::dofs; ++i) values[i] = sum.residual(i)[l];
+      scatter.add_residual(element, values, dofs);
     }
     if constexpr (with_tangent) {
-      double values[ShellSum<true>::packed_size];
-      for (int i = 0; i < ShellSum<true>::packed_size; ++i) values[i] = sum.tangent(i)[l];
-      scatter.add_tangent(element, values);
+      double values[Sum::packed_size];
+      for (int i = 0; i < Sum::packed_size; ++i) values[i] = sum.tangent(i)[l];
+      scatter.add_tangent(element, values, ShellSum<true, 3>::packed_size);
     }
   }
 }

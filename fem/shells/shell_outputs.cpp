@@ -36,7 +36,7 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
   for (int pack = 0; pack * lanes < count_; ++pack) {
     const ShellNodes nodes = gather(state, pack);
     for (const Layer& layer : layers_) {
-      ShellSum<false> sum;
+      ShellSum<false, 3> sum(nodes);
       const double per_volt = layer.film->dielectric().permittivity / (layer.thickness * layer.thickness);
       Lanes density{};
       for (int p = 0; p < points; ++p) {
@@ -51,9 +51,9 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
           section.add(place.Z, Lanes{} + place.weight, q);
         });
         density += here.area * section.value();
-        sum.add(table, nodes, f, ShellStress::of<false>(here, section.derivatives<false>()));
+        sum.add(table, f, ShellStress::of<false>(here, section.derivatives<false>()));
       }
-      sum.finish(nodes);
+      sum.finish();
       for (int l = 0; l < lanes_of(pack); ++l) {
         const int element = pack * lanes + l;
         const int electrode = layer.electrodes[static_cast<std::size_t>(element)];
@@ -83,8 +83,8 @@ void ShellBlock::add_energies(const State& state, EnergyParts& parts) const {
   });
   for (int pack = 0; pack * lanes < count_; ++pack) {
     const ShellNodes nodes = gather(state, pack);
-    ShellSum<false> unused;
-    Lanes energy = unused.add_drilling(nodes, drilling_stiffness(pack));
+    Lanes energy{};
+    if (!nodes.tilt) energy = ShellSum<false, 3>(nodes).add_drilling(drilling_stiffness(pack));
     for (int p = 0; p < points; ++p) {
       ShellStress stress{};
       energy += add_shear(point(pack, p),
@@ -98,7 +98,7 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
   if (history_size() == 0) return;
   for (int pack = 0; pack * lanes < count_; ++pack) {
     const ShellNodes nodes = gather(state, pack);
-    ShellSum<true> sum;
+    ShellSum<true, 3> sum(nodes);
     for (int p = 0; p < points; ++p) {
       const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
       const ShellPoint& here = point(pack, p);
@@ -114,9 +114,9 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
                                             lane_of(place.C, l), place.k[l], weight));
           section.add(place.Z, Lanes{} + place.weight, psi);
         });
-      sum.add(table, nodes, f, ShellStress::of<true>(here, section.derivatives<true>()));
+      sum.add(table, f, ShellStress::of<true>(here, section.derivatives<true>()));
     }
-    sum.finish(nodes);
+    sum.finish();
     scatter_pack(pack, sum, scatter);
   }
 }

@@ -19,7 +19,8 @@ struct ShellLayer {
 struct ShellSection {
   std::vector<ShellLayer> layers;
   std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing
-  double offset = 0; ///< from the drawn surface to the middle of the undeformed layers, m
+  double offset = 0;      ///< from the drawn surface to the middle of the undeformed layers, m
+  double drilling = 1e-3; ///< holds spins about directors, where there are any, over the shear's stiffness
 };
 
 } // namespace dielast::fem

@@ -107,7 +107,7 @@ void SolidBlock<Element>::place_scalars(DofMap& dof_map) {
 }
 
 template<class Element>
-void SolidBlock<Element>::claim_dofs(DofMap& dof_map, Dimension /*that of the block*/) const {
+void SolidBlock<Element>::claim_dofs(DofMap& dof_map, Dimension /*that of the block*/) {
   for (const int n : nodes_)
     for (std::size_t i = 0; i < dim; ++i) dof_map.add(n, axes_.axis[i]);
 }

@@ -138,7 +138,7 @@ class SolidBlock final : public ElementBlock {
   int element_count() const override { return count_; }
   int dofs_per_element() const override { return has_potential() ? dofs : potential_place; }
   void place_scalars(DofMap& dofs) override;
-  void claim_dofs(DofMap& dofs, Dimension dimension) const override;
+  void claim_dofs(DofMap& dofs, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
   void sample(const State& state, Samples& samples) const override;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shells as a user writes them: film.section = "shell".
+#include "cases/devices/device.hpp"
+#include "cases/runs/phases.hpp"
 #include "tests/cases/path_cases.hpp"
 
 #include <fmt/format.h>
@@ -130,6 +132,83 @@ TEST_F(Paths, a_disc_jumps_from_where_it_buckles_onto_its_dome) {
   EXPECT_EQ(domed.outcome.ending, Ending::complete) << domed.outcome.message;
   EXPECT_GT(domed.rows.back().value, 0.1 * thickness);
   EXPECT_EQ(domed.rows.back().unstable_modes, 0);
+}
+
+// A disc's nodes have five unknowns, but for those at which something asks for single rotations.
+TEST_F(Paths, shells_tilt_where_nothing_acts_on_single_rotations) {
+  const auto of_centre = [this](const std::string& rest, const std::vector<char>& holding) {
+    const Device device = build_device(with_supports(read(clamped_disc(rest)), holding));
+    const fem::DofMap& dofs = device.model.dofs;
+    const int centre = device.mesh.node_sets.at("centre").front();
+    for (int n = 0; n < dofs.node_count(); ++n) EXPECT_TRUE(dofs.tilts(n) || n == centre) << n;
+    for (const int n : device.mesh.node_sets.at("rim")) EXPECT_TRUE(dofs.is_held(dofs.equation(n, 6)));
+    return dofs.tilts(centre);
+  };
+  const std::string voltage = "[drive]\nvoltage = \"1 V\"\n[[step]]\nkind = \"voltage\"\nname = \"one\"\n",
+                    again = voltage + "[[step]]\nkind = \"voltage\"\nname = \"two\"\n";
+  const auto held = [](const std::string& fix) {
+    return "[[support]]\nplace = \"centre\"\nfix = [" + fix + "]\n";
+  };
+  EXPECT_TRUE(of_centre(voltage, {1}));
+  EXPECT_TRUE(of_centre(voltage + held("\"z\""), {1, 1}));
+  EXPECT_TRUE(of_centre(voltage + held("\"turn_x\", \"turn_y\", \"turn_z\""), {1, 1}));
+  EXPECT_FALSE(of_centre(voltage + held("\"turn_x\""), {1, 1}));
+  for (const char holds : {0, 1}) // in all steps alike
+    EXPECT_FALSE(of_centre(again + held("\"turn_x\"") + "until = \"one\"\n", {1, holds}));
+  EXPECT_FALSE(of_centre(voltage + "[[step]]\nkind = \"force\"\n[[load]]\nplace = \"centre\"\nmoment = [0, "
+                                   "\"1 uN m\", 0]\n",
+                         {1}));
+}
+
+// A cantilever whose end is not to turn, about one axis or about all of them, while a force lifts it.
+TEST_F(Paths, a_shell_is_let_go_of_as_if_it_had_never_been_held) {
+  const auto rise = [this](const std::string& fix) {
+    std::string text = R"(
+model = "3d"
+[film]
+thickness = "1 mm"
+section = "shell"
+[film.material]
+shear_modulus = "1 MPa"
+relative_permittivity = 5
+[strip]
+length = "50 mm"
+width = "20 mm"
+[mesh]
+across = 3
+[output]
+error_estimate = false
+[[support]]
+place = "lower_end"
+fix = ["x", "y", "z", "turn_x", "turn_y", "turn_z"]
+[[load]]
+place = "upper_end"
+force = [0, 0, "1 mN"]
+[drive]
+voltage = "1 V"
+[[step]]
+kind = "force"
+name = "push"
+increments = 4
+[[step]]
+kind = "voltage"
+increments = 4
+[[quantity]]
+name = "rise"
+kind = "displacement"
+of = "upper_end"
+along = "z"
+)";
+    if (!fix.empty()) text += "[[support]]\nplace = \"upper_end\"\nfix = [" + fix + "]\nuntil = \"push\"\n";
+    const Run one = run(text, "rise");
+    EXPECT_EQ(one.outcome.ending, Ending::complete) << one.outcome.message;
+    EXPECT_LT(one.rows.at(4).value, fix.empty() ? 1 : 0.4 * one.rows.back().value);
+    return one.rows.back().value;
+  };
+  const double free = rise("");
+  EXPECT_GT(free, 5e-4);
+  for (const char* fix : {"\"turn_x\"", "\"turn_x\", \"turn_y\", \"turn_z\""})
+    EXPECT_NEAR(rise(fix), free, 1e-6 * free) << fix;
 }
 
 } // namespace

@@ -94,5 +94,84 @@ TEST(DofMap, a_held_spin_keeps_its_component_of_the_increment_zero) {
   EXPECT_LT((state.rotation[0].toRotationMatrix() - expected).norm(), 1e-13);
 }
 
+// What may happen to a node that a shell turns, before and after the shell comes.
+TEST(DofMap, a_node_tilts_where_a_director_is_all_that_counts) {
+  const Eigen::Vector3d normal(0.6, 0, 0.8), beside = (normal + 1e-6 * Eigen::Vector3d::UnitY()).normalized();
+  enum : int {
+    alone,
+    twice,
+    fold,
+    clamped,
+    simply_held,
+    beam_before,
+    beam_after,
+    asked,
+    shared,
+    other,
+    tied,
+    master,
+    nothing,
+    nodes
+  };
+  DofMap dofs(nodes);
+  for (int c = 3; c < 6; ++c) dofs.add(beam_before, c);
+  for (int n = 0; n < master; ++n) dofs.add_director(n, normal);
+  dofs.add_director(master, normal);
+  dofs.add_director(twice, normal + 1e-12 * Eigen::Vector3d::UnitY());
+  dofs.add_director(fold, beside);
+  dofs.add_director(fold, normal);
+  for (const int c : {3, 4, 5}) dofs.hold(clamped, c);
+  dofs.hold(simply_held, 4);
+  for (int c = 3; c < 6; ++c) dofs.add(beam_after, c);
+  dofs.add_director(beam_after, normal);
+  dofs.keep_spins(asked);
+  dofs.keep_spins(nothing);
+  dofs.share(shared, other, 3);
+  dofs.tie({tied, master, {1, 0, 0}});
+  const auto axes = dofs.tilt_axes(); // as blocks ask
+  for (int c = 3; c < 6; ++c) EXPECT_NE(dofs.equation(alone, c), DofMap::absent) << "spins until number()";
+  dofs.number();
+  for (int n = 0; n < nodes; ++n) {
+    const bool tilts = n == alone || n == twice || n == clamped;
+    EXPECT_EQ(dofs.tilts(n), tilts) << n;
+    EXPECT_EQ(!axes->at(static_cast<std::size_t>(n)).isZero(0), tilts) << n;
+    for (int c = 3; c < 8; ++c)
+      EXPECT_EQ(dofs.equation(n, c) != DofMap::absent, n != nothing && (c >= DofMap::tilt) == tilts)
+          << n << c;
+  }
+  EXPECT_TRUE(dofs.is_held(dofs.equation(clamped, 6)) && dofs.is_held(dofs.equation(clamped, 7)));
+  EXPECT_TRUE(dofs.is_free(dofs.equation(simply_held, 3)) && dofs.is_held(dofs.equation(simply_held, 4)));
+  EXPECT_EQ(dofs.held_count(), 2 + 1);
+  EXPECT_EQ(dofs.free_count(), 2 * 2 + 3 + 2 + 3 * 3 + (3 + 3 - 1) + 3);
+  const TiltAxes& A = axes->front();
+  EXPECT_LT((A.transpose() * A - Eigen::Matrix2d::Identity()).norm(), 1e-15);
+  EXPECT_LT((A.col(0).cross(A.col(1)) - normal).norm(), 1e-15);
+}
+
+TEST(DofMap, tilts_turn_with_the_node_and_never_about_the_director) {
+  DofMap dofs(1);
+  const Eigen::Vector3d director = Eigen::Vector3d(1, -2, 0.5).normalized();
+  dofs.add_director(0, director);
+  dofs.number();
+  ASSERT_EQ(dofs.free_count(), 2);
+  const Eigen::Quaterniond R = rotation_of({0.3, -0.2, 1});
+  State state{.displacement = {Eigen::Vector3d::Zero()}, .rotation = {R}, .voltage = {}, .dead_force = {}};
+  const Eigen::Vector2d a(0.4, -0.9);
+  const Eigen::Vector3d spin = dofs.spin(state, 0, a);
+  EXPECT_LT((spin - R * (dofs.tilt_axes()->front() * a)).norm(), 1e-15);
+  EXPECT_NEAR(spin.dot(R * director), 0, 1e-15);
+  State there = state;
+  dofs.advance(there, 2 * a, 0.5);
+  EXPECT_LT((there.rotation[0].coeffs() - (rotation_of(spin) * R).coeffs()).norm(), 1e-15);
+  EXPECT_LT((dofs.increment(state, there) - a).norm(), 1e-15);
+  // From any rotation to any other one the director is led.
+  for (const Eigen::Vector3d& other : {Eigen::Vector3d(1, 0.7, -0.4), Eigen::Vector3d(1e-9, 0, 2e-9)}) {
+    State goal = state, reached = state;
+    goal.rotation = {rotation_of(other) * R};
+    dofs.advance(reached, dofs.increment(state, goal), 1);
+    EXPECT_LT((reached.rotation[0] * director - goal.rotation[0] * director).norm(), 1e-15);
+  }
+}
+
 } // namespace
 } // namespace dielast::fem

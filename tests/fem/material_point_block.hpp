@@ -18,7 +18,7 @@ class MaterialPoint final : public ElementBlock {
 
   int element_count() const override { return 1; }
   int dofs_per_element() const override { return 1; }
-  void claim_dofs(DofMap& dofs, Dimension) const override { dofs.add(0, 0); }
+  void claim_dofs(DofMap& dofs, Dimension) override { dofs.add(0, 0); }
   void element_equations(int, const DofMap& dofs, std::span<int> equations) const override {
     equations[0] = dofs.equation(0, 0);
   }

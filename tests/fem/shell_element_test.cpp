@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/elements/beam_block.hpp"
 #include "fem/shells/shell_block.hpp"
 #include "fem/shells/shell_tables.hpp"
 #include "materials/laws/dual.hpp"
@@ -8,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace dielast::fem {
 namespace {
@@ -36,12 +39,22 @@ meshing::Mesh dome() {
   return mesh;
 }
 
-std::unique_ptr<Model> shell_model(const meshing::Mesh& mesh, const ShellSection& section) {
+/// As if something acted on the spins of all nodes.
+void keep_spins(Model& model) {
+  for (int n = 0; n < model.dofs.node_count(); ++n) model.dofs.keep_spins(n);
+}
+
+std::unique_ptr<Model> shell_model(const meshing::Mesh& mesh, const ShellSection& section,
+                                   bool with_spins = false) {
   std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks[0].size()), 0);
   for (std::size_t e = 0; e < electrodes.size(); e += 3) electrodes[e] = passive;
   std::vector<std::vector<int>> all{electrodes};
   if (section.layers.size() > 1) all.emplace_back(electrodes.size(), passive);
-  return test::free_model(mesh.node_count(), false, make_shell_block(mesh, mesh.blocks[0], section, all));
+  auto model =
+      test::unnumbered_model(mesh.node_count(), false, make_shell_block(mesh, mesh.blocks[0], section, all));
+  if (with_spins) keep_spins(*model);
+  model->dofs.number();
+  return model;
 }
 
 /// Stretched, turned and shaken.
@@ -62,19 +75,85 @@ State random_state(const Model& model, const meshing::Mesh& mesh, std::mt19937& 
 }
 
 TEST(Shell, residual_and_tangent_are_the_derivatives_of_the_energy) {
-  std::mt19937 random(21);
   ShellSection curved = two_layers();
   curved.prestretch = {1, 1};
-  for (const auto& [mesh, section] : {std::pair{flat_mesh(), two_layers()}, {dome(), curved}}) {
-    const auto model = shell_model(mesh, section);
-    test::expect_consistent_derivatives(*model, random_state(*model, mesh, random), 0.1);
+  for (const bool with_spins : {false, true}) {
+    std::mt19937 random(21);
+    for (const auto& [mesh, section] : {std::pair{flat_mesh(), two_layers()}, {dome(), curved}}) {
+      const auto model = shell_model(mesh, section, with_spins);
+      test::expect_consistent_derivatives(*model, random_state(*model, mesh, random), 0.1);
+    }
   }
+  // Elements whose nodes are of both kinds.
+  const meshing::Mesh mesh = flat_mesh();
+  const std::vector<int> charged(8, 0), not_charged(8, passive);
+  const auto model = test::unnumbered_model(
+      mesh.node_count(), false, make_shell_block(mesh, mesh.blocks[0], two_layers(), {charged, not_charged}));
+  for (int n = 0; n < mesh.node_count(); n += 2) model->dofs.keep_spins(n);
+  model->dofs.number();
+  std::mt19937 random(21);
+  test::expect_consistent_derivatives(*model, random_state(*model, mesh, random), 0.1);
+}
+
+TEST(Shell, nodes_tilt_but_where_it_is_folded_or_a_beam_meets_it) {
+  meshing::Mesh mesh = test::distorted_square(2, 2);
+  const auto kinds = [&](std::unique_ptr<ElementBlock> beam = nullptr) {
+    auto model = test::unnumbered_model(
+        mesh.node_count(), false,
+        make_shell_block(mesh, mesh.blocks[0], {{{test::vhb().material, 0.05}}}, {std::vector<int>(8, 0)}));
+    if (beam) {
+      model->blocks.push_back(std::move(beam));
+      model->blocks.back()->claim_dofs(model->dofs, Dimension::spatial);
+    }
+    model->dofs.number();
+    return model;
+  };
+  const auto flat = kinds();
+  EXPECT_EQ(flat->dofs.count(), 5 * mesh.node_count());
+  const auto cell = mesh.blocks[0].cell(2);
+  const std::set<int> on_beam{cell[0], cell[1], cell[3]};
+  const auto stiffened = kinds(
+      make_beam_block(mesh, {meshing::CellType::line3, {cell[0], cell[1], cell[3]}}, test::uneven_section()));
+  for (int n = 0; n < mesh.node_count(); ++n) EXPECT_EQ(stiffened->dofs.tilts(n), !on_beam.contains(n));
+  const Eigen::Quaterniond turn = rotation_of({0.7, -0.4, 0.2}); // flat film lies in any plane
+  for (auto& x : mesh.nodes) x = turn * x + Eigen::Vector3d(30, 20, -10);
+  EXPECT_EQ(kinds()->dofs.count(), 5 * mesh.node_count());
+  const auto drawn = mesh.nodes;
+  // The first triangle, turned about one of its sides, takes its neighbours' nodes along.
+  const auto one = mesh.blocks[0].cell(0);
+  const auto at = [&](int n) { return drawn[static_cast<std::size_t>(n)]; };
+  const Eigen::Vector3d side = at(one[1]) - at(one[0]);
+  for (const int n : {one[2], one[4], one[5]})
+    mesh.nodes[static_cast<std::size_t>(n)] +=
+        0.3 * side.cross(at(n) - at(one[0])).norm() * (turn * Eigen::Vector3d::UnitZ());
+  const auto folded = kinds();
+  int tilting = 0;
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    int elements = 0;
+    for (int e = 0; e < mesh.blocks[0].size(); ++e)
+      elements += std::ranges::count(mesh.blocks[0].cell(e), n) > 0;
+    if (std::ranges::count(one, n) > 0) EXPECT_EQ(folded->dofs.tilts(n), elements == 1) << n;
+    tilting += folded->dofs.tilts(n);
+  }
+  EXPECT_GT(tilting, 0);
+}
+
+/// The unknowns of one element (displacement and spin of each node) by those of the model.
+Eigen::MatrixXd element_jacobian(const Model& model, const State& state) {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(36, model.dofs.count());
+  for (int e = 0; e < model.dofs.count(); ++e)
+    for (int n = 0; n < 6; ++n) {
+      const Eigen::VectorXd unit = Eigen::VectorXd::Unit(model.dofs.count(), e);
+      for (int c = 0; c < 3; ++c) J(6 * n + c, e) = model.dofs.equation(n, c) == e;
+      J.block<3, 1>(6 * n + 3, e) = model.dofs.spin(state, n, unit);
+    }
+  return J;
 }
 
 /// Energy of one element in dual numbers of its 36 unknowns: strains from the tables, curvature and director
 /// by the shape functions, every layer by its law's own formula.
 materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection& section, const State& state,
-                                   double voltage) {
+                                   double voltage, bool with_spins) {
   using Unknowns = materials::Dual<36>;
   using Vector = std::array<Unknowns, 3>;
   const auto dot = [](const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
@@ -200,47 +279,46 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
     const Vector cell = cross(now.along[n][0], now.along[n][1]);
     const double size = std::sqrt(dot(cell, cell).value); // turning keeps it
     const Unknowns omega = (dot(now.along[n][0], x[1]) - dot(now.along[n][1], x[0])) / size;
-    energy += 0.5 * 1e-3 * shear_modulus * area / 6 * omega * omega;
+    if (with_spins) energy += 0.5 * section.drilling * shear_modulus * area / 6 * omega * omega;
   }
   return energy;
 }
 
 TEST(Shell, energy_residual_and_tangent_equal_dual_numbers) {
-  ShellSection section = two_layers();
-  section.layers[1].material.branches.clear();
-  section.layers[1].material.law = materials::MooneyRivlin{20e3, 5e3};
-  std::mt19937 random(31);
-  for (const bool flat : {true, false}) {
-    meshing::Mesh mesh = flat ? flat_mesh() : dome();
-    if (!flat) section.prestretch = {1, 1};
-    meshing::Mesh one;
-    for (int a = 0; a < 6; ++a) {
-      one.nodes.push_back(
-          mesh.nodes[static_cast<std::size_t>(mesh.blocks[0].cell(3)[static_cast<std::size_t>(a)])]);
-    }
-    one.blocks = {{meshing::CellType::triangle6, {0, 1, 2, 3, 4, 5}}};
-    const auto model =
-        test::free_model(6, false, make_shell_block(one, one.blocks[0], section, {{0}, {passive}}));
-    Assembler assembler(*model, 1);
-    for (int sample = 0; sample < 5; ++sample) {
-      const State state = random_state(*model, one, random);
-      const auto expected = element_energy(one, section, state, state.voltage[0]);
-      Eigen::VectorXd residual;
-      const Evaluation evaluation = assembler.residual(state, residual);
-      assembler.tangent(state);
-      ASSERT_EQ(residual.size(), 36);
-      const double scale = expected.hessian.norm();
-      EXPECT_NEAR(evaluation.energy, expected.value, 1e-12 * scale);
-      Eigen::VectorXd gradient(36);
-      Eigen::MatrixXd hessian(36, 36);
-      for (int i = 0; i < 36; ++i)
-        for (int j = 0; j < 36; ++j) {
-          const int p = model->dofs.equation(i / 6, i % 6), q = model->dofs.equation(j / 6, j % 6);
-          gradient[p] = expected.gradient[i];
-          hessian(p, q) = expected.hessian(i, j);
-        }
-      EXPECT_LT((residual - gradient).norm(), 1e-12 * scale);
-      EXPECT_LT((test::dense(assembler.matrix()) - hessian).norm(), 1e-12 * scale);
+  for (const bool with_spins : {false, true}) {
+    ShellSection section = two_layers();
+    section.layers[1].material.branches.clear();
+    section.layers[1].material.law = materials::MooneyRivlin{20e3, 5e3};
+    std::mt19937 random(31);
+    for (const bool flat : {true, false}) {
+      meshing::Mesh mesh = flat ? flat_mesh() : dome();
+      if (!flat) section.prestretch = {1, 1};
+      meshing::Mesh one;
+      for (int a = 0; a < 6; ++a) {
+        one.nodes.push_back(
+            mesh.nodes[static_cast<std::size_t>(mesh.blocks[0].cell(3)[static_cast<std::size_t>(a)])]);
+      }
+      one.blocks = {{meshing::CellType::triangle6, {0, 1, 2, 3, 4, 5}}};
+      const auto model =
+          test::unnumbered_model(6, false, make_shell_block(one, one.blocks[0], section, {{0}, {passive}}));
+      if (with_spins) keep_spins(*model);
+      model->dofs.number();
+      Assembler assembler(*model, 1);
+      for (int sample = 0; sample < 5; ++sample) {
+        const State state = random_state(*model, one, random);
+        const auto expected = element_energy(one, section, state, state.voltage[0], with_spins);
+        Eigen::VectorXd residual;
+        const Evaluation evaluation = assembler.residual(state, residual);
+        assembler.tangent(state);
+        ASSERT_EQ(residual.size(), with_spins ? 36 : 30);
+        const double scale = expected.hessian.norm();
+        EXPECT_NEAR(evaluation.energy, expected.value, 1e-12 * scale);
+        const Eigen::MatrixXd J = element_jacobian(*model, state);
+        const Eigen::VectorXd gradient = J.transpose() * expected.gradient;
+        const Eigen::MatrixXd hessian = J.transpose() * expected.hessian * J;
+        EXPECT_LT((residual - gradient).norm(), 1e-12 * scale);
+        EXPECT_LT((test::dense(assembler.matrix()) - hessian).norm(), 1e-12 * scale);
+      }
     }
   }
 }
@@ -297,15 +375,17 @@ TEST(Shell, has_the_mass_of_its_layers_and_turns_without) {
   const ShellSection section = two_layers();
   const auto model = shell_model(mesh, section);
   const Eigen::SparseMatrix<double> mass = Inertia::of(model->blocks, model->dofs).mass;
-  std::array<double, 6> sum{};
+  std::array<double, 3> sum{};
   for (int a = 0; a < mesh.node_count(); ++a)
     for (int b = 0; b < mesh.node_count(); ++b)
-      for (int c = 0; c < 6; ++c)
+      for (int c = 0; c < 3; ++c)
         sum[static_cast<std::size_t>(c)] +=
             mass.coeff(model->dofs.equation(a, c), model->dofs.equation(b, c));
   const double area = 1 / (1.2 * 0.9), density = 960; // undeformed
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[static_cast<std::size_t>(c)], density * 0.15 * area, 1e-9);
-  for (int c = 3; c < 6; ++c) EXPECT_EQ(sum[static_cast<std::size_t>(c)], 0);
+  for (const double along : sum) EXPECT_NEAR(along, density * 0.15 * area, 1e-9);
+  EXPECT_NEAR(mass.sum(), 3 * density * 0.15 * area, 1e-9);
+  for (int a = 0; a < mesh.node_count(); ++a)
+    for (int c = 6; c < 8; ++c) EXPECT_EQ(mass.col(model->dofs.equation(a, c)).nonZeros(), 0);
 }
 
 TEST(Shell, refuses_what_it_cannot_be) {
@@ -326,52 +406,58 @@ TEST(Shell, rigid_motion_makes_no_stress_and_keeps_the_energy_of_a_deformed_one)
   const meshing::Mesh mesh = dome();
   ShellSection section = two_layers();
   section.prestretch = {1, 1};
-  const auto model = shell_model(mesh, section);
-  Assembler assembler(*model, 1);
-  Eigen::VectorXd here, there;
-  const Eigen::Quaterniond Q = rotation_of({2, 1, -1.5});
-  const State at_rest = model->initial_state();
-  assembler.tangent(at_rest);
-  const double stiffness = test::dense(assembler.matrix()).norm();
-  assembler.residual(test::moved(at_rest, mesh, Q, {3, 4, 5}), here);
-  EXPECT_LT(here.norm(), 1e-12 * stiffness);
+  for (const bool with_spins : {false, true}) {
+    const auto model = shell_model(mesh, section, with_spins);
+    Assembler assembler(*model, 1);
+    Eigen::VectorXd here, there;
+    const Eigen::Quaterniond Q = rotation_of({2, 1, -1.5});
+    const State at_rest = model->initial_state();
+    assembler.tangent(at_rest);
+    const double stiffness = test::dense(assembler.matrix()).norm();
+    assembler.residual(test::moved(at_rest, mesh, Q, {3, 4, 5}), here);
+    EXPECT_LT(here.norm(), 1e-12 * stiffness);
 
-  std::mt19937 random(4);
-  const State state = random_state(*model, mesh, random);
-  const State moved = test::moved(state, mesh, Q, {3, 4, 5});
-  const double energy = assembler.residual(state, here).energy;
-  EXPECT_NEAR(assembler.residual(moved, there).energy, energy, 1e-12 * std::abs(energy));
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
-  for (int a = 0; a < mesh.node_count(); ++a) {
-    Eigen::Vector3d f, g, m;
-    for (int c = 0; c < 3; ++c) {
-      f[c] = here[model->dofs.equation(a, c)];
-      g[c] = there[model->dofs.equation(a, c)];
-      m[c] = here[model->dofs.equation(a, 3 + c)];
+    std::mt19937 random(4);
+    const State state = random_state(*model, mesh, random);
+    const State moved = test::moved(state, mesh, Q, {3, 4, 5});
+    const double energy = assembler.residual(state, here).energy;
+    EXPECT_NEAR(assembler.residual(moved, there).energy, energy, 1e-12 * std::abs(energy));
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    for (int a = 0; a < mesh.node_count(); ++a) {
+      Eigen::Vector3d f, g;
+      for (int c = 0; c < 3; ++c) {
+        f[c] = here[model->dofs.equation(a, c)];
+        g[c] = there[model->dofs.equation(a, c)];
+      }
+      const Eigen::Vector3d m = model->dofs.spin(state, a, here);
+      EXPECT_LT((g - Q * f).norm(), 1e-12 * here.norm());
+      const auto n = static_cast<std::size_t>(a);
+      force += f;
+      moment += m + (mesh.nodes[n] + state.displacement[n]).cross(f);
     }
-    EXPECT_LT((g - Q * f).norm(), 1e-12 * here.norm());
-    const auto n = static_cast<std::size_t>(a);
-    force += f;
-    moment += m + (mesh.nodes[n] + state.displacement[n]).cross(f);
+    EXPECT_LT(force.norm(), 1e-12 * here.norm());
+    EXPECT_LT(moment.norm(), 1e-12 * here.norm());
   }
-  EXPECT_LT(force.norm(), 1e-12 * here.norm());
-  EXPECT_LT(moment.norm(), 1e-12 * here.norm());
 }
 
 TEST(Shell, one_element_has_the_six_rigid_motions_and_no_other_modes_without_energy) {
   meshing::Mesh mesh = dome();
   mesh.blocks[0].nodes.resize(6);
-  const auto model =
-      test::unnumbered_model(mesh.node_count(), false,
-                             make_shell_block(mesh, mesh.blocks[0], {{{test::vhb().material, 0.2}}}, {{0}}));
-  model->dofs.number();
-  Assembler assembler(*model, 1);
-  assembler.tangent(model->initial_state());
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(test::dense(assembler.matrix())).eigenvalues();
-  ASSERT_EQ(values.size(), 36);
-  EXPECT_LT(std::abs(values[5]), 1e-12 * values[35]);
-  EXPECT_GT(values[6], 1e-6 * values[35]);
+  for (const bool with_spins : {false, true}) {
+    const auto model = test::unnumbered_model(
+        mesh.node_count(), false,
+        make_shell_block(mesh, mesh.blocks[0], {{{test::vhb().material, 0.2}}}, {{0}}));
+    if (with_spins) keep_spins(*model);
+    model->dofs.number();
+    Assembler assembler(*model, 1);
+    assembler.tangent(model->initial_state());
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(test::dense(assembler.matrix())).eigenvalues();
+    ASSERT_EQ(values.size(), with_spins ? 36 : 30);
+    const double largest = values[values.size() - 1];
+    EXPECT_LT(std::abs(values[5]), 1e-12 * largest);
+    EXPECT_GT(values[6], 1e-6 * largest);
+  }
 }
 
 } // namespace

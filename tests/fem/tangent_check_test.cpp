@@ -19,7 +19,7 @@ class Spoilt : public ElementBlock {
   int element_count() const override { return block_->element_count(); }
   int dofs_per_element() const override { return block_->dofs_per_element(); }
   int granularity() const override { return element_count(); }
-  void claim_dofs(DofMap& dofs, Dimension dimension) const override { block_->claim_dofs(dofs, dimension); }
+  void claim_dofs(DofMap& dofs, Dimension dimension) override { block_->claim_dofs(dofs, dimension); }
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
     block_->element_equations(element, dofs, equations);
   }

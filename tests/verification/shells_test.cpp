@@ -226,5 +226,39 @@ TEST(EulerColumn, buckles_at_the_critical_load) {
               1, 0.005);
 }
 
+/// Tip of a clamped plate that a load across bends by a third of its length and one in its plane shears.
+Eigen::Vector3d tip(double drilling, const std::function<bool(int node)>& keeps_spins) {
+  ShellSection section = elastic_shell(1e6, 0.3, 0.05);
+  section.drilling = drilling;
+  ShellProblem plate(
+      4, 3, [](double u, double v) { return Eigen::Vector3d(u, 0.8 * v, 0); }, section);
+  plate.hold(plate.side(0, 0), {0, 1, 2, 3, 4, 5});
+  for (int n = 0; n < plate.model().dofs.node_count(); ++n)
+    if (keeps_spins(n)) plate.model().dofs.keep_spins(n);
+  plate.number();
+  plate.load_side(plate.side(0, 1), 2, 10);
+  plate.load_side(plate.side(0, 1), 1, 300);
+  EXPECT_EQ(plate.raise(1, 5, 0, 1e-12).end, RampEnd::complete);
+  return plate.displacement(plate.node(1, 1));
+}
+
+// What holds spins about directors to the film costs a little energy where its rotation jumps from one
+// element to the next: three spins give what tilts give as that goes to nothing.
+TEST(Tilts, give_what_three_spins_give) {
+  const auto none = [](int) { return false; };
+  const auto all = [](int) { return true; };
+  const auto some = [](int node) { return node % 3 == 0; };
+  const Eigen::Vector3d tilts = tip(1e-3, none);
+  EXPECT_GT(tilts.z(), 0.25);
+  EXPECT_GT(std::abs(tilts.y()), 1e-3);
+  EXPECT_EQ(tilts, tip(1, none)) << "nothing drills";
+  EXPECT_LT((tip(1e-9, all) - tilts).norm(), 1e-9 * tilts.norm());
+  EXPECT_LT((tip(1e-9, some) - tilts).norm(), 1e-9 * tilts.norm());
+  const double apart = (tip(1e-3, all) - tilts).norm();
+  EXPECT_GT(apart, 1e-9 * tilts.norm());
+  EXPECT_LT(apart, 1e-4 * tilts.norm());
+  EXPECT_NEAR((tip(1e-4, all) - tilts).norm(), apart / 10, 0.02 * apart);
+}
+
 } // namespace
 } // namespace dielast::fem
