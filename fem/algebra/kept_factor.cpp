@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -16,6 +17,8 @@ constexpr double least_pivot = 1e-4;
 constexpr double operations_per_entry = 40;
 /// Iterations with a factor of the matrix itself after which a solve gives up.
 constexpr int most_iterations = 50;
+/// Square of what corrections may be over those foreseen.
+constexpr double foreseen = 100;
 
 /// Into how many blocks columns are divided, whatever the number of threads, and how many columns are worth
 /// it.
@@ -112,6 +115,7 @@ double KeptFactor::dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
 bool KeptFactor::make(double lessened) {
   ++factorisations_;
   fresh_ = debt_ = 0;
+  proves_ = lessened > 0;
   made_ = factor_.factor(matrix_.values, lessened) && factor_.smallest_pivot().relative > least_pivot;
   fails_ = !made_;
   return made_;
@@ -126,7 +130,7 @@ bool KeptFactor::prepare() {
 /// Iterations until a correction of x is small enough, none where `most` do not suffice. `square`: that of
 /// the norm of x.
 std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, double tolerance, int most) {
-  double product = 0;
+  double product = 0, correction = 0;
   for (int iteration = 1; iteration <= most; ++iteration) {
     factor_.solve(r_, z_);
     ++solves_;
@@ -145,9 +149,13 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
       x.segment(first, count) += rz / curvature * p_.segment(first, count);
       r_.segment(first, count) -= rz / curvature * Ap_.segment(first, count);
     });
-    const double correction = rz / curvature * rz;
+    const double last = std::exchange(correction, rz / curvature * rz);
     square += correction;
-    if (correction <= tolerance * tolerance * square) return iteration;
+    const double least = tolerance * tolerance * square;
+    if (correction <= least) return iteration;
+    // With a factor of the matrix itself corrections fall fast, and by what the next one will be told before
+    // it is made: as much smaller as this one is than the last, or ten times less.
+    if (proves_ && iteration > 1 && foreseen * correction * correction <= least * last) return iteration;
   }
   return std::nullopt;
 }

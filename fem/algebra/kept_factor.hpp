@@ -22,7 +22,7 @@ class KeptFactor {
   /// Where a factor costs less, it is not worth keeping.
   static constexpr double least_cost = 3;
   /// Where a factor costs less, one in double precision is had for what more iterations cost.
-  static constexpr double least_cost_to_prove = 8;
+  static constexpr double least_cost_to_prove = 5;
   /// To be called when the matrix has changed. False: single precision does not do for matrices like this
   /// one.
   [[nodiscard]] bool prepare();
@@ -61,6 +61,7 @@ class KeptFactor {
   std::vector<double> sums_; ///< of the blocks
   double cost_;
   bool made_ = false, fails_ = false; ///< single precision does not do here
+  bool proves_ = false;               ///< the factor is one of the matrix itself, see prove()
   double fresh_ = 0; ///< iterations per decade of the tolerance, of the first solve with the factor; 0 before
   double debt_ = 0;  ///< iterations beyond those
   int factorisations_ = 0, solves_ = 0;
