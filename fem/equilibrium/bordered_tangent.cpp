@@ -142,18 +142,21 @@ bool BorderedTangent::factor(const State& state, const PathBorder* path, const E
   return lu_.isInvertible();
 }
 
-bool BorderedTangent::precondition(const State& state) {
+bool BorderedTangent::precondition(const State& state, bool close) {
   if (any_follows(state)) return factor(state);
   follow_pattern();
   set_borders(state, nullptr);
-  if (!solver_->precondition(assembler_.convex())) return false;
+  if (!solver_->precondition(assembler_.convex(), close)) return false;
   negative_pivots_ = unstable_modes_ = solver_->negative_pivots() - model_.dofs.scalar_count();
   return true;
 }
 
 double BorderedTangent::solve(const Eigen::VectorXd& f, Eigen::VectorXd& du, double g, double tolerance) {
   solver_->solve(f, du, tolerance);
-  if (columns_.cols() == 0) return 0;
+  if (columns_.cols() == 0) { // it may have found out that the matrix is not positive definite
+    negative_pivots_ = unstable_modes_ = solver_->negative_pivots() - model_.dofs.scalar_count();
+    return 0;
+  }
   Eigen::VectorXd right = -rows_.transpose() * du;
   if (paths_) right[0] += g;
   border_unknowns_ = lu_.solve(right);

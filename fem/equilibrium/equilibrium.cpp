@@ -160,13 +160,13 @@ double Equilibrium::step_size(const Eigen::VectorXd& step) const {
   return step.cwiseQuotient(weight_.head(step.size())).lpNorm<Eigen::Infinity>() / model_.extent;
 }
 
-bool Equilibrium::precondition(const State& state) {
+bool Equilibrium::precondition(const State& state, bool close) {
   {
     const Stopwatch watch(timings_.tangent, model_);
     assembler_.tangent(state);
   }
   const Stopwatch watch(timings_.factor, model_);
-  return tangent_.precondition(state);
+  return tangent_.precondition(state, close);
 }
 
 bool Equilibrium::factor(const State& state, const PathBorder* path, const Eigen::VectorXd* added) {
@@ -276,12 +276,13 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
       solved_ = std::move(current);
     return result;
   };
-  const auto factor_and_count = [&](const State& at) {
-    const bool regular = precondition(at);
-    if (regular) {
-      result.negative_pivots = tangent_.negative_pivots();
-      result.unstable_modes = tangent_.unstable_modes();
-    }
+  const auto count = [&] {
+    result.negative_pivots = tangent_.negative_pivots();
+    result.unstable_modes = tangent_.unstable_modes();
+  };
+  const auto factor_and_count = [&](const State& at, bool close) {
+    const bool regular = precondition(at, close);
+    if (regular) count();
     return regular;
   };
   Eigen::VectorXd step;
@@ -298,10 +299,10 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     if (!current.feasible) return end(Outcome::infeasible);
     result.residual = current.scale > 0 ? current.norm / current.scale : 0;
     if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
+    // An unstable mode of a state close by is not one of this state; a pump's filling makes close far.
+    const bool tells = stale_tangent <= near && result.unstable_modes == 0 && !model_.closed_chamber(state);
     if (balanced(current, options.tolerance, previous_norm, step_length == 1 ? step_size(step) : infinity)) {
-      // An unstable mode of a state close by is not one of this state; a pump's filling makes close far.
-      const bool tells = stale_tangent <= near && result.unstable_modes == 0 && !model_.closed_chamber(state);
-      const bool known = tells || factor_and_count(state);
+      const bool known = tells || factor_and_count(state, false);
       return end(known ? Outcome::converged : Outcome::singular);
     }
     if (result.iterations >= options.max_iterations ||
@@ -311,22 +312,24 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     previous_norm = current.norm;
     stale_tangent = result.residual;
     ++timings_.iterations;
-    const auto find_step = [&](const State& at) {
-      if (!factor_and_count(at)) return false;
+    const auto find_step = [&](const State& at, bool close) {
+      if (!factor_and_count(at, close)) return false;
       const Stopwatch watch(timings_.solve, model_);
       right_ = -current.force.head(model_.dofs.free_count());
       tangent_.solve(right_, step, 0, tolerance_of_step(result.residual, options.tolerance));
+      count();
       return true;
     };
     // A flat film without tension has no stiffness across itself until it is loaded, or that of a rounding:
     // that of the film a little wider, in tension, leads on. The step goes with 1/widening, its strain with
     // the square of that: the two are to be alike.
     const auto find_widened_step = [&] {
-      if (!find_step(widened(state, first_widening))) return false;
+      if (!find_step(widened(state, first_widening), false)) return false;
       const double alike = std::cbrt(std::pow(step_size(step) * first_widening, 2));
-      return find_step(widened(state, std::min(alike, most_widening)));
+      return find_step(widened(state, std::min(alike, most_widening)), false);
     };
-    const bool stiffened = !find_step(state) || step_size(step) > farthest_step;
+    const bool stiffened =
+        !find_step(state, tells && result.residual <= near) || step_size(step) > farthest_step;
     if (stiffened && !find_widened_step()) return end(Outcome::singular);
     if (stiffened) stale_tangent = infinity;
     indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
