@@ -9,6 +9,7 @@ namespace dielast::cases {
 /// at equal times and is held in between: the voltage of its [drive], gain times what the quantity lacks of
 /// its target, and the integral of that. The quantity is in its SI unit.
 struct Controller {
+  static constexpr double most_samples = 1e6; ///< in a step
   std::string electrode;
   std::string quantity;
   double target = 0;

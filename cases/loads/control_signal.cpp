@@ -13,7 +13,6 @@ namespace {
 /// Part of a step within which a time is that of a measurement: waves that turn as close to it share its
 /// break.
 constexpr double same_time = 4e-9;
-constexpr double most_samples = 1e6; ///< in a step
 
 class ControlSignal : public Signal {
  public:
@@ -21,17 +20,6 @@ class ControlSignal : public Signal {
       : controller_(controller), drive_(drive) {
     const auto found = std::ranges::find(one.quantities, controller.quantity, &Quantity::name);
     quantity_ = static_cast<std::size_t>(found - one.quantities.begin());
-    for (const Step& step : one.steps)
-      if (step.kind == StepKind::transient && *step.duration > most_samples * controller.every)
-        throw CaseError({{{one.source.string()},
-                          "controller.every",
-                          fmt::format("step \"{}\" would have {:.3g} measurements, allowed {:.0f}", step.name,
-                                      *step.duration / controller.every, most_samples)}});
-    if (found->kind->so_far || found->kind->of_run)
-      throw CaseError({{{one.source.string()},
-                        "controller.quantity",
-                        fmt::format("\"{}\" is not told by a state alone: a controller cannot measure a {}",
-                                    controller.quantity, found->kind->word)}});
   }
 
   double at(Instant t) const override {

@@ -55,6 +55,28 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
   }
 }
 
+/// A controller measures states as they are reached, a million times at most.
+void check_controllers(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t c = 0; c < one.controllers.size(); ++c) {
+    const Controller& controller = one.controllers[c];
+    const Node& written = tree.find("controller")->items[c];
+    const auto report = [&](const char* key, const std::string& message) {
+      const Node* node = written.find(key);
+      reader.report(node ? node->source : written.source, fmt::format("controller[{}].{}", c + 1, key),
+                    message);
+    };
+    const auto measured = std::ranges::find(one.quantities, controller.quantity, &Quantity::name);
+    if (measured != one.quantities.end() && (measured->kind->so_far || measured->kind->of_run))
+      report("quantity",
+             fmt::format("found \"{}\": a state alone does not tell a {}; measure another quantity",
+                         controller.quantity, measured->kind->word));
+    for (const Step& step : one.steps)
+      if (step.kind == StepKind::transient && *step.duration > Controller::most_samples * controller.every)
+        report("every", fmt::format("step \"{}\" would have {:.3g} measurements, allowed {:.0f}", step.name,
+                                    *step.duration / controller.every, Controller::most_samples));
+  }
+}
+
 /// Files are named after steps and columns after quantities: none may take the name of one that is there.
 void check_names(SectionReader& reader, const Node& tree, const Case& one) {
   for (std::size_t s = 0; s < one.steps.size(); ++s) {
@@ -82,6 +104,7 @@ void check_names(SectionReader& reader, const Node& tree, const Case& one) {
 void check_results(SectionReader& reader, const Node& tree, const Case& one) {
   check_quantities(reader, tree, one);
   check_names(reader, tree, one);
+  check_controllers(reader, tree, one);
 }
 
 } // namespace dielast::cases

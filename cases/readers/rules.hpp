@@ -21,7 +21,7 @@ void check_surroundings_of_walls(SectionReader& reader, const Node& tree, const 
 /// What touches must be there, and slide as it can.
 void check_contact(SectionReader& reader, const Node& tree, const Case& one);
 
-/// What is measured must be there, and no two results may have one name.
+/// What is measured must be there, for controllers at every state, and no two results may have one name.
 void check_results(SectionReader& reader, const Node& tree, const Case& one);
 
 void check_pivot(SectionReader& reader, const Node& tree, const Case& one);

@@ -187,12 +187,6 @@ TEST_F(ControllerTest, WhatHasNoValueIsNotControlled) {
   const Outcome outcome = simulation.run({});
   EXPECT_EQ(outcome.ending, Ending::gave_up);
   EXPECT_NE(outcome.message.find("quantity \"late\""), std::string::npos) << outcome.message;
-  one.controllers[0].quantity = "energy_peak";
-  one.quantities.push_back(one.quantities[0]);
-  one.quantities.back().name = "energy_peak";
-  one.quantities.back().of = one.quantities[0].name;
-  one.quantities.back().kind = &*std::ranges::find(quantity_kinds(), "peak", &QuantityKind::word);
-  EXPECT_THROW(Simulation(one, 1), CaseError);
 }
 
 TEST_F(ControllerTest, WithoutATransientItIsIdle) {
