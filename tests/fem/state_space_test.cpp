@@ -115,9 +115,9 @@ TEST(BalancedTruncation, tells_one_model_whatever_the_states_were) {
   std::mt19937 random(3);
   const StateSpace whole = balanced_truncation(model, 4);
   for (int trial = 0; trial < 10; ++trial) {
-    const Eigen::MatrixXd T = Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::NullaryExpr(5, 5, [&] {
-                                return std::normal_distribution()(random);
-                              })).householderQ();
+    const Eigen::MatrixXd any =
+        Eigen::MatrixXd::NullaryExpr(5, 5, [&] { return std::normal_distribution()(random); });
+    const Eigen::MatrixXd T = symmetric_eigen(any + any.transpose()).vectors;
     const StateSpace turned{T.transpose() * model.A * T, T.transpose() * model.B, model.C * T, model.D};
     const StateSpace other = balanced_truncation(turned, 4);
     EXPECT_LT((other.A - whole.A).norm(), 1e-5 * whole.A.norm());
