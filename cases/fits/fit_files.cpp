@@ -6,6 +6,7 @@
 #include "post/files/history.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 
 #include "cases/fits/fit_results.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace dielast::cases {
 

@@ -10,6 +10,7 @@
 #include "post/pictures/bode.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -8,6 +8,7 @@
 #include "meshing/quality.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "cases/runs/recorder.hpp"
 #include "post/pictures/report_tables.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace dielast::cases {
 
