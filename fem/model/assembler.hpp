@@ -74,7 +74,7 @@ class Assembler {
   std::unique_ptr<Workers> workers_;
   SparseSymmetric matrix_; ///< over the free unknowns, then those of tied nodes
   std::optional<TieReduction> reduction_;
-  SparseSymmetric reduced_;                 ///< over the free unknowns, where there are ties
+  SparseSymmetric reduced_; ///< over the free unknowns, where there are ties
   int patterns_ = 0;
   bool stale_ = false; ///< the pattern is not that of the elements
   std::vector<Contact> contacts_;
