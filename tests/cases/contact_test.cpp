@@ -175,6 +175,20 @@ TEST_F(Contacts, pass_the_force_on_from_solid_to_solid) {
   }
 }
 
+/// What moves without strain is on no other path: increments are as long as they are asked for.
+TEST_F(Contacts, let_a_solid_come_near_without_strain) {
+  std::string text = two_blocks(0.5);
+  const std::string kind = "kind = \"move\"\n";
+  text.insert(text.find(kind) + kind.size(), "increments = 2\n");
+  const Case one = read(text);
+  Simulation simulation(one, 1);
+  int accepted = 0;
+  SimulationObserver observer;
+  observer.on_accept = [&](const Frame&) { return ++accepted > 0; };
+  EXPECT_EQ(simulation.run(observer).ending, Ending::complete);
+  EXPECT_LE(accepted, 3); // as drawn, too
+}
+
 /// In space, one of 10 x 10 mm below one of 5 x 5 mm.
 std::string two_blocks_in_space(double gap, const std::string& besides = "") {
   const auto part = [&](const char* name, const char* size, const std::string& at) {
