@@ -68,7 +68,7 @@ class FaceContactBlock final : public ContactBlock {
 
   int element_count() const override { return static_cast<int>(pairs_.size()); }
   int dofs_per_element() const override { return dofs; }
-  void claim_dofs(DofMap& /*those of the solids*/, Dimension /*dimension*/) const override {}
+  void claim_dofs(DofMap& /*those of the solids*/, Dimension /*dimension*/) override {}
   void element_equations(int element, const DofMap& map, std::span<int> equations) const override {
     const Pair& pair = pairs_[static_cast<std::size_t>(element)];
     std::size_t at = 0;
