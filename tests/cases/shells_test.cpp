@@ -134,6 +134,13 @@ TEST_F(Paths, a_disc_jumps_from_where_it_buckles_onto_its_dome) {
   EXPECT_EQ(domed.rows.back().unstable_modes, 0);
 }
 
+/// A support of the centre, besides that of the rim.
+std::string held_centre(const std::string& fix) {
+  return "[[support]]\nplace = \"rim\"\nfix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n"
+         "[[support]]\nplace = \"centre\"\nfix = [" +
+         fix + "]\n";
+}
+
 // A disc's nodes have five unknowns, but for those at which something asks for single rotations.
 TEST_F(Paths, shells_tilt_where_nothing_acts_on_single_rotations) {
   const auto of_centre = [this](const std::string& rest, int step = 0) {
@@ -147,15 +154,12 @@ TEST_F(Paths, shells_tilt_where_nothing_acts_on_single_rotations) {
   };
   const std::string voltage = "[drive]\nvoltage = \"1 V\"\n[[step]]\nkind = \"voltage\"\nname = \"one\"\n",
                     again = voltage + "[[step]]\nkind = \"voltage\"\nname = \"two\"\n";
-  const auto held = [](const std::string& fix) {
-    return "[[support]]\nplace = \"centre\"\nfix = [" + fix + "]\n";
-  };
   EXPECT_TRUE(of_centre(voltage));
-  EXPECT_TRUE(of_centre(voltage + held("\"z\"")));
-  EXPECT_TRUE(of_centre(voltage + held("\"turn_x\", \"turn_y\", \"turn_z\"")));
-  EXPECT_FALSE(of_centre(voltage + held("\"turn_x\"")));
+  EXPECT_TRUE(of_centre(voltage + held_centre("\"z\"")));
+  EXPECT_TRUE(of_centre(voltage + held_centre("\"turn_x\", \"turn_y\", \"turn_z\"")));
+  EXPECT_FALSE(of_centre(voltage + held_centre("\"turn_x\"")));
   for (const int step : {0, 1}) // in all steps alike
-    EXPECT_FALSE(of_centre(again + held("\"turn_x\"") + "until = \"one\"\n", step));
+    EXPECT_FALSE(of_centre(again + held_centre("\"turn_x\"") + "until = \"one\"\n", step));
   EXPECT_FALSE(of_centre(voltage + "[[step]]\nkind = \"force\"\n[[load]]\nplace = \"centre\"\nmoment = [0, "
                                    "\"1 uN m\", 0]\n"));
 }
@@ -164,8 +168,7 @@ TEST_F(Paths, shells_tilt_where_nothing_acts_on_single_rotations) {
 // many unknowns are free.
 TEST_F(Paths, a_shell_is_let_go_of_as_if_it_had_never_been_held) {
   const auto rise = [this](const std::string& fix) {
-    const std::string held =
-        fix.empty() ? "" : "[[support]]\nplace = \"centre\"\nfix = [" + fix + "]\nuntil = \"push\"\n";
+    const std::string held = fix.empty() ? "" : held_centre(fix) + "until = \"push\"\n";
     const Run one =
         run(clamped_disc("[drive]\nvoltage = \"10 V\"\n[[step]]\nkind = \"force\"\nname = \"push\"\n"
                          "[[step]]\nkind = \"voltage\"\n[[load]]\nplace = \"centre\"\n"
