@@ -76,7 +76,7 @@ class BorderedTangent {
   const Eigen::VectorXd& stiffness_;
   std::unique_ptr<SymmetricSolver> solver_; ///< of the assembler's pattern `pattern_`
   int pattern_ = 0;
-  SymmetricSolver::Work earlier_; ///< of solvers of other patterns
+  SymmetricSolver::Work earlier_;        ///< of solvers of other patterns
   int paths_ = 0;                        ///< borders: the path, the electrodes that follow, the shift
   std::vector<std::size_t> following_;   ///< ports that follow
   Eigen::VectorXd root_capacitance_;     ///< theirs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact against closed forms: Hertz's pressures, a heavy strip lifted off a table.
-#include "fem/elements/beam_block.hpp"
 #include "fem/contact/plane_contact_block.hpp"
+#include "fem/elements/beam_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/paths/ramp.hpp"
 #include "fem/solids/solid_block.hpp"
