@@ -266,7 +266,8 @@ void ShellSum<with_tangent, axes>::add_material(const ShellTables::Point& table,
       for (int j = moved(b, 0); j < moved(b, 3); ++j) add_column(j, true, 0);
       for (int j = moved(b, 3); j < std::min(moved(b, 5), first); ++j) add_column(j, false, 0);
     }
-    for (int j = 5 * nodes; j < first; ++j) add_column(j, false, 0);
+    if constexpr (axes == 3)
+      for (int j = 5 * nodes; j < first; ++j) add_column(j, false, 0);
     for (int r = 0; r < count; ++r) add_column(first + r, moves, r);
   };
   for (int a = 0; a < nodes; ++a) {
