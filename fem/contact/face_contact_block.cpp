@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/contact/face_contact_block.hpp"
 
+#include "fem/contact/contact_sums.hpp"
 #include "fem/contact/face.hpp"
 #include "fem/films/triangle.hpp"
 
@@ -8,9 +9,9 @@
 #include <unsupported/Eigen/BVH>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -46,19 +47,16 @@ class FaceContactBlock final : public ContactBlock {
  public:
   FaceContactBlock(const meshing::Mesh& mesh, FaceContact contact)
       : contact_(std::move(contact)), drawn_(mesh.nodes) {
-    std::array<std::set<int>, 2> nodes;
     std::array<double, 2> mean{};
     for (std::size_t k = 0; k < 2; ++k) {
       const meshing::CellBlock& faces = contact_.faces[k];
       if (faces.type != meshing::CellType::triangle6)
         throw std::invalid_argument("surfaces in contact in space are made of 6-node triangles");
-      nodes[k] = {faces.nodes.begin(), faces.nodes.end()};
       add_areas(k);
       parts_[k] = parts_beside(faces);
       mean[k] = std::accumulate(areas_[k].begin(), areas_[k].end(), 0.0) / faces.size();
     }
-    if (std::ranges::any_of(nodes[0], [&](int node) { return nodes[1].contains(node); }))
-      throw std::invalid_argument("surfaces in contact have no nodes in common");
+    require_apart(contact_.faces[0], contact_.faces[1]);
     share_ = {mean[1] / (mean[0] + mean[1]), mean[0] / (mean[0] + mean[1])};
     margin_ = margin * std::sqrt(std::min(mean[0], mean[1]));
     State as_drawn;
@@ -97,16 +95,7 @@ class FaceContactBlock final : public ContactBlock {
       for_each_near(pair, own, other, [&](std::size_t q, const FacePlace& place, double factor) {
         add(pair, q, other, place, factor, scatter, sums);
       });
-      result.energy += sums.energy;
-      result.feasible = result.feasible && sums.feasible;
-      if (!sums.any) continue;
-      if (scatter.residual) scatter.add_residual(e, std::span(sums.first.data(), dofs));
-      if (!scatter.tangent) continue;
-      std::array<double, dofs*(dofs + 1) / 2> packed;
-      std::size_t k = 0;
-      for (int i = 0; i < dofs; ++i)
-        for (int j = 0; j <= i; ++j) packed[k++] = sums.second(i, j);
-      scatter.add_tangent(e, packed);
+      sums.add_to(result, e, scatter);
     }
     return result;
   }
@@ -164,12 +153,7 @@ class FaceContactBlock final : public ContactBlock {
     int own, other;
     auto operator<=>(const Pair&) const = default;
   };
-  struct Sums {
-    double energy = 0;
-    bool feasible = true, any = false;
-    Eigen::Vector<double, dofs> first = Eigen::Vector<double, dofs>::Zero();
-    Eigen::Matrix<double, dofs, dofs> second = Eigen::Matrix<double, dofs, dofs>::Zero();
-  };
+  using Sums = ContactSums<dofs>;
   /// All faces in a state.
   struct Moved {
     std::array<std::vector<FaceNodes>, 2> faces;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/contact/plane_contact_block.hpp"
 
+#include "fem/contact/contact_sums.hpp"
 #include "fem/films/triangle.hpp"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -58,14 +58,11 @@ class PlaneContactBlock final : public ContactBlock {
         const Vector3d force = area(e) * barrier.slope * contact_.normal + slider.force;
         scatter.add_residual(e, std::span(force.data(), size));
       }
-      if (!scatter.tangent) continue;
-      const Matrix3d tangent =
-          area(e) * barrier.curvature * contact_.normal * contact_.normal.transpose() + slider.tangent;
-      std::array<double, size*(size + 1) / 2> packed;
-      std::size_t k = 0;
-      for (int i = 0; i < size; ++i)
-        for (int j = 0; j <= i; ++j) packed[k++] = tangent(i, j);
-      scatter.add_tangent(e, packed);
+      if (scatter.tangent)
+        add_tangent<size>(
+            scatter, e,
+            Matrix3d(area(e) * barrier.curvature * contact_.normal * contact_.normal.transpose() +
+                     slider.tangent));
     }
     return result;
   }

@@ -2,8 +2,10 @@
 #include "fem/contact/surface_contact_block.hpp"
 
 #include "fem/contact/centreline.hpp"
+#include "fem/contact/contact_sums.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -49,12 +51,10 @@ class SurfaceContactBlock final : public ContactBlock {
  public:
   SurfaceContactBlock(const meshing::Mesh& mesh, SurfaceContact contact)
       : contact_(std::move(contact)), drawn_(mesh.nodes), up_(contact_.width ? 1 : 2) {
-    std::array<std::set<int>, 2> nodes;
     for (std::size_t k = 0; k < 2; ++k) {
       const meshing::CellBlock& sides = contact_.sides[k];
       if (sides.type != meshing::CellType::line3 && sides.type != meshing::CellType::meridian3)
         throw std::invalid_argument("surfaces in contact are made of 3-node sides");
-      nodes[k] = {sides.nodes.begin(), sides.nodes.end()};
       std::set<int> last;
       for (int i = 0; i < sides.size(); ++i) last.insert(sides.cell(i)[1]);
       for (int i = 0; i < sides.size(); ++i) {
@@ -73,8 +73,7 @@ class SurfaceContactBlock final : public ContactBlock {
     };
     const double finer = std::pow(mean_side(1) / mean_side(0), 2);
     share_ = {finer / (1 + finer), 1 / (1 + finer)};
-    if (std::ranges::any_of(nodes[0], [&](int node) { return nodes[1].contains(node); }))
-      throw std::invalid_argument("surfaces in contact have no nodes in common");
+    require_apart(contact_.sides[0], contact_.sides[1]);
   }
 
   int element_count() const override { return 2 * contact_.sides[0].size() * contact_.sides[1].size(); }
@@ -101,16 +100,7 @@ class SurfaceContactBlock final : public ContactBlock {
         add(parabola, x, q, area, scatter, sums);
         if (is_shared(pair)) add(end, x, q, -area, scatter, sums);
       }
-      result.energy += sums.energy;
-      result.feasible = result.feasible && sums.feasible;
-      if (!sums.any) continue;
-      if (scatter.residual) scatter.add_residual(e, std::span(sums.first.data(), dofs));
-      if (!scatter.tangent) continue;
-      std::array<double, dofs*(dofs + 1) / 2> packed;
-      std::size_t k = 0;
-      for (int i = 0; i < dofs; ++i)
-        for (int j = 0; j <= i; ++j) packed[k++] = sums.second(i, j);
-      scatter.add_tangent(e, packed);
+      sums.add_to(result, e, scatter);
     }
     return result;
   }
@@ -153,12 +143,7 @@ class SurfaceContactBlock final : public ContactBlock {
     std::size_t surface;
     int own, other;
   };
-  struct Sums {
-    double energy = 0;
-    bool feasible = true, any = false;
-    Eigen::Vector<double, dofs> first = Eigen::Vector<double, dofs>::Zero();
-    Eigen::Matrix<double, dofs, dofs> second = Eigen::Matrix<double, dofs, dofs>::Zero();
-  };
+  using Sums = ContactSums<dofs>;
   /// All sides in a state.
   struct Moved {
     std::array<std::vector<Side>, 2> sides;

@@ -3,6 +3,7 @@
 
 #include "fem/contact/barrier.hpp"
 #include "fem/contact/centreline.hpp"
+#include "fem/contact/contact_sums.hpp"
 
 #include <algorithm>
 #include <array>
@@ -50,12 +51,7 @@ class WallContactBlock final : public ContactBlock {
       const materials::Dual<size> total =
           closing.chain(length * energy.value, length * energy.slope, length * energy.curvature);
       if (scatter.residual) scatter.add_residual(e, std::span(total.gradient.data(), size));
-      if (!scatter.tangent) continue;
-      std::array<double, size*(size + 1) / 2> packed;
-      std::size_t k = 0;
-      for (int i = 0; i < size; ++i)
-        for (int j = 0; j <= i; ++j) packed[k++] = total.hessian(i, j);
-      scatter.add_tangent(e, packed);
+      if (scatter.tangent) add_tangent<size>(scatter, e, total.hessian);
     }
     return result;
   }

@@ -4,8 +4,8 @@
 namespace dielast::fem {
 
 void UnseenMotion::pass(const Model& model, const State& from, const State& to) {
-  const Eigen::VectorXd x = position(to, model.dofs);
-  if (start.size() == 0) start = position(from, model.dofs);
+  const Eigen::VectorXd before = position(from, model.dofs), x = position(to, model.dofs);
+  if (start.size() == 0) start = before;
   const Eigen::VectorXd d = x - start;
   if (const double now = d.dot(model.inertia.mass * d); now > size) {
     size = now;
@@ -13,7 +13,7 @@ void UnseenMotion::pass(const Model& model, const State& from, const State& to) 
   }
   const double time = to.time - from.time;
   if (time <= 0) return;
-  const Eigen::VectorXd velocity = (x - position(from, model.dofs)) / time;
+  const Eigen::VectorXd velocity = (x - before) / time;
   kinetic = std::max(kinetic, velocity.dot(model.inertia.mass * velocity) / 2);
 }
 
