@@ -211,9 +211,9 @@ class FaceContactBlock final : public ContactBlock {
     const Eigen::KdBVH<double, 3, int> tree(numbers.begin(), numbers.end(), boxes[1].begin(), boxes[1].end());
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < boxes[0].size(); ++i) {
-      Meeting near{boxes[0][i], boxes[1], {}};
-      Eigen::BVIntersect(tree, near);
-      for (const int j : near.found) {
+      Meeting touching{boxes[0][i], boxes[1], {}};
+      Eigen::BVIntersect(tree, touching);
+      for (const int j : touching.found) {
         pairs.push_back({0, static_cast<int>(i), j});
         pairs.push_back({1, j, static_cast<int>(i)});
       }
