@@ -31,7 +31,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       "  dielast linearise step.toml                         A, B, C, D in step-linear/\n"
       "  dielast info devices                                templates, their keys and places\n"
       "Exit codes: 0 ok, 1 usage or file, 2 invalid case, 3 mesh, 4 not converged (results kept), 5 a check\n"
-      "failed or works and heat are not resolved to 1 %, 130 interrupted (go on with --resume).");
+      "failed, a study's target or best point does not exist, or works and heat are not resolved to 1 %,\n"
+      "130 interrupted (go on with --resume).");
   app.set_version_flag("--version", "dielast " DIELAST_VERSION);
   app.require_subcommand(1);
 

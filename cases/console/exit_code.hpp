@@ -10,7 +10,7 @@ enum class ExitCode {
   invalid_case = 2,
   mesh = 3,
   not_converged = 4, ///< every accepted step is kept
-  check_failed = 5,  ///< or works and heat are not resolved to 1 %
+  check_failed = 5,  ///< or a study's question has no answer, or works and heat are not resolved to 1 %
   interrupted = 130, ///< after a checkpoint
 };
 

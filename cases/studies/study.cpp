@@ -105,6 +105,19 @@ ExitCode run_points(const Study& study, const StudySettings& settings, std::span
   return interrupted() ? ExitCode::interrupted : ExitCode::ok;
 }
 
+namespace {
+
+/// Whether each target is met somewhere and each best point is one.
+bool all_answered(const Study& study, const std::vector<StudyPoint>& points,
+                  const std::vector<TargetSolution>& solutions) {
+  for (std::size_t t = 0; t < study.targets.size(); ++t)
+    if (std::ranges::find(solutions, t, &TargetSolution::target) == solutions.end()) return false;
+  return std::ranges::all_of(
+      study.best, [&](const StudyBest& best) { return best_point(study, best, points).has_value(); });
+}
+
+} // namespace
+
 ExitCode run_study(const Study& study, const StudySettings& settings) {
   post::ResultsFolder folder(settings.directory, "study");
   const Case base = read_case(study.base, study.settings);
@@ -181,7 +194,9 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       (settings.directory / "report.html").string());
   const bool solved =
       std::ranges::all_of(solutions, [](const TargetSolution& one) { return one.problem.empty(); });
-  const ExitCode code = failed || !solved ? ExitCode::not_converged : ExitCode::ok;
+  const ExitCode code = failed || !solved                        ? ExitCode::not_converged
+                        : all_answered(study, points, solutions) ? ExitCode::ok
+                                                                 : ExitCode::check_failed;
   folder.set_complete(static_cast<int>(code));
   return code;
 }

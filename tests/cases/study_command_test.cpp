@@ -279,6 +279,21 @@ TEST_F(StudyCommand, TargetsThatCannotBeMetAreNotInterpolated) {
   EXPECT_NE(ended.out.find("not solved: the run at"), std::string::npos) << ended.out;
 }
 
+TEST_F(StudyCommand, QuestionsWithoutAnAnswerAreToldByTheExitCode) {
+  const auto asks = [&](const std::string& question) {
+    write("study.toml", "title = \"Asks\"\ncase = \"small.toml\"\n[study]\n"
+                        "vary = { \"mesh.wall_elements\" = [1, 3] }\n" +
+                            question);
+    return dielast(into("out"));
+  };
+  const Ended target = asks("[[study.target]]\nquantity = \"eps_y\"\nvalue = 9\n");
+  EXPECT_EQ(target.exit_code, 5) << target.out << target.err;
+  EXPECT_NE(target.out.find("not within the values varied"), std::string::npos) << target.out;
+  const Ended best =
+      asks("[[study.best]]\nlargest = \"eps_y\"\nwhere = [{ quantity = \"eps_y\", above = 9 }]\n");
+  EXPECT_EQ(best.exit_code, 5) << best.out << best.err;
+}
+
 TEST_F(StudyCommand, ImpossibleValuesAreRefusedBeforeAnythingRuns) {
   write_study(R"({ "honeycomb.angle" = ["150 deg", "60 deg", "120 deg"] })");
   const Ended ended = dielast(into("out"));
