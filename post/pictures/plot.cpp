@@ -138,12 +138,13 @@ std::pair<double, double> ends(const std::vector<Series>& all, std::vector<doubl
   return found;
 }
 
-/// A power of ten as it is written in print.
-std::string power_of_ten(int exponent) {
+/// A digit times a power of ten as it is written in print.
+std::string tick_label(int times, int exponent) {
   if (exponent >= -2 && exponent <= 4)
-    return fmt::format("{:.{}f}", std::pow(10, exponent), std::max(0, -exponent));
+    return fmt::format("{:.{}f}", times * std::pow(10, exponent), std::max(0, -exponent));
   constexpr std::array superscripts{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "10⁻" : "10";
+  std::string text = times == 1 ? "10" : fmt::format("{}·10", times);
+  if (exponent < 0) text += "⁻";
   for (const char digit : std::to_string(std::abs(exponent)))
     text += superscripts[static_cast<std::size_t>(digit - '0')];
   return text;
@@ -169,10 +170,7 @@ std::string logarithmic_ticks(char axis, std::pair<double, double> range) {
     const int every = 1 + (last - first) / 9;
     for (int exponent = first; exponent <= last; exponent += every)
       for (const int times : {1, 2, 5})
-        if (const double value = times * std::pow(10, exponent); times == 1)
-          add(power_of_ten(exponent), value);
-        else if (high < 100 * low)
-          add(fmt::format("{:.3g}", value), value);
+        if (times == 1 || high < 100 * low) add(tick_label(times, exponent), times * std::pow(10, exponent));
   }
   return fmt::format("set {}tics ({})\n", axis, ticks);
 }

@@ -182,6 +182,7 @@ TEST(Plot, LogarithmicAxesHavePowersOfTenOrEnoughOtherTicks) {
   for (const char* label : {"10⁻⁷", "10⁻³", "0.1", "10"})
     EXPECT_TRUE(labels(1e-7, 10).contains(label)) << label;
   for (const char* label : {"1", "2", "5", "10"}) EXPECT_TRUE(labels(1, 12).contains(label)) << label;
+  for (const char* label : {"10⁻⁷", "5·10⁻⁸"}) EXPECT_TRUE(labels(3e-8, 1e-6).contains(label)) << label;
   const auto narrow = labels(0.96, 1.05); // no power of ten but 1
   for (const char* label : {"0.96", "1", "1.04"}) EXPECT_TRUE(narrow.contains(label)) << label;
 }
