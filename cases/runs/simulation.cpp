@@ -159,18 +159,35 @@ void Simulation::resume(const SimulationProgress& progress) {
   }
 }
 
+namespace {
+
+/// What a jump set free, of which a step that cuts the device free says nothing.
+post::Event jumped(const std::optional<fem::EnergyBalance::JumpRelease>& release) {
+  std::string text = "jumped to another stable state";
+  if (release && release->energy > release->doubt)
+    text += fmt::format("; {} were released", post::engineering(release->energy, "J"));
+  else if (release)
+    text += fmt::format("; less was released than the {} to which the works of its increment are known",
+                        post::engineering(release->doubt, "J"));
+  return {"jump", "", text};
+}
+
+} // namespace
+
 void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {
   if (increment.turns) energy_.corner();
   fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length);
   if (!energy_.empty()) point.flow = fem::flow_heat(*equilibrium_, accounted_, state);
   const fem::State before = std::exchange(accounted_, state);
   time_error_ += increment.time_error;
+  std::optional<fem::EnergyBalance::JumpRelease> release;
   if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release)
     energy_.add_cut_free(std::move(point));
   else if (reached == Reached::by_jump)
-    energy_.add_after_jump(std::move(point));
+    release = energy_.add_after_jump(std::move(point));
   else
     energy_.add(std::move(point));
+  if (reached == Reached::by_jump) news_.push_back(jumped(release));
   if (records_ == 0) return;
   const Step& step = steps_[static_cast<std::size_t>(step_)];
   if (step.duration && !step.inertia && device_.model.inertia.mass.nonZeros() > 0)
@@ -225,7 +242,7 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   if (!admits(step, increment.load_factor, state)) return false;
   account(state, increment, reached);
   if (!sample(step, increment.load_factor, state)) return false;
-  if (increment.lands) return record(observer, step, state, increment, reached);
+  if (increment.lands) return record(observer, step, state, increment);
   unrecorded_ = increment;
   if (measurement_.follows_course())
     measurement_.pass({device_, *equilibrium_, state, energy_, measurement_.follows_fields()});
@@ -233,7 +250,7 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
 }
 
 bool Simulation::record(const SimulationObserver& observer, const Step& step, const fem::State& state,
-                        const fem::Increment& increment, Reached reached) {
+                        const fem::Increment& increment) {
   unrecorded_.reset();
   const bool is_drawn = records_ == 0;
   const bool ends = !is_drawn && increment.load_factor >= 1;
@@ -247,10 +264,6 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
   }
   const fem::NewtonResult& newton = increment.newton;
   std::vector<post::Event> events = std::exchange(news_, {});
-  if (reached == Reached::by_jump)
-    events.push_back({"jump", "",
-                      fmt::format("jumped to another stable state; {} were released",
-                                  post::engineering(energy_.work().released, "J"))});
   energy_.judge();
   if (const auto energy = energy_.worst(); ends && energy.is_poor())
     events.push_back(poor_energy(energy, step));
@@ -323,8 +336,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         }};
     const Outcome outcome =
         StepRun(*equilibrium_, step, path, options, in_step_, watcher, ways_on(case_, step)).run();
-    if (outcome.ending == Ending::gave_up && unrecorded_)
-      record(observer, step, state(), *unrecorded_, Reached::along_path);
+    if (outcome.ending == Ending::gave_up && unrecorded_) record(observer, step, state(), *unrecorded_);
     if (refusal_) return *std::exchange(refusal_, std::nullopt);
     if (outcome.ending != Ending::complete) return outcome;
   }

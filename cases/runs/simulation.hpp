@@ -90,7 +90,7 @@ class Simulation {
               const fem::Increment& increment, Reached reached);
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);
   bool record(const SimulationObserver& observer, const Step& step, const fem::State& state,
-              const fem::Increment& increment, Reached reached);
+              const fem::Increment& increment);
 
   const Case& case_;
   int threads_;

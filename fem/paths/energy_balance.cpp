@@ -162,19 +162,23 @@ void EnergyBalance::corner() {
   if (points.size() == 2) points.erase(points.begin());
 }
 
-void EnergyBalance::add_after_jump(EnergyPoint point) {
+EnergyBalance::JumpRelease EnergyBalance::add_after_jump(EnergyPoint point) {
   const EnergyPoint& before = record_.points.back();
+  JumpRelease release;
   const auto done = [&](Conjugates EnergyPoint::*pair) {
-    return ((before.*pair).force + (point.*pair).force)
-               .dot((point.*pair).coordinate - (before.*pair).coordinate) /
-           2;
+    const Conjugates &from = before.*pair, &to = point.*pair;
+    const Eigen::ArrayXd moved = to.coordinate - from.coordinate;
+    release.doubt += ((to.force - from.force).array() * moved).abs().sum() / 2;
+    return ((from.force + to.force).array() * moved).sum() / 2;
   };
   const double electrical = done(&EnergyPoint::electrical), mechanical = done(&EnergyPoint::mechanical);
   record_.work.electrical += electrical;
   record_.work.mechanical += mechanical;
-  record_.work.released += electrical + mechanical - (total(point.energy) - stored());
+  release.energy = electrical + mechanical - (total(point.energy) - stored());
+  record_.work.released += release.energy;
   record_.points.clear();
   arrive(std::move(point));
+  return release;
 }
 
 void EnergyBalance::add_cut_free(EnergyPoint point) {

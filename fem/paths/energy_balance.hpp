@@ -64,8 +64,13 @@ class EnergyBalance {
   void add(EnergyPoint point);
   /// The path has a corner at the last state: no curvature is taken across it.
   void corner();
+  /// Energy that a jump set free, J. Loads that went on meanwhile did their work at forces between those at
+  /// both ends, which is known no better than to `doubt`.
+  struct JumpRelease {
+    double energy = 0, doubt = 0;
+  };
   /// The next state was reached by a jump, at fixed loads or at loads that went on a little meanwhile.
-  void add_after_jump(EnergyPoint point);
+  JumpRelease add_after_jump(EnergyPoint point);
   /// The next state was reached by taking away a frame that did no work.
   void add_cut_free(EnergyPoint point);
 

@@ -175,7 +175,9 @@ TEST(EnergyBalance, a_jump_releases_what_nobody_accounts_for) {
   balance.add(point_at(0, 1, 0));
   EnergyPoint landed = point_at(1, 2, 0);
   landed.electrical.force[0] = std::exp(1.0);
-  balance.add_after_jump(landed);
+  const EnergyBalance::JumpRelease release = balance.add_after_jump(landed);
+  EXPECT_DOUBLE_EQ(release.energy, balance.work().released);
+  EXPECT_DOUBLE_EQ(release.doubt, std::abs(std::exp(1.0) - point_at(0, 1, 0).electrical.force[0]) / 2);
   EXPECT_NEAR(balance.work().electrical, std::exp(1.0), 1e-15);
   EXPECT_NEAR(balance.work().released, std::exp(1.0) - (std::exp(2.0) - std::exp(1.0)), 1e-14);
   EXPECT_NEAR(balance.error(), 0, 1e-14);
