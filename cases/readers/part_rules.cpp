@@ -158,9 +158,6 @@ void check_solid(SectionReader& reader, const Node& tree, const Case& one, const
       }))
     report("material", "a solid's dashpots have no axes: dashpot = \"log\"");
   if (meshed->mesh.order != 2) report("section", "a solid is made of 6-node triangles");
-  if (std::ranges::any_of(one.steps, &Step::inertia))
-    report("section", "solids move without inertia; of small vibrations ask in steps of kind \"modes\" and "
-                      "\"harmonic\"");
   if (one.linearise && film.potential)
     report("field", "a field that is solved for has no linear model; ask for a step of kind \"harmonic\"");
   if (std::ranges::any_of(one.steps,
