@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
-
-#include "fem/elements/beam_block.hpp"
+#include "cases/parts/part_kinds.hpp"
 #include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>
@@ -29,30 +28,23 @@ std::array<materials::BeamSection, 2> leaves(const Part& part) {
   return {hinge, ribbon};
 }
 
-/// Bars of one section along lines of the mesh.
-struct SetOfBars {
-  const std::vector<int>& lines;
-  materials::BeamSection section;
-  double offset;    ///< of their axes from the lines, along z, m
-  std::size_t part; ///< that they are of, a number in Case::parts
-};
-
-/// The section of a lattice's walls, and how far above the film's middle their axis is.
-std::pair<materials::BeamSection, double> walls_of(const Honeycomb& lattice, const Film& film) {
+/// A lattice's walls. Their axis may lie above the film's middle.
+AlikeBars walls_of(const Honeycomb& lattice, const Film& film) {
   const Beam& wall = lattice.wall;
   const double printed_on = film.thickness / (film.prestretch[0] * film.prestretch[1]);
   if (lattice.print == WallPrint::both_faces)
-    return {materials::two_faced_section(wall.material, wall.width, wall.height, printed_on), 0};
-  return {materials::rectangular_section(wall.material, wall.width, wall.height),
-          lattice.print == WallPrint::one_face ? (wall.height + printed_on) / 2 : 0};
+    return beams_of(materials::two_faced_section(wall.material, wall.width, wall.height, printed_on));
+  return beams_of(materials::rectangular_section(wall.material, wall.width, wall.height),
+                  lattice.print == WallPrint::one_face ? (wall.height + printed_on) / 2 : 0);
 }
 
-/// Calls `use` with each lattice's walls, and with the bars of each part along lines of the mesh.
-void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh,
-                          const std::function<void(const SetOfBars&)>& use) {
+/// Calls `use` with each lattice's walls, and with the bars of each part along lines of the mesh; `part`: a
+/// number in Case::parts.
+void for_each_set_of_bars(
+    const Case& one, const meshing::Mesh& mesh,
+    const std::function<void(const AlikeBars&, const std::vector<int>& lines, std::size_t part)>& use) {
   std::set<int> taken;
-  const auto take = [&](std::size_t p, const std::string& place, const materials::BeamSection& section,
-                        double offset = 0) {
+  const auto take = [&](std::size_t p, const std::string& place, const AlikeBars& bars) {
     const std::string& part = one.parts[p].name;
     const std::vector<int>* lines = mesh.cells_of(place, mesh.walls());
     if (!lines)
@@ -61,23 +53,19 @@ void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh,
     for (const int line : *lines)
       if (!taken.insert(line).second)
         throw meshing::MeshError(fmt::format("part \"{}\": a line of \"{}\" has a bar already", part, place));
-    use({*lines, section, offset, p});
+    use(bars, *lines, p);
   };
   for (std::size_t p = 0; p < one.parts.size(); ++p) {
     const Part& part = one.parts[p];
-    if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry)) {
-      const auto [section, offset] = walls_of(*lattice, *part.film);
-      take(p, part.called("walls"), section, offset);
-    }
+    if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry))
+      take(p, part.called("walls"), walls_of(*lattice, *part.film));
     if (std::holds_alternative<AntagonisticRolls>(part.geometry)) {
       const auto [hinge, ribbon] = leaves(part);
-      take(p, "hinge", hinge);
-      for (const char* place : {"upper_ribbon", "lower_ribbon"}) take(p, place, ribbon);
+      take(p, "hinge", beams_of(hinge));
+      for (const char* place : {"upper_ribbon", "lower_ribbon"}) take(p, place, beams_of(ribbon));
     }
-    if (part.beam)
-      take(p, part.has_mesh() ? part.called("line") : part.place,
-           materials::rectangular_section(part.beam->material, part.beam->width, part.beam->height),
-           part.beam->offset);
+    if (const PartKind* kind = kind_of(part); kind && kind->bars)
+      take(p, part.has_mesh() ? part.called("line") : part.place, kind->bars(part));
   }
 }
 
@@ -85,14 +73,14 @@ void for_each_set_of_bars(const Case& one, const meshing::Mesh& mesh,
 
 std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh) {
   std::vector<fem::Tie> links;
-  for_each_set_of_bars(one, mesh, [&](const SetOfBars& bars) {
+  for_each_set_of_bars(one, mesh, [&](const AlikeBars& bars, const std::vector<int>& own, std::size_t) {
     if (bars.offset == 0) return;
     meshing::CellBlock& lines = *std::ranges::find_if(
         mesh.blocks, [](const meshing::CellBlock& block) { return meshing::is_line(block.type); });
     const Eigen::Vector3d arm(0, 0, bars.offset);
     std::map<int, int> set_off;
     const auto per_line = static_cast<std::size_t>(meshing::nodes_per_cell(lines.type));
-    for (const int line : bars.lines)
+    for (const int line : own)
       for (std::size_t a = 0; a < per_line; ++a) {
         int& node = lines.nodes[static_cast<std::size_t>(line) * per_line + a];
         const auto [entry, fresh] = set_off.try_emplace(node, mesh.node_count());
@@ -115,21 +103,20 @@ void link_bars(const std::vector<fem::Tie>& links, fem::Dimension dimension, fem
 }
 
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  for_each_set_of_bars(one, mesh, [&](const SetOfBars& bars) {
-    model.blocks.push_back(fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), bars.lines),
-                                                bars.section, Eigen::Vector3d::UnitZ(), bars.lines));
+  for_each_set_of_bars(one, mesh, [&](const AlikeBars& bars, const std::vector<int>& lines, std::size_t) {
+    model.blocks.push_back(bars.block(mesh, lines));
   });
 }
 
 Bars bars(const Case& one, const meshing::Mesh& mesh) {
   const std::size_t count = mesh.walls() ? static_cast<std::size_t>(mesh.walls()->size()) : 0;
   Bars all{std::vector<double>(count), std::vector<double>(count), std::vector<int>(count)};
-  for_each_set_of_bars(one, mesh, [&](const SetOfBars& bars) {
-    for (const int number : bars.lines) {
+  for_each_set_of_bars(one, mesh, [&](const AlikeBars& bars, const std::vector<int>& lines, std::size_t p) {
+    for (const int number : lines) {
       const auto line = static_cast<std::size_t>(number);
-      all.widths[line] = 2 * bars.section.half_width;
-      all.heights[line] = 2 * bars.section.half_height;
-      all.parts[line] = static_cast<int>(bars.part);
+      all.widths[line] = bars.width;
+      all.heights[line] = bars.height;
+      all.parts[line] = static_cast<int>(p);
     }
   });
   return all;

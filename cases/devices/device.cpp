@@ -307,7 +307,6 @@ Device build_device(const Case& one) {
                                                                              : std::sqrt(elements));
   try {
     add_films(one, mesh, parts, model);
-    add_solids(one, mesh, parts, model);
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/device.hpp"
 
+#include "cases/case/part_kind.hpp"
 #include "cases/tables/regions.hpp"
 #include "meshing/assembly.hpp"
 #include "meshing/mesh_error.hpp"
@@ -51,7 +52,7 @@ void place(meshing::Mesh& mesh, const Part& part) {
 meshing::Mesh build_mesh(const Case& one) {
   std::vector<std::string> bars;
   for (const Part& part : one.parts)
-    if (part.beam) bars.push_back(part.place);
+    if (const PartKind* kind = kind_of(part); kind && kind->bars) bars.push_back(part.place);
   // Two triangles of any order are exact for a patch; one mesh has triangles of one order.
   const bool curved = std::ranges::any_of(one.parts, [](const Part& part) {
     return part.has_mesh() && !std::holds_alternative<Patch>(part.geometry) && part.mesh.order == 2;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/discretisation.hpp"
 
+#include "cases/case/part_kind.hpp"
+
 #include <algorithm>
 
 namespace dielast::cases {
@@ -28,11 +30,11 @@ double coarsen_mesh(Part& part, int factor) {
 }
 
 /// Elements of all parts larger by a factor; returns by how much they are, 1 where they cannot all be.
-/// Patches and rods are exact.
+/// Patches and what is one element are exact.
 double coarsen_meshes(Case& one, int factor) {
   double coarser = 1;
   for (Part& part : one.parts) {
-    if (!part.has_mesh() || std::holds_alternative<Patch>(part.geometry) || part.rod) continue;
+    if (!part.has_mesh() || std::holds_alternative<Patch>(part.geometry) || is_one_element(part)) continue;
     const double by = coarsen_mesh(part, factor);
     if (by == 1 || (coarser > 1 && by != coarser)) return 1;
     coarser = by;

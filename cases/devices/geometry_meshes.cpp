@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The meshes of the geometries, as they are drawn by themselves.
-#include "cases/case/part.hpp"
+#include "cases/case/part_kind.hpp"
 #include "meshing/bars.hpp"
 #include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/honeycomb_mesh.hpp"
@@ -117,8 +117,7 @@ meshing::Mesh mesh_of(const Roll& roll, const Drawing& drawing) {
 
 meshing::Mesh mesh_of(const Line& line, const Drawing& drawing) {
   const Eigen::Vector3d from(line.from.data()), to(line.to.data());
-  if (drawing.part.rod) return meshing::rod_mesh(from, to);
-  return meshing::line_mesh(from, to, drawing.part.mesh.wall_elements, drawing.part.mesh.order);
+  return kind_of(drawing.part)->line(from, to, drawing.part.mesh);
 }
 
 meshing::Mesh mesh_of(const AntagonisticRolls& rolls, const Drawing& drawing) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
 
+#include "cases/case/part_kind.hpp"
 #include "fem/elements/capacitor_block.hpp"
 #include "fem/films/membrane_block.hpp"
-#include "fem/shells/shell_block.hpp"
-#include "fem/solids/solid_block.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/solids/sides.hpp"
 
@@ -37,65 +36,6 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
     }
   }
   return map;
-}
-
-/// Electrode or ground at each node of solids with a potential.
-std::vector<int> potential_map(const Case& one, const meshing::Mesh& mesh) {
-  std::vector<int> map(mesh.nodes.size(), fem::NodePotential::follows);
-  const auto claim = [&](const Electrode& electrode, const std::string& place, int potential) {
-    for (const int node : mesh.node_sets.at(place)) {
-      int& known = map[static_cast<std::size_t>(node)];
-      if (known != fem::NodePotential::follows && known != potential)
-        throw meshing::MeshError(fmt::format(
-            "electrode \"{}\": \"{}\" touches a surface of another potential", electrode.name, place));
-      known = potential;
-    }
-  };
-  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
-    if (const Electrode& electrode = one.electrodes[e]; !electrode.ground.empty()) {
-      claim(electrode, electrode.ground, fem::NodePotential::ground);
-      claim(electrode, electrode.place, static_cast<int>(e));
-    }
-  return map;
-}
-
-/// A part that is meshed across its thickness.
-fem::SolidSection solid_section(const Case& one, const Part& part) {
-  const Film& film = *part.film;
-  fem::SolidSection section{.material = film.material, .width = film.width, .thickness = film.thickness};
-  if (film.bulk_modulus) section.bulk_modulus = *film.bulk_modulus;
-  const bool along_z = one.dimension == fem::Dimension::axisymmetric ||
-                       (one.dimension == fem::Dimension::spatial && !one.any_geometry<Slab>());
-  section.normal = Eigen::Vector3d::Unit(film.stacked_along.value_or(along_z ? 2 : 1));
-  return section;
-}
-
-/// The mesh's options that hold for a part: those of the mesh in which it is.
-const MeshOptions& mesh_options(const Case& one, const Part& part) {
-  return part.has_mesh() ? part.mesh : one.unnamed()->mesh;
-}
-
-/// Unstretched widths of the film of a rod with all its layers side by side, m: under the electrode, as if
-/// that were as long as the rod, and beside it.
-struct RodWidths {
-  double charged, passive;
-};
-
-RodWidths rod_widths(const Part& part) {
-  const Rod& rod = *part.rolled();
-  const auto* line = std::get_if<Line>(&part.geometry);
-  const double length = line
-                            ? (Eigen::Vector3d(line->to.data()) - Eigen::Vector3d(line->from.data())).norm() /
-                                  part.film->prestretch[0]
-                            : std::get<AntagonisticRolls>(part.geometry).length;
-  const double electrode = rod.electrode_length.value_or(length);
-  if (electrode > length * (1 + 1e-9))
-    throw meshing::MeshError(
-        fmt::format("{}: the electrode is {:.6g} mm long, the unstretched rod {:.6g} mm",
-                    part.called(line ? "rod.electrode_length" : "antagonistic_rolls.electrode_length"),
-                    1e3 * electrode, 1e3 * length));
-  const double charged = rod.layers * rod.electrode_width.value_or(rod.width) * electrode / length;
-  return {charged, std::max(0.0, rod.layers * rod.width - charged)};
 }
 
 } // namespace
@@ -132,64 +72,19 @@ std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh) {
 void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model) {
   const meshing::CellBlock& film = *mesh.film();
   const std::vector<int> electrodes = electrode_map(one, mesh, film);
-  for (std::size_t p = 0; p < one.parts.size(); ++p) {
-    std::vector<int> cells, over;
-    for (int cell = 0; cell < film.size(); ++cell) {
-      if (parts[static_cast<std::size_t>(cell)] != static_cast<int>(p)) continue;
-      cells.push_back(cell);
-      over.push_back(electrodes[static_cast<std::size_t>(cell)]);
+  for (const PartKind& kind : part_kinds()) {
+    std::vector<PartFilm> films;
+    for (std::size_t p = 0; p < one.parts.size(); ++p) {
+      if (kind_of(one.parts[p]) != &kind) continue;
+      PartFilm own{&one.parts[p], {}, {}};
+      for (int cell = 0; cell < film.size(); ++cell) {
+        if (parts[static_cast<std::size_t>(cell)] != static_cast<int>(p)) continue;
+        own.cells.push_back(cell);
+        own.electrodes.push_back(electrodes[static_cast<std::size_t>(cell)]);
+      }
+      if (!own.cells.empty()) films.push_back(std::move(own));
     }
-    if (cells.empty()) continue;
-    const Part& part = one.parts[p];
-    // Two points of a 3-node meridian: there stretches are one order better than elsewhere.
-    const int points = film.type == meshing::CellType::triangle6   ? mesh_options(one, part).quadrature
-                       : film.type == meshing::CellType::meridian3 ? 2
-                                                                   : 1;
-    const auto* strip_of = std::get_if<Strip>(&part.geometry);
-    const double cover = strip_of ? strip_of->cover_thickness : 0;
-    const fem::MembraneSection section{.material = part.film->material,
-                                       .thickness = part.film->thickness,
-                                       .layers = part.layers(),
-                                       .prestretch = part.film->prestretch,
-                                       .tension_field = part.film->tension_field};
-    const auto add = [&](const fem::MembraneSection& with, std::vector<int> under) {
-      model.blocks.push_back(fem::make_membrane_block(mesh, meshing::subset(film, cells), with,
-                                                      std::move(under), one.dimension, points, cells));
-    };
-    if (part.film->is_solid()) continue;
-    if (part.film->section == FilmSection::shell) {
-      const std::vector<int> none(cells.size(), fem::passive);
-      fem::ShellSection layers{.prestretch = part.film->prestretch};
-      std::vector<std::vector<int>> electrodes_of;
-      const auto stack = [&](double thickness, const std::vector<int>& under) {
-        if (!(thickness > 0)) return;
-        layers.layers.push_back({part.film->material, thickness});
-        electrodes_of.push_back(under);
-      };
-      stack(cover, none);
-      for (int layer = 0; layer < section.layers; ++layer) stack(section.thickness, over);
-      stack(cover, none);
-      model.blocks.push_back(
-          fem::make_shell_block(mesh, meshing::subset(film, cells), layers, std::move(electrodes_of), cells));
-      continue;
-    }
-    if (!part.rolled()) {
-      add(section, std::move(over));
-      fem::MembraneSection covers = section;
-      covers.thickness = cover;
-      covers.layers = 2;
-      covers.sampled = false;
-      if (cover > 0) add(covers, std::vector<int>(cells.size(), fem::passive));
-      continue;
-    }
-    // Layers side by side; what lies beside the electrode is stretched with what lies under it.
-    const RodWidths widths = rod_widths(part);
-    fem::MembraneSection strip = section;
-    strip.width = widths.charged;
-    add(strip, std::move(over));
-    strip.width = widths.passive;
-    strip.sampled = false;
-    if (strip.width > 0) add(strip, std::vector<int>(cells.size(), fem::passive));
+    if (!films.empty()) kind.add(one, mesh, films, model);
   }
 }
 
@@ -267,34 +162,6 @@ void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& 
       dofs.tie({node, master, at(node) - at(master)});
     }
   }
-}
-
-void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
-                fem::Model& model) {
-  std::vector<fem::SolidSection> sections;
-  std::map<int, int> section_of;
-  bool potential = false;
-  for (std::size_t p = 0; p < one.parts.size(); ++p)
-    if (const auto& film = one.parts[p].film; film && film->is_solid()) {
-      section_of[static_cast<int>(p)] = static_cast<int>(sections.size());
-      sections.push_back(solid_section(one, one.parts[p]));
-      potential = film->potential;
-    }
-  if (sections.empty()) return;
-  const meshing::CellBlock& film = *mesh.film();
-  const std::vector<int> electrodes = electrode_map(one, mesh, film);
-  fem::SolidCells cells;
-  for (int cell = 0; cell < film.size(); ++cell)
-    if (const auto section = section_of.find(parts[static_cast<std::size_t>(cell)]);
-        section != section_of.end()) {
-      cells.numbers.push_back(cell);
-      cells.electrodes.push_back(electrodes[static_cast<std::size_t>(cell)]);
-      cells.sections.push_back(section->second);
-    }
-  cells.elements = meshing::subset(film, cells.numbers);
-  model.blocks.push_back(fem::make_solid_block(mesh, std::move(cells), sections,
-                                               potential ? potential_map(one, mesh) : std::vector<int>{},
-                                               one.dimension));
 }
 
 meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh) {

@@ -12,14 +12,12 @@ namespace dielast::cases {
 /// overlap, film of no part.
 std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh);
 
-/// Adds one block of membrane elements for each part that is a film, in the order of the parts; `parts` are
-/// film_parts(). Throws MeshError and std::invalid_argument for electrodes and elements that cannot be.
+/// Adds the blocks of all parts that are film, kind by kind; `parts` are film_parts(). Throws MeshError and
+/// std::invalid_argument for electrodes and elements that cannot be.
 void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model);
 
 /// Adds what else an electrode charges: its stray capacitance, and what of it lies in a strip's clamps.
 void add_capacitors(const Case& one, fem::Model& model);
-/// Adds one block of all solids, likewise.
-void add_solids(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model);
 
 /// The surface of a solid on which the chamber presses. In space it must be closed, or be so with its mirror
 /// images: otherwise its volume would depend on where its edge is. Throws MeshError where it is not.

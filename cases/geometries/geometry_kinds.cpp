@@ -56,7 +56,7 @@ Key order_key() {
       .at_least(1)
       .at_most(2)
       .otherwise("2")
-      .only_with(when::elements());
+      .only_with(when::order_matters());
 }
 
 Key wall_elements_key() {

@@ -345,8 +345,8 @@ std::vector<Template> line_templates() {
            "",
            "rod"},
           {"line",
-           "a straight row of beams between two points",
-           {{"line", "the beams"}, {"start", "where it starts"}, {"end", "where it ends"}},
+           "a straight row of bars between two points",
+           {{"line", "the bars"}, {"start", "where it starts"}, {"end", "where it ends"}},
            "",
            ""}};
 }

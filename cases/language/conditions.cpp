@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/language/conditions.hpp"
 
+#include "cases/case/part_kind.hpp"
 #include "meshing/solids/surface.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -192,8 +195,9 @@ Condition volume_applies() {
 }
 
 Condition elements() {
-  return on<Part>("more than a [rod], which is one element",
-                  [](const Case&, const Part& part) { return !part.rod; });
+  const auto are_one = [](const PartKind& kind) { return kind.one_element; };
+  return on<Part>(fmt::format("more than {}, which is one element", words_of_kinds(are_one)),
+                  [](const Case&, const Part& part) { return !is_one_element(part); });
 }
 
 Condition curved_triangles() {
@@ -264,6 +268,16 @@ Condition moves_along_it() {
                             return true;
                         return false;
                       });
+}
+
+Condition order_matters() {
+  return on<Part>(
+      fmt::format("another part than {}, whose elements have no nodes between their ends",
+                  words_of_kinds([](const PartKind& kind) { return kind.line && !kind.has_middles; })),
+      [](const Case&, const Part& part) {
+        const PartKind* kind = kind_of(part);
+        return !kind || kind->has_middles || !std::holds_alternative<Line>(part.geometry);
+      });
 }
 
 } // namespace when

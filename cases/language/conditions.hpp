@@ -25,8 +25,9 @@ Condition time_steps_matter(); ///< in a step with a duration something flows or
 Condition voltage_applies();
 Condition chamber_is_open(); ///< a step reaches or follows its pressure
 Condition chamber_is_closed();
-Condition volume_applies(); ///< a step pumps it
-Condition elements();
+Condition volume_applies();   ///< a step pumps it
+Condition elements();         ///< its mesh is more than one
+Condition order_matters();    ///< its elements may have nodes between their ends
 Condition curved_triangles(); ///< the film is of 6-node triangles
 Condition moves_along_it();   ///< of a quantity's direction
 Condition an_electrode_keeps_off_walls();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Beams, rods, and what is made of them.
+#include "cases/case/part_kind.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/tables/bar_keys.hpp"
 
@@ -81,7 +82,8 @@ Key wall_print() {
 Section line_section() {
   Section section;
   section.name = "line";
-  section.meaning = "a straight [rod] of film, or a straight [beam]";
+  section.meaning =
+      fmt::format("straight: {}", words_of_kinds([](const PartKind& kind) { return kind.line != nullptr; }));
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<Line>();
   section.keys = {

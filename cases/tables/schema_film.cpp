@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/part_kind.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/tables/parameter_keys.hpp"
 #include "materials/catalog.hpp"
@@ -189,6 +190,14 @@ std::optional<Conflict> prestretch_conflict(const void* object) {
   return std::nullopt;
 }
 
+/// What film may be by its section alone.
+std::vector<Choice> sections() {
+  std::vector<Choice> words;
+  for (const PartKind& kind : part_kinds())
+    if (kind.section) words.emplace_back(kind.word, kind.meaning, *kind.section);
+  return words;
+}
+
 } // namespace
 
 Section film_section() {
@@ -216,17 +225,7 @@ Section film_section() {
             {"tension field", "it wrinkles and carries tension only", true}},
            to(&Film::tension_field), "what the film does where it would be compressed")
           .otherwise("compression"),
-      word("section",
-           {{"membrane", "it does not resist bending", FilmSection::membrane},
-            {"shell", "it resists bending, and its nodes turn; in space, of 6-node triangles",
-             FilmSection::shell},
-            {"solid",
-             "it is meshed: in plane strain (model = \"planar\") or of revolution of 6-node triangles, in "
-             "space "
-             "of 10-node tetrahedra; the default of a [slab] and a [hollow_sphere]",
-             FilmSection::solid}},
-           to(&Film::section), "what the film's thickness does")
-          .otherwise("membrane"),
+      word("section", sections(), to(&Film::section), "what the film's thickness does").otherwise("membrane"),
       word(
           "field",
           {{"layers",

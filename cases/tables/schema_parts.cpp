@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/part_kind.hpp"
 #include "cases/language/schema.hpp"
 
 #include <algorithm>
@@ -36,8 +37,10 @@ bool is_without_mesh(const Node& outer) {
 } // namespace
 
 std::vector<Section> unnamed_part_sections() {
-  std::vector<Section> sections{film_section(), rod_section()};
+  std::vector<Section> sections{film_section()};
   sections.front().needless = [](const Node& outer) { return outer.find("part") != nullptr; };
+  for (const PartKind& kind : part_kinds())
+    if (kind.at_top) sections.push_back(kind.table());
   for (Section& section : geometry_sections()) sections.push_back(std::move(section));
   for (Section& section : leaf_sections()) sections.push_back(std::move(section));
   for (Section& section : region_sections()) sections.push_back(std::move(section));
@@ -79,8 +82,8 @@ std::vector<Section> part_sections() {
   };
   part.sections.push_back(film_section());
   part.sections.back().presence = Section::Presence::optional;
-  part.sections.push_back(rod_section());
-  part.sections.push_back(beam_section());
+  for (const PartKind& kind : part_kinds())
+    if (kind.table) part.sections.push_back(kind.table());
   for (Section& section : geometry_sections()) part.sections.push_back(std::move(section));
   part.sections.push_back(mesh_section());
   part.sections.back().needless = is_without_mesh;

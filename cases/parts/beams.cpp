@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/language/schema.hpp"
+#include "cases/parts/part_kinds.hpp"
+#include "fem/elements/beam_block.hpp"
+#include "meshing/bars.hpp"
+
+namespace dielast::cases {
+
+AlikeBars beams_of(const materials::BeamSection& section, double offset) {
+  return {2 * section.half_width, 2 * section.half_height, offset,
+          [section](const meshing::Mesh& mesh, const std::vector<int>& lines) {
+            return fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), lines), section,
+                                        Eigen::Vector3d::UnitZ(), lines);
+          }};
+}
+
+PartKind beam_kind() {
+  return {.word = "beam",
+          .plural = "beams",
+          .table = beam_section,
+          .is = [](const Part& part) { return part.beam.has_value(); },
+          .bars =
+              [](const Part& part) {
+                const Beam& beam = *part.beam;
+                return beams_of(materials::rectangular_section(beam.material, beam.width, beam.height),
+                                beam.offset);
+              },
+          .line =
+              [](const Eigen::Vector3d& from, const Eigen::Vector3d& to, const MeshOptions& options) {
+                return meshing::line_mesh(from, to, options.wall_elements, options.order);
+              }};
+}
+
+} // namespace dielast::cases

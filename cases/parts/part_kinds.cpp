@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/parts/part_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+
+std::span<const PartKind> part_kinds() {
+  static const std::vector<PartKind> kinds{rod_kind(), membrane_kind(), shell_kind(), solid_kind(),
+                                           beam_kind()};
+  return kinds;
+}
+
+const PartKind* kind_of(const Part& part) {
+  const auto found = std::ranges::find_if(part_kinds(), [&](const PartKind& kind) { return kind.is(part); });
+  return found == part_kinds().end() ? nullptr : &*found;
+}
+
+bool is_one_element(const Part& part) {
+  const PartKind* kind = kind_of(part);
+  return kind && kind->one_element && std::holds_alternative<Line>(part.geometry);
+}
+
+const Node& WrittenPart::top() const {
+  return part.name.empty() ? tree : *tree.find("part")->find(part.name);
+}
+
+std::string WrittenPart::path(const std::string& key) const {
+  if (part.name.empty()) return key;
+  return fmt::format("part.{}{}{}", part.name, key.empty() ? "" : ".", key);
+}
+
+void WrittenPart::report(const std::string& table, const std::string& message) const {
+  const Node* blamed = top().find(table);
+  reader.report(blamed ? blamed->key_source : top().source, path(blamed ? table : ""), message);
+}
+
+void WrittenPart::report_film(const char* key, const std::string& message) const {
+  const Node& film = *top().find("film");
+  const Node* written = film.find(key);
+  if (written && !written->source.is_written()) written = nullptr; // the geometry has brought it
+  reader.report(written ? written->source : film.source, path(fmt::format("film.{}", key)),
+                written ? fmt::format("found {}: {}", text_of(*written), message) : message);
+}
+
+const Part* WrittenPart::meshed() const { return part.has_mesh() ? &part : one.unnamed(); }
+
+bool has_axes(const Part& part) {
+  return std::ranges::any_of(part.film->material.branches, [](const materials::Branch& branch) {
+    return branch.dashpot == materials::Dashpot::nominal;
+  });
+}
+
+double cover_of(const Part& part) {
+  const auto* strip = std::get_if<Strip>(&part.geometry);
+  return strip ? strip->cover_thickness : 0;
+}
+
+} // namespace dielast::cases
