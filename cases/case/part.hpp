@@ -59,6 +59,16 @@ struct Rod {
   std::optional<double> electrode_length{}; ///< likewise, along the rod
 };
 
+/// [part.NAME.cable]: threads that pull along themselves and resist nothing else
+struct Cable {
+  double diameter = 0;                  ///< m
+  double youngs_modulus = 0;            ///< Pa
+  double prestretch = 1;                ///< length as drawn over that at rest
+  double crimp = 0;                     ///< strain over which its fibres straighten
+  double density = 0;                   ///< kg/m^3
+  std::optional<double> yield_strain{}; ///< of the fibres; absent: not known
+};
+
 enum class WallBond {
   line,  ///< the film moves with the wall's centreline
   width, ///< the film under a wall is clamped to it over its width
@@ -269,6 +279,7 @@ struct Part {
   std::optional<Film> film;
   std::optional<Rod> rod; ///< what the film is rolled to
   std::optional<Beam> beam;
+  std::optional<Cable> cable{};
   std::optional<Leaf> hinge{}, ribbon{}; ///< of antagonistic rolls
   Geometry geometry;
   std::vector<DrawnRegion> regions{};

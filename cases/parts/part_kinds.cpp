@@ -8,8 +8,8 @@
 namespace dielast::cases {
 
 std::span<const PartKind> part_kinds() {
-  static const std::vector<PartKind> kinds{rod_kind(), membrane_kind(), shell_kind(), solid_kind(),
-                                           beam_kind()};
+  static const std::vector<PartKind> kinds{rod_kind(),   membrane_kind(), shell_kind(),
+                                           solid_kind(), beam_kind(),     cable_kind()};
   return kinds;
 }
 

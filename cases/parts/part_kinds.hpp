@@ -41,5 +41,6 @@ PartKind rod_kind();
 PartKind shell_kind();
 PartKind solid_kind();
 PartKind beam_kind();
+PartKind cable_kind();
 
 } // namespace dielast::cases
