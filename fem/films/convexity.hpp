@@ -18,15 +18,16 @@ bool is_positive_definite(const Lanes (&full)[size][size], const Lanes& volume) 
     for (int j = 0; j <= i; ++j) form[i][j] = full[i][j];
   }
   const Lanes least = negligible * trace;
+  auto holds = least > 0; // not where something is not a number
   for (int k = 0; k < size; ++k) {
-    for (int l = 0; l < lanes; ++l)
-      if (volume[l] != 0 && !(least[l] > 0 && form[k][k][l] > least[l])) return false;
+    holds &= form[k][k] > least;
+    const Lanes inverse = 1.0 / form[k][k];
     for (int i = k + 1; i < size; ++i) {
-      const Lanes factor = form[i][k] / form[k][k];
+      const Lanes factor = form[i][k] * inverse;
       for (int j = k + 1; j <= i; ++j) form[i][j] -= factor * form[j][k];
     }
   }
-  return true;
+  return all_lanes(holds | (volume == 0));
 }
 
 } // namespace dielast::fem

@@ -13,13 +13,6 @@
 
 namespace dielast::fem {
 
-template<std::size_t size>
-std::array<double, size> lane_of(const Lanes (&all)[size], int l) {
-  std::array<double, size> one;
-  for (std::size_t i = 0; i < size; ++i) one[i] = all[i][l];
-  return one;
-}
-
 /// Membrane elements of one kinematics and one law, `lanes` at a time.
 /// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see FilmResponse), where
 /// that is a sheet by the voltages of its corners: k = eps sum_a N_a (V_a/H)^2 with N_a linear (see
@@ -64,6 +57,10 @@ class MembraneBlock final : public ElementBlock {
     for (int a = 0; a < Nodes; ++a) X.col(a) = reference_[static_cast<std::size_t>(node(element, a))];
     return X;
   }
+  decltype(auto) point(int pack, int p) const {
+    return Kinematics::point(geometry_[static_cast<std::size_t>(pack * points_ + p)],
+                             rule_[static_cast<std::size_t>(p)]);
+  }
   void gather(const State& state, int pack, Lanes (&x)[Nodes][Dim]) const;
   Lanes electric_modulus(const State& state, int pack) const;
   /// The same at a point where some of the elements lie under sheets; `k` holds for the others.
@@ -96,7 +93,8 @@ class MembraneBlock final : public ElementBlock {
   std::vector<int> numbers_;    ///< of the elements, in the mesh's block
   FilmSheets<Corners> sheets_;
   std::vector<Eigen::Vector3d> reference_;
-  std::vector<Point> geometry_; ///< points_ per pack
+  std::vector<typename Kinematics::Kept> geometry_; ///< points_ per pack
+  std::vector<typename Kinematics::Rule> rule_;
 };
 
 template<class Kinematics, class Law>
@@ -106,13 +104,13 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
                                               std::vector<int> numbers)
     : film_(std::move(law), section), section_(section), count_(cells.size()), points_(integration_points),
       nodes_(cells.nodes), electrodes_(std::move(electrodes)), numbers_(std::move(numbers)),
-      reference_(mesh.nodes) {
+      reference_(mesh.nodes), rule_(Kinematics::rule(integration_points)) {
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e) {
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
     electrodes_.push_back(electrodes_.back());
   }
-  geometry_.assign(static_cast<std::size_t>(packs * points_), Point{});
+  geometry_.resize(static_cast<std::size_t>(packs * points_));
   for (int e = 0; e < packs * lanes; ++e) {
     const auto places = Kinematics::places(drawn(e), section_, points_);
     for (int p = 0; p < points_; ++p) {
@@ -121,10 +119,9 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
       if (!(place.area > 0))
         throw std::invalid_argument(std::string(Kinematics::element) + " " + std::to_string(numbers_[e]) +
                                     " is inverted or degenerate as drawn");
-      Point& point = geometry_[static_cast<std::size_t>(e / lanes * points_ + p)];
-      for (int a = 0; a < Nodes; ++a)
-        for (int i = 0; i < 2; ++i) point.gradient[a][i][e % lanes] = place.gradient(a, i);
-      point.volume[e % lanes] = e < count_ ? place.area * section_.thickness : 0.0;
+      auto& kept = geometry_[static_cast<std::size_t>(e / lanes * points_ + p)];
+      Kinematics::keep(place, e % lanes, kept);
+      kept.volume[e % lanes] = e < count_ ? place.area * section_.thickness : 0.0;
     }
   }
 }
@@ -161,13 +158,11 @@ void MembraneBlock<Kinematics, Law>::element_equations(int element, const DofMap
 template<class Kinematics, class Law>
 void MembraneBlock<Kinematics, Law>::gather(const State& state, int pack, Lanes (&x)[Nodes][Dim]) const {
   for (int a = 0; a < Nodes; ++a)
-    for (int l = 0; l < lanes; ++l) {
-      const auto n = static_cast<std::size_t>(node(pack * lanes + l, a));
-      for (int d = 0; d < Dim; ++d) {
-        const int c = component(d);
-        x[a][d][l] = reference_[n][c] + state.displacement[n][c];
-      }
-    }
+    for (int d = 0; d < Dim; ++d)
+      x[a][d] = lanes_of([&](int l) {
+        const auto n = static_cast<std::size_t>(node(pack * lanes + l, a));
+        return reference_[n][component(d)] + state.displacement[n][component(d)];
+      });
 }
 
 template<class Kinematics, class Law>
@@ -223,19 +218,23 @@ MembraneBlock<Kinematics, Law>::potential(const State& state, int pack, int poin
 template<class Kinematics, class Law>
 template<class Visitor>
 void MembraneBlock<Kinematics, Law>::for_each_point(const State& state, const Visitor& visit) const {
-  std::vector<Deformation> of_pack(static_cast<std::size_t>(points_));
+  std::vector<Point> points(static_cast<std::size_t>(points_));
+  std::vector<Deformation> of_pack(points.size());
   for (int pack = 0; pack * lanes < count_; ++pack) {
     Lanes x[Nodes][Dim];
     gather(state, pack, x);
     const Lanes k = electric_modulus(state, pack);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      points[p] = point(pack, static_cast<int>(p));
+      of_pack[p] = Kinematics::deformation(x, points[p]);
+    }
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
       for (int p = 0; p < points_; ++p) {
-        const Point& geometry = geometry_[static_cast<std::size_t>(pack * points_ + p)];
-        Deformation& d = of_pack[static_cast<std::size_t>(p)];
-        if (l == 0) d = Kinematics::deformation(x, geometry);
-        const int element = pack * lanes + l, point = element * points_ + p;
+        const auto at = static_cast<std::size_t>(p);
+        const int element = pack * lanes + l;
         const Lanes here = sheets_.vary(state) ? under_sheets(state, pack, p, k) : k;
-        visit(Visit{element, p, point, geometry, d, l, lane_of(d.C, l), here[l]});
+        visit(Visit{element, p, element * points_ + p, points[at], of_pack[at], l, lane_of(of_pack[at].C, l),
+                    here[l]});
       }
   }
 }
@@ -246,6 +245,7 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
                                                           const Scatter& scatter) const {
   Evaluation result{.convex = with_tangent};
   Lanes energy{};
+  LaneMask upright = Lanes{} == 0.0;
   const bool varies = sheets_.vary(state);
   for (int pack = first / lanes; pack * lanes < last; ++pack) {
     Lanes x[Nodes][Dim];
@@ -253,18 +253,17 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
     const Lanes k = electric_modulus(state, pack);
     Lanes residual[dofs] = {}, tangent[with_tangent ? packed_size : 1] = {};
     for (int p = 0; p < points_; ++p) {
-      const Point& point = geometry_[static_cast<std::size_t>(pack * points_ + p)];
+      decltype(auto) point = this->point(pack, p);
       const Deformation d = Kinematics::deformation(x, point);
-      const Lanes orientation = Kinematics::orientation(d);
-      for (int l = 0; l < lanes; ++l)
-        if (!(orientation[l] > 0)) result.feasible = false;
+      upright &= Kinematics::orientation(d) > 0;
       bool lost = false;
       const Potential stored =
           potential(state, pack, p, d.C, varies ? under_sheets(state, pack, p, k) : k, lost);
       if (lost) result.feasible = false;
       energy += point.volume * stored.value;
       const WeightedStress stress(point.volume, stored);
-      result.convex &= Kinematics::template accumulate<with_tangent>(point, d, stress, residual, tangent);
+      result.convex &= Kinematics::template accumulate<with_tangent>(
+          point, d, stress, scatter.residual ? residual : nullptr, tangent);
     }
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
       const int element = pack * lanes + l;
@@ -272,6 +271,7 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
       if constexpr (with_tangent) scatter.add_tangent(element, lane_of(tangent, l));
     }
   }
+  result.feasible &= all_lanes(upright);
   for (int l = 0; l < lanes; ++l) result.energy += energy[l];
   if (!std::isfinite(result.energy)) result.feasible = false; // beyond a stretch limit
   return result;
@@ -292,16 +292,16 @@ void MembraneBlock<Kinematics, Law>::add_relaxation(const State& state, const Ra
     Lanes x[Nodes][Dim];
     gather(state, pack, x);
     const Lanes k = electric_modulus(state, pack);
-    Lanes unused[dofs] = {}, tangent[packed_size] = {};
+    Lanes tangent[packed_size] = {};
     for (int p = 0; p < points_; ++p) {
-      const Point& point = geometry_[static_cast<std::size_t>(pack * points_ + p)];
+      decltype(auto) point = this->point(pack, p);
       const Deformation d = Kinematics::deformation(x, point);
       const Lanes here = sheets_.vary(state) ? under_sheets(state, pack, p, k) : k;
       Potential psi{};
       for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
         set_lane(psi, l,
                  film_.relaxation(state, (pack * lanes + l) * points_ + p, lane_of(d.C, l), here[l], weight));
-      Kinematics::template accumulate<true>(point, d, WeightedStress(point.volume, psi), unused, tangent);
+      Kinematics::template accumulate<true>(point, d, WeightedStress(point.volume, psi), nullptr, tangent);
     }
     for (int l = 0; l < lanes && pack * lanes + l < count_; ++l)
       scatter.add_tangent(pack * lanes + l, lane_of(tangent, l));

@@ -35,6 +35,22 @@ struct FilmPlace {
   Eigen::Matrix<double, Corners, 2> corner_gradient; ///< 1/m
 };
 
+/// Kinematics whose blocks keep the gradients as they are.
+template<int Nodes>
+struct KeepsGradients {
+  using Point = FilmPoint<Nodes>;
+  using Kept = Point;
+  struct Rule {};
+
+  static std::vector<Rule> rule(int points) { return std::vector<Rule>(static_cast<std::size_t>(points)); }
+  template<int Corners>
+  static void keep(const FilmPlace<Nodes, Corners>& place, int lane, Kept& kept) {
+    for (int a = 0; a < Nodes; ++a)
+      for (int i = 0; i < 2; ++i) kept.gradient[a][i][lane] = place.gradient(a, i);
+  }
+  static const Point& point(const Kept& kept, const Rule&) { return kept; }
+};
+
 /// S = dPsi/dC and d2Psi/dC2 times the volume of a point, see materials::MembranePotential.
 struct WeightedStress {
   Lanes S11, S22, S12;
@@ -63,6 +79,15 @@ struct TriangleKinematics {
   static constexpr std::array<int, 3> components{0, 1, 2}; ///< of the displacement, per unknown of a node
   static constexpr int mass_points = Nodes == 6 ? 6 : 3;   ///< that integrate N_a N_b exactly
   using Point = FilmPoint<Nodes>;
+  /// What an element has of its own at a point, as it is kept: all gradients follow from those of the
+  /// functions that are linear between the corners and 1 at the second and the third, at two fifths of the
+  /// memory that an assembly would read.
+  struct Kept {
+    Lanes linear[2][2];
+    Lanes volume;
+  };
+  /// Derivatives of the shape functions along the reference triangle's sides, per integration point.
+  using Rule = std::array<std::array<double, 2>, Nodes>;
 
   struct Deformation {
     Lanes F[2][Dim]; ///< by columns
@@ -84,6 +109,30 @@ struct TriangleKinematics {
                      shape_gradients<3>(at.xi, at.eta) * per_metre});
     }
     return all;
+  }
+
+  static std::vector<Rule> rule(int points) {
+    std::vector<Rule> all;
+    for (const TrianglePoint& at : triangle_rule(points)) {
+      const Eigen::Matrix<double, Nodes, 2> dN = shape_gradients<Nodes>(at.xi, at.eta);
+      Rule& of_point = all.emplace_back();
+      for (int a = 0; a < Nodes; ++a) of_point[static_cast<std::size_t>(a)] = {dN(a, 0), dN(a, 1)};
+    }
+    return all;
+  }
+  static void keep(const FilmPlace<Nodes, corners>& place, int lane, Kept& kept) {
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) kept.linear[i][j][lane] = place.corner_gradient(1 + i, j);
+  }
+  static Point point(const Kept& kept, const Rule& rule) {
+    Point point;
+    for (int a = 0; a < Nodes; ++a)
+      for (int j = 0; j < 2; ++j) {
+        const auto& dN = rule[static_cast<std::size_t>(a)];
+        point.gradient[a][j] = dN[0] * kept.linear[0][j] + dN[1] * kept.linear[1][j];
+      }
+    point.volume = kept.volume;
+    return point;
   }
 
   static Deformation deformation(const Lanes (&x)[Nodes][Dim], const Point& point) {
@@ -115,12 +164,12 @@ struct TriangleKinematics {
     row[2] = d.F[0][c] * G[1] + d.F[1][c] * G[0];
   }
 
-  /// residual_a += F S grad N_a;  tangent_ab += A grad N_a grad N_b, A = dP/dF. Returns whether the tangent's
-  /// part is convex, see Evaluation::convex.
+  /// residual_a += F S grad N_a;  tangent_ab += A grad N_a grad N_b, A = dP/dF. `residual`: null where it is
+  /// not wanted. Returns whether the tangent's part is convex, see Evaluation::convex.
   template<bool with_tangent>
   static bool accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
-                         Lanes (&residual)[Nodes * Dim], Lanes* tangent) {
-    for (int a = 0; a < Nodes; ++a) {
+                         Lanes* residual, Lanes* tangent) {
+    for (int a = 0; residual && a < Nodes; ++a) {
       const auto& G = point.gradient[a];
       const Lanes SG[2]{stress.S11 * G[0] + stress.S12 * G[1], stress.S12 * G[0] + stress.S22 * G[1]};
       for (int c = 0; c < Dim; ++c) residual[a * Dim + c] += d.F[0][c] * SG[0] + d.F[1][c] * SG[1];
@@ -176,7 +225,7 @@ struct TriangleKinematics {
 /// unstretched radius: C11 = lambda_1^2 = r'^2 + z'^2, C22 = lambda_2^2 = (r/R)^2, C12 = 0 (Green & Adkins
 /// 1960, ch. IV). The gradients of a point are dN_a/dS and N_a/R; a volume is that of the full turn.
 template<int Nodes>
-struct MeridianKinematics {
+struct MeridianKinematics : KeepsGradients<Nodes> {
   static constexpr const char* element = "meridian";
   static constexpr bool free_across = false;
   static constexpr int nodes = Nodes, dim = 2, corners = 2;
@@ -231,8 +280,8 @@ struct MeridianKinematics {
   /// Whether it is convex is not known: few unknowns are soon factored.
   template<bool with_tangent>
   static bool accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
-                         Lanes (&residual)[Nodes * 2], Lanes* tangent) {
-    for (int a = 0; a < Nodes; ++a) {
+                         Lanes* residual, Lanes* tangent) {
+    for (int a = 0; residual && a < Nodes; ++a) {
       const auto& G = point.gradient[a];
       for (int c = 0; c < 2; ++c) residual[a * 2 + c] += stress.S11 * d.along[c] * G[0];
       residual[a * 2] += stress.S22 * d.hoop * G[1];

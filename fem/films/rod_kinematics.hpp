@@ -14,7 +14,7 @@ namespace dielast::fem {
 /// a field k through the film's thickness -(k/2) lambda. The gradients of a point are dN_a/dS along the
 /// unstretched rod; a volume is that of a strip of the section's width.
 template<int Dim>
-struct RodKinematics {
+struct RodKinematics : KeepsGradients<2> {
   static constexpr const char* element = "rod";
   static constexpr bool free_across = true;
   static constexpr int nodes = 2, dim = Dim, corners = 2;
@@ -66,9 +66,9 @@ struct RodKinematics {
   /// across itself.
   template<bool with_tangent>
   static bool accumulate(const Point& point, const Deformation& d, const WeightedStress& stress,
-                         Lanes (&residual)[nodes * Dim], Lanes* tangent) {
+                         Lanes* residual, Lanes* tangent) {
     const Lanes S = stress.S11 + stress.S22 * d.narrowing;
-    for (int a = 0; a < nodes; ++a)
+    for (int a = 0; residual && a < nodes; ++a)
       for (int c = 0; c < Dim; ++c) residual[a * Dim + c] += S * d.along[c] * point.gradient[a][0];
     if constexpr (with_tangent) {
       const Lanes bend = -1.5 * d.narrowing / d.C.C11; // d2C22/dC11^2
