@@ -67,10 +67,8 @@ class FilmResponse {
   };
   ChargeDensity charge_density(const materials::TensionField& field, const C& at) const {
     const auto of = [&](const C& film) {
-      const Potential q = materials::in_components<false>(
-          materials::capacitance_ratio(material_.dielectric, film.trace(), film.det()), film, C{1, 1, 0},
-          1.0);
-      return ChargeDensity{q.value, materials::tension_field::first(q)};
+      const auto q = materials::capacitance_ratio(material_.dielectric, film.trace(), film.det());
+      return ChargeDensity{q.value, {q.dT + q.dD * film.C22, q.dT + q.dD * film.C11, -2.0 * q.dD * film.C12}};
     };
     const ChargeDensity natural = of(field.natural);
     if (!wrinkles(field)) return natural;
