@@ -229,10 +229,10 @@ class VtkSeries::PartFile {
     fill(
         displacement_, [&](const TurnedNode& point) { return point(state.displacement); },
         [&](const BarPoint& point) { return point.displacement(state.displacement, state.rotation); });
-    for (vtkIdType i = 0; i < place_->GetNumberOfTuples(); ++i)
-      for (const int c : {0, 1, 2})
-        place_->SetComponent(i, c,
-                             drawn_[static_cast<std::size_t>(i)][c] + displacement_->GetComponent(i, c));
+    const double* moved = displacement_->GetPointer(0);
+    double* place = place_->GetPointer(0);
+    for (const Eigen::Vector3d& drawn : drawn_)
+      for (const int c : {0, 1, 2}) *place++ = drawn[c] + *moved++;
     place_->Modified();
     grid_->GetPoints()->Modified();
   }
