@@ -4,7 +4,7 @@
 #include <libdeflate.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -36,15 +36,15 @@ std::string png(std::span<const std::uint32_t> pixels, int width) {
   for (std::size_t row = 0; row < rows; ++row) {
     *at++ = 0; // the line's filter: none
     for (const std::uint32_t pixel : pixels.subspan(row * columns, columns)) {
-      const std::uint32_t opacity = opaque ? 0xff : pixel >> 24;
-      const auto channel = [&](int shift) {
-        const std::uint32_t value = pixel >> shift & 0xff;
-        return opacity % 0xff == 0 ? value : (0xff * value + opacity / 2) / opacity;
-      };
-      const std::array<std::uint8_t, 4> four{
-          static_cast<std::uint8_t>(channel(16)), static_cast<std::uint8_t>(channel(8)),
-          static_cast<std::uint8_t>(channel(0)), static_cast<std::uint8_t>(opacity)};
-      std::memcpy(at, four.data(), four.size());
+      const std::uint32_t opacity = pixel >> 24;
+      std::uint32_t four = pixel << 8 | opacity; // red, green, blue, opacity from the highest byte on
+      if (opacity % 0xff != 0)
+        for (const int shift : {8, 16, 24}) {
+          const std::uint32_t value = four >> shift & 0xff;
+          four += ((0xff * value + opacity / 2) / opacity - value) << shift;
+        }
+      if constexpr (std::endian::native == std::endian::little) four = __builtin_bswap32(four);
+      std::memcpy(at, &four, sizeof four);
       at += opaque ? 3 : 4;
     }
   }
