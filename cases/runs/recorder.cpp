@@ -252,13 +252,19 @@ void Recorder::record(const Frame& frame) {
   history_->append(record.step, history_row(record, frame.values));
   if (series_) {
     if (waiting_ && waiting_->step.name != record.step) write_waiting();
-    waiting_ = {series_step(series_time(record), record.step, record.load_factor, record.voltages),
-                frame.measured.state, frame.measured.samples};
+    post::SeriesStep step =
+        series_step(series_time(record), record.step, record.load_factor, record.voltages);
     for (std::size_t q = 0; q < case_.quantities.size(); ++q)
-      waiting_->step.numbers.push_back(
+      step.numbers.push_back(
           {fmt::format("{} [{}]", case_.quantities[q].name, unit_of(case_.quantities[q], case_.quantities)),
            frame.values[q]});
-    if (case_.all_states || frame.ends_step) write_waiting();
+    waiting_.reset();
+    const fem::State& state = frame.measured.state;
+    const fem::Samples& samples = frame.measured.samples;
+    if (case_.all_states || frame.ends_step)
+      series_->write(step, post::series_state(simulation_.device().model, state, samples));
+    else
+      waiting_ = {std::move(step), state, samples};
   }
 
   Snapshot now = snapshot(simulation_.device(), record.step, frame.measured.state, frame.measured.samples);
