@@ -153,9 +153,9 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
     square += correction;
     const double least = tolerance * tolerance * square;
     if (correction <= least) return iteration;
-    // With a factor of the matrix itself corrections fall fast, and by what the next one will be told before
-    // it is made: as much smaller as this one is than the last, or ten times less.
-    if (proves_ && iteration > 1 && foreseen * correction * correction <= least * last) return iteration;
+    // By what the next correction will be told before it is made: as much smaller as this one is than the
+    // last, or ten times less. The second falls faster than others, but with a factor of the matrix itself.
+    if (iteration > (proves_ ? 1 : 2) && foreseen * correction * correction <= least * last) return iteration;
   }
   return std::nullopt;
 }
