@@ -12,9 +12,9 @@ namespace {
 Section cable_section() {
   Section section;
   section.name = "cable";
-  section.meaning =
-      "threads along the lines of the part's place, or one along a [line]: they pull, and resist "
-      "neither compression nor bending";
+  section.meaning = "threads along the lines of the part's place, or one along a [line]: they pull, and "
+                    "resist neither compression nor bending. What they alone hold needs them taut as drawn "
+                    "(prestretch above 1) or inertia";
   section.presence = Section::Presence::optional;
   section.access = present(&Part::cable);
   section.keys = {

@@ -196,6 +196,64 @@ along = "x"
   }
 }
 
+/// What hangs from a taut cable rings at sqrt(k/m), k that of its length at rest.
+TEST_F(Cables, CarryAWeightThatRings) {
+  const auto end = values(fmt::format(R"toml(
+model = "3d"
+[part.p]
+at = ["50 mm", 0, 0]
+[part.p.film]
+thickness = "1 mm"
+prestretch = 1.2
+[part.p.film.material]
+shear_modulus = "50 kPa"
+relative_permittivity = 4
+[part.p.rectangle]
+length = "10 mm"
+[part.p.mesh]
+across = 2
+[part.c.line]
+to = [0, 0, "-100 mm"]
+[part.c.cable]
+{}density = "0 kg/m^3"
+prestretch = 1.001
+[gravity]
+acceleration = 10
+[[support]]
+place = "p.frame"
+fix = ["x", "y", "z"]
+[[support]]
+place = "c.start"
+fix = ["x", "y", "z"]
+[[support]]
+place = "c.end"
+fix = ["x", "y"]
+[[point_mass]]
+place = "c.end"
+mass = "20 g"
+[[step]]
+kind = "weight"
+[[quantity]]
+name = "pull"
+kind = "extreme"
+of = "axial_force"
+extreme = "maximum"
+[[quantity]]
+name = "sag"
+kind = "displacement"
+of = "c.end"
+along = "gravity"
+[[quantity]]
+name = "rings"
+kind = "natural frequency"
+)toml",
+                                      threads));
+  const double length = 100e-3 / 1.001;
+  EXPECT_NEAR(end.at("pull"), 0.2, 1e-10);
+  EXPECT_NEAR(end.at("sag"), length * (1 + 0.2 / stiffness + crimp / 2) - 100e-3, 1e-11);
+  EXPECT_NEAR(end.at("rings"), std::sqrt(stiffness / length / 20e-3), 1e-8);
+}
+
 /// In space nothing keeps the joint of a slack tendon and slack film on its line: no state is made up.
 TEST_F(Cables, WhatASlackCableLeavesFreeIsTold) {
   const Case one = read(muscle("5 kV", 0.97, 2, true));
