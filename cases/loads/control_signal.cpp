@@ -16,8 +16,8 @@ constexpr double same_time = 4e-9;
 
 class ControlSignal : public Signal {
  public:
-  ControlSignal(const Case& one, const Controller& controller, const Waveform* drive)
-      : controller_(controller), drive_(drive) {
+  ControlSignal(const Case& one, const Controller& controller, const Waveform* said)
+      : controller_(controller), said_(said) {
     const auto found = std::ranges::find(one.quantities, controller.quantity, &Quantity::name);
     quantity_ = static_cast<std::size_t>(found - one.quantities.begin());
   }
@@ -44,11 +44,10 @@ class ControlSignal : public Signal {
   std::string sample(double t, const Measured& measured, const Measurement& measurement) override {
     const double lack = controller_.target - measurement.value(quantity_, measured);
     if (!std::isfinite(lack))
-      return fmt::format("quantity \"{}\", which the controller of electrode \"{}\" measures, has no value",
-                         controller_.quantity, controller_.electrode);
+      return fmt::format("quantity \"{}\", which a controller measures, has no value", controller_.quantity);
     const double integral = samples_ > 0 ? integral_ + lack_ * controller_.every : integral_;
     const double share = controller_.integral_gain * integral;
-    const double base = drive_ ? drive_->at(t) : 0;
+    const double base = said_ ? said_->at(t) : 0;
     const double wanted = base + controller_.gain * lack + share;
     before_ = std::exchange(held_, std::clamp(wanted, controller_.lowest, controller_.highest));
     // At a limit the integral stays, unless it leads away from there.
@@ -71,19 +70,19 @@ class ControlSignal : public Signal {
 
  private:
   const Controller& controller_;
-  const Waveform* drive_;
+  const Waveform* said_;
   std::size_t quantity_ = 0;
   int samples_ = 0;              ///< in this step
   double close_ = 0;             ///< times as close as this are one, s
-  double held_ = 0, before_ = 0; ///< V, since the last measurement, and until then
+  double held_ = 0, before_ = 0; ///< since the last measurement, and until then
   double integral_ = 0;          ///< of what the quantity lacks, s times its unit
   double lack_ = 0;              ///< at the last measurement
 };
 
 } // namespace
 
-std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller, const Waveform* drive) {
-  return std::make_unique<ControlSignal>(one, controller, drive);
+std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller, const Waveform* said) {
+  return std::make_unique<ControlSignal>(one, controller, said);
 }
 
 } // namespace dielast::cases

@@ -5,8 +5,8 @@
 
 namespace dielast::cases {
 
-/// What a [[controller]] makes of the states that are reached: sampled, and held. `drive`: what it is added
-/// to; null: nothing. Throws CaseError where its quantity is none of a state.
-std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller, const Waveform* drive);
+/// What a [[controller]] makes of the states that are reached: sampled, and held. `said`: of the load by
+/// the case, to which it is added; null: nothing.
+std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller, const Waveform* said);
 
 } // namespace dielast::cases

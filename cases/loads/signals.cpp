@@ -6,30 +6,37 @@
 namespace dielast::cases {
 namespace {
 
-class WaveSignal : public Signal {
- public:
-  explicit WaveSignal(const Waveform& wave) : wave_(wave) {}
-  double at(Instant t) const override { return t.of(wave_); }
-  std::vector<double> kinks(double duration) const override { return wave_.kinks(0, duration); }
-
- private:
-  const Waveform& wave_;
-};
-
-std::unique_ptr<Signal> signal_of(const Electrode& electrode, const Case& one) {
-  const auto drive = one.drives.find(electrode.name);
-  const Waveform* wave =
-      drive != one.drives.end() && drive->second.voltage ? &*drive->second.voltage : nullptr;
-  for (const Controller& controller : one.controllers)
-    if (controller.electrode == electrode.name) return control_signal(one, controller, wave);
-  return wave ? std::make_unique<WaveSignal>(*wave) : nullptr;
+/// What the case says of a load; null: nothing.
+const Waveform* wave_of(const Case& one, const DrivenLoad& load) {
+  const auto there = [](const std::optional<Waveform>& wave) { return wave ? &*wave : nullptr; };
+  const auto along = static_cast<std::size_t>(load.along);
+  switch (load.what) {
+  case Driven::voltage:
+    if (const auto drive = one.drives.find(load.of); drive != one.drives.end())
+      return there(drive->second.voltage);
+    return nullptr;
+  case Driven::pressure:
+    return there(one.chamber->pressure);
+  case Driven::volume:
+    return there(one.chamber->volume);
+  case Driven::force:
+    for (const Load& own : one.loads)
+      if (own.place == load.of && !own.moment) return &own.force[along];
+    return nullptr;
+  case Driven::displacement:
+    for (const Support& own : one.supports)
+      if (own.place == load.of && own.fixed[along]) return there(own.motion[along]);
+    return nullptr;
+  }
+  return nullptr;
 }
 
 } // namespace
 
 Signals signals_of(const Case& one) {
   Signals signals;
-  for (const Electrode& electrode : one.electrodes) signals.push_back(signal_of(electrode, one));
+  for (const Controller& controller : one.controllers)
+    signals[controller.drives] = control_signal(one, controller, wave_of(one, controller.drives));
   return signals;
 }
 

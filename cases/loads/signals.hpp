@@ -3,8 +3,8 @@
 
 #include "cases/quantities/measurement.hpp"
 
+#include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,28 +18,26 @@ struct Instant {
   double of(const Waveform& wave) const { return before ? wave.before(t) : wave.at(t); }
 };
 
-/// What the source of an electrode gives in a transient, by the time of the step.
+/// What a load is in a transient, by the time of the step, instead of what the case says of it.
 class Signal {
  public:
   virtual ~Signal() = default;
-  virtual double at(Instant t) const = 0; ///< V
+  virtual double at(Instant t) const = 0; ///< SI
   /// Times from 0 to `duration` at which it jumps or turns, s.
   virtual std::vector<double> kinks(double duration) const = 0;
 
-  // What few have: a value that follows from the states that are reached.
   /// A step begins that takes this time, s.
-  virtual void begin(double) {}
+  virtual void begin(double duration) = 0;
   /// Whether it wants to see the state that was accepted at this time of the step; always its beginning.
-  virtual bool samples(double) const { return false; }
+  virtual bool samples(double t) const = 0;
   /// Sees that state. Says what is wrong with it, nothing where it can go on.
-  virtual std::string sample(double, const Measured&, const Measurement&) { return ""; }
+  virtual std::string sample(double t, const Measured& measured, const Measurement& measurement) = 0;
   /// What it keeps between states; with it, it goes on bit for bit.
-  virtual std::vector<double> memory() const { return {}; }
-  virtual void recall(const std::vector<double>&) {}
+  virtual std::vector<double> memory() const = 0;
+  virtual void recall(const std::vector<double>& memory) = 0;
 };
 
-/// Of each electrode, by its number; null: no voltage is said of it.
-using Signals = std::vector<std::unique_ptr<Signal>>;
+using Signals = std::map<DrivenLoad, std::unique_ptr<Signal>>;
 Signals signals_of(const Case& one);
 
 } // namespace dielast::cases

@@ -56,10 +56,10 @@ std::optional<double> StepLoads::goal_of(const Step& step, std::size_t electrode
   return goal_of(step, source ? source->*part : std::nullopt, t);
 }
 
-std::optional<double> StepLoads::voltage_goal(const Step& step, std::size_t electrode, Instant t) const {
-  if (step.kind != StepKind::transient) return goal_of(step, electrode, &Drive::voltage, t);
-  const Signal* signal = signals_[electrode].get();
-  return signal ? std::optional(signal->at(t)) : std::nullopt;
+const Signal* StepLoads::signal_of(const Step& step, const DrivenLoad& load) const {
+  if (step.kind != StepKind::transient) return nullptr;
+  const auto found = signals_.find(load);
+  return found == signals_.end() ? nullptr : found->second.get();
 }
 
 /// Circuits take time; without, an electrode is at its source's voltage.
@@ -117,24 +117,33 @@ Eigen::VectorXd StepLoads::dead_force(int step, Instant t) const {
     for (int c = 0; c < fem::DofMap::components; ++c) {
       const Waveform* wave = load.component(c);
       if (!wave) continue;
+      const Signal* signal =
+          load.moment ? nullptr
+                      : signal_of(steps_[static_cast<std::size_t>(step)], {Driven::force, load.place, c});
+      const double whole = signal ? signal->at(t) : t.of(*wave);
       const auto acts = [&](int node) { return dofs.equation(node, c) != fem::DofMap::absent; };
       // Every node of a place moves, or none does; film among walls does not turn.
       const auto share = 1 / static_cast<double>(std::ranges::count_if(nodes, acts));
       for (const int node : nodes)
-        if (acts(node)) force[dofs.equation(node, c)] += t.of(*wave) * share;
+        if (acts(node)) force[dofs.equation(node, c)] += whole * share;
     }
   }
   return force;
 }
 
-void StepLoads::move(Eigen::VectorXd& held, Instant t) const {
+void StepLoads::move(const Step& step, Eigen::VectorXd& held, Instant t) const {
   const fem::DofMap& dofs = device_.model.dofs;
   for (const Support& support : case_.supports)
-    for (int c = 0; c < 3; ++c)
-      if (const auto& motion = support.motion[static_cast<std::size_t>(c)])
-        for (const int node : device_.mesh.node_sets.at(support.place))
-          if (const int e = dofs.equation(node, c); dofs.is_held(e))
-            held[e - dofs.free_count()] = t.of(*motion);
+    for (int c = 0; c < 3; ++c) {
+      const auto& motion = support.motion[static_cast<std::size_t>(c)];
+      const Signal* signal = support.fixed[static_cast<std::size_t>(c)]
+                                 ? signal_of(step, {Driven::displacement, support.place, c})
+                                 : nullptr;
+      if (!motion && !signal) continue;
+      const double moved = signal ? signal->at(t) : t.of(*motion);
+      for (const int node : device_.mesh.node_sets.at(support.place))
+        if (const int e = dofs.equation(node, c); dofs.is_held(e)) held[e - dofs.free_count()] = moved;
+    }
 }
 
 /// The loads that the step leads to (a ramp: just before t = 0) or has at t (a transient).
@@ -148,26 +157,32 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   else if (has_let_go)
     loads.dead_force -= let_go;
   if (has_let_go) loads.dead_force += left(step, t) * let_go;
-  if (does(StepKind::move)) move(loads.held, t);
+  if (does(StepKind::move)) move(step, loads.held, t);
+  const auto goal = [&](const DrivenLoad& load, const auto& said) {
+    const Signal* signal = signal_of(step, load);
+    return signal ? std::optional(signal->at(t)) : said();
+  };
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
     const bool isolated = supply(step, e) == fem::Supply::charge;
-    if (const auto goal = voltage_goal(step, e, t); does(StepKind::voltage) && goal && !isolated) {
-      loads.source[e] = *goal;
+    const auto voltage = goal({Driven::voltage, case_.electrodes[e].name},
+                              [&] { return goal_of(step, e, &Drive::voltage, t); });
+    if (does(StepKind::voltage) && voltage && !isolated) {
+      loads.source[e] = *voltage;
       const fem::Circuit* circuit = device_.model.circuit_of(e);
       loads.voltage[e] = loads.source[e] * (circuit ? circuit->steady_share() : 1);
     }
-    if (const auto goal = goal_of(step, e, &Drive::charge, t); does(StepKind::charge) && goal && isolated)
-      loads.charge[e] = *goal;
+    if (const auto charge = goal_of(step, e, &Drive::charge, t); does(StepKind::charge) && charge && isolated)
+      loads.charge[e] = *charge;
     if (const fem::Circuit* circuit = device_.model.circuit_of(e);
         step.kind == StepKind::relax && circuit && !isolated)
       loads.voltage[e] = loads.source[e] * circuit->steady_share();
   }
   if (case_.chamber) {
     const std::size_t port = case_.electrodes.size();
-    if (const auto goal = goal_of(step, case_.chamber->pressure, t); does(StepKind::pressure) && goal)
-      loads.voltage[port] = *goal;
-    if (const auto goal = goal_of(step, case_.chamber->volume, t); does(StepKind::inflate) && goal)
-      loads.charge[port] = *goal;
+    const auto pressure = goal({Driven::pressure}, [&] { return goal_of(step, case_.chamber->pressure, t); });
+    if (does(StepKind::pressure) && pressure) loads.voltage[port] = *pressure;
+    const auto volume = goal({Driven::volume}, [&] { return goal_of(step, case_.chamber->volume, t); });
+    if (does(StepKind::inflate) && volume) loads.charge[port] = *volume;
   }
   return loads;
 }
@@ -182,10 +197,11 @@ std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
     const std::vector<double> kinks = wave.kinks(0, *step.duration);
     all.insert(all.end(), kinks.begin(), kinks.end());
   };
-  for (const auto& signal : signals_)
-    if (signal) std::ranges::copy(signal->kinks(*step.duration), std::back_inserter(all));
+  for (const auto& [load, signal] : signals_)
+    std::ranges::copy(signal->kinks(*step.duration), std::back_inserter(all));
   for (const auto& [name, source] : case_.drives)
-    if (source.charge) add(*source.charge);
+    for (const auto& wave : {source.voltage, source.charge})
+      if (wave) add(*wave);
   for (const Load& load : case_.loads)
     for (int c = 0; c < fem::DofMap::components; ++c)
       if (const Waveform* wave = load.component(c)) add(*wave);

@@ -10,8 +10,8 @@ namespace dielast::cases {
 /// What the steps of a case do to the loads of its device.
 class StepLoads {
  public:
-  /// `signals`: of the electrodes' sources in transients. `frame_force`: dead forces by which a frame holds
-  /// the free nodes as drawn, until a step releases them.
+  /// `signals`: what loads follow in transients instead of what the case says of them. `frame_force`: dead
+  /// forces by which a frame holds the free nodes as drawn, until a step releases them.
   StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps, const Signals& signals,
             Eigen::VectorXd frame_force);
 
@@ -31,13 +31,14 @@ class StepLoads {
   static std::optional<double> goal_of(const Step& step, const std::optional<Waveform>& wave, Instant t);
   std::optional<double> goal_of(const Step& step, std::size_t electrode, std::optional<Waveform> Drive::*part,
                                 Instant t) const;
-  std::optional<double> voltage_goal(const Step& step, std::size_t electrode, Instant t) const;
+  /// What a load follows in a transient; null: what the case says of it.
+  const Signal* signal_of(const Step& step, const DrivenLoad& load) const;
   void connect_chamber(const Step& step, const fem::Charges& held, fem::State& state) const;
   const Drive* drive(std::size_t electrode) const;
   /// Kinds of the steps up to this one.
   bool happened(int step, StepKind kind) const;
   Eigen::VectorXd dead_force(int step, Instant t) const;
-  void move(Eigen::VectorXd& held, Instant t) const;
+  void move(const Step& step, Eigen::VectorXd& held, Instant t) const;
   fem::Loads at(int step, const fem::Loads& start, Instant t) const;
   /// What is left of `let_go`: ramps lead to nothing.
   double left(const Step& step, Instant t) const;

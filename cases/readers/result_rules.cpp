@@ -55,6 +55,29 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
   }
 }
 
+/// What a controller drives must be there, once.
+template<class Report>
+void check_driven(const Case& one, const Controller& controller, const Report& report) {
+  const DrivenLoad& load = controller.drives;
+  const bool in_place = load.what == Driven::force || load.what == Driven::displacement;
+  if ((load.what == Driven::pressure || load.what == Driven::volume) && !one.chamber)
+    report("drives", "there is no [chamber]");
+  if (in_place && !fem::moves(one.dimension, load.along))
+    return report("along", "the model does not move along it");
+  if (load.what == Driven::force && std::ranges::count_if(one.loads, [&](const Load& own) {
+                                      return own.place == load.of && !own.moment;
+                                    }) != 1)
+    report("place", fmt::format("found \"{}\": it needs one [[load]] with a force on it", load.of));
+  if (load.what != Driven::displacement) return;
+  if (std::ranges::none_of(one.supports, [&](const Support& own) {
+        return own.place == load.of && own.fixed[static_cast<std::size_t>(load.along)];
+      }))
+    report("place",
+           fmt::format("found \"{}\": no [[support]] fixes it along {}", load.of, "xyz"[load.along]));
+  if (std::ranges::any_of(one.steps, &Step::inertia))
+    report("drives", "it moves the support by jumps, which need steps without inertia");
+}
+
 /// A controller measures states as they are reached, a million times at most.
 void check_controllers(SectionReader& reader, const Node& tree, const Case& one) {
   for (std::size_t c = 0; c < one.controllers.size(); ++c) {
@@ -65,6 +88,11 @@ void check_controllers(SectionReader& reader, const Node& tree, const Case& one)
       reader.report(node ? node->source : written.source, fmt::format("controller[{}].{}", c + 1, key),
                     message);
     };
+    check_driven(one, controller, report);
+    const auto same = [&](const Controller& other) { return other.drives == controller.drives; };
+    if (std::ranges::find_if(one.controllers, same) !=
+        one.controllers.begin() + static_cast<std::ptrdiff_t>(c))
+      report("drives", "another controller drives it already");
     const auto measured = std::ranges::find(one.quantities, controller.quantity, &Quantity::name);
     if (measured != one.quantities.end() && (measured->kind->so_far || measured->kind->of_run))
       report("quantity",

@@ -46,8 +46,9 @@ post::Event left_out(double ratio, const Step& step) {
 /// Whether a step is about voltages, and the case has none.
 bool lacks_voltage(const Case& one, const Step& step) {
   const auto charged = [](const auto& drive) { return drive.second.voltage || drive.second.charge; };
-  return step.kind == StepKind::voltage && !one.electrodes.empty() && one.controllers.empty() &&
-         std::ranges::none_of(one.drives, charged) &&
+  const auto controlled = [](const Controller& own) { return own.drives.what == Driven::voltage; };
+  return step.kind == StepKind::voltage && !one.electrodes.empty() &&
+         std::ranges::none_of(one.controllers, controlled) && std::ranges::none_of(one.drives, charged) &&
          std::ranges::none_of(one.steps, [](const Step& other) { return other.to.has_value(); });
 }
 
@@ -135,8 +136,7 @@ SimulationProgress Simulation::progress() const {
   SimulationProgress progress{
       step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
       time_error_, loads_->let_go, {},       unseen_};
-  for (const auto& signal : signals_)
-    progress.signals.push_back(signal ? signal->memory() : std::vector<double>{});
+  for (const auto& [load, signal] : signals_) progress.signals.push_back(signal->memory());
   return progress;
 }
 
@@ -152,10 +152,10 @@ void Simulation::resume(const SimulationProgress& progress) {
   unseen_ = progress.unseen;
   loads_->let_go = progress.let_go;
   if (progress.signals.size() != signals_.size()) throw post::CheckpointError("damaged");
-  for (std::size_t e = 0; e < signals_.size(); ++e) {
-    if (!signals_[e]) continue;
-    if (progress.signals[e].size() != signals_[e]->memory().size()) throw post::CheckpointError("damaged");
-    signals_[e]->recall(progress.signals[e]);
+  auto kept = progress.signals.begin();
+  for (const auto& [load, signal] : signals_) {
+    if (kept->size() != signal->memory().size()) throw post::CheckpointError("damaged");
+    signal->recall(*kept++);
   }
 }
 
@@ -225,8 +225,8 @@ bool Simulation::admits(const Step& step, double load_factor, const fem::State& 
 bool Simulation::sample(const Step& step, double load_factor, const fem::State& state) {
   if (step.kind != StepKind::transient) return true;
   const double t = load_factor * *step.duration;
-  for (const auto& signal : signals_) {
-    if (!signal || !signal->samples(t)) continue;
+  for (const auto& [load, signal] : signals_) {
+    if (!signal->samples(t)) continue;
     Measured measured(device_, *equilibrium_, state, energy_);
     measured.may_rest = false;
     const std::string wrong = signal->sample(t, measured, measurement_);
@@ -312,8 +312,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
       loads_->begin(step_, state);
       unseen_ = {};
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
-      for (const auto& signal : signals_)
-        if (signal) signal->begin(step.duration.value_or(0));
+      for (const auto& [load, signal] : signals_) signal->begin(step.duration.value_or(0));
       if (lacks_voltage(case_, step))
         news_.push_back(
             {"no voltage", "",
