@@ -2,6 +2,7 @@
 #include "fem/contact/plane_contact_block.hpp"
 
 #include "fem/contact/contact_sums.hpp"
+#include "fem/contact/slider.hpp"
 #include "fem/films/triangle.hpp"
 
 #include <Eigen/Geometry>
@@ -20,14 +21,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int size = 3;
-constexpr double stick = 10; ///< stiffness of the springs of nodes that stand still, over the barrier's
-constexpr double fresh_stick = 1e-4; ///< over that, where they have just touched
 constexpr double least_share =
     1e-3; ///< of a side or face: on the axis and at corners the rule has none, and the barrier must hold
-
-/// What slides has no stiffness along its way; where all of a body does, Newton's method needs some. This
-/// part of force over way makes it converge linearly, and quickly, as the body is much stiffer.
-constexpr double firmness = 0.01;
 
 class PlaneContactBlock final : public ContactBlock {
  public:
@@ -52,7 +47,8 @@ class PlaneContactBlock final : public ContactBlock {
         continue;
       }
       const BarrierEnergy barrier = contact_.barrier.at(gap);
-      const Slider slider = friction() ? this->slider(state, e) : Slider{};
+      const Slider::Response slider =
+          friction() ? this->slider(state, e).pulled(stretched(state, e), along_) : Slider::Response{};
       result.energy += area(e) * barrier.value + slider.energy;
       if (scatter.residual) {
         const Vector3d force = area(e) * barrier.slope * contact_.normal + slider.force;
@@ -98,8 +94,7 @@ class PlaneContactBlock final : public ContactBlock {
   void add_energies(const State& state, EnergyParts& parts) const override {
     for (int e = 0; e < element_count(); ++e) {
       parts.elastic += area(e) * contact_.barrier.at(gap(state, e)).value;
-      if (friction())
-        parts.elastic += stiffness(e) * (slip(state, e) - anchor(*state.history, e)).squaredNorm() / 2;
+      if (friction()) parts.elastic += stiffness(e) * stretched(state, e).squaredNorm() / 2;
     }
   }
   int history_size() const override { return friction() ? element_count() * per_node : 0; }
@@ -109,22 +104,20 @@ class PlaneContactBlock final : public ContactBlock {
     for (int e = 0; e < element_count(); ++e) {
       for (int i = 0; i < per_node; ++i) all[place(e, i)] = 0;
       const double gap = (drawn_[static_cast<std::size_t>(e)] - contact_.origin).dot(contact_.normal);
-      if (contact_.barrier.touches(gap)) all[place(e, normal)] = light;
+      if (contact_.barrier.touches(gap)) all[place(e, normal)] = Slider::light;
     }
   }
   void advance_history(const State& state, std::vector<double>& all) const override {
     if (!friction()) return;
     for (int e = 0; e < element_count(); ++e) {
       const double now = normal_force(state, e);
-      const Vector3d stretched = slip(state, e) - anchor(*state.history, e), force = slider(state, e).force;
-      const double held = is_fresh(*state.history, e) ? contact_.friction * now : force.norm();
-      const Vector3d kept = force.norm() > 0 ? Vector3d(force.normalized() * std::min(held, force.norm()))
-                                             : Vector3d(Vector3d::Zero());
-      const Vector3d slid = stretched - kept / stiffness(e);
+      const Vector3d stretched = this->stretched(state, e),
+                     kept = slider(state, e).kept(stretched, along_, contact_.friction * now),
+                     slid = stretched - kept / stiffness(e);
       for (int i = 0; i < size; ++i) all[place(e, i)] += slid[i] / length_unit();
       all[place(e, heat)] += kept.dot(slid) / energy_unit(e);
       all[place(e, normal)] =
-          std::max(now / force_unit(e), contact_.barrier.touches(gap(state, e)) ? light : 0.0);
+          std::max(now / force_unit(e), contact_.barrier.touches(gap(state, e)) ? Slider::light : 0.0);
     }
   }
 
@@ -132,19 +125,10 @@ class PlaneContactBlock final : public ContactBlock {
   /// Internal variables of a node: the anchor's displacement over length_unit(), the normal force and the
   /// heat likewise.
   static constexpr int normal = 3, heat = 4, per_node = 5;
-  /// Normal force of what touches, at least, likewise.
-  static constexpr double light = 1e-9;
-
-  struct Slider {
-    double energy = 0;
-    Vector3d force = Vector3d::Zero();
-    Matrix3d tangent = Matrix3d::Zero();
-  };
-
   bool friction() const { return contact_.friction > 0; }
   int node(int element) const { return contact_.nodes[static_cast<std::size_t>(element)]; }
   double area(int element) const { return contact_.areas[static_cast<std::size_t>(element)]; }
-  double stiffness(int element) const { return stick * contact_.barrier.stiffness * area(element); }
+  double stiffness(int element) const { return Slider::stick * contact_.barrier.stiffness * area(element); }
   double length_unit() const { return contact_.barrier.thickness; }
   double energy_unit(int element) const {
     return contact_.barrier.stiffness * area(element) * length_unit() * length_unit();
@@ -163,27 +147,16 @@ class PlaneContactBlock final : public ContactBlock {
   double normal_force(const State& state, int element) const {
     return -area(element) * contact_.barrier.at(gap(state, element)).slope;
   }
-  Vector3d slip(const State& state, int element) const { return along_ * displacement(state, element); }
-  Vector3d anchor(const History& history, int element) const {
-    return length_unit() * Vector3d(history.now[place(element, 0)], history.now[place(element, 1)],
-                                    history.now[place(element, 2)]);
+  /// From its anchor, along the plane.
+  Vector3d stretched(const State& state, int element) const {
+    const std::vector<double>& now = state.history->now;
+    const Vector3d anchor(now[place(element, 0)], now[place(element, 1)], now[place(element, 2)]);
+    return along_ * displacement(state, element) - length_unit() * anchor;
   }
-  /// Whether it has touched, and not been pressed on the plane yet.
-  bool is_fresh(const History& history, int element) const {
-    return history.now[place(element, normal)] == light;
-  }
-  /// Accepted states are in balance with their anchors where they are. What is fresh is held by a weak spring
-  /// for an increment, whatever the force: nothing else may keep a body from sliding away.
   Slider slider(const State& state, int element) const {
-    const Vector3d stretched = slip(state, element) - anchor(*state.history, element);
-    const bool frozen = state.scheme.is_frozen(), fresh = is_fresh(*state.history, element);
-    const double k = stiffness(element) * (fresh && !frozen ? fresh_stick : 1), length = stretched.norm();
-    const double most = contact_.friction * state.history->now[place(element, normal)] * force_unit(element);
-    if (most == 0 && !frozen) return {};
-    if (frozen || fresh || k * length <= most) return {k * length * length / 2, k * stretched, k * along_};
-    const Vector3d direction = stretched / length;
-    return {most * (length - most / k / 2), most * direction,
-            most / length * (along_ - (1 - firmness) * direction * direction.transpose())};
+    const double force = state.history->now[place(element, normal)];
+    return {stiffness(element), contact_.friction * force * force_unit(element), force == Slider::light,
+            state.scheme.is_frozen()};
   }
 
   PlaneContact contact_;

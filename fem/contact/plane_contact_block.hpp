@@ -36,11 +36,7 @@ PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& fac
 /// Keeps the nodes of a surface above a rigid plane by a barrier; states with a node on the plane or below
 /// are not feasible. No adhesion.
 ///
-/// Friction: where a node stands still it is held by a stiff spring along the plane, to an anchor; where the
-/// spring's force would exceed friction * N the anchor slides (lagged potential: N is the normal force at the
-/// last accepted state, so that the potential has a symmetric tangent and friction follows by one increment).
-/// The tangent of what slides is a little firmer than the derivative (a body that slides as a whole would
-/// have none). Anchors, N and the heat of sliding are internal variables.
+/// Friction: a Slider at each node. Anchors, normal forces and the heat of sliding are internal variables.
 std::unique_ptr<ElementBlock> make_plane_contact_block(const meshing::Mesh& mesh, PlaneContact contact);
 
 } // namespace dielast::fem
