@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/step_run.hpp"
 
+#include "fem/model/contact_block.hpp"
 #include "fem/paths/held_masses.hpp"
 #include "fem/paths/jump.hpp"
 #include "post/engineering.hpp"
@@ -168,12 +169,11 @@ Outcome StepRun::run() {
     Trouble trouble{fem::ramp(equilibrium_, path_, options_, progress_.ramp, watcher)};
     if (trouble.ramp.end == fem::RampEnd::complete) break;
     if (trouble.ramp.end == fem::RampEnd::endless)
-      return {
-          Ending::gave_up, "no end",
-          fmt::format("step \"{}\" stopped at load factor {:.4g}, after {} increments: they have become so "
-                      "small that it would not end. A larger solver.time_tolerance or "
-                      "solver.smallest_increment makes them longer, or says where it fails",
-                      step_.name, progress_.ramp.load_factor, options_.most_tries)};
+      return {Ending::gave_up, "no end",
+              fmt::format("step \"{}\" stopped at load factor {:.4g}, after {} increments: they have become "
+                          "so small that it would not end. A larger solver.time_tolerance or "
+                          "solver.smallest_increment makes them longer, or says where it fails",
+                          step_.name, progress_.ramp.load_factor, options_.most_tries)};
     if (trouble.ramp.end == fem::RampEnd::stopped) {
       if (!leaving_) return {Ending::interrupted};
       trouble = *std::exchange(leaving_, std::nullopt);
@@ -325,36 +325,36 @@ std::vector<std::size_t> StepRun::lost_film(double s) const {
   const auto film = model().sample(loaded(last(), s)).film;
   const auto lost = static_cast<std::size_t>(std::ranges::count_if(
       film, [](const fem::MembraneSample& sample) { return sample.tension == materials::Tension::lost; }));
-  if (lost == 0) return {};
-  return {lost, film.size()};
+  return lost == 0 ? std::vector<std::size_t>{} : std::vector{lost, film.size()};
 }
 
 Outcome StepRun::failure(const Trouble& trouble) const {
   const double reached = progress_.ramp.load_factor;
   if (trouble.ramp.failure.outcome == fem::Outcome::singular)
-    return {
-        Ending::gave_up, "singular tangent",
-        fmt::format("step \"{}\" stopped at {}: the tangent is singular. Part of the device can "
-                    "move freely: hold it with [[support]]; with model = \"3d\" an unstretched film has no "
-                    "stiffness normal to itself: stretch it or use model = \"planar\"",
-                    step_.name, load_text(reached))};
+    return {Ending::gave_up, "singular tangent",
+            fmt::format("step \"{}\" stopped at {}: the tangent is singular. Part of the device can move "
+                        "freely: hold it with [[support]]; with model = \"3d\" an unstretched film has no "
+                        "stiffness normal to itself: stretch it or use model = \"planar\"",
+                        step_.name, load_text(reached))};
+  if (fem::edges_meet(model(), last()))
+    return {Ending::gave_up, "edges meet",
+            fmt::format("step \"{}\" stopped at {}: edges of surfaces in [contact] meet between the points "
+                        "at which the barrier acts; round them, or refine the mesh along them",
+                        step_.name, load_text(reached))};
   if (const auto lost = lost_film(trouble.ramp.failed_at); !lost.empty())
     return {Ending::gave_up, "electromechanical loss",
-            fmt::format(
-                "step \"{}\" stopped at {}: beyond it the field pulls wrinkled film wider without limit (in "
-                "{} of "
-                "{} integration points at {}), whatever its wrinkles take up. Lower the drive or stretch the "
-                "film more",
-                step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
+            fmt::format("step \"{}\" stopped at {}: beyond it the field pulls wrinkled film wider without "
+                        "limit (in {} of {} integration points at {}), whatever its wrinkles take up. Lower "
+                        "the drive or stretch the film more",
+                        step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
   if (!trouble.critical && !timed() && equilibrium_.is_slack(last()))
-    return {
-        Ending::gave_up, "slack film",
-        fmt::format("slack film: step \"{}\" stopped at {}, where the film carries no tension, and no state "
-                    "was found in which it carries the loads at {}. {}",
-                    step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
-                    options_.newton.wrinkles ? "Stretch it a little"
-                                             : "Let it wrinkle (wrinkling = \"tension field\") or stretch it "
-                                               "a little")};
+    return {Ending::gave_up, "slack film",
+            fmt::format("slack film: step \"{}\" stopped at {}, where the film carries no tension, and no "
+                        "state was found in which it carries the loads at {}. {}",
+                        step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
+                        options_.newton.wrinkles
+                            ? "Stretch it a little"
+                            : "Let it wrinkle (wrinkling = \"tension field\") or stretch it a little")};
   const std::string go_on =
       ways_on_.empty() ? "" : "; or let the step go on with on_instability = " + ways_on_;
   const std::string more =
@@ -362,10 +362,11 @@ Outcome StepRun::failure(const Trouble& trouble) const {
   if (trouble.critical) {
     const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
     if (timed())
-      return {Ending::gave_up, "limit point",
-              fmt::format("limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of "
-                          "the step.{}",
-                          load_text(last(), reached), last().time, more)};
+      return {
+          Ending::gave_up, "limit point",
+          fmt::format(
+              "limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of the step.{}",
+              load_text(last(), reached), last().time, more)};
     return {
         Ending::gave_up, "limit point",
         fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}",
@@ -377,24 +378,23 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                     more)};
   }
   if (trouble.unstable_modes > 0)
-    return {
-        Ending::gave_up, "instability",
-        fmt::format("step \"{}\" stopped at {}: the equilibrium at {} has {} unstable mode{}, so a device "
-                    "would leave it. Change what makes it unstable (compressed film, a voltage beyond a "
-                    "limit point){}",
-                    step_.name, load_text(reached), load_text(trouble.ramp.failed_at), trouble.unstable_modes,
-                    trouble.unstable_modes == 1 ? "" : "s", go_on)};
+    return {Ending::gave_up, "instability",
+            fmt::format(
+                "step \"{}\" stopped at {}: the equilibrium at {} has {} unstable mode{}, so a device would "
+                "leave it. Change what makes it unstable (compressed film, a voltage beyond a limit point){}",
+                step_.name, load_text(reached), load_text(trouble.ramp.failed_at), trouble.unstable_modes,
+                trouble.unstable_modes == 1 ? "" : "s", go_on)};
   if (trouble.ramp.failure.outcome == fem::Outcome::off_path)
     return {Ending::gave_up, "limit point",
             fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
                         "of another branch beyond it.{}",
                         load_text(last(), reached), more)};
-  return {
-      Ending::gave_up, "no equilibrium",
-      fmt::format("step \"{}\" stopped at {}: no equilibrium found at {}, and the "
-                  "increments are smaller than solver.smallest_increment. A finer mesh may help, a smaller "
-                  "solver.smallest_increment or more solver.max_iterations{}",
-                  step_.name, load_text(reached), load_text(trouble.ramp.failed_at), timed() ? go_on : "")};
+  return {Ending::gave_up, "no equilibrium",
+          fmt::format("step \"{}\" stopped at {}: no equilibrium found at {}, and the increments are smaller "
+                      "than solver.smallest_increment. A finer mesh may help, a smaller "
+                      "solver.smallest_increment or more solver.max_iterations{}",
+                      step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
+                      timed() ? go_on : "")};
 }
 
 } // namespace dielast::cases

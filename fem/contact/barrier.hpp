@@ -19,8 +19,9 @@ struct Barrier {
   double stiffness = 0; ///< of lengths Pa, of areas Pa/m
   double foot = 0;
 
-  /// Surfaces that are drawn on one another touch, in spite of rounding.
-  bool touches(double gap) const { return gap <= thickness * (1 + 1e-9); }
+  /// The largest gap at which it acts: surfaces that are drawn on one another touch, in spite of rounding.
+  double reach() const { return thickness * (1 + 1e-9); }
+  bool touches(double gap) const { return gap <= reach(); }
   BarrierEnergy at(double gap) const {
     if (!touches(gap)) return {};
     const double into = gap - thickness, ratio = into / gap, log = std::log(gap / thickness);

@@ -109,13 +109,6 @@ std::optional<Vector2d> foot(const FaceNodes& face, const Vector3d& point) {
   return at;
 }
 
-Eigen::Matrix<double, 3, 6> control_points(const FaceNodes& face) {
-  FaceNodes points = face;
-  for (int edge = 0; edge < 3; ++edge)
-    points.col(3 + edge) = 2 * face.col(3 + edge) - (face.col(edge) + face.col((edge + 1) % 3)) / 2;
-  return points;
-}
-
 } // namespace
 
 FacePlace nearest_place(const FaceNodes& face, FacePart part, const Vector3d& point) {
@@ -127,6 +120,13 @@ FacePlace nearest_place(const FaceNodes& face, FacePart part, const Vector3d& po
   for (const int edge : {1, 2})
     if (FacePlace other = on_edge(face, point, edge); other.distance < nearest.distance) nearest = other;
   return nearest;
+}
+
+FaceNodes control_points(const FaceNodes& face) {
+  FaceNodes points = face;
+  for (int edge = 0; edge < 3; ++edge)
+    points.col(3 + edge) = 2 * face.col(3 + edge) - (face.col(edge) + face.col((edge + 1) % 3)) / 2;
+  return points;
 }
 
 Eigen::AlignedBox3d box_of(const FaceNodes& face) {

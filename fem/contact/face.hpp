@@ -35,7 +35,10 @@ struct FacePlace {
 /// The place of a face that is nearest, of faces that bend little beside their size.
 FacePlace nearest_place(const FaceNodes& face, FacePart part, const Eigen::Vector3d& point);
 
-/// Contains the face: a box about Bezier's control points.
+/// Bezier's, in whose hull the face is: its corners and those of its edges, in the nodes' order.
+FaceNodes control_points(const FaceNodes& face);
+
+/// Contains the face: a box about its control points.
 Eigen::AlignedBox3d box_of(const FaceNodes& face);
 
 /// As far as any point of the face moves between two states, at most, m: its control points do.

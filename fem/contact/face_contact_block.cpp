@@ -3,6 +3,8 @@
 
 #include "fem/contact/contact_sums.hpp"
 #include "fem/contact/face.hpp"
+#include "fem/contact/face_motion.hpp"
+#include "fem/contact/surface_sliders.hpp"
 #include "fem/films/triangle.hpp"
 
 #include <Eigen/LU>
@@ -26,8 +28,10 @@ using Box = Eigen::AlignedBox3d;
 constexpr int dofs = 36;       ///< of a face's nodes, then of the other surface's face
 constexpr double margin = 0.3; ///< of the finer faces' size, up to which pairs are elements
 constexpr double kept = 0.1;   ///< of a gap on any way
-constexpr double near = 1.2;   ///< times that: where a way ends
-constexpr int most_advances = 100;
+constexpr double closest =
+    1e-3;                      ///< of the barrier's thickness: nearer faces are not told from ones that cross
+constexpr double nearly = 0.1; ///< of it: how near edges are that meet
+constexpr int few_tests = 100; ///< that are cheaper than looking at points
 
 const std::vector<FacePoint>& rule = face_rule();
 
@@ -59,9 +63,12 @@ class FaceContactBlock final : public ContactBlock {
     require_apart(contact_.faces[0], contact_.faces[1]);
     share_ = {mean[1] / (mean[0] + mean[1]), mean[0] / (mean[0] + mean[1])};
     margin_ = margin * std::sqrt(std::min(mean[0], mean[1]));
-    State as_drawn;
-    as_drawn.displacement.assign(drawn_.size(), Vector3d::Zero());
-    FaceContactBlock::choose_elements(as_drawn);
+    std::vector<double> areas(drawn_.size(), 0);
+    for_each_point([&](const Pair& pair, std::size_t q) {
+      share(pair, q, share_[pair.surface] * area(pair, q), areas);
+    });
+    sliders_ = Sliders(contact_.friction, contact_.barrier, contact_.faces, areas, drawn_);
+    FaceContactBlock::choose_elements(as_drawn());
   }
 
   int element_count() const override { return static_cast<int>(pairs_.size()); }
@@ -78,6 +85,13 @@ class FaceContactBlock final : public ContactBlock {
     if (choice_ > 0 && covers(state)) return choice_;
     chosen_ = moved(state);
     std::vector<Pair> pairs = meeting(chosen_, chosen_, contact_.barrier.thickness + margin_);
+    if (sliders_.any() && state.history) {
+      sliders_.for_each_pair(*state.history, [&](std::size_t surface, int own, int other) {
+        pairs.push_back({surface, own, other});
+      });
+      std::ranges::sort(pairs);
+      pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+    }
     if (choice_ == 0 || pairs != pairs_) {
       pairs_ = std::move(pairs);
       ++choice_;
@@ -95,31 +109,37 @@ class FaceContactBlock final : public ContactBlock {
       for_each_near(pair, own, other, [&](std::size_t q, const FacePlace& place, double factor) {
         add(pair, q, other, place, factor, scatter, sums);
       });
+      sliders_.add(state, pair.surface, pair.own, pair.other, scatter.residual || scatter.tangent, sums);
       sums.add_to(result, e, scatter);
     }
     return result;
   }
   double free_way(const State& from, const State& to) const override {
     const Moved before = moved(from), after = moved(to);
+    const double thickness = contact_.barrier.thickness;
     double part = 1;
     for (const Pair& pair : meeting(before, after, 0)) {
-      const FaceNodes &own = before.of(pair, 0), &other = before.of(pair, 1);
-      const FaceNodes own_way = after.of(pair, 0) - own, other_way = after.of(pair, 1) - other;
-      const double fastest = way_of(other, after.of(pair, 1));
-      const Box box = box_of(other);
-      for (const FacePoint& at : rule) {
-        const Vector3d x = own * at.shape, way = own_way * at.shape;
-        const double away = (1 - kept) * box.exteriorDistance(x);
-        if (away > part * (way.norm() + fastest)) continue;
-        const double speed = way_of(other, after.of(pair, 1).colwise() - way); // as seen from the point
-        if (away > part * speed) continue;
-        const auto gap = [&](double s) {
-          return nearest_place(other + s * other_way, {}, x + s * way).distance;
-        };
-        part = advance(gap, speed, part);
-      }
+      if (pair.surface == 1) continue; // both at once
+      const MovingFace one = moving(before.of(pair, 0), after.of(pair, 0)),
+                       other = moving(before.of(pair, 1), after.of(pair, 1));
+      if (way_apart(one, other, kept * thickness, part, few_tests) == part) continue;
+      part = way_of_points(before.of(pair, 0), after.of(pair, 0), before.of(pair, 1), after.of(pair, 1), kept,
+                           part);
+      part = way_of_points(before.of(pair, 1), after.of(pair, 1), before.of(pair, 0), after.of(pair, 0), kept,
+                           part);
+      if (const double apart = way_apart(one, other, closest * thickness, part); apart < part)
+        part = (1 - kept) * apart;
     }
     return part;
+  }
+  bool edges_meet(const State& state) const override {
+    const Moved now = moved(state);
+    const double close = nearly * contact_.barrier.thickness;
+    return std::ranges::any_of(meeting(now, now, close), [&](const Pair& pair) {
+      const FaceNodes &own = now.of(pair, 0), &other = now.of(pair, 1);
+      return pair.surface == 0 && way_apart(moving(own, own), moving(other, other), close, 1) < 1 &&
+             std::min(gap_of_points(own, other), gap_of_points(other, own)) > 2 * close;
+    });
   }
   double contact_force(const State& state) const override {
     double sum = 0;
@@ -132,9 +152,7 @@ class FaceContactBlock final : public ContactBlock {
     return std::ranges::find(contact_.places, place) != contact_.places.end();
   }
   void add_pressure(const State& state, NodalPressure& pressure) const override {
-    for (std::size_t k = 0; k < 2; ++k)
-      for (int i = 0; i < contact_.faces[k].size(); ++i)
-        for (std::size_t q = 0; q < rule.size(); ++q) share({k, i, 0}, q, area({k, i, 0}, q), pressure.area);
+    for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const BarrierEnergy& energy) {
       share(pair, q, -area(pair, q) * energy.slope, pressure.force);
     });
@@ -143,6 +161,17 @@ class FaceContactBlock final : public ContactBlock {
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const BarrierEnergy& energy) {
       parts.elastic += share_[pair.surface] * area(pair, q) * energy.value;
     });
+    parts.elastic += sliders_.energy(state);
+  }
+  bool has_friction() const override { return sliders_.any(); }
+  double friction_heat(const State& state) const override { return sliders_.heat(state); }
+  int history_size() const override { return sliders_.history_size(); }
+  void place_history(int first) override { sliders_.place_history(first); }
+  void start_history(std::vector<double>& all) const override {
+    if (sliders_.any()) sliders_.start(pressed(as_drawn()), all);
+  }
+  void advance_history(const State& state, std::vector<double>& all) const override {
+    if (sliders_.any()) sliders_.advance(state, pressed(state), all);
   }
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
 
@@ -154,6 +183,7 @@ class FaceContactBlock final : public ContactBlock {
     auto operator<=>(const Pair&) const = default;
   };
   using Sums = ContactSums<dofs>;
+  using Sliders = SurfaceSliders<6>;
   /// All faces in a state.
   struct Moved {
     std::array<std::vector<FaceNodes>, 2> faces;
@@ -224,12 +254,12 @@ class FaceContactBlock final : public ContactBlock {
   /// use(point, place, how often) for all that the other face and its edges and corners may push.
   template<class Use>
   void for_each_near(const Pair& pair, const FaceNodes& own, const FaceNodes& other, const Use& use) const {
-    const double reach = contact_.barrier.thickness;
+    const double reach = contact_.barrier.reach();
     const Box box = box_of(other);
-    if (box_of(own).exteriorDistance(box) >= reach) return;
+    if (box_of(own).exteriorDistance(box) > reach) return;
     for (std::size_t q = 0; q < rule.size(); ++q) {
       const Vector3d x = own * rule[q].shape;
-      if (box.exteriorDistance(x) >= reach) continue;
+      if (box.exteriorDistance(x) > reach) continue;
       const FacePlace whole = nearest_place(other, {}, x);
       if (!contact_.barrier.touches(whole.distance)) continue;
       use(q, whole, 1);
@@ -242,12 +272,33 @@ class FaceContactBlock final : public ContactBlock {
   template<class Use>
   void for_each_touching(const State& state, const Use& use) const {
     const Moved now = moved(state);
-    for (const Pair& pair : meeting(now, now, contact_.barrier.thickness))
+    for (const Pair& pair : meeting(now, now, contact_.barrier.reach()))
       for_each_near(pair, now.of(pair, 0), now.of(pair, 1),
                     [&](std::size_t q, const FacePlace& place, double factor) {
                       const BarrierEnergy energy = contact_.barrier.at(place.distance);
                       use(pair, q, {factor * energy.value, factor * energy.slope, factor * energy.curvature});
                     });
+  }
+  /// What presses each slider's node.
+  std::vector<Sliders::Pressed> pressed(const State& state) const {
+    std::vector<Sliders::Pressed> all(static_cast<std::size_t>(sliders_.count()));
+    const Moved now = moved(state);
+    for (const Pair& pair : meeting(now, now, contact_.barrier.reach())) {
+      const FaceNodes &own = now.of(pair, 0), &other = now.of(pair, 1);
+      const auto at = [&](int a) -> Sliders::Pressed& {
+        return all[static_cast<std::size_t>(sliders_.number(pair.surface, pair.own, a))];
+      };
+      for_each_near(pair, own, other, [&](std::size_t q, const FacePlace& place, double factor) {
+        const double size =
+            -factor * share_[pair.surface] * area(pair, q) * contact_.barrier.at(place.distance).slope;
+        for (int a = 0; a < 6; ++a) at(a).force += rule[q].share[a] * size * place.normal;
+      });
+      for (int a = 0; a < 6; ++a) {
+        const FacePlace place = nearest_place(other, {}, own.col(a));
+        at(a).add_nearest(pair.own, pair.other, place.distance, place.shape, place.normal);
+      }
+    }
+    return all;
   }
   /// The gap's derivatives in what goes with the nodes: the way from the place to the point, r, and its
   /// slopes along the directions in which the place may move; these follow, as the gap is the least.
@@ -295,33 +346,30 @@ class FaceContactBlock final : public ContactBlock {
                                           weight(a, 1) * of_nodes.middleRows<3>(3) +
                                           weight(a, 2) * of_nodes.bottomRows<3>();
   }
-  /// The part of a way, at most `most`, on which a gap that changes no quicker than with `speed` keeps a part
-  /// of itself (conservative advancement).
-  template<class Gap>
-  static double advance(const Gap& gap, double speed, double most) {
-    const double first = gap(0), least = kept * first;
-    double now = first, s = 0;
-    for (int k = 0; k < most_advances; ++k) {
-      s += (now - least) / speed;
-      if (!(s < most)) return most;
-      now = gap(s);
-      if (now <= near * least) return s;
-    }
-    return s;
-  }
   /// Adds what lies at a point to the face's nodes, linearly between neighbours.
   void share(const Pair& pair, std::size_t q, double amount, std::vector<double>& of_nodes) const {
     const auto own = nodes(pair, 0);
     for (std::size_t a = 0; a < 6; ++a)
       of_nodes[static_cast<std::size_t>(own[a])] += rule[q].share[static_cast<int>(a)] * amount;
   }
+  State as_drawn() const {
+    State state;
+    state.displacement.assign(drawn_.size(), Vector3d::Zero());
+    return state;
+  }
+  /// use(face with any other one, point) for all that are integrated.
+  template<class Use>
+  void for_each_point(const Use& use) const {
+    for (std::size_t k = 0; k < 2; ++k)
+      for (int i = 0; i < contact_.faces[k].size(); ++i)
+        for (std::size_t q = 0; q < rule.size(); ++q) use(Pair{k, i, 0}, q);
+  }
   void add_areas(std::size_t k) {
-    State as_drawn;
-    as_drawn.displacement.assign(drawn_.size(), Vector3d::Zero());
+    const State drawn = as_drawn();
     for (int i = 0; i < contact_.faces[k].size(); ++i)
       for (const FacePoint& at : rule) {
         const Eigen::Matrix<double, 3, 2> slope =
-            face(as_drawn, contact_.faces[k].cell(i)) * shape_gradients<6>(at.xi, at.eta);
+            face(drawn, contact_.faces[k].cell(i)) * shape_gradients<6>(at.xi, at.eta);
         areas_[k].push_back(at.weight * slope.col(0).cross(slope.col(1)).norm());
       }
   }
@@ -330,9 +378,10 @@ class FaceContactBlock final : public ContactBlock {
   std::array<std::vector<std::vector<CountedPart>>, 2> parts_; ///< of the faces, besides themselves
   std::array<double, 2> share_{};            ///< of the two integrals: the finer surface has the greater one
   std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' faces
-  double margin_ = 0;                        ///< m
-  std::vector<Pair> pairs_;                  ///< the elements
-  Moved chosen_;                             ///< the state that they were chosen for
+  Sliders sliders_;
+  double margin_ = 0;       ///< m
+  std::vector<Pair> pairs_; ///< the elements
+  Moved chosen_;            ///< the state that they were chosen for
   std::size_t choice_ = 0;
 };
 

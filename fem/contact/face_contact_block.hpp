@@ -16,15 +16,18 @@ struct FaceContact {
   std::array<std::string, 2> places;       ///< their names
   std::array<meshing::CellBlock, 2> faces; ///< 6-node triangles, as meshing::faces_at() gives them
   Barrier barrier;                         ///< its stiffness in Pa/m
+  double friction = 0;                     ///< Coulomb's coefficient; 0: they slide freely
 };
 
-/// Keeps two deformable surfaces apart, in space, without friction or adhesion: see
+/// Keeps two deformable surfaces apart, in space, without adhesion: see
 /// make_surface_contact_block(), whose energy this is over the areas of curved faces. Each is integrated with
 /// 61 points, its nodes among them (16 times a closed rule of degree 3). Where faces meet the barrier is
 /// that of one: edges take off what is there twice, corners give back what edges take too much (Li et al.
 /// 2023, arXiv:2307.15908).
 ///
-/// Points of either surface do not pass through the other. Edges that cross are told by their points only.
+/// No point of either surface, on an edge or within a face, passes through the other one, whether the barrier
+/// keeps it away or not (edges that cross between points do not feel it): see way_apart(). Friction: see
+/// SurfaceSliders.
 ///
 /// Elements are the pairs of faces that are nearer than the barrier reaches and a margin, found with trees of
 /// boxes, anew when the surfaces have gone that margin towards one another.

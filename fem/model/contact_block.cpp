@@ -21,6 +21,24 @@ double free_way(const Model& model, const State& from, const State& to) {
   return part;
 }
 
+bool edges_meet(const Model& model, const State& state) {
+  bool any = false;
+  for_each_contact(model, [&](const ContactBlock& one) { any = any || one.edges_meet(state); });
+  return any;
+}
+
+bool apply_freely(const Model& model, State& state, const std::function<void(State&)>& apply) {
+  bool touches = false;
+  for_each_contact(model, [&](const ContactBlock&) { touches = true; });
+  if (!touches) {
+    apply(state);
+    return true;
+  }
+  const State before = state;
+  apply(state);
+  return free_way(model, before, state) == 1;
+}
+
 double contact_force(const Model& model, const State& state, std::string_view place) {
   double sum = 0;
   for_each_contact(model, [&](const ContactBlock& one) {

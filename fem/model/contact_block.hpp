@@ -4,6 +4,7 @@
 #include "fem/model/model.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -24,6 +25,8 @@ class ContactBlock : public ElementBlock {
   /// The part of the straight way between two states, 0..1, that can be gone without passing through what
   /// is touched; 1: all of it.
   virtual double free_way(const State& from, const State& to) const = 0;
+  /// Whether surfaces nearly meet where no barrier keeps them apart, between its points: edges that cross.
+  virtual bool edges_meet(const State& /*state*/) const { return false; }
   /// Sum of the normal forces, N.
   virtual double contact_force(const State& state) const = 0;
   /// Whether the surface of this place is one of those that it keeps apart.
@@ -38,6 +41,9 @@ class ContactBlock : public ElementBlock {
 
 /// The least of the model's contacts: see ContactBlock.
 double free_way(const Model& model, const State& from, const State& to);
+bool edges_meet(const Model& model, const State& state);
+/// Applies loads; false where what they move, being held, would pass through something.
+bool apply_freely(const Model& model, State& state, const std::function<void(State&)>& apply);
 /// Their sums; of the forces those on one place's surface, where it is not empty.
 double contact_force(const Model& model, const State& state, std::string_view place = {});
 double friction_heat(const Model& model, const State& state);

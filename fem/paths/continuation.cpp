@@ -94,7 +94,9 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
   Balance current;
   Eigen::VectorXd du;
   for (to.newton = {};; ++to.newton.iterations) {
-    path.apply(to.state, to.load_factor);
+    if (!apply_freely(equilibrium.model(), to.state,
+                      [&](State& state) { path.apply(state, to.load_factor); }))
+      return std::nullopt;
     equilibrium.balance(to.state, current);
     if (!current.feasible) return std::nullopt;
     to.newton.residual = current.scale > 0 ? current.norm / current.scale : 0;

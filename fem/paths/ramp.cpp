@@ -100,10 +100,10 @@ materials::TimeScheme Ramp::scheme(double dt) const {
 
 State Ramp::solve(State state, double s) {
   const bool ends_at_break = std::abs(s - next_break()) < round_off && s < 1;
-  if (ends_at_break || (timed() && s >= 1))
-    path_.before(state, s);
-  else
-    path_.apply(state, s);
+  const bool before = ends_at_break || (timed() && s >= 1);
+  const bool is_free = apply_freely(equilibrium_.model(), state, [&](State& loaded) {
+    before ? path_.before(loaded, s) : path_.apply(loaded, s);
+  });
   const double dt = (s - progress_.load_factor) * options_.duration;
   state.history = last().history;
   state.time = last().time + dt;
@@ -113,7 +113,8 @@ State Ramp::solve(State state, double s) {
     state.motion_scheme = state.motion->step > 0 ? GeneralisedAlpha::of(dt, options_.high_frequencies)
                                                  : GeneralisedAlpha::backward_euler(dt);
   }
-  newton_ = equilibrium_.solve(state, options_.newton, observer_.on_iteration);
+  newton_ = is_free ? equilibrium_.solve(state, options_.newton, observer_.on_iteration)
+                    : NewtonResult{.outcome = Outcome::infeasible};
   return state;
 }
 
