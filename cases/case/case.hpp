@@ -96,6 +96,7 @@ struct Chamber {
 struct Contact {
   double thickness = 0;               ///< of the barrier: the gap at which it sets in, m
   std::vector<std::string> between{}; ///< surfaces of solids, each kept apart from each other
+  double friction = 0;                ///< Coulomb's coefficient between these
 };
 
 /// [table]: a rigid plane on which a surface of a solid lies, and from which it may lift

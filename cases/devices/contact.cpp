@@ -188,11 +188,14 @@ void add_surfaces(const Case& one, const meshing::Mesh& mesh, fem::Model& model)
         // A gap of half the barrier's thickness bears about 1 % of Young's modulus, as on a table.
         const fem::Barrier barrier{.thickness = reach, .stiffness = 0.01 * modulus / thickness, .foot = 1};
         const std::array<std::string, 2> names{places[a], places[b]};
-        if (in_space) return fem::make_face_contact_block(mesh, {names, {surfaces[a], surfaces[b]}, barrier});
+        if (in_space)
+          return fem::make_face_contact_block(
+              mesh, {names, {surfaces[a], surfaces[b]}, barrier, one.contact->friction});
         return fem::make_surface_contact_block(mesh, {names,
                                                       {surfaces[a], surfaces[b]},
                                                       of_revolution ? std::nullopt : std::optional(width),
-                                                      barrier});
+                                                      barrier,
+                                                      one.contact->friction});
       };
       try {
         model.blocks.push_back(contact(thickness));

@@ -26,7 +26,10 @@ bool is_linearised(const Case& one) { return one.linearise || has_step(one, {Ste
 
 namespace {
 
-bool slides_with_friction(const Case& one) { return one.table && one.table->friction > 0; }
+bool slides_with_friction(const Case& one) {
+  return (one.table && one.table->friction > 0) ||
+         (one.contact && !one.contact->between.empty() && one.contact->friction > 0);
+}
 
 } // namespace
 
@@ -185,6 +188,11 @@ Condition chamber_is_open() {
 Condition chamber_is_closed() {
   return on_case("a step of kind \"inflate\"",
                  [](const Case& one) { return has_step(one, {StepKind::inflate}); });
+}
+
+Condition surfaces_touch() {
+  return on_case("contact.between",
+                 [](const Case& one) { return one.contact && !one.contact->between.empty(); });
 }
 
 Condition volume_applies() {

@@ -28,6 +28,7 @@ Condition chamber_is_closed();
 Condition volume_applies();   ///< a step pumps it
 Condition elements();         ///< its mesh is more than one
 Condition order_matters();    ///< its elements may have nodes between their ends
+Condition surfaces_touch();   ///< of solids: [contact] between
 Condition curved_triangles(); ///< the film is of 6-node triangles
 Condition moves_along_it();   ///< of a quantity's direction
 Condition an_electrode_keeps_off_walls();

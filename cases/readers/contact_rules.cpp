@@ -9,19 +9,20 @@ namespace dielast::cases {
 namespace {
 
 /// What slides has no way back, and no time of its own.
-void check_friction(SectionReader& reader, const Node& tree, const Case& one) {
+void check_friction(SectionReader& reader, const Node& tree, const Case& one, const char* of) {
   const Node* steps = tree.find("step");
   for (std::size_t s = 0; steps && s < one.steps.size(); ++s) {
     const Step& step = one.steps[s];
     const auto report = [&](const char* message) {
-      reader.report(steps->items.at(s).source, fmt::format("step[{}]", s + 1), message);
+      reader.report(steps->items.at(s).source, fmt::format("step[{}]", s + 1),
+                    fmt::format(fmt::runtime(message), of));
     };
     if (step.duration || step.is_analysis())
-      report("friction of the [table] is for ramps that take no time");
+      report("friction of the {} is for ramps that take no time");
     else if (step.response == Response::instantaneous)
-      report("friction of the [table] flows with the branches; use response = \"relaxed\"");
+      report("friction of the {} flows with the branches; use response = \"relaxed\"");
     if (step.on_instability != OnInstability::stop)
-      report("no path is followed or jumped along with friction of the [table]");
+      report("no path is followed or jumped along with friction of the {}");
   }
 }
 
@@ -69,8 +70,9 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
     report("contact", "is between the walls of a planar [honeycomb], surfaces of solids (between = [...]), a "
                       "solid and a [table], or a [roll] and its one-sided core");
   if (surfaces) check_surfaces_in_contact(reader, *tree.find("contact"), one);
+  if (surfaces && one.contact->friction > 0) check_friction(reader, tree, one, "[contact]");
   if (!one.table) return;
-  if (one.table->friction > 0) return check_friction(reader, tree, one);
+  if (one.table->friction > 0) return check_friction(reader, tree, one, "[table]");
   const auto slides = [&](std::size_t axis) {
     return std::ranges::none_of(one.supports, [&](const Support& support) { return support.fixed[axis]; });
   };

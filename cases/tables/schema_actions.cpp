@@ -307,11 +307,17 @@ Section contact_section() {
           .above(0)
           .at_most(0.1),
       text("between", to(&Contact::between),
-           "surfaces of solids, of one part or of several, each kept apart from each other, without "
-           "friction; drawn at least the thickness apart")
+           "surfaces of solids, of one part or of several, each kept apart from each other; drawn at "
+           "least the thickness apart")
           .values(2, 20)
           .optional()
-          .refers_to(Reference::place)};
+          .refers_to(Reference::place),
+      number("friction", to(&Contact::friction),
+             "Coulomb's coefficient between these surfaces; the normal force is that of the increment before")
+          .at_least(0)
+          .at_most(100)
+          .otherwise("0")
+          .only_with(when::surfaces_touch())};
   return section;
 }
 

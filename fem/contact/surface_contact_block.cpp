@@ -3,6 +3,7 @@
 
 #include "fem/contact/centreline.hpp"
 #include "fem/contact/contact_sums.hpp"
+#include "fem/contact/surface_sliders.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,6 +75,11 @@ class SurfaceContactBlock final : public ContactBlock {
     const double finer = std::pow(mean_side(1) / mean_side(0), 2);
     share_ = {finer / (1 + finer), 1 / (1 + finer)};
     require_apart(contact_.sides[0], contact_.sides[1]);
+    std::vector<double> areas(drawn_.size(), 0);
+    for_each_point([&](const Pair& pair, std::size_t q) {
+      share(pair, q, share_[pair.surface] * area(pair, q), areas);
+    });
+    sliders_ = Sliders(contact_.friction, contact_.barrier, contact_.sides, areas, drawn_, up_);
   }
 
   int element_count() const override { return 2 * contact_.sides[0].size() * contact_.sides[1].size(); }
@@ -91,15 +97,17 @@ class SurfaceContactBlock final : public ContactBlock {
     for (int e = first; e < last; ++e) {
       const Pair pair = this->pair(e);
       const Side own = side(state, pair, 0), other = side(state, pair, 1);
-      if (clearance(own, other) >= contact_.barrier.thickness) continue;
+      const bool near = clearance(own, other) <= contact_.barrier.reach();
+      if (!near && !sliders_.any()) continue;
       Sums sums;
-      for (std::size_t q = 0; q < rule_size; ++q) {
+      for (std::size_t q = 0; q < rule_size && near; ++q) {
         const PointAndLine x = facing(own, other, q);
-        if (!(parabola.least_distance(x) < contact_.barrier.thickness)) continue;
+        if (parabola.least_distance(x) > contact_.barrier.reach()) continue;
         const double area = share_[pair.surface] * this->area(pair, q);
         add(parabola, x, q, area, scatter, sums);
         if (is_shared(pair)) add(end, x, q, -area, scatter, sums);
       }
+      sliders_.add(state, pair.surface, pair.own, pair.other, scatter.residual || scatter.tangent, sums);
       sums.add_to(result, e, scatter);
     }
     return result;
@@ -119,8 +127,8 @@ class SurfaceContactBlock final : public ContactBlock {
   }
   double contact_force(const State& state) const override {
     double sum = 0;
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, double slope) {
-      sum -= share_[pair.surface] * area(pair, q) * slope;
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      sum -= share_[pair.surface] * area(pair, q) * touching.energy.slope;
     });
     return sum;
   }
@@ -128,12 +136,26 @@ class SurfaceContactBlock final : public ContactBlock {
     return std::ranges::find(contact_.places, place) != contact_.places.end();
   }
   void add_pressure(const State& state, NodalPressure& pressure) const override {
-    for (std::size_t k = 0; k < 2; ++k)
-      for (int i = 0; i < contact_.sides[k].size(); ++i)
-        for (std::size_t q = 0; q < rule_size; ++q) share({k, i, 0}, q, area({k, i, 0}, q), pressure.area);
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, double slope) {
-      share(pair, q, -area(pair, q) * slope, pressure.force);
+    for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      share(pair, q, -area(pair, q) * touching.energy.slope, pressure.force);
     });
+  }
+  void add_energies(const State& state, EnergyParts& all) const override {
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      all.elastic += share_[pair.surface] * area(pair, q) * touching.energy.value;
+    });
+    all.elastic += sliders_.energy(state);
+  }
+  bool has_friction() const override { return sliders_.any(); }
+  double friction_heat(const State& state) const override { return sliders_.heat(state); }
+  int history_size() const override { return sliders_.history_size(); }
+  void place_history(int first) override { sliders_.place_history(first); }
+  void start_history(std::vector<double>& all) const override {
+    if (sliders_.any()) sliders_.start(pressed(as_drawn()), all);
+  }
+  void advance_history(const State& state, std::vector<double>& all) const override {
+    if (sliders_.any()) sliders_.advance(state, pressed(state), all);
   }
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
 
@@ -144,6 +166,12 @@ class SurfaceContactBlock final : public ContactBlock {
     int own, other;
   };
   using Sums = ContactSums<dofs>;
+  using Sliders = SurfaceSliders<3>;
+  /// What a point feels of a side or, negatively, of an end.
+  struct Touching {
+    BarrierEnergy energy;
+    Vector2d normal; ///< unit vector towards the point
+  };
   /// All sides in a state.
   struct Moved {
     std::array<std::vector<Side>, 2> sides;
@@ -226,31 +254,79 @@ class SurfaceContactBlock final : public ContactBlock {
     sums.first += moves.transpose() * total.gradient;
     if (scatter.tangent) sums.second += moves.transpose() * total.hessian * moves;
   }
-  /// use(pair, point, slope of the barrier); of what an end takes off the slope is its negative.
+  /// use(pair, point, what it feels) for all that touches.
   template<class Use>
   void for_each_touching(const State& state, const Use& use) const {
     const Moved now = moved(state);
     for (int e = 0; e < element_count(); ++e) {
       const Pair pair = this->pair(e);
-      if (clearance(now.of(pair, 0), now.of(pair, 1)) >= contact_.barrier.thickness) continue;
+      if (clearance(now.of(pair, 0), now.of(pair, 1)) > contact_.barrier.reach()) continue;
       for (std::size_t q = 0; q < rule_size; ++q) {
         const PointAndLine x = facing(now.of(pair, 0), now.of(pair, 1), q);
-        use(pair, q, contact_.barrier.at(parabola.distance(x)).slope);
-        if (is_shared(pair)) use(pair, q, -contact_.barrier.at(end.distance(x)).slope);
+        const auto add = [&](const Centreline& line, double factor) {
+          const Vector2d way = x[0] - line.at(x, line.nearest(x));
+          const BarrierEnergy energy = contact_.barrier.at(way.norm());
+          if (contact_.barrier.touches(way.norm()))
+            use(pair, q, Touching{{factor * energy.value, factor * energy.slope}, way.normalized()});
+        };
+        add(parabola, 1);
+        if (is_shared(pair)) add(end, -1);
       }
     }
   }
-  /// Adds what lies at a point to the side's nodes, linearly between neighbours.
+  /// What presses each slider's node.
+  std::vector<Sliders::Pressed> pressed(const State& state) const {
+    std::vector<Sliders::Pressed> all(static_cast<std::size_t>(sliders_.count()));
+    const auto in_space = [this](const Vector2d& x) {
+      return Eigen::Vector3d(x.x() * Eigen::Vector3d::UnitX() + x.y() * Eigen::Vector3d::Unit(up_));
+    };
+    const auto at = [&](const Pair& pair, int a) -> Sliders::Pressed& {
+      return all[static_cast<std::size_t>(sliders_.number(pair.surface, pair.own, a))];
+    };
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      const double size = -share_[pair.surface] * area(pair, q) * touching.energy.slope;
+      for (int a = 0; a < 3; ++a)
+        at(pair, a).force += node_share(q)[static_cast<std::size_t>(a)] * size * in_space(touching.normal);
+    });
+    const Moved now = moved(state);
+    for (int e = 0; e < element_count(); ++e) {
+      const Pair pair = this->pair(e);
+      const Side &own = now.of(pair, 0), &other = now.of(pair, 1);
+      for (int a = 0; a < 3; ++a) {
+        const PointAndLine x{own.x[static_cast<std::size_t>(a)], other.x[0], other.x[1], other.x[2]};
+        if (!(parabola.least_distance(x) < at(pair, a).distance)) continue;
+        const std::array<double, 3> N = parabola.shape(parabola.nearest(x));
+        const Vector2d way = x[0] - other.at(N);
+        at(pair, a).add_nearest(pair.own, pair.other, way.norm(), {N[0], N[1], N[2]},
+                                in_space(way.normalized()));
+      }
+    }
+    return all;
+  }
+  /// The shares of a side's nodes in what lies at a point: linear between neighbours.
+  static std::array<double, 3> node_share(std::size_t q) {
+    const double s = rule[q].s, middle = 1 - std::abs(2 * s - 1);
+    return {s < 0.5 ? 1 - middle : 0, s < 0.5 ? 0 : 1 - middle, middle};
+  }
   void share(const Pair& pair, std::size_t q, double amount, std::vector<double>& of_nodes) const {
     const auto own = nodes(pair, 0);
-    const double s = rule[q].s, middle = 1 - std::abs(2 * s - 1);
-    of_nodes[static_cast<std::size_t>(own[2])] += middle * amount;
-    of_nodes[static_cast<std::size_t>(own[s < 0.5 ? 0 : 1])] += (1 - middle) * amount;
+    for (std::size_t a = 0; a < 3; ++a)
+      of_nodes[static_cast<std::size_t>(own[a])] += node_share(q)[a] * amount;
+  }
+  State as_drawn() const {
+    State state;
+    state.displacement.assign(drawn_.size(), Eigen::Vector3d::Zero());
+    return state;
+  }
+  /// use(side with any other one, point) for all that are integrated.
+  template<class Use>
+  void for_each_point(const Use& use) const {
+    for (std::size_t k = 0; k < 2; ++k)
+      for (int i = 0; i < contact_.sides[k].size(); ++i)
+        for (std::size_t q = 0; q < rule_size; ++q) use(Pair{k, i, 0}, q);
   }
   void add_areas(std::size_t surface, int number) {
-    State drawn;
-    drawn.displacement.assign(drawn_.size(), Eigen::Vector3d::Zero());
-    const Side own = side_of(drawn, contact_.sides[surface].cell(number));
+    const Side own = side_of(as_drawn(), contact_.sides[surface].cell(number));
     const double mean = (own.x[0].x() + own.x[1].x()) / 2;
     for (const SidePoint& at : rule) {
       const Vector2d slope =
@@ -264,6 +340,7 @@ class SurfaceContactBlock final : public ContactBlock {
   SurfaceContact contact_;
   std::vector<Eigen::Vector3d> drawn_;
   int up_; ///< the second direction: y, of revolution z
+  Sliders sliders_;
   std::array<std::vector<char>, 2> shared_;
   std::array<double, 2> share_;              ///< of the two integrals: the finer surface has the greater one
   std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' sides

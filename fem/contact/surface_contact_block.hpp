@@ -18,9 +18,11 @@ struct SurfaceContact {
   std::array<meshing::CellBlock, 2> sides; ///< of 3-node cells, as meshing::sides_at() gives them
   std::optional<double> width;             ///< of plane strain, m; nothing: of revolution about x = 0
   Barrier barrier;                         ///< its stiffness in Pa/m
+  double friction = 0;                     ///< Coulomb's coefficient; 0: they slide freely
 };
 
-/// Keeps two deformable surfaces apart, in plane strain or of revolution, without friction or adhesion.
+/// Keeps two deformable surfaces apart, in plane strain or of revolution, without adhesion. Friction: see
+/// SurfaceSliders.
 ///
 /// Energy: w_A int_A b(distance to B) dA + w_B int_B b(distance to A) dB, over the areas as drawn, b the
 /// Barrier, w_A + w_B = 1; the finer surface's integral has the greater share, as the square of the elements'

@@ -225,6 +225,46 @@ TEST_F(Contacts, pass_the_force_on_from_solid_to_solid_in_space) {
   EXPECT_THROW(build_device(read(two_blocks_in_space(0.1, ", \"lower.left\""))), meshing::MeshError);
 }
 
+/// Pressed and pushed aside by a little: without friction the lower one's support feels nothing of it.
+TEST_F(Contacts, hold_solids_with_friction_between_their_surfaces) {
+  const auto pushed = [&](std::string text, const std::string& friction) {
+    text.insert(text.find("between = "), "friction = " + friction + "\n");
+    const std::string down = "fix = [\"x\"]\ndisplacement = { y = \"-0.1 mm\" }";
+    text.replace(text.find(down), down.size(), "displacement = { y = \"-0.022 mm\", x = \"0.004 mm\" }");
+    text.replace(text.find("kind = \"move\""), 13, "kind = \"move\"\nincrements = 10");
+    text += "[[quantity]]\nname = \"aside\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"x\"\n"
+            "[[quantity]]\nname = \"heat\"\nkind = \"energy\"\nof = \"dissipated\"\n";
+    return values(text);
+  };
+  const auto smooth = pushed(two_blocks(0.02), "0"), rough = pushed(two_blocks(0.02), "0.2");
+  EXPECT_LT(std::abs(smooth.at("aside")), 0.01 * smooth.at("held"));
+  EXPECT_EQ(smooth.at("heat"), 0);
+  EXPECT_GT(std::abs(rough.at("aside")), 0.03 * rough.at("held"));
+  EXPECT_LT(std::abs(rough.at("aside")), 0.21 * rough.at("held"));
+  EXPECT_GT(rough.at("heat"), 0);
+}
+
+/// A block whose front comes down across the other one's upper edge: nothing but edges meet.
+TEST_F(Contacts, end_where_edges_of_surfaces_meet) {
+  std::string text = two_blocks_in_space(0.2);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("\"lower.top\", \"upper.bottom\"", "\"lower.right\", \"upper.front\"");
+  replace("at = [\"2 mm\"", "at = [\"6.77 mm\"");
+  replace("-0.1 mm", "-1 mm");
+  for (const char* name : {"pressed", "below", "pressure"}) {
+    const std::size_t at = text.find(std::string("[[quantity]]\nname = \"") + name);
+    text.erase(at, text.find("[[quantity]]", at + 1) - at);
+  }
+  const Case one = read(text);
+  Simulation simulation(one, 1);
+  const Outcome outcome = simulation.run({});
+  EXPECT_EQ(outcome.ending, Ending::gave_up);
+  EXPECT_NE(outcome.message.find("edges of surfaces in [contact] meet"), std::string::npos)
+      << outcome.message;
+}
+
 TEST_F(Contacts, refuse_surfaces_that_touch_or_cross_as_drawn) {
   EXPECT_NO_THROW(build_device(read(two_blocks(0.01))));
   EXPECT_THROW(build_device(read(two_blocks(0.009))), meshing::MeshError);
