@@ -16,8 +16,8 @@ namespace {
 /// Numbers that a thread moves at once, not less.
 constexpr int permuted_together = 20000;
 
-/// How many entries of the matrix ahead the memory is asked for one.
-constexpr std::size_t asked_before = 64;
+/// How many runs of entries of the matrix ahead the memory is asked for one.
+constexpr std::size_t asked_before = 16;
 
 constexpr std::size_t at(std::ptrdiff_t i) { return static_cast<std::size_t>(i); }
 
@@ -68,15 +68,28 @@ typename MultifrontalCholesky<Real>::Front MultifrontalCholesky<Real>::front(int
           updates_.data() + nodes_.update_start[at(s)]};
 }
 
+/// to[place[i]] += from[i] for i = first..count-1, of which together[i] follow one another.
+template<class Real>
+void add(int first, int count, const int* place, const int* together, const Real* from, Real* to) {
+  for (int i = first; i < count; i += together[i]) {
+    const Real* const of_run = from + i;
+    Real* const to_run = to + place[i];
+    for (int k = 0; k < together[i]; ++k) to_run[k] += of_run[k];
+  }
+}
+
 /// The panel of the matrix, and what the children change in it.
 template<class Real>
 void MultifrontalCholesky<Real>::gather(const std::vector<double>& entries, double lessened, int s) {
   const Front own = front(s);
   std::fill(own.panel, own.panel + static_cast<std::ptrdiff_t>(own.width) * own.height, Real(0));
-  for (auto e = at(nodes_.entry_start[at(s)]); e < at(nodes_.entry_start[at(s) + 1]); ++e) {
-    if (e + asked_before < nodes_.entry.size())
-      __builtin_prefetch(entries.data() + nodes_.entry[e + asked_before]); // they lie here and there
-    own.panel[nodes_.entry_place[e]] = static_cast<Real>(entries[at(nodes_.entry[e])]);
+  for (auto r = at(nodes_.run_start[at(s)]); r < at(nodes_.run_start[at(s) + 1]); ++r) {
+    if (r + asked_before < nodes_.runs.size())
+      __builtin_prefetch(entries.data() + nodes_.runs[r + asked_before].entry); // they lie here and there
+    const auto [entry, place, stride, count] = nodes_.runs[r];
+    const double* const from = entries.data() + entry;
+    Real* const to = own.panel + place;
+    for (int i = 0; i < count; ++i) to[static_cast<std::ptrdiff_t>(i) * stride] = static_cast<Real>(from[i]);
   }
   if (lessened != 0)
     for (int k = 0; k < own.width; ++k)
@@ -84,11 +97,10 @@ void MultifrontalCholesky<Real>::gather(const std::vector<double>& entries, doub
   for (int c = nodes_.child_start[at(s)]; c < nodes_.child_start[at(s) + 1]; ++c) {
     const Front child = front(nodes_.child[at(c)]);
     const int* const place = nodes_.place_in_parent(nodes_.child[at(c)]);
-    for (int j = 0; j < child.below && place[j] < own.width; ++j) {
-      Real* const to = own.panel + static_cast<std::ptrdiff_t>(place[j]) * own.height;
-      const Real* const from = child.update + static_cast<std::ptrdiff_t>(j) * child.below;
-      for (int i = j; i < child.below; ++i) to[place[i]] += from[i];
-    }
+    const int* const together = nodes_.together_in_parent(nodes_.child[at(c)]);
+    for (int j = 0; j < child.below && place[j] < own.width; ++j)
+      add(j, child.below, place, together, child.update + static_cast<std::ptrdiff_t>(j) * child.below,
+          own.panel + static_cast<std::ptrdiff_t>(place[j]) * own.height);
   }
 }
 
@@ -100,11 +112,10 @@ void MultifrontalCholesky<Real>::pass_on(int s) {
     const Front child = front(nodes_.child[at(c)]);
     const int* const place = nodes_.place_in_parent(nodes_.child[at(c)]);
     const auto behind = std::lower_bound(place, place + child.below, own.width) - place;
-    for (auto j = static_cast<int>(behind); j < child.below; ++j) {
-      Real* const to = own.update + static_cast<std::ptrdiff_t>(place[j] - own.width) * own.below;
-      const Real* const from = child.update + static_cast<std::ptrdiff_t>(j) * child.below;
-      for (int i = j; i < child.below; ++i) to[place[i] - own.width] += from[i];
-    }
+    const int* const together = nodes_.together_in_parent(nodes_.child[at(c)]);
+    for (auto j = static_cast<int>(behind); j < child.below; ++j)
+      add(j, child.below, place, together, child.update + static_cast<std::ptrdiff_t>(j) * child.below,
+          own.update + static_cast<std::ptrdiff_t>(place[j] - own.width) * own.below - own.width);
   }
 }
 

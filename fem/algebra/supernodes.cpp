@@ -96,6 +96,10 @@ void Supernodes::build_tree() {
       for (int k = row_start[at(child[at(c)])]; k < row_start[at(child[at(c)]) + 1]; ++k)
         places[at(k)] = place[at(rows[at(k)])];
   }
+  together.assign(rows.size(), 1);
+  for (int s = 0; s < supernodes; ++s)
+    for (int k = row_start[at(s) + 1] - 2; k >= row_start[at(s)]; --k)
+      if (places[at(k) + 1] == places[at(k)] + 1) together[at(k)] += together[at(k) + 1];
 }
 
 void Supernodes::place_entries(const SparseSymmetric& matrix) {
@@ -110,28 +114,40 @@ void Supernodes::place_entries(const SparseSymmetric& matrix) {
         visit(k, column, row);
       }
   };
-  entry_start.assign(at(count()) + 1, 0);
+  std::vector<std::ptrdiff_t> entry_start(at(count()) + 1, 0); // of each supernode
   diagonal.resize(permutation.size());
   for_each_entry([&](int k, int column, int row) {
     ++entry_start[at(of_column[at(column)]) + 1];
     if (row == column) diagonal[at(column)] = k;
   });
   std::partial_sum(entry_start.begin(), entry_start.end(), entry_start.begin());
-  entry.resize(matrix.rows.size());
-  entry_place.resize(matrix.rows.size());
-  std::vector<int> columns(matrix.rows.size());
+  struct Entry {
+    int entry, column, row;
+  };
+  std::vector<Entry> entries(matrix.rows.size());
   std::vector<std::ptrdiff_t> next(entry_start.begin(), entry_start.end() - 1);
   for_each_entry([&](int k, int column, int row) {
-    const auto e = static_cast<std::size_t>(next[at(of_column[at(column)])]++);
-    entry[e] = k;
-    entry_place[e] = row;
-    columns[e] = column;
+    entries[static_cast<std::size_t>(next[at(of_column[at(column)])]++)] = {k, column, row};
   });
+  run_start.assign(1, 0);
   for (int s = 0; s < count(); ++s) {
     for (int k = 0; k < height(s); ++k) place[at(rows_of(s)[k])] = k;
-    for (auto e = static_cast<std::size_t>(entry_start[at(s)]);
-         e < static_cast<std::size_t>(entry_start[at(s) + 1]); ++e)
-      entry_place[e] = (columns[e] - first_column[at(s)]) * height(s) + place[at(entry_place[e])];
+    for (auto e = entry_start[at(s)]; e < entry_start[at(s) + 1]; ++e) {
+      const auto [entry, column, row] = entries[static_cast<std::size_t>(e)];
+      const int here = (column - first_column[at(s)]) * height(s) + place[at(row)];
+      if (e > entry_start[at(s)]) {
+        Run& last = runs.back();
+        const int stride = here - (last.place + (last.count - 1) * last.stride);
+        const bool goes_on = last.count == 1 ? stride == 1 || stride == height(s) : stride == last.stride;
+        if (goes_on && entry == last.entry + last.count) {
+          last.stride = stride;
+          ++last.count;
+          continue;
+        }
+      }
+      runs.push_back({entry, here, 1, 1});
+    }
+    run_start.push_back(std::ssize(runs));
   }
 }
 

@@ -25,21 +25,28 @@ struct Supernodes {
   const int* rows_of(int s) const { return rows.data() + row_start[at(s)]; }
   /// Place in the parent's rows of each row below.
   const int* place_in_parent(int s) const { return places.data() + row_start[at(s)] + width(s); }
+  /// How many rows from each row below on follow one another in the parent.
+  const int* together_in_parent(int s) const { return together.data() + row_start[at(s)] + width(s); }
 
   std::vector<int> permutation;        ///< equation of each column of L
   std::vector<int> first_column;       ///< per supernode, and the number of columns
   std::vector<int> row_start;          ///< of each supernode in `rows`
   std::vector<int> rows;               ///< ascending, columns of L
-  std::vector<int> places;             ///< beside `rows`
+  std::vector<int> places, together;   ///< beside `rows`: see place_in_parent(), together_in_parent()
   std::vector<int> parent;             ///< -1: a root
   std::vector<int> child_start, child; ///< lists of children
   std::vector<int> roots;
   std::vector<int> first_below;      ///< first of all that stand below each supernode and of itself: no gap
   std::vector<bool> small;           ///< whether all these are so little work that one thread should do it
   std::vector<std::ptrdiff_t> start; ///< of each panel in the values of L, and their number
-  std::vector<std::ptrdiff_t> entry_start;  ///< of each supernode in the next two
-  std::vector<int> entry;                   ///< of the matrix
-  std::vector<int> entry_place;             ///< in the panel
+  /// Entries that follow one another in a column of the matrix, and in the panel along a column or a row.
+  struct Run {
+    int entry, place; ///< the first, in the matrix and in the panel
+    int stride;       ///< of the places: 1, or the panel's height
+    int count;
+  };
+  std::vector<std::ptrdiff_t> run_start;    ///< of each supernode in the next one
+  std::vector<Run> runs;                    ///< what the panels hold of the matrix
   std::vector<int> diagonal;                ///< entry of the matrix of each column's diagonal
   std::vector<std::ptrdiff_t> update_start; ///< of what each supernode gives to its parent, in a workspace of
   std::ptrdiff_t update_size = 0;           ///< this size
