@@ -40,43 +40,59 @@ void pack(const Real* from, int stride, int rows, int depth, Real* to) {
     }
 }
 
-/// C -= A B^T of one tile, `rows` x `columns` of it.
-template<class Real>
+/// C -= A B^T of `registers` of rows and one tile of columns, `rows` x `columns` of it.
+template<int registers, class Real>
 void multiply_tile(int depth, const Real* left, const Real* right, Real* C, int stride, int rows, int columns,
                    bool overwrites) {
   using Vector = typename Register<Real>::Type;
   using Unaligned = typename Register<Real>::Unaligned;
-  constexpr int lanes = Register<Real>::size, tile_rows = tile_registers * lanes;
-  Vector sum[tile_columns][tile_registers] = {};
-  for (int k = 0; k < depth; ++k, left += tile_rows, right += tile_columns) {
-    Vector a[tile_registers];
-    for (int v = 0; v < tile_registers; ++v) a[v] = *reinterpret_cast<const Vector*>(left + v * lanes);
+  constexpr int lanes = Register<Real>::size;
+  Vector sum[tile_columns][registers] = {};
+  for (int k = 0; k < depth; ++k, left += lanes, right += tile_columns) {
+    Vector a[registers];
+    for (int v = 0; v < registers; ++v)
+      a[v] = *reinterpret_cast<const Vector*>(left + static_cast<std::ptrdiff_t>(v) * lanes * depth);
     for (int j = 0; j < tile_columns; ++j)
-      for (int v = 0; v < tile_registers; ++v) sum[j][v] += a[v] * right[j];
+      for (int v = 0; v < registers; ++v) sum[j][v] += a[v] * right[j];
   }
-  if (rows == tile_rows && columns == tile_columns) {
+  if (rows >= registers * lanes && columns == tile_columns) {
     for (int j = 0; j < tile_columns; ++j)
-      for (int v = 0; v < tile_registers; ++v) {
+      for (int v = 0; v < registers; ++v) {
         auto& to = *reinterpret_cast<Unaligned*>(C + static_cast<std::ptrdiff_t>(j) * stride + v * lanes);
         to = overwrites ? -sum[j][v] : to - sum[j][v];
       }
     return;
   }
+  const int filled = smaller(rows, registers * lanes);
   for (int j = 0; j < columns; ++j) {
     const Real* const product = reinterpret_cast<const Real*>(sum[j]);
     Real* const to = C + static_cast<std::ptrdiff_t>(j) * stride;
     if (overwrites)
-      for (int i = 0; i < rows; ++i) to[i] = -product[i];
+      for (int i = 0; i < filled; ++i) to[i] = -product[i];
     else
-      for (int i = 0; i < rows; ++i) to[i] -= product[i];
+      for (int i = 0; i < filled; ++i) to[i] -= product[i];
   }
+}
+
+/// All rows, as many registers together as there are.
+template<int registers, class Real>
+void multiply_rows(int depth, const Real* left, const Real* right, Real* C, int stride, int rows, int columns,
+                   bool overwrites) {
+  constexpr int tile_rows = registers * Register<Real>::size;
+  for (; rows > tile_rows - Register<Real>::size; rows -= tile_rows) {
+    multiply_tile<registers>(depth, left, right, C, stride, rows, columns, overwrites);
+    left += static_cast<std::ptrdiff_t>(tile_rows) * depth;
+    C += tile_rows;
+  }
+  if constexpr (registers > 1)
+    multiply_rows<registers - 1>(depth, left, right, C, stride, rows, columns, overwrites);
 }
 
 template<class Real>
 void multiply(const DenseProduct<Real>& product, int first, int last, DenseWorkspace<Real>& space) {
-  constexpr int tile_rows = tile_registers * Register<Real>::size;
+  constexpr int lanes = Register<Real>::size;
   constexpr int block_rows = DenseWorkspace<Real>::block_rows;
-  static_assert(block_rows % tile_rows == 0 && tile_columns <= DenseWorkspace<Real>::widest_tile);
+  static_assert(block_rows % lanes == 0 && tile_columns <= DenseWorkspace<Real>::widest_tile);
   const int end = smaller(product.columns, last);
   for (int column = 0; column < end; column += space.most_columns) {
     const int width = smaller(space.most_columns, end - column);
@@ -86,16 +102,16 @@ void multiply(const DenseProduct<Real>& product, int first, int last, DenseWorks
       pack<tile_columns>(product.B + from + column, product.stride, width, deep, space.right);
       for (int row = first; row < last; row += block_rows) {
         const int height = smaller(block_rows, last - row);
-        pack<tile_rows>(product.A + from + row, product.stride, height, deep, space.left);
-        for (int j = 0; j < width; j += tile_columns)
-          for (int i = 0; i < height; i += tile_rows) {
-            if (row + i + tile_rows <= column + j) continue; // above the diagonal
-            multiply_tile(deep, space.left + static_cast<std::ptrdiff_t>(i) * deep,
-                          space.right + static_cast<std::ptrdiff_t>(j) * deep,
-                          product.C + static_cast<std::ptrdiff_t>(column + j) * product.stride_C + row + i,
-                          product.stride_C, smaller(tile_rows, height - i), smaller(tile_columns, width - j),
-                          product.overwrites && k == 0);
-          }
+        pack<lanes>(product.A + from + row, product.stride, height, deep, space.left);
+        for (int j = 0; j < width; j += tile_columns) {
+          const int above = column + j - row, i = above > 0 ? above / lanes * lanes : 0; // the diagonal
+          if (i >= height) break;
+          multiply_rows<tile_registers>(
+              deep, space.left + static_cast<std::ptrdiff_t>(i) * deep,
+              space.right + static_cast<std::ptrdiff_t>(j) * deep,
+              product.C + static_cast<std::ptrdiff_t>(column + j) * product.stride_C + row + i,
+              product.stride_C, height - i, smaller(tile_columns, width - j), product.overwrites && k == 0);
+        }
       }
     }
   }
@@ -106,20 +122,27 @@ inline double root(double x) { return __builtin_sqrt(x); }
 
 template<class Real>
 bool factor(int width, Real* A, int stride, DiagonalBlock<Real>& block) {
-  auto& L = block.L;
-  for (int j = 0; j < width; ++j)
-    for (int i = j; i < width; ++i) L[i][j] = A[static_cast<std::ptrdiff_t>(j) * stride + i];
+  using Vector = typename Register<Real>::Type;
+  constexpr int lanes = Register<Real>::size, most = DenseWorkspace<Real>::block_columns;
+  static_assert(most % lanes == 0);
+  const int vectors = (width + lanes - 1) / lanes;
+  Vector columns[most][most / lanes]; // of L; above the diagonal anything
   for (int j = 0; j < width; ++j) {
-    for (int i = j; i < width; ++i)
-      for (int k = 0; k < j; ++k) L[i][j] -= L[i][k] * L[j][k];
-    if (!(L[j][j] > 0) || __builtin_isinf(L[j][j])) return false;
-    const Real pivot = root(L[j][j]), inverse = 1 / pivot;
-    A[static_cast<std::ptrdiff_t>(j) * stride + j] = pivot;
-    for (int i = j + 1; i < width; ++i) {
-      L[i][j] *= inverse;
-      A[static_cast<std::ptrdiff_t>(j) * stride + i] = L[i][j];
-    }
-    L[j][j] = inverse;
+    const Real* const column = A + static_cast<std::ptrdiff_t>(j) * stride;
+    auto* const own = reinterpret_cast<Real*>(columns[j]);
+    for (int i = 0; i < vectors * lanes; ++i) own[i] = i >= j && i < width ? column[i] : 0;
+  }
+  for (int j = 0; j < width; ++j) {
+    for (int k = 0; k < j; ++k)
+      for (int v = j / lanes; v < vectors; ++v) columns[j][v] -= columns[k][v] * block.L[j][k];
+    const auto* const own = reinterpret_cast<const Real*>(columns[j]);
+    if (!(own[j] > 0) || __builtin_isinf(own[j])) return false;
+    const Real pivot = root(own[j]), inverse = 1 / pivot;
+    for (int v = j / lanes; v < vectors; ++v) columns[j][v] *= inverse;
+    Real* const column = A + static_cast<std::ptrdiff_t>(j) * stride;
+    for (int i = j + 1; i < width; ++i) column[i] = block.L[i][j] = own[i];
+    column[j] = pivot;
+    block.L[j][j] = inverse;
   }
   return true;
 }
