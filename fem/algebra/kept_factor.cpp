@@ -17,8 +17,8 @@ constexpr double least_pivot = 1e-4;
 constexpr double operations_per_entry = 40;
 /// Iterations with a factor of the matrix itself after which a solve gives up.
 constexpr int most_iterations = 50;
-/// Square of what corrections may be over those foreseen.
-constexpr double foreseen = 100;
+/// Square of what corrections may be over those foreseen; they were 0.15 to 0.4 times those.
+constexpr double foreseen = 10;
 
 /// Into how many blocks columns are divided, whatever the number of threads, and how many columns are worth
 /// it.
@@ -154,7 +154,7 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
     const double least = tolerance * tolerance * square;
     if (correction <= least) return iteration;
     // By what the next correction will be told before it is made: as much smaller as this one is than the
-    // last, or ten times less. The second falls faster than others, but with a factor of the matrix itself.
+    // last, or three times less. The second falls faster than others, but with a factor of the matrix itself.
     if (iteration > (proves_ ? 1 : 2) && foreseen * correction * correction <= least * last) return iteration;
   }
   return std::nullopt;

@@ -11,7 +11,7 @@ namespace dielast::fem {
 namespace {
 
 constexpr double difference = 1e-3; ///< of the reach
-constexpr double accuracy = 1e-6;   ///< of a slope's equations: the difference leaves a thousandth
+constexpr double accuracy = 2e-4;   ///< of a slope's equations: the difference leaves a thousandth
 constexpr double still = 1e-7;      ///< mean displacement over the extent that tells nothing of a path
 constexpr double rounding = 1e-12;  ///< of potentials
 constexpr double linear = 0.01;     ///< part of the works that a film may miss which answers loads linearly
