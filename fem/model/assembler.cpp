@@ -75,8 +75,10 @@ void Assembler::find_pattern() {
   stale_ = false;
   ++patterns_;
   matrix_ = {};
-  slots_.clear();
   build_pattern();
+  slots_.assign(equations_.size(), {});
+  pairs_.assign(equations_.size(), {});
+  for (std::size_t b = 0; b < equations_.size(); ++b) place_elements(b);
   mass_ = on_pattern(model_.inertia.mass);
   damping_ = on_pattern(model_.inertia.damping);
   if (model_.dofs.ties().empty()) return;
@@ -84,15 +86,16 @@ void Assembler::find_pattern() {
   reduced_ = reduction_->pattern();
 }
 
-void Assembler::build_pattern() {
-  // Unknowns of the elements: the free ones, then those of tied nodes.
+/// The free ones, then those of tied nodes.
+int Assembler::unknown(int equation) const {
   const DofMap& map = model_.dofs;
-  const int n = map.count() - map.held_count();
-  const auto unknown = [&map](int equation) {
-    return map.is_free(equation)   ? equation
-           : map.is_tied(equation) ? equation - map.held_count()
-                                   : DofMap::absent;
-  };
+  return map.is_free(equation)   ? equation
+         : map.is_tied(equation) ? equation - map.held_count()
+                                 : DofMap::absent;
+}
+
+void Assembler::build_pattern() {
+  const int n = model_.dofs.count() - model_.dofs.held_count();
   matrix_.size = n;
 
   // Elements at each equation.
@@ -137,24 +140,67 @@ void Assembler::build_pattern() {
     matrix_.column_start.push_back(static_cast<int>(matrix_.rows.size()));
   }
   matrix_.values.assign(matrix_.rows.size(), 0.0);
+}
 
-  for (std::size_t b = 0; b < equations_.size(); ++b) {
-    const int dofs = model_.blocks[b]->dofs_per_element();
-    auto& slots = slots_.emplace_back();
-    slots.reserve(equations_[b].size() * static_cast<std::size_t>(dofs + 1) / 2);
-    for (std::size_t at = 0; at < equations_[b].size(); at += static_cast<std::size_t>(dofs))
-      for (int i = 0; i < dofs; ++i)
-        for (int j = 0; j <= i; ++j) {
-          const int p = unknown(equations_[b][at + static_cast<std::size_t>(i)]);
-          const int q = unknown(equations_[b][at + static_cast<std::size_t>(j)]);
-          if (p < 0 || q < 0) {
-            slots.push_back(Scatter::none);
-            continue;
-          }
-          const int place = matrix_.place(std::min(p, q), std::max(p, q));
-          slots.push_back(p == q && i != j ? Scatter::twice(place) : place);
-        }
+/// Whether the unknowns of every node follow one another, and likewise what its columns have in common with
+/// the other nodes: places of the pairs, see add_by_nodes().
+bool Assembler::place_by_nodes(NodeOrder order, std::span<const int> equations, std::span<int> pairs) const {
+  const auto first_of = [&](int node) { return equations[static_cast<std::size_t>(node * order.unknowns)]; };
+  const auto start_of = [&](int column) { return matrix_.column_start[static_cast<std::size_t>(column)]; };
+  const auto all = static_cast<std::size_t>(order.nodes * order.unknowns);
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const auto place = static_cast<int>(i);
+    if (i < all ? !model_.dofs.is_free(equations[i]) ||
+                      equations[i] != first_of(place / order.unknowns) + place % order.unknowns
+                : unknown(equations[i]) >= 0)
+      return false;
   }
+  std::size_t pair = 0;
+  for (int a = 0; a < order.nodes; ++a)
+    for (int b = 0; b < a; ++b, ++pair) {
+      const int column = std::min(first_of(a), first_of(b)), row = std::max(first_of(a), first_of(b));
+      if (column == row) return false;
+      const int length = start_of(column + 1) - start_of(column);
+      int place = pairs[pair] = matrix_.place(column, row);
+      for (int j = 0; j < order.unknowns; place += length - ++j)
+        if (place < start_of(column + j) || place >= start_of(column + j + 1) ||
+            matrix_.rows[static_cast<std::size_t>(place)] != row)
+          return false;
+    }
+  return true;
+}
+
+void Assembler::place_elements(std::size_t b) {
+  const auto dofs = static_cast<std::size_t>(model_.blocks[b]->dofs_per_element());
+  const NodeOrder order = model_.blocks[b]->node_order();
+  const auto pairs = static_cast<std::size_t>(order.pairs()), elements = equations_[b].size() / dofs;
+  std::vector<int>& slots = slots_[b];
+  if (pairs == 0) slots.reserve(equations_[b].size() * (dofs + 1) / 2);
+  pairs_[b].resize(elements * pairs);
+  int with_slots = 0;
+  for (std::size_t e = 0; e < elements; ++e) {
+    const auto equations = std::span(equations_[b]).subspan(e * dofs, dofs);
+    if (pairs > 0) {
+      const auto places = std::span(pairs_[b]).subspan(e * pairs, pairs);
+      if (place_by_nodes(order, equations, places)) continue;
+      places[0] = -1 - with_slots++;
+    }
+    for (std::size_t i = 0; i < dofs; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        const int p = unknown(equations[i]), q = unknown(equations[j]);
+        if (p < 0 || q < 0) {
+          slots.push_back(Scatter::none);
+          continue;
+        }
+        const int place = matrix_.place(std::min(p, q), std::max(p, q));
+        slots.push_back(p == q && i != j ? Scatter::twice(place) : place);
+      }
+  }
+}
+
+Scatter Assembler::scatter(std::size_t b, double* residual, double* tangent) const {
+  return {equations_[b].data(), slots_[b].data(),           residual, tangent,
+          pairs_[b].data(),     matrix_.column_start.data()};
 }
 
 /// The lower triangle of its part of the elements' unknowns.
@@ -214,10 +260,9 @@ Evaluation Assembler::run(const State& state, bool want_residual, bool want_tang
     const auto evaluate = [&](std::size_t c) {
       const auto [block, first, last] = colour[c];
       const auto b = static_cast<std::size_t>(block);
-      const Scatter scatter{equations_[b].data(), slots_[b].data(),
-                            want_residual ? block_residual_[b].data() : nullptr,
-                            want_tangent ? matrix_.values.data() : nullptr};
-      parts_[c] = model_.blocks[b]->evaluate(state, first, last, scatter);
+      parts_[c] = model_.blocks[b]->evaluate(state, first, last,
+                                             scatter(b, want_residual ? block_residual_[b].data() : nullptr,
+                                                     want_tangent ? matrix_.values.data() : nullptr));
     };
     workers_->run(colour.size(), evaluate);
     for (const Evaluation& part : parts_) {
@@ -241,8 +286,7 @@ Evaluation Assembler::residual(const State& state, Eigen::VectorXd& residual) {
 std::vector<double> Assembler::relaxation(const State& state, const RateWeight& weight) const {
   std::vector<double> values(matrix_.values.size(), 0.0);
   for (std::size_t b = 0; b < equations_.size(); ++b)
-    model_.blocks[b]->add_relaxation(state, weight,
-                                     {equations_[b].data(), slots_[b].data(), nullptr, values.data()});
+    model_.blocks[b]->add_relaxation(state, weight, scatter(b, nullptr, values.data()));
   return without_ties(state, std::move(values));
 }
 

@@ -63,9 +63,13 @@ class Assembler {
   void choose_elements(const State& state);
   void find_pattern();
   void build_pattern();
+  void place_elements(std::size_t block);
+  bool place_by_nodes(NodeOrder order, std::span<const int> equations, std::span<int> pairs) const;
   void colour_chunks();
+  int unknown(int equation) const; ///< of matrix_; negative: none
   int equation(int unknown) const; ///< of matrix_
   std::vector<double> on_pattern(const Eigen::SparseMatrix<double>& constant) const;
+  Scatter scatter(std::size_t block, double* residual, double* tangent) const;
   Evaluation run(const State& state, bool want_residual, bool want_tangent);
   void add_inertia(const State& state);
   std::vector<double> without_ties(const State& state, std::vector<double> values) const;
@@ -79,7 +83,7 @@ class Assembler {
   bool stale_ = false; ///< the pattern is not that of the elements
   std::vector<Contact> contacts_;
   std::vector<std::vector<int>> equations_; ///< per block, see Scatter
-  std::vector<std::vector<int>> slots_;
+  std::vector<std::vector<int>> slots_, pairs_;
   std::vector<std::vector<Chunk>> colours_;
   std::vector<Eigen::VectorXd> block_residual_;
   std::vector<Evaluation> parts_; ///< of the chunks of a colour

@@ -12,6 +12,13 @@
 
 namespace dielast::fem {
 
+/// Of elements whose unknowns stand node by node, so many of each; others may stand behind them.
+struct NodeOrder {
+  int nodes = 0, unknowns = 0;
+
+  int pairs() const { return nodes * (nodes - 1) / 2; }
+};
+
 /// Where a block adds what it computes: element dof -> equation, element dof pair -> place in the sparse
 /// tangent; negative where there is none (an unknown that does not exist, a tangent entry of a held one).
 /// Where two unknowns of an element share an equation, their off-diagonal entry counts twice on its diagonal:
@@ -24,6 +31,8 @@ struct Scatter {
   const int* slot = nullptr;     ///< lower triangle, row by row, dofs*(dofs+1)/2 entries per element
   double* residual = nullptr;    ///< null: not wanted
   double* tangent = nullptr;     ///< null: not wanted
+  /// Of blocks with a NodeOrder, which have slots for few elements only: see add_by_nodes().
+  const int *pair = nullptr, *column_start = nullptr;
 
   void add_residual(int element, std::span<const double> values) const {
     add_residual(element, values, values.size());
@@ -95,6 +104,8 @@ class ElementBlock {
 
   virtual int element_count() const = 0;
   virtual int dofs_per_element() const = 0;
+  /// Elements with so many equal nodes have their tangents added node by node, by add_by_nodes().
+  virtual NodeOrder node_order() const { return {}; }
   /// Elements are evaluated in multiples of this many.
   virtual int granularity() const { return 1; }
   /// Adds this block's scalars and remembers their places; to be called before the unknowns are numbered.

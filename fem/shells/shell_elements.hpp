@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem/films/membrane_block.hpp"
+#include "fem/model/node_places.hpp"
 #include "fem/shells/film_layer.hpp"
 #include "fem/shells/shell_block.hpp"
 #include "fem/shells/shell_kinematics.hpp"
@@ -40,6 +41,7 @@ class ShellBlock final : public ElementBlock {
 
   int element_count() const override { return count_; }
   int dofs_per_element() const override { return dofs; }
+  NodeOrder node_order() const override { return {Nodes, 5}; } // see ShellSum
   int granularity() const override { return lanes; }
   void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
@@ -176,7 +178,7 @@ void ShellBlock::scatter_pack(int pack, const ShellSum<with_tangent, axes>& sum,
     if constexpr (with_tangent) {
       double values[Sum::packed_size];
       for (int i = 0; i < Sum::packed_size; ++i) values[i] = sum.tangent(i)[l];
-      scatter.add_tangent(element, values, ShellSum<true, 3>::packed_size);
+      add_by_nodes<Nodes, 5, dofs>(scatter, element, values);
     }
   }
 }
