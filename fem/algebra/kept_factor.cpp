@@ -131,6 +131,12 @@ bool KeptFactor::prepare() {
 /// the norm of x.
 std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, double tolerance, int most) {
   double product = 0, correction = 0;
+  // By what the next correction will be told before it is made: as much smaller as this one is than the
+  // last, or three times less. The second falls faster than others, but with a factor of the matrix itself.
+  const auto suffices = [&](int iteration, double now, double last) {
+    const double least = tolerance * tolerance * (square + now);
+    return now <= least || (iteration > (proves_ ? 1 : 2) && foreseen * now * now <= least * last);
+  };
   for (int iteration = 1; iteration <= most; ++iteration) {
     factor_.solve(r_, z_);
     ++solves_;
@@ -141,6 +147,11 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
     for_blocks([&](int first, int count) {
       p_.segment(first, count) = z_.segment(first, count) + kept * p_.segment(first, count);
     });
+    if (proves_ && iteration > 1 && suffices(iteration, rz, correction)) { // its step is 1 but for as small a part
+      x += p_;
+      square += rz;
+      return iteration;
+    }
     product = rz;
     multiply(p_, Ap_);
     const double curvature = dot(p_, Ap_);
@@ -150,12 +161,9 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
       r_.segment(first, count) -= rz / curvature * Ap_.segment(first, count);
     });
     const double last = std::exchange(correction, rz / curvature * rz);
+    const bool enough = suffices(iteration, correction, last);
     square += correction;
-    const double least = tolerance * tolerance * square;
-    if (correction <= least) return iteration;
-    // By what the next correction will be told before it is made: as much smaller as this one is than the
-    // last, or three times less. The second falls faster than others, but with a factor of the matrix itself.
-    if (iteration > (proves_ ? 1 : 2) && foreseen * correction * correction <= least * last) return iteration;
+    if (enough) return iteration;
   }
   return std::nullopt;
 }
