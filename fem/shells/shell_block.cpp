@@ -204,6 +204,7 @@ ShellNodes ShellBlock::gather(const State& state, int pack) const {
     for (int c = 0; c < 3; ++c) nodes.axis[a][2][c] = Lanes{};
     if (!nodes.tilt) turn(pack, a, R, nodes);
   }
+  multiply_nodes(nodes);
   return nodes;
 }
 

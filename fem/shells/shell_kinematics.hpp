@@ -22,7 +22,8 @@ struct ShellPoint {
 /// tangents turned with the nodes.
 struct ShellNodes {
   static constexpr int nodes = ShellTables::nodes;
-  Lanes x[nodes][3], d[nodes][3];
+  Lanes x[nodes][3], d[nodes][3];           ///< x from node 0, whose place tells of no strain
+  Lanes xx[nodes][nodes], xd[nodes][nodes]; ///< x_a . x_b as far as a >= b > 0, x_a . d_b for a > 0
   Lanes axis[nodes][3][3]; ///< x, y, z; of a node that tilts the two axes of its tilts (see DofMap), and 0
   bool tilt;               ///< all of them: the rest is left out
   Lanes along[2][nodes][3];
@@ -44,16 +45,29 @@ inline void cross(const Lanes (&u)[3], const Lanes (&v)[3], Lanes (&w)[3]) {
   w[2] = u[0] * v[1] - u[1] * v[0];
 }
 
-/// sum_ab form[a][b] u_a . v_b
-inline Lanes contract(const ShellTables::Form& form, const Lanes (&u)[6][3], const Lanes (&v)[6][3]) {
-  Lanes sum{};
-  for (std::size_t a = 0; a < 6; ++a) {
-    Lanes row[3] = {};
-    for (std::size_t b = 0; b < 6; ++b)
-      for (int c = 0; c < 3; ++c) row[c] += form[a][b] * v[b][c];
-    sum += dot(u[a], row);
+/// sum_ab form[a][b] x_a . x_b, of a symmetric form.
+inline Lanes of_metric(const ShellTables::Form& form, const ShellNodes& nodes) {
+  Lanes own{}, mixed{};
+  for (std::size_t a = 1; a < 6; ++a) {
+    own += form[a][a] * nodes.xx[a][a];
+    for (std::size_t b = 1; b < a; ++b) mixed += form[a][b] * nodes.xx[a][b];
   }
+  return own + 2.0 * mixed;
+}
+
+/// sum_ab form[a][b] x_a . d_b
+inline Lanes of_shear(const ShellTables::Form& form, const ShellNodes& nodes) {
+  Lanes sum{};
+  for (std::size_t a = 1; a < 6; ++a)
+    for (std::size_t b = 0; b < 6; ++b) sum += form[a][b] * nodes.xd[a][b];
   return sum;
+}
+
+inline void multiply_nodes(ShellNodes& nodes) {
+  for (int a = 1; a < ShellNodes::nodes; ++a) {
+    for (int b = 1; b <= a; ++b) nodes.xx[a][b] = dot(nodes.x[a], nodes.x[b]);
+    for (int b = 0; b < ShellNodes::nodes; ++b) nodes.xd[a][b] = dot(nodes.x[a], nodes.d[b]);
+  }
 }
 
 inline ShellDeformation deformation(const ShellTables::Point& table, const ShellNodes& nodes) {
@@ -69,10 +83,10 @@ inline ShellDeformation deformation(const ShellTables::Point& table, const Shell
     }
   cross(f.x[0], f.x[1], normal);
   f.normal = dot(normal, d);
-  for (std::size_t i = 0; i < 3; ++i) f.metric[i] = contract(table.metric[i], nodes.x, nodes.x);
+  for (std::size_t i = 0; i < 3; ++i) f.metric[i] = of_metric(table.metric[i], nodes);
   for (std::size_t i = 0; i < 2; ++i) {
     f.curvature[i] = dot(f.x[i], f.d[i]);
-    f.gamma[i] = contract(table.shear[i], nodes.x, nodes.d);
+    f.gamma[i] = of_shear(table.shear[i], nodes);
   }
   f.curvature[2] = 0.5 * (dot(f.x[0], f.d[1]) + dot(f.x[1], f.d[0]));
   return f;
@@ -157,8 +171,9 @@ class ShellSum {
         bend += stress.b[0] * (Ga[0] * Gb[0]) + stress.b[1] * (Ga[1] * Gb[1]) +
                 stress.b[2] * (0.5 * (Ga[0] * Gb[1] + Ga[1] * Gb[0]));
         xd_[a][b] += bend + stress.gamma[0] * table.shear[0][a][b] + stress.gamma[1] * table.shear[1][a][b];
-        xx_[a][b] += stress.a[0] * (2 * table.metric[0][a][b]) + stress.a[1] * (2 * table.metric[1][a][b]) +
-                     stress.a[2] * (2 * table.metric[2][a][b]);
+        if (b <= a)
+          xx_[a][b] += stress.a[0] * (2 * table.metric[0][a][b]) + stress.a[1] * (2 * table.metric[1][a][b]) +
+                       stress.a[2] * (2 * table.metric[2][a][b]);
       }
     if constexpr (with_tangent) add_material(table, f, stress);
   }
@@ -199,8 +214,8 @@ class ShellSum {
   }
 
   const ShellNodes& at_;
-  Lanes turns_[nodes][axes][3]; ///< dd by each spin: axis x d
-  Lanes xx_[nodes][nodes] = {}, xd_[nodes][nodes] = {};
+  Lanes turns_[nodes][axes][3];                         ///< dd by each spin: axis x d
+  Lanes xx_[nodes][nodes] = {}, xd_[nodes][nodes] = {}; ///< of xx_ a >= b
   Lanes residual_[dofs] = {};
   Lanes tangent_[with_tangent ? packed_size : 1] = {};
 };
@@ -218,7 +233,7 @@ void ShellSum<with_tangent, axes>::add_material(const ShellTables::Point& table,
       const int i = moved(a, c);
       for (std::size_t k = 0; k < 3; ++k) {
         Ba[i][k] = Lanes{};
-        for (std::size_t b = 0; b < nodes; ++b) Ba[i][k] += 2 * table.metric[k][n][b] * at_.x[b][c];
+        for (std::size_t b = 1; b < nodes; ++b) Ba[i][k] += 2 * table.metric[k][n][b] * at_.x[b][c];
       }
       for (std::size_t k = 0; k < 2; ++k) {
         Bg[i][k] = of_d[k][c] = Lanes{};
@@ -341,7 +356,7 @@ void ShellSum<with_tangent, axes>::finish() {
     Lanes on_x[3] = {}, on_d[3] = {};
     for (int b = 0; b < nodes; ++b)
       for (int c = 0; c < 3; ++c) {
-        on_x[c] += xx_[a][b] * at_.x[b][c] + xd_[a][b] * at_.d[b][c];
+        on_x[c] += xx_[std::max(a, b)][std::min(a, b)] * at_.x[b][c] + xd_[a][b] * at_.d[b][c];
         on_d[c] += xd_[b][a] * at_.x[b][c];
       }
     for (int c = 0; c < 3; ++c) residual_[moved(a, c)] += on_x[c];
