@@ -147,7 +147,8 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
     for_blocks([&](int first, int count) {
       p_.segment(first, count) = z_.segment(first, count) + kept * p_.segment(first, count);
     });
-    if (proves_ && iteration > 1 && suffices(iteration, rz, correction)) { // its step is 1 but for as small a part
+    if (proves_ && iteration > 1 &&
+        suffices(iteration, rz, correction)) { // its step is 1 but for as small a part
       x += p_;
       square += rz;
       return iteration;
