@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fem/elements/lower_triangle.hpp"
 #include "fem/model/element_block.hpp"
 #include "meshing/mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <stdexcept>
 
 namespace dielast::fem {
-
-/// Scatters the second derivatives of an element: the lower triangle of `second`.
-template<int dofs, class Matrix>
-void add_tangent(const Scatter& scatter, int element, const Matrix& second) {
-  std::array<double, dofs*(dofs + 1) / 2> packed;
-  std::size_t k = 0;
-  for (int i = 0; i < dofs; ++i)
-    for (int j = 0; j <= i; ++j) packed[k++] = second(i, j);
-  scatter.add_tangent(element, packed);
-}
 
 /// Energy of one element of a contact with its derivatives, summed over points.
 template<int dofs>
@@ -35,7 +25,7 @@ struct ContactSums {
     result.feasible = result.feasible && feasible;
     if (!any) return;
     if (scatter.residual) scatter.add_residual(element, std::span(first.data(), dofs));
-    if (scatter.tangent) add_tangent<dofs>(scatter, element, second);
+    if (scatter.tangent) scatter.add_tangent(element, lower_triangle<dofs>(second));
   }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/contact/plane_contact_block.hpp"
 
-#include "fem/contact/contact_sums.hpp"
 #include "fem/contact/slider.hpp"
+#include "fem/elements/lower_triangle.hpp"
 #include "fem/films/triangle.hpp"
 
 #include <Eigen/Geometry>
@@ -55,10 +55,9 @@ class PlaneContactBlock final : public ContactBlock {
         scatter.add_residual(e, std::span(force.data(), size));
       }
       if (scatter.tangent)
-        add_tangent<size>(
-            scatter, e,
-            Matrix3d(area(e) * barrier.curvature * contact_.normal * contact_.normal.transpose() +
-                     slider.tangent));
+        scatter.add_tangent(e, lower_triangle<size>(Matrix3d(area(e) * barrier.curvature * contact_.normal *
+                                                                 contact_.normal.transpose() +
+                                                             slider.tangent)));
     }
     return result;
   }

@@ -3,7 +3,7 @@
 
 #include "fem/contact/barrier.hpp"
 #include "fem/contact/centreline.hpp"
-#include "fem/contact/contact_sums.hpp"
+#include "fem/elements/lower_triangle.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +51,7 @@ class WallContactBlock final : public ContactBlock {
       const materials::Dual<size> total =
           closing.chain(length * energy.value, length * energy.slope, length * energy.curvature);
       if (scatter.residual) scatter.add_residual(e, std::span(total.gradient.data(), size));
-      if (scatter.tangent) add_tangent<size>(scatter, e, total.hessian);
+      if (scatter.tangent) scatter.add_tangent(e, lower_triangle<size>(total.hessian));
     }
     return result;
   }

@@ -2,6 +2,7 @@
 #include "fem/elements/beam_block.hpp"
 
 #include "fem/elements/beam_kinematics.hpp"
+#include "fem/elements/lower_triangle.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -289,12 +290,7 @@ Evaluation BeamBlock<Nodes>::evaluate(const State& state, int first, int last, c
       if (scatter.tangent) accumulate_tangent(point, k, stress, n, tangent);
     }
     if (scatter.residual) scatter.add_residual(e, {residual.data(), dofs});
-    if (scatter.tangent) {
-      std::array<double, dofs*(dofs + 1) / 2> packed;
-      for (int i = 0; i < dofs; ++i)
-        for (int j = 0; j <= i; ++j) packed[static_cast<std::size_t>(i * (i + 1) / 2 + j)] = tangent(i, j);
-      scatter.add_tangent(e, packed);
-    }
+    if (scatter.tangent) scatter.add_tangent(e, lower_triangle<dofs>(tangent));
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/elements/cable_block.hpp"
 
+#include "fem/elements/lower_triangle.hpp"
 #include "fem/films/meridian.hpp"
 
 #include <cmath>
@@ -130,12 +131,7 @@ Evaluation CableBlock<Nodes, Between>::evaluate(const State& state, int first, i
       }
     }
     if (scatter.residual) scatter.add_residual(e, {residual.data(), dofs});
-    if (scatter.tangent) {
-      std::array<double, dofs*(dofs + 1) / 2> packed;
-      for (int i = 0; i < dofs; ++i)
-        for (int j = 0; j <= i; ++j) packed[static_cast<std::size_t>(i * (i + 1) / 2 + j)] = tangent(i, j);
-      scatter.add_tangent(e, packed);
-    }
+    if (scatter.tangent) scatter.add_tangent(e, lower_triangle<dofs>(tangent));
   }
   return result;
 }

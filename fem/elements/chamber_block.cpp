@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/elements/chamber_block.hpp"
 
+#include "fem/elements/lower_triangle.hpp"
 #include "fem/films/meridian.hpp"
 #include "fem/films/triangle.hpp"
 
@@ -106,12 +107,8 @@ class PressureBlock final : public ElementBlock {
         const Eigen::Vector<double, size> force = -p * V.gradient;
         scatter.add_residual(e, std::span(force.data(), size));
       }
-      if (!scatter.tangent) continue;
-      std::array<double, size*(size + 1) / 2> packed;
-      std::size_t at = 0;
-      for (int i = 0; i < size; ++i)
-        for (int j = 0; j <= i; ++j) packed[at++] = -p * V.hessian(i, j);
-      scatter.add_tangent(e, packed);
+      if (scatter.tangent)
+        scatter.add_tangent(e, lower_triangle<size>(Eigen::Matrix<double, size, size>(-p * V.hessian)));
     }
     return result;
   }
