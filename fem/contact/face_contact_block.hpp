@@ -29,6 +29,9 @@ struct FaceContact {
 /// keeps it away or not (edges that cross between points do not feel it): see way_apart(). Friction: see
 /// SurfaceSliders.
 ///
+/// Where points of one surface pass below a free edge of the other one what presses them ends within the
+/// barrier's thickness: the fewer points there are for that, the shorter are Newton's steps.
+///
 /// Elements are the pairs of faces that are nearer than the barrier reaches and a margin, found with trees of
 /// boxes, anew when the surfaces have gone that margin towards one another.
 /// Throws std::invalid_argument for surfaces that have nodes in common.
