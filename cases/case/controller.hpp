@@ -21,7 +21,7 @@ struct DrivenLoad {
   std::string of{}; ///< the electrode, or the place; empty: the chamber
   int along = 0;    ///< of forces and displacements: 0, 1, 2 = x, y, z
 
-  auto operator<=>(const DrivenLoad&) const = default;
+  auto operator<=>(const DrivenLoad&) const = default; // NOLINT: its 0 is taken for a pointer
 };
 
 /// [[controller]]: in a transient what it drives follows a quantity that is measured at equal times and is
