@@ -10,7 +10,8 @@ namespace dielast::fem {
 /// costs energy there; where it holds at all points the tangent of a film that is held somewhere is positive
 /// definite: a sufficient condition for its stability, not a necessary one.
 template<int size>
-bool is_positive_definite(const Lanes (&full)[size][size], const Lanes& volume) {
+[[gnu::always_inline]] inline bool is_positive_definite(const Lanes (&full)[size][size],
+                                                        const Lanes& volume) {
   constexpr double negligible = 1e-6; // pivot over the trace of the form
   Lanes form[size][size], trace{};    // lower triangle
   for (int i = 0; i < size; ++i) {

@@ -198,7 +198,7 @@ double MembraneBlock<Kinematics, Law>::voltage(const State& state, int element, 
 }
 
 template<class Kinematics, class Law>
-typename MembraneBlock<Kinematics, Law>::Potential
+[[gnu::always_inline]] inline typename MembraneBlock<Kinematics, Law>::Potential
 MembraneBlock<Kinematics, Law>::potential(const State& state, int pack, int point,
                                           const materials::InPlaneC<Lanes>& C, const Lanes& k,
                                           bool& lost) const {

@@ -19,7 +19,7 @@ struct InPlaneC {
 
 /// Potential of a membrane per undeformed volume, and its derivatives in (C11, C22, C12), C12 counted once:
 /// S11 = 2 first[0], S22 = 2 first[1], S12 = first[2]; second = (11,11), (22,22), (12,12), (11,22), (11,12),
-/// (22,12).
+/// (22,12). What gives one is always inlined: ten packs stay in registers, or are left out where nobody asks.
 template<class T>
 struct MembranePotential {
   T value;
@@ -33,8 +33,9 @@ constexpr std::array<std::array<int, 2>, 6> component_pairs{{{0, 0}, {1, 1}, {2,
 /// From derivatives in (tr(C G), det(C G)) to those in C, for a symmetric metric G = `metric` of determinant
 /// `metric_det`; `linear`: only dT, dD and dDD are not zero.
 template<bool linear, class T, class Metric>
-inline MembranePotential<T> in_components(const PlanarDerivatives<T>& w, const InPlaneC<T>& C,
-                                          const InPlaneC<Metric>& metric, const Metric& metric_det) {
+[[gnu::always_inline]] inline MembranePotential<T>
+in_components(const PlanarDerivatives<T>& w, const InPlaneC<T>& C, const InPlaneC<Metric>& metric,
+              const Metric& metric_det) {
   constexpr std::array<double, 6> cofactor{0, 0, -2, 1, 0, 0}; // d2 det C
   const std::array<Metric, 3> T_1{metric.C11, metric.C22, 2.0 * metric.C12};
   const std::array<T, 3> D_1{metric_det * C.C22, metric_det * C.C11, -2.0 * metric_det * C.C12};
@@ -56,8 +57,8 @@ inline MembranePotential<T> in_components(const PlanarDerivatives<T>& w, const I
 /// electric part). T: double or Pack. Requires det C > 0; the value is not finite in a state the law cannot
 /// be in.
 template<class Law, class T>
-inline MembranePotential<T> membrane_potential(const Law& law, const Dielectric& dielectric,
-                                               const InPlaneC<T>& C, const T& k) {
+[[gnu::always_inline]] inline MembranePotential<T>
+membrane_potential(const Law& law, const Dielectric& dielectric, const InPlaneC<T>& C, const T& k) {
   constexpr InPlaneC<double> identity{1, 1, 0};
   const T trace = C.trace(), det = C.det();
   PlanarDerivatives<T> w = planar(law, trace, det);
