@@ -173,7 +173,8 @@ bool Assembler::place_by_nodes(NodeOrder order, std::span<const int> equations, 
 void Assembler::place_elements(std::size_t b) {
   const auto dofs = static_cast<std::size_t>(model_.blocks[b]->dofs_per_element());
   const NodeOrder order = model_.blocks[b]->node_order();
-  const auto pairs = static_cast<std::size_t>(order.pairs()), elements = equations_[b].size() / dofs;
+  const auto pairs = static_cast<std::size_t>(order.pairs()),
+             elements = static_cast<std::size_t>(model_.blocks[b]->element_count());
   std::vector<int>& slots = slots_[b];
   if (pairs == 0) slots.reserve(equations_[b].size() * (dofs + 1) / 2);
   pairs_[b].resize(elements * pairs);
