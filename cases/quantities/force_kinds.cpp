@@ -113,7 +113,7 @@ std::vector<QuantityKind> force_kinds() {
            },
        .in_words =
            [](const Quantity& q) {
-             return fmt::format("moment of the support of {} on it{}{}", q.of, along_words(q), at_words(q));
+             return fmt::format("moment of the support of {} on it{}{}", q.of, about_words(q), at_words(q));
            },
        .probe = moment,
        .refusal = turns_not},

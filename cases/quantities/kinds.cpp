@@ -82,10 +82,17 @@ const char* extreme_word(const Quantity& quantity) {
   return quantity.extreme == post::Extreme::minimum ? "smallest" : "largest";
 }
 
-std::string along_words(const Quantity& quantity) {
+namespace {
+
+std::string axis_words(const char* preposition, const Quantity& quantity) {
   static constexpr const char* axes[] = {"x", "y", "z", "gravity"};
-  return quantity.along ? fmt::format(" along {}", axes[*quantity.along]) : "";
+  return quantity.along ? fmt::format(" {} {}", preposition, axes[*quantity.along]) : "";
 }
+
+} // namespace
+
+std::string along_words(const Quantity& quantity) { return axis_words("along", quantity); }
+std::string about_words(const Quantity& quantity) { return axis_words("about", quantity); }
 
 std::string at_words(const Quantity& quantity) {
   return quantity.at.empty() ? "" : fmt::format(", at the end of \"{}\"", quantity.at);

@@ -71,8 +71,9 @@ Key extreme_key();
 
 /// "smallest" or "largest"
 const char* extreme_word(const Quantity& quantity);
-/// " along x", and ", at the end of "step"", where it is so.
+/// " along x", " about x", and ", at the end of "step"", where it is so.
 std::string along_words(const Quantity& quantity);
+std::string about_words(const Quantity& quantity);
 std::string at_words(const Quantity& quantity);
 /// The step since whose end it counts, or "the mesh as drawn".
 std::string since_words(const Quantity& quantity);

@@ -237,7 +237,7 @@ std::vector<QuantityKind> shape_kinds() {
            },
        .in_words =
            [](const Quantity& q) {
-             return fmt::format("rotation of {}{}{}", q.of, along_words(q), at_words(q));
+             return fmt::format("rotation of {}{}{}", q.of, about_words(q), at_words(q));
            },
        .shape = angle,
        .gradient = angle_gradient,
