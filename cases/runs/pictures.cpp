@@ -69,7 +69,8 @@ class Pictures {
                   .panels = {panel({.displacement = std::vector<Eigen::Vector3d>(device_.mesh.nodes.size(),
                                                                                  Eigen::Vector3d::Zero())},
                                    {})},
-                  .marks = std::move(marks)},
+                  .marks = std::move(marks),
+                  .width = 900},
                  "As drawn.", false, "places");
   }
   bool are_profiles() const { return meridian_; }

@@ -56,26 +56,62 @@ class NodeValues {
 /// What lies across the light has its full colours.
 constexpr double darkest = 0.55;
 
-/// Corners in px, y downwards.
+double light_on(const Eigen::Vector3d& normal, const Placement& place) {
+  const Eigen::Vector3d light(place.light.x(), -place.light.y(), place.light.z());
+  return darkest + (1 - darkest) * std::abs(normal.dot(light)) / std::max(normal.norm(), 1e-300);
+}
+
+/// Corners in px, y downwards; as long as twice the area.
+Eigen::Vector3d normal_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                          const Placement& place) {
+  const auto raised = [&](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(x.x(), x.y(), place.relief * x.z());
+  };
+  return (raised(b) - raised(a)).cross(raised(c) - raised(a));
+}
+
 double light_on(const std::array<Corner, 3>& triangle, const Placement& place) {
+  if (triangle[0].light != 1) return 1; // the corners' own
   if (place.light.z() == 1 && triangle[0].depth == triangle[1].depth &&
       triangle[0].depth == triangle[2].depth)
     return 1;
   const auto at = [&](std::size_t i) {
-    const Corner& corner = triangle[i];
-    return Eigen::Vector3d(corner.place.x(), corner.place.y(), place.relief * corner.depth);
+    return Eigen::Vector3d(triangle[i].place.x(), triangle[i].place.y(), triangle[i].depth);
   };
-  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
-  const Eigen::Vector3d light(place.light.x(), -place.light.y(), place.light.z());
-  return darkest + (1 - darkest) * std::abs(normal.dot(light)) / std::max(normal.norm(), 1e-300);
+  return light_on(normal_of(at(0), at(1), at(2), place), place);
+}
+
+/// Light on the nodes of film that is nearly flat, such that waves look smooth; empty for other film.
+std::vector<double> light_on_nodes(const meshing::Mesh& mesh, const Panel& panel, const Placement& place) {
+  if (place.relief == 1) return {};
+  std::vector<Eigen::Vector3d> normals(panel.positions.size(), Eigen::Vector3d::Zero());
+  const auto add = [&](int a, int b, int c) {
+    const auto at = [&](int node) { return place(panel.positions[static_cast<std::size_t>(node)]); };
+    const Eigen::Vector3d normal = normal_of(at(a), at(b), at(c), place);
+    for (const int node : {a, b, c}) normals[static_cast<std::size_t>(node)] += normal;
+  };
+  for (const CellBlock& block : mesh.blocks)
+    for (int cell = 0; cell < block.size() && is_triangle(block.type); ++cell) {
+      const auto n = block.cell(cell);
+      if (n.size() == 3)
+        add(n[0], n[1], n[2]);
+      else
+        for (const auto& part : {std::array{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}) {
+          const auto node = [&](std::size_t i) { return n[static_cast<std::size_t>(part[i])]; };
+          add(node(0), node(1), node(2));
+        }
+    }
+  std::vector<double> light;
+  for (const Eigen::Vector3d& normal : normals) light.push_back(light_on(normal, place));
+  return light;
 }
 
 constexpr int most_parts = 3; ///< of a side
 
 /// A triangle of six nodes, perhaps with curved sides, as `parts`^2 flat ones.
 void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
-                   const std::array<double, 6>& value, int parts, const Palette& palette,
-                   const Placement& place) {
+                   const std::array<double, 6>& value, const std::array<double, 6>& light, int parts,
+                   const Palette& palette, const Placement& place) {
   std::array<std::array<Corner, most_parts + 1>, most_parts + 1> corners;
   for (int j = 0; j <= parts; ++j)
     for (int i = 0; i <= parts - j; ++i) {
@@ -83,12 +119,14 @@ void draw_triangle(Raster& raster, const std::array<Eigen::Vector3d, 6>& x,
       const std::array<double, 6> N{t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1),
                                     4 * r * t,       4 * r * s,       4 * s * t};
       Eigen::Vector3d p = Eigen::Vector3d::Zero();
-      double v = 0;
+      double v = 0, here = 0;
       for (std::size_t a = 0; a < 6; ++a) {
         p += N[a] * x[a];
         v += N[a] * value[a];
+        here += N[a] * light[a];
       }
-      corners[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] = {p.head<2>(), p.z(), v};
+      if (light[0] == 1) here = 1;
+      corners[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] = {p.head<2>(), p.z(), v, here};
     }
   const auto draw = [&](const std::array<Corner, 3>& part) {
     raster.draw(part, palette, light_on(part, place));
@@ -123,7 +161,7 @@ int parts_of_sides(const meshing::Mesh& mesh, const Panel& panel, const Placemen
 } // namespace
 
 View view_of(std::span<const Panel> panels) {
-  constexpr double flat = 0.02, even = 1e-6; ///< height over width
+  constexpr double flat = 0.04, even = 1e-6; ///< height over width
   constexpr double turned = 0.45, raised = 0.5, shown = 0.1;
   Eigen::AlignedBox3d box;
   for (const Panel& panel : panels)
@@ -146,20 +184,23 @@ Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<doub
   const NodeValues values(mesh, panel);
   const Palette palette = panel.values.empty() ? Palette(plain_film) : Palette(range);
   const int parts = parts_of_sides(mesh, panel, place);
+  const std::vector<double> lights = light_on_nodes(mesh, panel, place);
   std::size_t number = 0;
   const auto draw = [&](std::size_t of, std::span<const int> nodes) {
     std::array<Eigen::Vector3d, 6> x;
-    std::array<double, 6> value{};
+    std::array<double, 6> value{}, light;
+    light.fill(1);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       x[a] = place(panel.positions[static_cast<std::size_t>(nodes[a])]);
       value[a] = values.at(of, nodes[a]);
+      if (!lights.empty()) light[a] = lights[static_cast<std::size_t>(nodes[a])];
     }
     if (nodes.size() == 3) {
-      const auto corner = [&](std::size_t i) { return Corner{x[i].head<2>(), x[i].z(), value[i]}; };
+      const auto corner = [&](std::size_t i) { return Corner{x[i].head<2>(), x[i].z(), value[i], light[i]}; };
       const std::array<Corner, 3> triangle{corner(0), corner(1), corner(2)};
       raster.draw(triangle, palette, light_on(triangle, place));
     } else {
-      draw_triangle(raster, x, value, parts, palette, place);
+      draw_triangle(raster, x, value, light, parts, palette, place);
     }
   };
   for (const CellBlock& block : mesh.blocks) {

@@ -56,7 +56,9 @@ void Raster::draw(const std::array<Corner, 3>& corners, const Palette& palette, 
   const auto mean = [&](const std::array<double, 3>& weights, double Corner::*of) {
     return weights[0] * corners[0].*of + weights[1] * corners[1].*of + weights[2] * corners[2].*of;
   };
-  const double depth_change = mean(change, &Corner::depth), value_change = mean(change, &Corner::value);
+  const double depth_change = mean(change, &Corner::depth), value_change = mean(change, &Corner::value),
+               light_change = mean(change, &Corner::light);
+  const bool shaded = std::ranges::any_of(corners, [](const Corner& corner) { return corner.light != 1; });
   for (int y = top; y <= bottom; ++y) {
     const double p = 0.5 - a.x(), q = y + 0.5 - a.y(); // from the first corner to the row's first pixel
     const double v = (p * ac.y() - q * ac.x()) / area, w = (ab.x() * q - ab.y() * p) / area;
@@ -72,18 +74,20 @@ void Raster::draw(const std::array<Corner, 3>& corners, const Palette& palette, 
     const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to) + 1;
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
     const double value = mean(first, &Corner::value), depth = mean(first, &Corner::depth);
-    if (depth_.empty() && light == 1) {
+    const double light_there = shaded ? mean(first, &Corner::light) : 1;
+    if (depth_.empty() && light == 1 && !shaded) {
       palette.paint(value + from * value_change, value_change, {&pixels_[row + begin], end - begin});
       continue;
     }
     for (std::size_t x = begin; x < end; ++x) {
       if (!depth_.empty()) {
-        const auto here = static_cast<float>(depth + static_cast<double>(x) * depth_change);
-        if (here < depth_[row + x]) continue;
-        depth_[row + x] = here;
+        const auto near = static_cast<float>(depth + static_cast<double>(x) * depth_change);
+        if (near < depth_[row + x]) continue;
+        depth_[row + x] = near;
       }
       const std::uint32_t colour = palette(value + static_cast<double>(x) * value_change);
-      pixels_[row + x] = light == 1 ? colour : dimmed(colour, light);
+      const double here = shaded ? light * (light_there + static_cast<double>(x) * light_change) : light;
+      pixels_[row + x] = here == 1 ? colour : dimmed(colour, here);
     }
   }
 }

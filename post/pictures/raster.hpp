@@ -20,6 +20,7 @@ struct Corner {
   Eigen::Vector2d place;
   double depth = 0;
   double value = 0; ///< what is coloured
+  double light = 1; ///< that dims it, besides that on the whole triangle
 };
 
 /// Colours 0xAARRGGBB of values, looked up.
