@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace dielast::cases {
@@ -31,6 +32,11 @@ std::optional<double> unit_in(const std::string& name) {
 bool ends_in_stress(const std::string& name) {
   const std::string unit = split_unit(name).unit;
   return !unit.empty() && stress_unit(unit);
+}
+
+bool names_true_stress(std::string name) {
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return name.find("true") != std::string::npos || name.find("cauchy") != std::string::npos;
 }
 
 /// Finds the columns of a test, and says what is wrong with them.
@@ -98,6 +104,14 @@ class Columns {
         return {};
       }
       name = candidates[0];
+      if (names_true_stress(name)) {
+        report("file",
+               fmt::format("the only column of stress, {}, is of true stress by its name; wanted is the "
+                           "nominal one, force over undeformed area: true stress over stretch, where "
+                           "the volume is kept. If it is nominal, say so by stress = {}",
+                           toml_string(name), toml_string(name)));
+        return {};
+      }
     }
     const int column = find("stress", name, "");
     if (column < 0) return {};

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <vector>
 
 namespace dielast::cases {
@@ -62,9 +63,21 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+/// To udunits a radian is 1: the factor that it leaves out where an angle per time (rad/s, rpm) stands for a
+/// frequency, or the other way round. "1/s" is taken for either.
+double factor_left_out(const std::string& unit, std::string_view wanted) {
+  const bool wants_angle = wanted == "rad/s";
+  if (!wants_angle && wanted != "Hz") return 1;
+  constexpr double turn = 2 * std::numbers::pi;
+  const bool is_angle = si_unit(unit).powers.back() != 0; // of rad
+  if (!wants_angle) return is_angle ? 1 / turn : 1;
+  return !is_angle && unit.find("Hz") != std::string::npos ? turn : 1;
+}
+
 /// Factor from `unit` to `si_unit`. Reciprocals, offsets (celsius), logarithms and dates also "convert" in
 /// udunits: only a linear map is a unit of the same dimension.
 double factor_to_si(const std::string& unit, std::string_view si_unit) {
+  const double left_out = factor_left_out(unit, si_unit);
   const std::lock_guard lock(parser_mutex);
   const DecimalPoint decimal_point;
   const Unit from = parsed(unit_system(), unit), to = parsed(unit_system(), std::string(si_unit));
@@ -74,7 +87,7 @@ double factor_to_si(const std::string& unit, std::string_view si_unit) {
   if (!converter || convert(0.0) != 0.0 || std::abs(convert(2.0) - 2.0 * convert(1.0)) > 1e-12 * convert(2.0))
     throw UnitError(unit.empty() ? "without a unit"
                                  : fmt::format("whose unit \"{}\" is of another kind", unit));
-  return convert(1.0);
+  return convert(1.0) * left_out;
 }
 
 /// A decimal factor is 1000 or 1/1000 up to round-off: dividing by a whole number keeps "0.8 mm" equal to

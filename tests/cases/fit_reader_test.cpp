@@ -159,6 +159,10 @@ TEST_F(FitReader, ColumnsThatAreMissing) {
   EXPECT_EQ(errors("", test),
             Texts{"fit.toml:11:8: error: test[1].file: odd.csv has several columns of stress: "
                   "give stress, one of \"P_kPa\", \"sigma_Pa\""});
+  write("odd.csv", "stretch,true_stress_kPa\n1,2\n2,3\n3,4\n");
+  const Texts told = errors("", test);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("is of true stress by its name"), std::string::npos) << told[0];
 }
 
 TEST_F(FitReader, AStartThatDoesNotReachTheTests) {

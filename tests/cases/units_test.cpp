@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <clocale>
+#include <numbers>
 #include <random>
 
 namespace dielast::cases {
@@ -34,6 +35,22 @@ TEST(Units, TextsOfEngineersBecomeSI) {
                              {"0.96 g/cm^3", "kg/m^3", 960},
                              {"4e-11 F/m", "F/m", 4e-11}})
     EXPECT_DOUBLE_EQ(parse_measure(one.text, one.unit).value, one.value) << one.text;
+}
+
+// A radian is no number here: 60 turns per minute are 1 Hz.
+TEST(Units, FrequenciesAndAngularFrequenciesAreTwoThings) {
+  constexpr double turn = 2 * std::numbers::pi;
+  for (const Written& one : {Written{"60 rpm", "Hz", 1},
+                             {"62 rad/s", "Hz", 62 / turn},
+                             {"360 deg/s", "Hz", 1},
+                             {"3 1/s", "Hz", 3},
+                             {"2 kHz", "Hz", 2000},
+                             {"10 Hz", "rad/s", 10 * turn},
+                             {"1 kHz", "rad/s", 1000 * turn},
+                             {"60 rpm", "rad/s", turn},
+                             {"3 1/s", "rad/s", 3},
+                             {"40 rad/s", "rad/s", 40}})
+    EXPECT_DOUBLE_EQ(parse_measure(one.text, one.unit).value, one.value) << one.text << " in " << one.unit;
 }
 
 TEST(Units, DecimalPrefixesAreExact) { EXPECT_EQ(parse_measure("0.8 mm", "m").value, 0.0008); }
