@@ -78,7 +78,7 @@ Probe nominal_stress(const Probing& probing) {
 std::vector<QuantityKind> force_kinds() {
   return {
       {.word = "force",
-       .meaning = "reaction at a support while it holds (N)",
+       .meaning = "reaction at a support while it holds, with what its masses and dampers take (N)",
        .unit = "N",
        .keys =
            [] {
@@ -105,7 +105,7 @@ std::vector<QuantityKind> force_kinds() {
            },
        .probe = pull_of_film},
       {.word = "moment",
-       .meaning = "reaction about an axis where a body's rotation is fixed (N m)",
+       .meaning = "reaction about an axis where a body's rotation is fixed, with that of its inertia (N m)",
        .unit = "N m",
        .keys =
            [] {

@@ -11,7 +11,7 @@ Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::St
                    const fem::EnergyBalance& balance, bool with_fields)
     : equilibrium(solver), state(at), samples(with_fields ? device.model.sample(at) : fem::Samples{}),
       extremes(samples), charges(device.model.charges(at, false)), energy(balance) {
-  equilibrium.internal_force(at, reaction);
+  fem::external_force(equilibrium, at, reaction);
   Eigen::VectorXd dead = at.dead_force;
   device.model.dofs.gather(at, dead);
   reaction -= dead;

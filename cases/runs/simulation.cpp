@@ -110,6 +110,7 @@ void Simulation::change_supports(fem::State& state) {
   loads_->let_go.resize(0);
   if (holding_in(case_, steps_, step_) == holding_) return;
   const fem::DofMap before = device_.model.dofs;
+  if (!steps_[static_cast<std::size_t>(step_)].inertia) state.motion.reset(); // balanced as it will be
   const Measured measured(device_, *equilibrium_, state, energy_, false);
   enter(step_);
   const Renumbering renumbered(before, device_.model.dofs);

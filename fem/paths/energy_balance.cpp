@@ -219,6 +219,17 @@ EnergyBalance::Resolution EnergyBalance::worst() const {
   return worst;
 }
 
+void external_force(Equilibrium& equilibrium, const State& state, Eigen::VectorXd& force) {
+  equilibrium.internal_force(state, force);
+  if (!state.motion) return;
+  const Model& model = equilibrium.model();
+  const Motion& motion = *state.motion;
+  Eigen::VectorXd inertial =
+      model.inertia.mass * motion.acceleration_now + model.inertia.resistance(motion.velocity);
+  model.dofs.gather(state, inertial);
+  force += inertial;
+}
+
 EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length) {
   const Model& model = equilibrium.model();
   const DofMap& dofs = model.dofs;
@@ -226,14 +237,10 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   const auto chambers = static_cast<Eigen::Index>(model.chambers.size());
   EnergyPoint point{.length = length, .time = state.time, .moves = state.motion != nullptr};
   Eigen::VectorXd& force = point.mechanical.force;
-  equilibrium.internal_force(state, force); // the reactions are external, too
+  external_force(equilibrium, state, force); // the reactions are external, too
   if (state.motion) {
-    const Motion& motion = *state.motion;
-    Eigen::VectorXd inertial =
-        model.inertia.mass * motion.acceleration_now + model.inertia.resistance(motion.velocity);
-    dofs.gather(state, inertial);
-    force += inertial;
-    point.power[EnergyPoint::dampers] = motion.velocity.dot(model.inertia.resistance(motion.velocity));
+    const Eigen::VectorXd& velocity = state.motion->velocity;
+    point.power[EnergyPoint::dampers] = velocity.dot(model.inertia.resistance(velocity));
   }
   // Supports carry the forces on tied nodes, which do work of their own.
   Eigen::VectorXd carried = state.dead_force;

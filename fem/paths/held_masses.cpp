@@ -68,4 +68,26 @@ LoadPath with_masses_held(const Equilibrium& equilibrium, LoadPath path, const S
   return path;
 }
 
+Eigen::VectorXd prescribed_acceleration(const LoadPath& path, const DofMap& dofs, const State& state,
+                                        const Eigen::VectorXd& velocity, double s, double ds,
+                                        double duration) {
+  State there = state;
+  const auto held_at = [&](double at) {
+    path.apply(there, at);
+    return Eigen::ArrayXd(Loads::of(there, dofs).held.array());
+  };
+  const double tau = ds * duration / 4; // a parabola through three moments
+  const Eigen::ArrayXd p0 = held_at(s), p1 = held_at(s + ds / 4), p2 = held_at(s + ds / 2);
+  const Eigen::ArrayXd speed = (4 * p1 - 3 * p0 - p2) / (2 * tau);
+  const Eigen::ArrayXd acceleration = (p0 - 2 * p1 + p2) / (tau * tau);
+  const Eigen::ArrayXd jerk = speed - velocity.segment(dofs.free_count(), dofs.held_count()).array();
+  return (jerk.abs() <= acceleration.abs() * tau).select(acceleration, 0);
+}
+
+GeneralisedAlpha first_step_of_motion(double dt) {
+  GeneralisedAlpha scheme = GeneralisedAlpha::backward_euler(dt);
+  scheme.start = 1 / (2 * scheme.beta) - 1;
+  return scheme;
+}
+
 } // namespace dielast::fem

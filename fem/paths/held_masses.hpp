@@ -23,4 +23,16 @@ State with_masses_let_go(const Model& model, State state, const State& before);
 /// `path` with the masses held where `state` has them. `equilibrium` must outlive the path.
 LoadPath with_masses_held(const Equilibrium& equilibrium, LoadPath path, const State& state);
 
+// What is held moves as the loads want it: its masses know their accelerations from the beginning.
+
+/// Accelerations with which the held equations set out at s, from the way that `path` leads them on over half
+/// of `ds`, in a step of `duration`; zero where they set out with another velocity than theirs, with a jerk.
+Eigen::VectorXd prescribed_acceleration(const LoadPath& path, const DofMap& dofs, const State& state,
+                                        const Eigen::VectorXd& velocity, double s, double ds,
+                                        double duration);
+
+/// The time step that a motion sets out with: backward Euler where Motion::acceleration is zero, as in what
+/// is free; what is held goes on with that acceleration.
+GeneralisedAlpha first_step_of_motion(double dt);
+
 } // namespace dielast::fem

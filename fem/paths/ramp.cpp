@@ -111,7 +111,7 @@ State Ramp::solve(State state, double s) {
   if (options_.inertia) {
     state.motion = last().motion;
     state.motion_scheme = state.motion->step > 0 ? GeneralisedAlpha::of(dt, options_.high_frequencies)
-                                                 : GeneralisedAlpha::backward_euler(dt);
+                                                 : first_step_of_motion(dt);
   }
   newton_ = is_free ? equilibrium_.solve(state, options_.newton, observer_.on_iteration)
                     : NewtonResult{.outcome = Outcome::infeasible};
@@ -229,6 +229,9 @@ bool Ramp::pass_break() {
     Motion motion = state.motion ? *state.motion : Motion{position(state, dofs), rest, rest, rest, rest};
     motion.acceleration = motion.acceleration_now = motion.unbalanced = rest;
     motion.step = 0;
+    const double s = progress_.load_factor, ds = std::min(largest_, next_break() - s);
+    motion.acceleration.segment(dofs.free_count(), dofs.held_count()) =
+        prescribed_acceleration(path_, dofs, state, motion.velocity, s, ds, options_.duration);
     state.motion = std::make_shared<const Motion>(std::move(motion));
   }
   if (options_.first_time_step > 0)

@@ -97,6 +97,103 @@ TEST_F(Supports, LetGoOfWhatHasAMass) {
   expect_balanced(held, 1e-3);
 }
 
+// What is shaken is carried by its support: its inertia, its damper, and the film.
+TEST_F(Supports, CarryTheInertiaOfWhatTheyShake) {
+  constexpr double amplitude = 1e-3, omega = 2 * 3.14159265358979323846 * 5, mass = 20e-3, damping = 0.05;
+  for (const double phase : {90.0, 0.0}) {
+    const std::string shaken = fmt::format("density = 0\n[[support]]\nplace = \"right\"\nfix = "
+                                           "[\"x\"]\ndisplacement = {{ x = {{ wave = \"sine\", "
+                                           "amplitude = \"1 mm\", frequency = \"5 Hz\", phase = \"{} deg\" "
+                                           "}} }}\n[[point_mass]]\nplace = \"right\"\nmass = "
+                                           "\"20 g\"\ndamping = \"0.05 N.s/m\"\n",
+                                           phase);
+    const Ran ran = run(
+        patch(step("move", "draw") + step("transient", "shake", "duration = \"0.4 s\"\nincrements = 1600"),
+              shaken + force("right", "x") +
+                  "[[quantity]]\nname = \"pull\"\nkind = \"film force\"\nof = \"right\"\nalong = \"x\"\n"));
+    double largest = 0, error = 0, late_error = 0, late_peak = 0;
+    for (std::size_t row = 0; row < ran.time.size(); ++row) {
+      const double t = ran.time[row], angle = omega * t + phase * 3.14159265358979323846 / 180;
+      if (t == 0) continue;
+      const double inertial = ran.values.at("force_x")[row] + ran.values.at("pull")[row];
+      const double expected =
+          -mass * amplitude * omega * omega * std::sin(angle) + damping * amplitude * omega * std::cos(angle);
+      largest = std::max(largest, std::abs(expected));
+      error = std::max(error, std::abs(inertial - expected));
+      if (t < 0.1) continue;
+      late_error = std::max(late_error, std::abs(inertial - expected));
+      late_peak = std::max(late_peak, std::abs(inertial));
+    }
+    EXPECT_NEAR(largest, mass * amplitude * omega * omega, 0.005 * largest);
+    EXPECT_NEAR(late_peak, largest, 2e-3 * largest) << phase;
+    EXPECT_LT(late_error, 1e-2 * largest) << phase; // where lengths of time steps change
+    if (phase == 0) continue;                       // it sets out with a jerk
+    expect_balanced(ran, 1e-3);
+    EXPECT_LT(error, 2e-3 * largest);
+  }
+}
+
+// A pivot carries what the centre of a pendulum needs to go around it.
+TEST_F(Supports, CarryTheInertiaOfAPendulum) {
+  constexpr double mass = 10e-3, arm = 50e-3, g = 9.81, moment = mass * g * arm / 2;
+  constexpr double inertia = 4e-7 + mass * arm * arm;
+  const Ran ran = run(fmt::format(R"(model = "planar"
+[part.d.line]
+from = [0, 0, 0]
+to = ["20 mm", 0, 0]
+[part.d.rod]
+width = "1 mm"
+[part.d.film]
+thickness = "0.1 mm"
+[part.d.film.material]
+shear_modulus = "50 kPa"
+relative_permittivity = 4
+density = 0
+[[support]]
+place = "d.end"
+fix = ["x", "y"]
+[[body]]
+name = "hub"
+places = ["d.start"]
+mass = "10 g"
+inertia = "400 g.mm^2"
+centre = ["50 mm", 0, 0]
+pivot = [0, 0, 0]
+[gravity]
+direction = [1, 0, 0]
+[[load]]
+place = "hub"
+moment = [0, 0, {{ wave = "step", to = "{:.12g} N m" }}]
+[[step]]
+kind = "weight"
+[[step]]
+kind = "transient"
+duration = "0.8 s"
+increments = 800
+[output]
+fields = false
+error_estimate = false
+)",
+                                  moment) +
+                      "[[quantity]]\nname = \"angle\"\nkind = \"angle\"\nof = \"hub\"\nalong = \"z\"\n" +
+                      force("hub", "x") + force("hub", "y"));
+  const auto& angle = ran.values.at("angle");
+  const auto &x = ran.values.at("force_x"), &y = ran.values.at("force_y");
+  double largest = 0, error = 0;
+  for (std::size_t row = 0; row < angle.size(); ++row) {
+    if (ran.time[row] == 0) continue;
+    const double at = angle[row];
+    const double squared = 2 * (moment * at - mass * g * arm * (1 - std::cos(at))) / inertia; // by its energy
+    const double faster = (moment - mass * g * arm * std::sin(at)) / inertia;
+    const double pull = -mass * arm * (squared * std::cos(at) + faster * std::sin(at)) - mass * g;
+    const double side = mass * arm * (faster * std::cos(at) - squared * std::sin(at));
+    largest = std::max(largest, -pull);
+    error = std::max({error, std::abs(x[row] - pull), std::abs(y[row] - side)});
+  }
+  EXPECT_NEAR(largest, 0.12407, 1e-4);
+  EXPECT_LT(error, 2e-3 * largest);
+}
+
 // A run that is stopped while a support lets go ends like one that is not, bit for bit.
 TEST_F(Supports, AreThoseOfTheStepThatARunGoesOnIn) {
   write("film.toml",
