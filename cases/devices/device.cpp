@@ -2,6 +2,7 @@
 #include "cases/devices/device.hpp"
 
 #include "cases/devices/bodies.hpp"
+#include "cases/devices/load_warnings.hpp"
 #include "cases/devices/mesh_warnings.hpp"
 #include "cases/devices/sections.hpp"
 #include "cases/readers/reader.hpp"
@@ -371,6 +372,8 @@ Device build_device(const Case& one) {
   Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = free_body};
   device.weight = weight_of(one, bodies, fins, device.mesh, device.model);
   require_loads_that_act(one, device);
+  if (!free_body)
+    std::ranges::move(load_warnings(one, device.mesh, device.model.dofs), std::back_inserter(warnings));
   device.film_parts = std::move(parts);
   device.films = films;
   device.tension_field = one.any_film([](const Film& f) { return f.tension_field; });

@@ -96,6 +96,39 @@ TEST_F(Bodies, have_inertia_by_default_where_they_have_a_mass) {
   }
 }
 
+// What holds the place of a load takes it, and nothing moves.
+TEST_F(Bodies, loads_that_nothing_but_supports_take_are_told) {
+  const auto warnings = [this](const std::string& body, const std::string& place, const std::string& what,
+                               const std::string& support = "") {
+    write("body.toml",
+          annulus("3d", body,
+                  fmt::format("[[load]]\nplace = \"{}\"\n{}\n{}[[step]]\nkind = \"weight\"\n[[step]]\n"
+                              "kind = \"force\"\n[[step]]\nkind = \"force\"\nname = \"again\"\n",
+                              place, what, support)));
+    std::string all;
+    for (const std::string& one : build_device(read_case(directory / "body.toml")).warnings)
+      all += one + "\n";
+    return all;
+  };
+  const std::string pivot = "pivot = [0, 0, 0]\nfix = [\"turn_x\"]\n",
+                    push = "force = [0, \"5 mN\", \"1 mN\"]";
+  const std::string at_pivot = warnings(pivot, "hub", push);
+  EXPECT_NE(at_pivot.find("load[1].force: has no effect along y and z: \"hub\" is held there while it acts"),
+            std::string::npos)
+      << at_pivot;
+  EXPECT_NE(at_pivot.find("moment about that point, moment = ["), std::string::npos) << at_pivot;
+  const std::string turned = warnings(pivot, "hub", "moment = [\"1 mN m\", \"1 mN m\", 0]");
+  EXPECT_NE(turned.find("load[1].moment: has no effect about x:"), std::string::npos) << turned;
+  const std::string edge = warnings("", "outer", push);
+  EXPECT_NE(edge.find("has no effect along y and z: \"outer\" is held"), std::string::npos) << edge;
+  EXPECT_EQ(warnings("", "hub", push), "");
+  const std::string held = "[[support]]\nplace = \"hub\"\nfix = [\"y\"]\n";
+  EXPECT_NE(warnings("", "hub", push, held).find("effect along y:"), std::string::npos);
+  EXPECT_NE(warnings("", "hub", push, held + "until = \"again\"\n").find("effect along y:"),
+            std::string::npos);
+  EXPECT_EQ(warnings("", "hub", push, held + "until = \"force\"\n"), ""); // it acts when it is let go
+}
+
 TEST_F(Bodies, may_be_held_by_a_support_but_not_what_they_carry) {
   const auto with = [this](const std::string& text) {
     write("body.toml", annulus("3d", "", "[[step]]\nkind = \"weight\"\n" + text));

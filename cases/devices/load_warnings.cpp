@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/devices/load_warnings.hpp"
+
+#include "cases/text/diagnostics.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+/// Whether a support holds from the first step with loads to the last one.
+bool holds_against_loads(const Case& one, const Support& support) {
+  const auto& steps = one.steps;
+  const auto first = std::ranges::find_if(steps, [](const Step& step) {
+    return step.kind == StepKind::force || step.kind == StepKind::transient;
+  });
+  const auto named = [&](const std::string& name) { return std::ranges::find(steps, name, &Step::name); };
+  return (support.from.empty() || named(support.from) <= first) &&
+         (support.until.empty() || named(support.until) + 1 >= steps.end());
+}
+
+} // namespace
+
+std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs) {
+  const auto lets_go = [&](int node, int c) {
+    return std::ranges::any_of(one.supports, [&](const Support& support) {
+      return support.fixed[static_cast<std::size_t>(c)] && !holds_against_loads(one, support) &&
+             std::ranges::count(mesh.node_sets.at(support.place), node) > 0;
+    });
+  };
+  std::vector<std::string> warnings;
+  for (std::size_t l = 0; l < one.loads.size(); ++l) {
+    const Load& load = one.loads[l];
+    if (load.standard) continue;
+    const auto& nodes = mesh.node_sets.at(load.place);
+    std::vector<char> axes;
+    for (int c = 0; c < fem::DofMap::components; ++c) {
+      const Waveform* wave = load.component(c);
+      if (!wave || *wave == Waveform::constant_at(0)) continue;
+      const bool held = std::ranges::all_of(nodes, [&](int node) {
+        const int e = dofs.equation(node, c);
+        return e == fem::DofMap::absent || (dofs.is_held(e) && !lets_go(node, c));
+      });
+      if (held) axes.push_back("xyz"[c % 3]);
+    }
+    if (axes.empty()) continue;
+    const auto body = std::ranges::find(one.bodies, load.place, &Body::name);
+    const bool at_pivot = !load.moment && body != one.bodies.end() && body->pivot;
+    const std::string key = fmt::format("load[{}].{}", l + 1, load.moment ? "moment" : "force");
+    warnings.push_back(
+        Diagnostic{one.where(key), key,
+                   fmt::format("has no effect {} {}: \"{}\" is held there while it acts{}",
+                               load.moment ? "about" : "along", fmt::join(axes, " and "), load.place,
+                               at_pivot ? "; a force on a body with a pivot acts at the pivot: write its "
+                                          "moment about that point, moment = [...], instead"
+                                        : ""),
+                   Severity::warning}
+            .text());
+  }
+  return warnings;
+}
+
+} // namespace dielast::cases

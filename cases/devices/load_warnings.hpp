@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/case/case.hpp"
+#include "fem/model/dofs.hpp"
+#include "meshing/mesh.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dielast::cases {
+
+/// A sentence for every [[load]] of which nothing moves the device: along or about some axis all nodes of its
+/// place are held in every step in which it acts. `dofs` numbered, with the supports of `one`.
+std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs);
+
+} // namespace dielast::cases
