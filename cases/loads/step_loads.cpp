@@ -86,8 +86,9 @@ void StepLoads::begin(int number, fem::State& state) const {
   const fem::Charges held = device_.model.charges(state, false);
   bool connects = false;
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
+    const bool is_about_it = step.electrode.empty() || step.electrode == case_.electrodes[e].name;
     const fem::Supply next = supply(step, e);
-    if (next == state.supply[e]) continue;
+    if (next == state.supply[e] || (!is_about_it && state.supply[e] == fem::Supply::charge)) continue;
     state.charge[e] = held.charge[e];
     if (next == fem::Supply::circuit) {
       state.source[e] = state.voltage[e] / device_.model.circuit_of(e)->steady_share();

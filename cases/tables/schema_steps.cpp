@@ -82,7 +82,9 @@ Section step_section() {
           .at_least(0)
           .optional()
           .only({"inflate"}),
-      text("electrode", to(&Step::electrode), "the only one that it is about; without it all")
+      text("electrode", to(&Step::electrode),
+           "the only one that it is about: others that are isolated stay so, with their charges; without it "
+           "all")
           .optional()
           .refers_to(Reference::electrode)
           .only({"voltage", "charge"}),

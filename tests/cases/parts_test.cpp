@@ -111,6 +111,25 @@ TEST_F(Parts, AntagonisticPatchesAreInTheBalanceOfTheirClosedForms) {
          6e3, 3e3);
 }
 
+// A step that names its electrode leaves the other one isolated, as the step before has charged it.
+TEST_F(Parts, AStepOfOneElectrodeLeavesTheOthersIsolated) {
+  const std::string isolated =
+      std::string(antagonists) +
+      "[[quantity]]\nname = \"kept\"\nkind = \"charge\"\nof = \"left\"\n"
+      "[[step]]\nname = \"other\"\nkind = \"{}\"\nelectrode = \"right\"\nincrements = 3\n{}";
+  const std::vector<std::string> charged{"drive.left={charge='80 nC', voltage='1 kV'}",
+                                         "step[2].kind='charge'"};
+  const auto by_voltage = values(fmt::format(fmt::runtime(isolated), "voltage", ""), charged);
+  EXPECT_NEAR(by_voltage.at("kept"), 80e-9, 1e-12 * 80e-9);
+  std::vector<std::string> both = charged;
+  both.push_back("drive.right={charge='20 nC'}");
+  EXPECT_NEAR(values(fmt::format(fmt::runtime(isolated), "charge", ""), both).at("kept"), 80e-9,
+              1e-12 * 80e-9);
+  const std::string all = "[[step]]\nname = \"all\"\nkind = \"voltage\"\n"; // takes hold of it again
+  EXPECT_GT(std::abs(values(fmt::format(fmt::runtime(isolated), "voltage", all), charged).at("kept") - 80e-9),
+            1e-3 * 80e-9);
+}
+
 TEST_F(Parts, TheirResolvedTextGivesThemAgain) {
   const Case one = read(antagonists);
   write("again.toml", resolved_text(one));
