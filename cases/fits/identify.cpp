@@ -92,8 +92,10 @@ class DeviceMisfit : public ceres::CostFunction {
     return r.allFinite() ? std::optional(r) : std::nullopt;
   }
 
-  /// By central differences, one-sided where only one side has a model. False where none has.
-  bool jacobian(const Eigen::VectorXd& q, const Eigen::VectorXd& r, Eigen::MatrixXd& J) const {
+  /// By central differences, one-sided where only one side has a model: `ends` says where. False where none
+  /// has.
+  bool jacobian(const Eigen::VectorXd& q, const Eigen::VectorXd& r, Eigen::MatrixXd& J,
+                std::vector<bool>* ends = nullptr) const {
     constexpr double h = 2e-3;
     std::vector<Eigen::VectorXd> points;
     for (Eigen::Index i = 0; i < q.size(); ++i)
@@ -107,6 +109,7 @@ class DeviceMisfit : public ceres::CostFunction {
       const auto ahead = residuals(all[static_cast<std::size_t>(2 * i)]),
                  behind = residuals(all[static_cast<std::size_t>(2 * i + 1)]);
       if (!ahead && !behind) return false;
+      if (ends) ends->push_back(!ahead || !behind);
       J.col(i) = (ahead.value_or(r) - behind.value_or(r)) / (h * (ahead.has_value() + behind.has_value()));
     }
     return true;
@@ -215,13 +218,17 @@ IdentifyOutcome solve_identification(const Identification& asked, int threads,
                                     : summary.termination_type == ceres::CONVERGENCE ? FitEnding::converged
                                                                                      : FitEnding::gave_up,
                           .iterations = follower.iterations};
-  const auto at_bound = [&](double one) { return std::abs(one) >= bound * (1 - 1e-6); };
+  std::vector<bool> ends; // where keys end on their own, or the case does not run beyond
+  const auto at_bound = [&](Eigen::Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    return std::abs(q[i]) >= bound * (1 - 1e-6) || (at < ends.size() && ends[at]);
+  };
   outcome.model = misfit.models({q})[0].value_or(Model(asked.tests.size()));
   const auto r = misfit.residuals(outcome.model);
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(misfit.num_residuals(), count);
-  if (r && outcome.ending != FitEnding::interrupted && !misfit.jacobian(q, *r, J)) J.setZero();
+  if (r && outcome.ending != FitEnding::interrupted && !misfit.jacobian(q, *r, J, &ends)) J.setZero();
   for (Eigen::Index i = 0; i < count; ++i)
-    if (at_bound(q[i])) J.col(i).setZero();
+    if (at_bound(i)) J.col(i).setZero();
   const FitStatistics statistics =
       fit_statistics(J, r.value_or(Eigen::VectorXd::Zero(misfit.num_residuals())));
   outcome.deviation = statistics.deviation;
@@ -233,7 +240,7 @@ IdentifyOutcome solve_identification(const Identification& asked, int threads,
                                 .value = start * std::exp(q[i]),
                                 .low = std::min(one, other),
                                 .high = std::max(one, other),
-                                .at_bound = at_bound(q[i])});
+                                .at_bound = at_bound(i)});
   }
   for (std::size_t t = 0; t < asked.tests.size(); ++t) {
     double squares = 0;

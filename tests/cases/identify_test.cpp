@@ -91,6 +91,23 @@ TEST_F(Identify, FindsWhatWasPutIn) {
   for (const double error : found.errors) EXPECT_LT(error, 1e-4);
 }
 
+// The measured impedance is that of a permittivity below the lowest that the key takes.
+TEST_F(Identify, TellsThatAnUnknownEndsAtTheLimitOfItsKey) {
+  write("z.csv", "frequency[Hz],magnitude[kOhm],phase[deg]\n10,1,0\n100,1,0\n1000,1,0\n");
+  write_test("\"film.material.relative_permittivity\"",
+             "[[identify.test]]\nfile = \"z.csv\"\nresponse = \"impedance\"\n");
+  Identification asked = read_identification(directory / "identify.toml");
+  const std::vector<double> least = DeviceModel(asked).run(0, {1});
+  for (std::size_t row = 0; row < asked.tests[0].measured.size(); ++row)
+    asked.tests[0].measured[row] = {least[2 * row], 2 * least[2 * row + 1]};
+  const IdentifyOutcome found = solve_identification(asked, 2, {});
+  EXPECT_NEAR(found.unknowns[0].value, 1, 2e-3);
+  EXPECT_TRUE(found.unknowns[0].at_bound);
+  const std::vector<std::string> warnings = identify_warnings(asked, found);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("is at its bound"), std::string::npos);
+}
+
 TEST_F(Identify, TellsWhatAResponseLacks) {
   write("g.csv", "hertz,real[m/V^2],imaginary[m/V^2]\n1,1,0\n10,1,0\n");
   write_test("\"film.material.shear_modulus\"", displacement);
