@@ -17,7 +17,7 @@ struct Plate {
   double damping = 0; ///< between the plate and the ground, N s/m
 };
 
-/// [[point_mass]]: spread evenly over the nodes of a place, with a damper to the ground along each axis
+/// [[point_mass]]: spread evenly over a place as drawn, with a damper to the ground along each axis
 struct PointMass {
   std::string place;
   double mass = 0;    ///< kg

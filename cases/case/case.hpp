@@ -52,7 +52,7 @@ struct Support {
   }
 };
 
-/// [[load]]: a dead force spread evenly over the nodes of a place, or a moment over those that can turn
+/// [[load]]: a dead force spread evenly over a place as drawn, or a moment over those that can turn
 struct Load {
   std::string place;
   std::array<Waveform, 3> force{};                 ///< N

@@ -91,18 +91,36 @@ void keep_homogeneous(const Part& part, const Patch& patch, const meshing::Mesh&
   if (patch.mode == PatchMode::equal_biaxial) dofs.share(right.front(), 0, top.front(), 1);
 }
 
-fem::Distance distance(const meshing::Mesh& mesh, const std::array<std::string, 2>& between, int axis) {
-  return {{mesh.node_sets.at(between[0]), mesh.node_sets.at(between[1])}, axis};
+using SharesOf = std::map<std::string, meshing::Shares>;
+
+fem::Distance distance(const meshing::Mesh& mesh, const SharesOf& shares,
+                       const std::array<std::string, 2>& between, int axis) {
+  const auto end = [&](const std::string& place) {
+    return fem::DistanceEnd{mesh.node_sets.at(place), shares.at(place).of_nodes};
+  };
+  return {{end(between[0]), end(between[1])}, axis};
 }
 
-void add_masses(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+/// The masses at the nodes of a point mass' place, kg per kg of it: the shares, as far as they are no
+/// negative masses.
+std::vector<std::pair<int, double>> masses_at(const std::string& place, const meshing::Mesh& mesh,
+                                              const SharesOf& shares) {
+  const auto& nodes = mesh.node_sets.at(place);
+  const std::vector<double>& share = shares.at(place).of_nodes;
+  double sum = 0;
+  for (const double s : share) sum += std::max(s, 0.0);
+  std::vector<std::pair<int, double>> masses;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (share[n] > 0) masses.emplace_back(nodes[n], share[n] / sum);
+  return masses;
+}
+
+void add_masses(const Case& one, const meshing::Mesh& mesh, const SharesOf& shares, fem::Model& model) {
   if (one.plate)
     model.blocks.push_back(fem::make_point_mass_block(
         {mesh.node_sets.at(one.plate->place).front(), 2, one.plate->mass, one.plate->damping}));
   for (const PointMass& point : one.point_masses) {
-    const auto& nodes = mesh.node_sets.at(point.place);
-    const auto share = 1 / static_cast<double>(nodes.size());
-    for (const int node : nodes)
+    for (const auto& [node, share] : masses_at(point.place, mesh, shares))
       for (int c = 0; c < 3; ++c)
         if (fem::moves(one.dimension, c))
           model.blocks.push_back(
@@ -212,7 +230,7 @@ void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
 /// Forces of gravity: on plate and masses, and on the film where its weight counts.
 Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,
                           const std::vector<FinPoints>& fins, const meshing::Mesh& mesh,
-                          const fem::Model& model) {
+                          const SharesOf& shares, const fem::Model& model) {
   const fem::DofMap& dofs = model.dofs;
   const Eigen::Vector3d pull = one.gravity.acceleration * one.gravity.down();
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(dofs.count());
@@ -234,20 +252,19 @@ Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,
   for (const BodyNodes& body : bodies)
     for (const auto& [node, mass] : body.masses) add(node, mass);
   if (one.plate) add(mesh.node_sets.at(one.plate->place).front(), one.plate->mass);
-  for (const PointMass& point : one.point_masses) {
-    const auto& nodes = mesh.node_sets.at(point.place);
-    for (const int node : nodes) add(node, point.mass / static_cast<double>(nodes.size()));
-  }
+  for (const PointMass& point : one.point_masses)
+    for (const auto& [node, share] : masses_at(point.place, mesh, shares)) add(node, point.mass * share);
   return weight;
 }
 
-void add_springs(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+void add_springs(const Case& one, const meshing::Mesh& mesh, const SharesOf& shares, fem::Model& model) {
   for (const Spring& spring : one.springs)
-    model.blocks.push_back(fem::make_distance_block(mesh, distance(mesh, spring.between, spring.along),
+    model.blocks.push_back(fem::make_distance_block(mesh,
+                                                    distance(mesh, shares, spring.between, spring.along),
                                                     fem::Spring{spring.stiffness, spring.free_length}));
   for (const Linkage& linkage : one.linkages)
     model.blocks.push_back(
-        fem::make_distance_block(mesh, distance(mesh, linkage.between, linkage.along),
+        fem::make_distance_block(mesh, distance(mesh, shares, linkage.between, linkage.along),
                                  fem::Linkage{linkage.force, linkage.arm, linkage.strut, linkage.offset}));
 }
 
@@ -289,6 +306,7 @@ Device build_device(const Case& one) {
   const Eigen::Vector3d size = mesh.bounds().sizes(); // bodies have nodes of their own
   const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
   std::vector<FinPoints> fins = add_fin_nodes(one, mesh);
+  SharesOf shares = meshing::shares(mesh, dimension == fem::Dimension::axisymmetric);
   const std::vector<fem::Tie> links = set_off_bars(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
@@ -315,9 +333,9 @@ Device build_device(const Case& one) {
   add_bars(one, mesh, model);
   add_contact(one, mesh, model);
 
-  add_springs(one, mesh, model);
+  add_springs(one, mesh, shares, model);
   add_capacitors(one, model);
-  add_masses(one, mesh, model);
+  add_masses(one, mesh, shares, model);
   for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
   for (auto& fluid : fluid_around(fins)) model.blocks.push_back(std::move(fluid));
   add_chamber(one, mesh, model);
@@ -369,8 +387,11 @@ Device build_device(const Case& one) {
           fmt::format("{}: the prestretch {:.4g} is below 1: it compresses the film, which buckles",
                       part.called("film"), std::ranges::min(part.film->prestretch)));
 
-  Device device{.mesh = std::move(mesh), .model = std::move(model), .free_body = free_body};
-  device.weight = weight_of(one, bodies, fins, device.mesh, device.model);
+  Device device{.mesh = std::move(mesh),
+                .shares = std::move(shares),
+                .model = std::move(model),
+                .free_body = free_body};
+  device.weight = weight_of(one, bodies, fins, device.mesh, device.shares, device.model);
   require_loads_that_act(one, device);
   if (!free_body)
     std::ranges::move(load_warnings(one, device.mesh, device.model.dofs), std::back_inserter(warnings));

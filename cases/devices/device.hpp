@@ -5,7 +5,9 @@
 #include "cases/devices/fins.hpp"
 #include "fem/model/model.hpp"
 #include "meshing/mesh.hpp"
+#include "meshing/shares.hpp"
 
+#include <map>
 #include <optional>
 
 namespace dielast::cases {
@@ -19,6 +21,7 @@ struct Bars {
 /// A case made computable: its mesh and its model.
 struct Device {
   meshing::Mesh mesh;
+  std::map<std::string, meshing::Shares> shares; ///< of the nodes of its places
   fem::Model model;
   std::vector<int> film_parts; ///< for each cell of the film, its part: a number in Case::parts
   int films = 0;               ///< blocks of film; they stand in front of the model's others

@@ -115,6 +115,7 @@ Eigen::VectorXd StepLoads::dead_force(int step, Instant t) const {
   if (!happened(step, StepKind::force) && !happened(step, StepKind::transient)) return force;
   for (const Load& load : case_.loads) {
     const auto& nodes = device_.mesh.node_sets.at(load.place);
+    const std::vector<double>& shares = device_.shares.at(load.place).of_nodes;
     for (int c = 0; c < fem::DofMap::components; ++c) {
       const Waveform* wave = load.component(c);
       if (!wave) continue;
@@ -124,9 +125,11 @@ Eigen::VectorXd StepLoads::dead_force(int step, Instant t) const {
       const double whole = signal ? signal->at(t) : t.of(*wave);
       const auto acts = [&](int node) { return dofs.equation(node, c) != fem::DofMap::absent; };
       // Every node of a place moves, or none does; film among walls does not turn.
-      const auto share = 1 / static_cast<double>(std::ranges::count_if(nodes, acts));
-      for (const int node : nodes)
-        if (acts(node)) force[dofs.equation(node, c)] += whole * share;
+      double acting = 0;
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        if (acts(nodes[n])) acting += shares[n];
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        if (acts(nodes[n])) force[dofs.equation(nodes[n], c)] += whole * shares[n] / acting;
     }
   }
   return force;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cases/devices/device.hpp"
 #include "fem/model/state.hpp"
-#include "meshing/mesh.hpp"
 
 #include <string>
 
@@ -14,13 +14,13 @@ inline Eigen::Vector3d position(const meshing::Mesh& mesh, int node, const fem::
   return mesh.nodes[n] + state.displacement[n];
 }
 
-/// The mean position of a place's nodes, m.
-inline Eigen::Vector3d centroid(const meshing::Mesh& mesh, const std::string& place,
-                                const fem::State& state) {
-  const auto& nodes = mesh.node_sets.at(place);
+/// The mean position over a place, by the shares of its nodes, m.
+inline Eigen::Vector3d centroid(const Device& device, const std::string& place, const fem::State& state) {
+  const auto& nodes = device.mesh.node_sets.at(place);
+  const std::vector<double>& shares = device.shares.at(place).of_nodes;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int node : nodes) sum += position(mesh, node, state);
-  return sum / static_cast<double>(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) sum += shares[n] * position(device.mesh, nodes[n], state);
+  return sum;
 }
 
 } // namespace dielast::cases

@@ -17,8 +17,8 @@ double difference(double now, double then) { return now - then; }
 
 /// Positive as drawn; negative when the places have passed each other.
 Shape distance(const Probing& probing) {
-  const auto between = [&mesh = probing.device.mesh, &quantity = probing.quantity](const fem::State& at) {
-    return component(centroid(mesh, quantity.between[1], at) - centroid(mesh, quantity.between[0], at),
+  const auto between = [&device = probing.device, &quantity = probing.quantity](const fem::State& at) {
+    return component(centroid(device, quantity.between[1], at) - centroid(device, quantity.between[0], at),
                      quantity.along);
   };
   const bool turned = between(probing.device.model.initial_state()) < 0;
@@ -71,9 +71,9 @@ Shape displacement(const Probing& probing) {
       return towards(moved);
     };
   }
-  return
-      [&mesh, &quantity, towards, drawn = centroid(mesh, quantity.of, probing.device.model.initial_state())](
-          const fem::State& state) { return towards(centroid(mesh, quantity.of, state) - drawn); };
+  const Device& device = probing.device;
+  return [&device, &quantity, towards, drawn = centroid(device, quantity.of, device.model.initial_state())](
+             const fem::State& state) { return towards(centroid(device, quantity.of, state) - drawn); };
 }
 
 Shape swelling(const Probing& probing) {
@@ -99,14 +99,17 @@ Shape radius(const Probing& probing) {
     probing.refuse(
         "of",
         fmt::format("found \"{}\": an area has no radius; give its edge, whose nodes have one", quantity.of));
+  const Device& device = probing.device;
   if (probing.one.dimension == fem::Dimension::axisymmetric)
-    return [&mesh, &quantity](const fem::State& state) { return centroid(mesh, quantity.of, state).x(); };
-  return [&mesh, &quantity](const fem::State& state) {
-    const Eigen::Vector3d centre = centroid(mesh, quantity.of, state);
-    const auto& nodes = mesh.node_sets.at(quantity.of);
-    double sum = 0;
-    for (const int n : nodes) sum += (position(mesh, n, state) - centre).norm();
-    return sum / static_cast<double>(nodes.size());
+    return [&device, &quantity](const fem::State& state) { return centroid(device, quantity.of, state).x(); };
+  return [&device, &quantity](const fem::State& state) {
+    const Eigen::Vector3d centre = centroid(device, quantity.of, state);
+    const auto& nodes = device.mesh.node_sets.at(quantity.of);
+    const std::vector<double>& shares = device.shares.at(quantity.of).of_nodes;
+    double mean = 0;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      mean += shares[n] * (position(device.mesh, nodes[n], state) - centre).norm();
+    return mean;
   };
 }
 
@@ -144,7 +147,8 @@ struct Row {
   }
   void add_mean(const std::string& place, const Eigen::Vector3d& gradient) {
     const auto& nodes = device.mesh.node_sets.at(place);
-    for (const int node : nodes) add(node, gradient / static_cast<double>(nodes.size()));
+    const std::vector<double>& shares = device.shares.at(place).of_nodes;
+    for (std::size_t n = 0; n < nodes.size(); ++n) add(nodes[n], shares[n] * gradient);
   }
   const Device& device;
   Eigen::VectorXd values;
@@ -152,10 +156,10 @@ struct Row {
 
 Eigen::VectorXd distance_gradient(const Probing& probing, const fem::State& state) {
   const Quantity& quantity = probing.quantity;
-  const meshing::Mesh& mesh = probing.device.mesh;
+  const Device& device = probing.device;
   Row row(probing);
   const auto apart = [&](const fem::State& at) -> Eigen::Vector3d {
-    return centroid(mesh, quantity.between[1], at) - centroid(mesh, quantity.between[0], at);
+    return centroid(device, quantity.between[1], at) - centroid(device, quantity.between[0], at);
   };
   Eigen::Vector3d along = apart(state).normalized();
   if (quantity.along) // positive as drawn
@@ -167,20 +171,21 @@ Eigen::VectorXd distance_gradient(const Probing& probing, const fem::State& stat
 }
 
 Eigen::VectorXd radius_gradient(const Probing& probing, const fem::State& state) {
-  const meshing::Mesh& mesh = probing.device.mesh;
+  const Device& device = probing.device;
   const std::string& place = probing.quantity.of;
   Row row(probing);
   if (probing.one.dimension == fem::Dimension::axisymmetric) {
     row.add_mean(place, Eigen::Vector3d::UnitX());
     return row.values;
   }
-  const Eigen::Vector3d middle = centroid(mesh, place, state);
-  const auto& nodes = mesh.node_sets.at(place);
+  const Eigen::Vector3d middle = centroid(device, place, state);
+  const auto& nodes = device.mesh.node_sets.at(place);
+  const std::vector<double>& shares = device.shares.at(place).of_nodes;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int node : nodes) {
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
     const Eigen::Vector3d outwards =
-        (position(mesh, node, state) - middle).normalized() / static_cast<double>(nodes.size());
-    row.add(node, outwards);
+        shares[n] * (position(device.mesh, nodes[n], state) - middle).normalized();
+    row.add(nodes[n], outwards);
     sum += outwards;
   }
   row.add_mean(place, -sum); // the middle moves with the nodes
@@ -214,7 +219,7 @@ constexpr std::array outermost{1.0, 2.0}; // whichever node is outermost
 std::vector<QuantityKind> shape_kinds() {
   return {
       {.word = "displacement",
-       .meaning = "of the centroid of a place (m)",
+       .meaning = "of the centroid of a place: the mean over its volume, area or length as drawn (m)",
        .unit = "m",
        .keys = displacement_keys,
        .in_words =
@@ -243,7 +248,7 @@ std::vector<QuantityKind> shape_kinds() {
        .gradient = angle_gradient,
        .refusal = turns_not},
       {.word = "radius",
-       .meaning = "mean distance of a place's nodes from their centroid (m)",
+       .meaning = "mean distance of a place from its centroid (m)",
        .unit = "m",
        .keys = [] { return std::vector<Key>{place_key()}; },
        .in_words = [](const Quantity& q) { return fmt::format("mean radius of {}{}", q.of, at_words(q)); },

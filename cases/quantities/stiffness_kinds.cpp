@@ -27,11 +27,11 @@ Flexibility flexibility(const Probing& probing, const std::string& place, const 
       along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(along);
   const fem::DofMap& dofs = probing.device.model.dofs;
   const auto& nodes = probing.device.mesh.node_sets.at(place);
+  const std::vector<double>& shares = probing.device.shares.at(place).of_nodes;
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(dofs.count());
-  for (const int node : nodes)
+  for (std::size_t n = 0; n < nodes.size(); ++n)
     for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent)
-        unit[e] += axis[c] / static_cast<double>(nodes.size());
+      if (const int e = dofs.equation(nodes[n], c); e != fem::DofMap::absent) unit[e] += shares[n] * axis[c];
   unit = (dofs.jacobian(measured.state).transpose() * unit).eval();
   Flexibility found{{}, no_value};
   if (unit.isZero() || !at_rest(measured) || !measured.equilibrium.factor(fem::relaxed(measured.state)))

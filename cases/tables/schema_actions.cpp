@@ -115,7 +115,8 @@ Section load_section() {
     return load.moment ? std::nullopt : value_of(load.force);
   };
   section.keys = {
-      text("place", to(&Load::place), "the place over whose nodes it is spread evenly")
+      text("place", to(&Load::place),
+           "the place over whose volume, area or length as drawn it is spread evenly")
           .refers_to(Reference::place),
       wave("force", "N", force, "components along x, y and z").values(3, 3),
       wave("moment", "N m", to(&Load::moment),
@@ -231,9 +232,9 @@ Section plate_section() {
 Section point_mass_section() {
   Section section = list_section("point_mass", "a mass on the film", each(&Case::point_masses));
   section.keys = mass_keys<PointMass>();
-  section.keys.push_back(
-      text("place", to(&PointMass::place), "the place over whose nodes it is spread evenly")
-          .refers_to(Reference::place));
+  section.keys.push_back(text("place", to(&PointMass::place),
+                              "the place over whose volume, area or length as drawn it is spread evenly")
+                             .refers_to(Reference::place));
   return section;
 }
 

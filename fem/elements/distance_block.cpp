@@ -29,12 +29,15 @@ class DistanceBlock final : public ElementBlock {
   DistanceBlock(const meshing::Mesh& mesh, const Distance& distance, const DistancePotential& potential)
       : potential_(potential), axis_(distance.axis) {
     for (int end = 0; end < 2; ++end) {
-      const auto& nodes = distance.nodes[static_cast<std::size_t>(end)];
+      const auto& [nodes, weights] = distance.ends[static_cast<std::size_t>(end)];
       if (nodes.empty()) throw std::invalid_argument("a spring's end needs a node");
-      for (const int node : nodes) {
-        nodes_.push_back(node);
-        weights_.push_back((end == 0 ? -1.0 : 1.0) / static_cast<double>(nodes.size()));
-        drawn_ += weights_.back() * mesh.nodes[static_cast<std::size_t>(node)][axis_];
+      if (weights.size() != nodes.size())
+        throw std::invalid_argument("a spring's end needs a weight per node");
+      for (std::size_t n = 0; n < nodes.size(); ++n) {
+        if (weights[n] == 0) continue;
+        nodes_.push_back(nodes[n]);
+        weights_.push_back(end == 0 ? -weights[n] : weights[n]);
+        drawn_ += weights_.back() * mesh.nodes[static_cast<std::size_t>(nodes[n])][axis_];
       }
     }
     if (drawn_ < 0) {

@@ -4,8 +4,10 @@
 #include "fem/model/element_block.hpp"
 #include "meshing/mesh.hpp"
 
+#include <array>
 #include <memory>
 #include <variant>
+#include <vector>
 
 namespace dielast::fem {
 
@@ -27,14 +29,21 @@ struct Linkage {
 
 using DistancePotential = std::variant<Spring, Linkage>;
 
-/// Where a distance is taken: between the centroids of two sets of nodes, along one axis, positive from the
-/// first to the second as drawn.
+/// Nodes whose weighted mean is one end of a distance; the weights sum to 1.
+struct DistanceEnd {
+  std::vector<int> nodes;
+  std::vector<double> weights;
+};
+
+/// Where a distance is taken: between two ends, along one axis, positive from the first to the second as
+/// drawn.
 struct Distance {
-  std::array<std::vector<int>, 2> nodes;
+  std::array<DistanceEnd, 2> ends;
   int axis = 0; ///< 0, 1, 2 = x, y, z
 };
 
-/// The energy V(l) of a distance l, as one element. Throws std::invalid_argument for an empty set.
+/// The energy V(l) of a distance l, as one element. Throws std::invalid_argument for an end without nodes, or
+/// with another number of weights.
 std::unique_ptr<ElementBlock> make_distance_block(const meshing::Mesh& mesh, const Distance& distance,
                                                   const DistancePotential& potential);
 

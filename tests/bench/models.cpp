@@ -113,7 +113,11 @@ Task rolled_muscle() {
       {.material = found->material, .thickness = 0.254e-3, .prestretch = {muscle_prestretch, 1}}, {0, 0},
       fem::Dimension::planar, 1));
   const auto& sets = task.mesh.node_sets;
-  const fem::Distance along{{sets.at("left"), sets.at("right")}, 0};
+  const auto end = [&sets](const char* place) {
+    const auto& nodes = sets.at(place);
+    return fem::DistanceEnd{nodes, std::vector<double>(nodes.size(), 1 / static_cast<double>(nodes.size()))};
+  };
+  const fem::Distance along{{end("left"), end("right")}, 0};
   model.blocks.push_back(fem::make_distance_block(task.mesh, along, fem::Spring{180, 110e-3}));
   model.blocks.push_back(
       fem::make_distance_block(task.mesh, along, fem::Linkage{0.712206, 110e-3, 60e-3, 47.3e-3}));

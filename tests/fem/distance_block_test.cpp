@@ -15,7 +15,7 @@ namespace {
 const meshing::Mesh mesh = test::distorted_square(2, 1, 0.1);
 
 TEST(DistanceBlock, springs_and_linkages_have_consistent_derivatives) {
-  const Distance distance{{std::vector{0, 3}, std::vector{2, 5, 8}}, 0};
+  const Distance distance{{{{{0, 3}, {0.4, 0.6}}, {{2, 5, 8}, {0.5, 0.3, 0.2}}}}, 0};
   const Linkage linkage{.force = 0.7, .arm = 0.11, .strut = 0.06, .offset = 0.047};
   for (const DistancePotential& potential :
        {DistancePotential(Spring{180, 0.05}), DistancePotential(linkage)}) {
@@ -30,7 +30,7 @@ TEST(DistanceBlock, springs_and_linkages_have_consistent_derivatives) {
 
 TEST(DistanceBlock, a_compressed_spring_pushes_its_ends_apart_whatever_their_order) {
   for (const bool swapped : {false, true}) {
-    std::array<std::vector<int>, 2> ends{std::vector{0}, std::vector{2}};
+    std::array<DistanceEnd, 2> ends{{{{0}, {1}}, {{2}, {1}}}};
     if (swapped) std::swap(ends[0], ends[1]);
     const auto model =
         test::free_model(mesh.node_count(), true, make_distance_block(mesh, {ends, 0}, Spring{200, 0.15}));
@@ -45,7 +45,9 @@ TEST(DistanceBlock, a_compressed_spring_pushes_its_ends_apart_whatever_their_ord
 }
 
 TEST(DistanceBlock, a_spring_without_an_end_is_rejected) {
-  EXPECT_THROW(make_distance_block(mesh, {{std::vector{0}, {}}, 0}, Spring{1, 1}), std::invalid_argument);
+  const DistanceEnd end{{0}, {1}};
+  for (const DistanceEnd& other : {DistanceEnd{}, DistanceEnd{{1}, {}}})
+    EXPECT_THROW(make_distance_block(mesh, {{end, other}, 0}, Spring{1, 1}), std::invalid_argument);
 }
 
 } // namespace

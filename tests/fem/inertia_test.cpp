@@ -20,7 +20,7 @@ struct Oscillator {
   explicit Oscillator(double damping = 0, double drag = 0) {
     const meshing::Mesh mesh{{{1, 0, 0}, {0, 0, 0}}, {}, {}, {}};
     model = test::unnumbered_model(
-        2, true, make_distance_block(mesh, {{std::vector{1}, std::vector{0}}, 0}, Spring{stiffness, 1}),
+        2, true, make_distance_block(mesh, {{{{{1}, {1}}, {{0}, {1}}}}, 0}, Spring{stiffness, 1}),
         make_point_mass_block({.node = 0, .axis = 0, .mass = mass, .damping = damping, .drag = drag}),
         make_point_mass_block({.node = 1, .axis = 0, .mass = 0.7}));
     model->dofs.hold(1, 0);
