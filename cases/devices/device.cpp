@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/device.hpp"
 
+#include "cases/devices/attachments.hpp"
 #include "cases/devices/bodies.hpp"
 #include "cases/devices/load_warnings.hpp"
 #include "cases/devices/mesh_warnings.hpp"
 #include "cases/devices/sections.hpp"
 #include "cases/readers/reader.hpp"
 #include "fem/elements/chamber_block.hpp"
-#include "fem/elements/distance_block.hpp"
-#include "fem/elements/point_mass_block.hpp"
 #include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>
@@ -89,43 +88,6 @@ void keep_homogeneous(const Part& part, const Patch& patch, const meshing::Mesh&
   for (const int node : right) dofs.share(right.front(), node, 0);
   for (const int node : top) dofs.share(top.front(), node, 1);
   if (patch.mode == PatchMode::equal_biaxial) dofs.share(right.front(), 0, top.front(), 1);
-}
-
-using SharesOf = std::map<std::string, meshing::Shares>;
-
-fem::Distance distance(const meshing::Mesh& mesh, const SharesOf& shares,
-                       const std::array<std::string, 2>& between, int axis) {
-  const auto end = [&](const std::string& place) {
-    return fem::DistanceEnd{mesh.node_sets.at(place), shares.at(place).of_nodes};
-  };
-  return {{end(between[0]), end(between[1])}, axis};
-}
-
-/// The masses at the nodes of a point mass' place, kg per kg of it: the shares, as far as they are no
-/// negative masses.
-std::vector<std::pair<int, double>> masses_at(const std::string& place, const meshing::Mesh& mesh,
-                                              const SharesOf& shares) {
-  const auto& nodes = mesh.node_sets.at(place);
-  const std::vector<double>& share = shares.at(place).of_nodes;
-  double sum = 0;
-  for (const double s : share) sum += std::max(s, 0.0);
-  std::vector<std::pair<int, double>> masses;
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (share[n] > 0) masses.emplace_back(nodes[n], share[n] / sum);
-  return masses;
-}
-
-void add_masses(const Case& one, const meshing::Mesh& mesh, const SharesOf& shares, fem::Model& model) {
-  if (one.plate)
-    model.blocks.push_back(fem::make_point_mass_block(
-        {mesh.node_sets.at(one.plate->place).front(), 2, one.plate->mass, one.plate->damping}));
-  for (const PointMass& point : one.point_masses) {
-    for (const auto& [node, share] : masses_at(point.place, mesh, shares))
-      for (int c = 0; c < 3; ++c)
-        if (fem::moves(one.dimension, c))
-          model.blocks.push_back(
-              fem::make_point_mass_block({node, c, point.mass * share, point.damping * share}));
-  }
 }
 
 /// A body's name is a place beside those of the mesh, and a body carries places of the mesh.
@@ -227,47 +189,6 @@ void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
                               mesh.node_sets.at(electrode.terminal), typical_voltage});
 }
 
-/// Forces of gravity: on plate and masses, and on the film where its weight counts.
-Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,
-                          const std::vector<FinPoints>& fins, const meshing::Mesh& mesh,
-                          const SharesOf& shares, const fem::Model& model) {
-  const fem::DofMap& dofs = model.dofs;
-  const Eigen::Vector3d pull = one.gravity.acceleration * one.gravity.down();
-  Eigen::VectorXd weight = Eigen::VectorXd::Zero(dofs.count());
-  const auto add = [&](int node, double mass) {
-    for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent) weight[e] += mass * pull[c];
-  };
-  if (one.gravity.film) {
-    Eigen::VectorXd falls = Eigen::VectorXd::Zero(dofs.count());
-    for (int n = 0; n < dofs.node_count(); ++n)
-      for (int c = 0; c < 3; ++c)
-        if (const int e = dofs.equation(n, c); e != fem::DofMap::absent) falls[e] = one.gravity.down()[c];
-    weight = one.gravity.acceleration * (model.inertia.mass * falls);
-    for (const FinPoints& fin : fins) // the mass that they add is of a fluid, which floats
-      for (const FinPoints::Point& at : fin.points)
-        weight[dofs.equation(at.node, fin.along)] -= at.mass * pull[fin.along];
-    return weight;
-  }
-  for (const BodyNodes& body : bodies)
-    for (const auto& [node, mass] : body.masses) add(node, mass);
-  if (one.plate) add(mesh.node_sets.at(one.plate->place).front(), one.plate->mass);
-  for (const PointMass& point : one.point_masses)
-    for (const auto& [node, share] : masses_at(point.place, mesh, shares)) add(node, point.mass * share);
-  return weight;
-}
-
-void add_springs(const Case& one, const meshing::Mesh& mesh, const SharesOf& shares, fem::Model& model) {
-  for (const Spring& spring : one.springs)
-    model.blocks.push_back(fem::make_distance_block(mesh,
-                                                    distance(mesh, shares, spring.between, spring.along),
-                                                    fem::Spring{spring.stiffness, spring.free_length}));
-  for (const Linkage& linkage : one.linkages)
-    model.blocks.push_back(
-        fem::make_distance_block(mesh, distance(mesh, shares, linkage.between, linkage.along),
-                                 fem::Linkage{linkage.force, linkage.arm, linkage.strut, linkage.offset}));
-}
-
 } // namespace
 
 std::vector<std::string> places_of(const meshing::Mesh& mesh) {
@@ -306,7 +227,9 @@ Device build_device(const Case& one) {
   const Eigen::Vector3d size = mesh.bounds().sizes(); // bodies have nodes of their own
   const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
   std::vector<FinPoints> fins = add_fin_nodes(one, mesh);
-  SharesOf shares = meshing::shares(mesh, dimension == fem::Dimension::axisymmetric);
+  std::map<std::string, meshing::Shares> shares =
+      meshing::shares(mesh, dimension == fem::Dimension::axisymmetric);
+  std::ranges::move(share_warnings(one, shares), std::back_inserter(warnings));
   const std::vector<fem::Tie> links = set_off_bars(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);

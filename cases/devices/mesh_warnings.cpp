@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/mesh_warnings.hpp"
 
+#include "cases/case/quantity_kind.hpp"
 #include "meshing/quality.hpp"
 #include "post/engineering.hpp"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 namespace dielast::cases {
 
@@ -56,6 +58,29 @@ std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh
                       one.parts[p].name.empty() ? "" : "part." + one.parts[p].name + ".",
                       post::engineering(thickness, "m"), post::engineering(width, "m")));
   }
+  return warnings;
+}
+
+std::vector<std::string> share_warnings(const Case& one,
+                                        const std::map<std::string, meshing::Shares>& shares) {
+  std::set<std::string> places;
+  for (const Load& load : one.loads) places.insert(load.place);
+  for (const PointMass& mass : one.point_masses) places.insert(mass.place);
+  for (const Spring& spring : one.springs) places.insert(spring.between.begin(), spring.between.end());
+  for (const Linkage& linkage : one.linkages) places.insert(linkage.between.begin(), linkage.between.end());
+  for (const Quantity& quantity : one.quantities) {
+    places.insert(quantity.between.begin(), quantity.between.end());
+    const std::string& word = quantity.kind->word;
+    if (word == "displacement" || word == "radius" || word == "stiffness") places.insert(quantity.of);
+    if (word == "coupling") places.insert(quantity.place);
+  }
+  std::vector<std::string> warnings;
+  for (const std::string& place : places)
+    if (const auto found = shares.find(place); found != shares.end() && found->second.mixed)
+      warnings.push_back(
+          fmt::format("\"{}\" has nodes beside the cells, faces or sides that make it: each of its {} nodes "
+                      "has the same share in loads and means; name its parts apart",
+                      place, found->second.of_nodes.size()));
   return warnings;
 }
 

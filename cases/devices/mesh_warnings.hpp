@@ -3,7 +3,9 @@
 
 #include "cases/case/case.hpp"
 #include "meshing/mesh.hpp"
+#include "meshing/shares.hpp"
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,5 +20,10 @@ std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mes
 /// `parts` says which part each cell of the film belongs to.
 std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh& mesh,
                                             std::span<const int> parts);
+
+/// A sentence for every place with nodes beside what it is made of over which something is spread, or a mean
+/// taken: what each node has of it says the mesh then, not the place.
+std::vector<std::string> share_warnings(const Case& one,
+                                        const std::map<std::string, meshing::Shares>& shares);
 
 } // namespace dielast::cases

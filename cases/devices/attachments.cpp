@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/devices/attachments.hpp"
+
+#include "fem/elements/distance_block.hpp"
+#include "fem/elements/point_mass_block.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dielast::cases {
+
+namespace {
+
+fem::Distance distance(const meshing::Mesh& mesh, const PlaceShares& shares,
+                       const std::array<std::string, 2>& between, int axis) {
+  const auto end = [&](const std::string& place) {
+    return fem::DistanceEnd{mesh.node_sets.at(place), shares.at(place).of_nodes};
+  };
+  return {{end(between[0]), end(between[1])}, axis};
+}
+
+/// The masses at the nodes of a point mass' place, kg per kg of it: the shares, as far as they are no
+/// negative masses.
+std::vector<std::pair<int, double>> masses_at(const std::string& place, const meshing::Mesh& mesh,
+                                              const PlaceShares& shares) {
+  const auto& nodes = mesh.node_sets.at(place);
+  const std::vector<double>& share = shares.at(place).of_nodes;
+  double sum = 0;
+  for (const double s : share) sum += std::max(s, 0.0);
+  std::vector<std::pair<int, double>> masses;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (share[n] > 0) masses.emplace_back(nodes[n], share[n] / sum);
+  return masses;
+}
+
+} // namespace
+
+void add_springs(const Case& one, const meshing::Mesh& mesh, const PlaceShares& shares, fem::Model& model) {
+  for (const Spring& spring : one.springs)
+    model.blocks.push_back(fem::make_distance_block(mesh,
+                                                    distance(mesh, shares, spring.between, spring.along),
+                                                    fem::Spring{spring.stiffness, spring.free_length}));
+  for (const Linkage& linkage : one.linkages)
+    model.blocks.push_back(
+        fem::make_distance_block(mesh, distance(mesh, shares, linkage.between, linkage.along),
+                                 fem::Linkage{linkage.force, linkage.arm, linkage.strut, linkage.offset}));
+}
+
+void add_masses(const Case& one, const meshing::Mesh& mesh, const PlaceShares& shares, fem::Model& model) {
+  if (one.plate)
+    model.blocks.push_back(fem::make_point_mass_block(
+        {mesh.node_sets.at(one.plate->place).front(), 2, one.plate->mass, one.plate->damping}));
+  for (const PointMass& point : one.point_masses) {
+    for (const auto& [node, share] : masses_at(point.place, mesh, shares))
+      for (int c = 0; c < 3; ++c)
+        if (fem::moves(one.dimension, c))
+          model.blocks.push_back(
+              fem::make_point_mass_block({node, c, point.mass * share, point.damping * share}));
+  }
+}
+
+Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,
+                          const std::vector<FinPoints>& fins, const meshing::Mesh& mesh,
+                          const PlaceShares& shares, const fem::Model& model) {
+  const fem::DofMap& dofs = model.dofs;
+  const Eigen::Vector3d pull = one.gravity.acceleration * one.gravity.down();
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(dofs.count());
+  const auto add = [&](int node, double mass) {
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(node, c); e != fem::DofMap::absent) weight[e] += mass * pull[c];
+  };
+  if (one.gravity.film) {
+    Eigen::VectorXd falls = Eigen::VectorXd::Zero(dofs.count());
+    for (int n = 0; n < dofs.node_count(); ++n)
+      for (int c = 0; c < 3; ++c)
+        if (const int e = dofs.equation(n, c); e != fem::DofMap::absent) falls[e] = one.gravity.down()[c];
+    weight = one.gravity.acceleration * (model.inertia.mass * falls);
+    for (const FinPoints& fin : fins) // the mass that they add is of a fluid, which floats
+      for (const FinPoints::Point& at : fin.points)
+        weight[dofs.equation(at.node, fin.along)] -= at.mass * pull[fin.along];
+    return weight;
+  }
+  for (const BodyNodes& body : bodies)
+    for (const auto& [node, mass] : body.masses) add(node, mass);
+  if (one.plate) add(mesh.node_sets.at(one.plate->place).front(), one.plate->mass);
+  for (const PointMass& point : one.point_masses)
+    for (const auto& [node, share] : masses_at(point.place, mesh, shares)) add(node, point.mass * share);
+  return weight;
+}
+
+} // namespace dielast::cases
