@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The meshes of the geometries, as they are drawn by themselves.
 #include "cases/case/part_kind.hpp"
-#include "meshing/bars.hpp"
+#include "meshing/bars/bars.hpp"
 #include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/honeycomb_mesh.hpp"
 #include "meshing/meridian.hpp"

@@ -2,7 +2,7 @@
 #include "cases/language/schema.hpp"
 #include "cases/parts/part_kinds.hpp"
 #include "fem/elements/beam_block.hpp"
-#include "meshing/bars.hpp"
+#include "meshing/bars/bars.hpp"
 
 namespace dielast::cases {
 

@@ -2,7 +2,7 @@
 #include "cases/language/conditions.hpp"
 #include "cases/parts/part_kinds.hpp"
 #include "fem/elements/cable_block.hpp"
-#include "meshing/bars.hpp"
+#include "meshing/bars/bars.hpp"
 
 #include <numbers>
 

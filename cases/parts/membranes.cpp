@@ -3,7 +3,7 @@
 #include "cases/parts/part_kinds.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/model/model.hpp"
-#include "meshing/bars.hpp"
+#include "meshing/bars/bars.hpp"
 #include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/bars.hpp"
+#include "meshing/bars/bars.hpp"
 
 #include <gtest/gtest.h>
 
