@@ -23,6 +23,34 @@ void check_patch(const WrittenPart& written) {
   written.report_film("prestretch", "in equal-biaxial tension x and y are stretched alike");
 }
 
+/// Stresses hold no prestretch: the patch is cut free before the first step, and what its branches have
+/// relaxed to is lost.
+void check_stressed_patch(const WrittenPart& written) {
+  const Part& part = written.part;
+  const Case& one = written.one;
+  const auto* patch = std::get_if<Patch>(&part.geometry);
+  if (!patch || !part.film || (part.film->material.branches.empty() && part.film->material.viscosity == 0) ||
+      (!one.steps.empty() && one.steps.front().kind == StepKind::release))
+    return;
+  const auto flows = [](const Step& step) {
+    return step.duration || (!step.is_analysis() && step.response == Response::instantaneous);
+  };
+  if (std::ranges::none_of(one.steps, flows)) return;
+  const std::array stresses{&patch->stress_x, &patch->stress_y};
+  for (std::size_t i = 0; i < stresses.size(); ++i) {
+    const std::string key = i == 0 ? "stress_x" : "stress_y";
+    const Node* table = written.top().find("patch");
+    const Node* stress = table ? table->find(key) : nullptr;
+    if (!*stresses[i] || !stress || part.film->prestretch[i] == 1) continue;
+    written.reader.warn(
+        stress->source, written.path("patch." + key),
+        fmt::format("the prestretch is not held here: a step \"settle\" before the first cuts the film free, "
+                    "with its branches relaxed; hold it by stretch_{}, or ramp the stress with response = "
+                    "\"relaxed\" first, or say so by a [[step]] of kind \"release\"",
+                    "xy"[i]));
+  }
+}
+
 /// 300 % is no stretch: some mean a length that is three times as long, others four times.
 void check_prestretch(const WrittenPart& written) {
   const Node* film = written.top().find("film");
@@ -125,6 +153,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     const WrittenPart written{reader, tree, one, part};
     const Node& top = written.top();
     check_patch(written);
+    check_stressed_patch(written);
     check_prestretch(written);
     check_geometry(written);
     check_strip(written);

@@ -48,7 +48,10 @@ Section step_section() {
   section.selector = "kind";
   section.keys = {
       word("kind",
-           {{"release", "the prestretched film is cut free and finds its equilibrium", StepKind::release},
+           {{"release",
+             "the prestretched film is cut free and finds its equilibrium; where edges in tension are free "
+             "and no step of this kind is the first, one called \"settle\" comes before it",
+             StepKind::release},
             {"voltage", "ramps every drive to its voltage", StepKind::voltage},
             {"charge", "ramps every drive to its charge: the electrodes are isolated", StepKind::charge},
             {"force", "ramps every load to its force", StepKind::force},

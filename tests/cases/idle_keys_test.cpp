@@ -144,6 +144,18 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
   }
 }
 
+// Stresses hold no prestretch, which branches would remember.
+TEST_F(IdleKeys, PrestretchThatIsLetGoIsTold) {
+  const std::string flows =
+      "[[film.material.branch]]\nshear_modulus = \"50 kPa\"\nrelaxation_time = \"2 s\"\n";
+  const std::string patch = "[patch]\nlength = \"10 mm\"\nmode = \"equal-biaxial\"\nstress_x = \"55 kPa\"\n";
+  const std::string at_once = "[[step]]\nkind = \"force\"\nresponse = \"instantaneous\"\n";
+  EXPECT_EQ(keys(film + flows + patch + at_once), Keys{"patch.stress_x"});
+  EXPECT_EQ(keys(film + flows + patch + "[[step]]\nkind = \"release\"\n" + at_once), Keys{});
+  EXPECT_EQ(keys(film + flows + patch), Keys{"film.material.branch[1]"}); // relaxed: all the same
+  EXPECT_EQ(keys(film + flows + patch + at_once, {"film.prestretch=1"}), Keys{});
+}
+
 TEST_F(IdleKeys, SayingTheDefaultIsNoMistake) {
   EXPECT_EQ(keys(film + disc + ramp + "response = \"relaxed\"\n[solver]\ntime_tolerance = 1e-6\n"), Keys{});
   EXPECT_EQ(keys(film + disc + "[gravity]\nfilm = false\n"), Keys{});
