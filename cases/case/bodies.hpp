@@ -66,7 +66,7 @@ struct HungWeight {
 struct Gravity {
   double acceleration = 0;                   ///< m/s^2
   std::array<double, 3> direction{0, 0, -1}; ///< any length but 0
-  bool film = false;                         ///< whether the film's own weight counts
+  bool film = false;                         ///< whether film and bars have a weight, too
 
   Eigen::Vector3d down() const { return Eigen::Vector3d(direction.data()).normalized(); }
 };

@@ -187,6 +187,21 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
+/// Gravity that is written pulls at masses of bodies alone, unless it says otherwise.
+void check_own_weight(SectionReader& reader, const Node& tree, const Case& one) {
+  const Node* gravity = tree.find("gravity");
+  const bool falls = std::ranges::count(one.steps, StepKind::weight, &Step::kind) > 0;
+  if (!gravity || gravity->find("film") || one.gravity.film || !falls) return;
+  const bool heavy = std::ranges::any_of(one.parts, [](const Part& part) {
+    return (part.film && part.film->material.density > 0) || (part.beam && part.beam->material.density > 0) ||
+           (part.cable && part.cable->density > 0);
+  });
+  if (heavy)
+    reader.warn(gravity->source, "gravity",
+                "the own weight of film and bars is left out here, though they have a density: film = true "
+                "counts it, film = false says that it shall be so");
+}
+
 /// A given charge stays what it is, whatever leaks.
 void check_leaks(SectionReader& reader, const Node& tree, const Case& one) {
   const bool leaks = std::ranges::any_of(
@@ -348,6 +363,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_waves(reader, tree, one);
   check_rows(reader, tree, one);
   check_masses(reader, tree, one);
+  check_own_weight(reader, tree, one);
   check_leaks(reader, tree, one);
   check_bodies(reader, tree, one);
   check_supports(reader, tree, one);

@@ -243,24 +243,23 @@ Section gravity_section() {
   section.name = "gravity";
   section.meaning = "what the steps of kind \"weight\" apply";
   section.access = member(&Case::gravity);
-  section.keys = {measure("acceleration", "m/s^2", to(&Gravity::acceleration), "of free fall")
-                      .at_least(0)
-                      .otherwise("9.81 m/s^2")
-                      .only_with(when::weight()),
-                  number("direction", to(&Gravity::direction),
-                         "where it pulls; any length; by default a [strip] hangs along [0, -1, 0]")
-                      .values(3, 3)
-                      .otherwise("[0, 0, -1]")
-                      .checked([](const Value& value) {
-                        const bool zero =
-                            std::ranges::all_of(value, [](const Scalar& c) { return c.number == 0; });
-                        return std::string(zero ? "found no direction" : "");
-                      })
-                      .only_with(when::weight()),
-                  flag("film", to(&Gravity::film),
-                       "whether the film's own weight counts; by default that of a [strip] does")
-                      .otherwise("false")
-                      .only_with(when::weight())};
+  section.keys = {
+      measure("acceleration", "m/s^2", to(&Gravity::acceleration), "of free fall")
+          .at_least(0)
+          .otherwise("9.81 m/s^2")
+          .only_with(when::weight()),
+      number("direction", to(&Gravity::direction),
+             "where it pulls; any length; by default a [strip] hangs along [0, -1, 0]")
+          .values(3, 3)
+          .otherwise("[0, 0, -1]")
+          .checked([](const Value& value) {
+            const bool zero = std::ranges::all_of(value, [](const Scalar& c) { return c.number == 0; });
+            return std::string(zero ? "found no direction" : "");
+          })
+          .only_with(when::weight()),
+      flag("film", to(&Gravity::film), "whether film and bars have a weight, too; by default a [strip] has")
+          .otherwise("false")
+          .only_with(when::weight())};
   return section;
 }
 

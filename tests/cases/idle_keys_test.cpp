@@ -144,6 +144,16 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
   }
 }
 
+// Gravity that is written pulls at film and bars only where it says so.
+TEST_F(IdleKeys, WeightThatIsLeftOutIsTold) {
+  const std::string weighed =
+      film + diaphragm + "[[step]]\nkind = \"weight\"\n[gravity]\nacceleration = 1.6\n";
+  EXPECT_EQ(keys(weighed), Keys{"gravity"});
+  EXPECT_EQ(keys(weighed + "film = true\n"), Keys{});
+  EXPECT_EQ(keys(weighed + "film = false\n"), Keys{});
+  EXPECT_EQ(keys(weighed, {"film.material.density=0"}), Keys{});
+}
+
 // Stresses hold no prestretch, which branches would remember.
 TEST_F(IdleKeys, PrestretchThatIsLetGoIsTold) {
   const std::string flows =
