@@ -61,6 +61,15 @@ void require_loads_that_act(const Case& one, const Device& device) {
             fmt::format("nothing turns about {} at \"{}\": membranes have no rotations, walls and bodies "
                         "have, in a planar model about z",
                         "xyz"[c - 3], one.loads[l].place));
+      const std::vector<double>& shares = device.shares.at(one.loads[l].place).of_nodes;
+      double acting = 0;
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        if (device.model.dofs.equation(nodes[n], c) != fem::DofMap::absent) acting += shares[n];
+      if (!(acting > 0))
+        reject_load(one, l,
+                    fmt::format("of what is spread over \"{}\" the nodes that turn have no share; name the "
+                                "edge or the body that is to turn",
+                                one.loads[l].place));
     }
   if (!device.free_body) return;
   for (const double t : telling_times(one)) {
