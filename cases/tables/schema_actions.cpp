@@ -118,9 +118,10 @@ Section load_section() {
       text("place", to(&Load::place),
            "the place over whose volume, area or length as drawn it is spread evenly")
           .refers_to(Reference::place),
-      wave("force", "N", force, "components along x, y and z").values(3, 3),
+      wave("force", "N", force, "components along x, y and z; a load is a force or a moment").values(3, 3),
       wave("moment", "N m", to(&Load::moment),
-           "components about axes along x, y and z that stay; on a body, or on those nodes of walls that can "
+           "instead of a force: components about axes along x, y and z that stay; on a body, or on those "
+           "nodes of walls that can "
            "turn")
           .values(3, 3)
           .replacing("force"),

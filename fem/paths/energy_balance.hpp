@@ -116,9 +116,9 @@ class EnergyBalance {
   Record record_;
 };
 
-/// What acts from outside on an accepted state, N and N m, per equation: internal forces and those of inertia,
-/// damping and drag at the state's own time, those on tied nodes moved to their masters. Less the dead forces
-/// these are the reactions at held equations; where no mass moves, zero at free ones.
+/// What acts from outside on an accepted state, N and N m, per equation: internal forces and those of
+/// inertia, damping and drag at the state's own time, those on tied nodes moved to their masters. Less the
+/// dead forces these are the reactions at held equations; where no mass moves, zero at free ones.
 void external_force(Equilibrium& equilibrium, const State& state, Eigen::VectorXd& force);
 
 /// Collects an energy point at an equilibrium.
