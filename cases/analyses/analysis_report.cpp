@@ -20,12 +20,6 @@ post::Section modes_section(const Analysis& analysis) {
   return {analysis.step, {std::move(table)}};
 }
 
-/// "rad/V" of "tilt_x_per_volt[rad/V]".
-std::string unit_in_brackets(const std::string& column) {
-  const std::size_t opened = column.find('[') + 1;
-  return column.substr(opened, column.size() - 1 - opened);
-}
-
 } // namespace
 
 post::Section analysis_section(const Analysis& analysis) {
@@ -35,7 +29,8 @@ post::Section analysis_section(const Analysis& analysis) {
     std::size_t column;
   };
   std::vector<post::Plot> plots;
-  std::vector<Curve> curves{{analysis.of, "per volt [" + unit_in_brackets(analysis.columns[1]) + "]", 1}};
+  const std::string& per_volt = analysis.columns[1]; // tilt_x_per_volt[rad/V]
+  std::vector<Curve> curves{{analysis.of, "per volt " + per_volt.substr(per_volt.find('[')), 1}};
   const std::size_t count = analysis.driven.size();
   for (std::size_t d = 0; d < count; ++d)
     curves.push_back({count > 1 ? "Voltage at electrode " + analysis.driven[d] : "Voltage at the electrode",
