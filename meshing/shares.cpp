@@ -163,13 +163,9 @@ Eigen::VectorXd integrals(const Mesh& mesh, const Cells& cells, bool turned) {
 class Sharing {
  public:
   Sharing(const Mesh& mesh, bool of_revolution)
-      : mesh_(mesh), of_revolution_(of_revolution), radius_(mesh.bounds().max().x()) {
-    if (const CellBlock* film = mesh.film(); film && (is_triangle(film->type) || is_tetrahedron(film->type)))
-      for (int corners = corners_per_cell(film->type) - 1; corners > 1; --corners)
-        bounds_.push_back(bounds_of(*film, corners));
-  }
+      : mesh_(mesh), of_revolution_(of_revolution), radius_(mesh.bounds().max().x()) {}
 
-  Shares in(const std::string& place, const std::vector<int>& nodes) const {
+  Shares in(const std::string& place, const std::vector<int>& nodes) {
     const auto count = static_cast<double>(nodes.size());
     const Shares even{std::vector<double>(nodes.size(), 1 / count)};
     if (nodes.size() < 2) return even;
@@ -204,7 +200,14 @@ class Sharing {
     return marked;
   }
 
-  std::optional<Cells> cells_of(const std::string& place, const std::vector<int>& nodes) const {
+  /// What bounds the film and has so many corners; edges of tetrahedra are many, and few places need them.
+  const Bounds& bounds(int corners) {
+    const auto [found, fresh] = bounds_.try_emplace(corners);
+    if (fresh) found->second = bounds_of(*mesh_.film(), corners);
+    return found->second;
+  }
+
+  std::optional<Cells> cells_of(const std::string& place, const std::vector<int>& nodes) {
     if (const auto set = mesh_.cell_sets.find(place); set != mesh_.cell_sets.end())
       return Cells{&mesh_.blocks[static_cast<std::size_t>(set->second.block)], set->second.cells};
     if (const auto film = mesh_.cell_sets.find(place + ".film"); film != mesh_.cell_sets.end()) // a part
@@ -213,7 +216,10 @@ class Sharing {
     const auto all_marked = [](const std::vector<char>& marked, std::span<const int> own) {
       return std::ranges::all_of(own, [&](int node) { return marked[static_cast<std::size_t>(node)] != 0; });
     };
-    for (const auto& [pieces, outer] : bounds_) {
+    const CellBlock* film = mesh_.film();
+    if (!film || !(is_triangle(film->type) || is_tetrahedron(film->type))) return std::nullopt;
+    for (int corners = corners_per_cell(film->type) - 1; corners > 1; --corners) {
+      const auto& [pieces, outer] = bounds(corners);
       Cells found{&pieces, {}};
       for (int p = 0; p < pieces.size(); ++p)
         if (outer[static_cast<std::size_t>(p)] != 0 && all_marked(there, pieces.cell(p)))
@@ -231,14 +237,14 @@ class Sharing {
 
   const Mesh& mesh_;
   bool of_revolution_;
-  double radius_;              ///< the largest, m
-  std::vector<Bounds> bounds_; ///< of the film, faces before edges
+  double radius_;                ///< the largest, m
+  std::map<int, Bounds> bounds_; ///< of the film, by their corners
 };
 
 } // namespace
 
 std::map<std::string, Shares> shares(const Mesh& mesh, bool of_revolution) {
-  const Sharing sharing(mesh, of_revolution);
+  Sharing sharing(mesh, of_revolution);
   std::map<std::string, Shares> all;
   for (const auto& [place, nodes] : mesh.node_sets) all[place] = sharing.in(place, nodes);
   return all;
