@@ -75,7 +75,13 @@ WallContactSearch::WallContactSearch(const meshing::Mesh& mesh, const meshing::C
 bool WallContactSearch::share_joint(int wall, int other) const {
   const auto& a = joints_[static_cast<std::size_t>(wall)];
   const auto& b = joints_[static_cast<std::size_t>(other)];
-  return wall == other || a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+  const auto meet = [&](int one, int another) { // ends of two parts are two nodes, drawn at one place
+    constexpr double round_off = 1e-9;          // of the widest wall
+    const Eigen::Vector3d apart =
+        mesh_.nodes[static_cast<std::size_t>(one)] - mesh_.nodes[static_cast<std::size_t>(another)];
+    return one == another || apart.norm() < round_off * widest_;
+  };
+  return wall == other || meet(a[0], b[0]) || meet(a[0], b[1]) || meet(a[1], b[0]) || meet(a[1], b[1]);
 }
 
 std::vector<WallContact> WallContactSearch::find(const State& state) const {

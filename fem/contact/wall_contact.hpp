@@ -16,8 +16,8 @@ struct WallContact {
 };
 
 /// Finds walls that touch. Walls are chains of beams between joints (nodes where not two beams meet in line);
-/// walls that share a joint always meet there and are left out. Distances are taken between the beams'
-/// chords.
+/// walls that share a joint, or have joints that are drawn at one place (ends of two parts), always meet
+/// there and are left out. Distances are taken between the beams' chords.
 class WallContactSearch {
  public:
   /// `widths`: of the wall at each line, m; walls touch where their centrelines are the mean of theirs apart.

@@ -91,6 +91,15 @@ TEST_F(Walls, ThatMeetInAJointDoNotCount) {
   EXPECT_TRUE(find(0.5).empty());
 }
 
+// Two parts that a tie or a body joins have a node each where they meet.
+TEST_F(Walls, OfTwoPartsThatEndAtOnePlaceDoNotCount) {
+  wall({0, 0, 0}, {1, 0, 0});
+  wall({1, 0, 0}, {2, 0.1, 0});
+  EXPECT_TRUE(find(0.2).empty());
+  wall({1, 0.01, 0}, {2, 0.2, 0}); // ends beside, not there
+  EXPECT_FALSE(find(0.2).empty());
+}
+
 TEST_F(Walls, NearestFirst) {
   wall({0, 0, 0}, {1, 0, 0});
   wall({0, 0.3, 0}, {1, 0.3, 0});
