@@ -29,12 +29,17 @@ double coarsen_mesh(Part& part, int factor) {
   return static_cast<double>(fine) / elements;
 }
 
-/// Elements of all parts larger by a factor; returns by how much they are, 1 where they cannot all be.
-/// Patches and what is one element are exact.
+/// Whether larger elements would change nothing, or there are none.
+bool is_exact(const Part& part) {
+  return !part.has_mesh() || std::holds_alternative<Patch>(part.geometry) || is_one_element(part);
+}
+
+/// Elements of all parts that are not exact larger by a factor; returns by how much they are, 1 where they
+/// cannot all be.
 double coarsen_meshes(Case& one, int factor) {
   double coarser = 1;
   for (Part& part : one.parts) {
-    if (!part.has_mesh() || std::holds_alternative<Patch>(part.geometry) || is_one_element(part)) continue;
+    if (is_exact(part)) continue;
     const double by = coarsen_mesh(part, factor);
     if (by == 1 || (coarser > 1 && by != coarser)) return 1;
     coarser = by;
@@ -42,11 +47,10 @@ double coarsen_meshes(Case& one, int factor) {
   return coarser;
 }
 
-/// Whether all meshes are such; and there is one.
-template<class T>
-bool all_are(const Case& one) {
-  return one.any_geometry<T>() && std::ranges::all_of(one.parts, [](const Part& part) {
-           return !part.has_mesh() || std::holds_alternative<T>(part.geometry);
+/// Whether all meshes are the user's own; and there is one.
+bool has_own_meshes_only(const Case& one) {
+  return one.any_geometry<MeshFile>() && std::ranges::all_of(one.parts, [](const Part& part) {
+           return !part.has_mesh() || std::holds_alternative<MeshFile>(part.geometry);
          });
 }
 
@@ -69,16 +73,15 @@ bool takes_time(const Case& one) {
 
 std::vector<Discretisation> other_discretisations(const Case& one) {
   std::vector<Discretisation> others;
-  const bool own_meshes = all_are<MeshFile>(one);
-  if (own_meshes &&
+  if (has_own_meshes_only(one) &&
       std::ranges::any_of(one.parts, [](const Part& p) { return p.has_mesh() && p.mesh.refine == 0; })) {
     Discretisation& finer = others.emplace_back(Discretisation{one, 0.5});
     for (Part& part : finer.one.parts) ++part.mesh.refine;
     coarsen_steps(finer.one, 2);
     return others;
   }
-  const bool timed = takes_time(one);
-  if (all_are<Patch>(one) && !timed) {
+  const bool exact = std::ranges::all_of(one.parts, is_exact);
+  if (exact && !takes_time(one)) {
     Discretisation& fewer = others.emplace_back(Discretisation{one, fewer_increments});
     coarsen_steps(fewer.one, 1);
     return others;
@@ -87,7 +90,7 @@ std::vector<Discretisation> other_discretisations(const Case& one) {
   for (const int factor : {2, 4}) {
     Discretisation coarser{one};
     const double elements = coarsen_meshes(coarser.one, factor);
-    if (elements < coarsest_mesh || (elements == 1 && !timed)) break;
+    if (elements < coarsest_mesh || (elements == 1 && !exact)) break;
     coarsest_mesh = elements;
     coarsen_steps(coarser.one, factor);
     coarser.size = elements > 1 ? elements : factor;

@@ -19,8 +19,8 @@ bool takes_time(const Case& one);
 /// Discretisations that tell, beside the case's own, how much its results depend on elements and time steps:
 /// elements and time steps about twice and four times as large, from the finer to the coarser, as many as
 /// there are. A user's own mesh that is not refined has one with elements half as large and time steps twice
-/// as long. Static steps take a third of their increments: a homogeneous patch without time has that only.
-/// Empty when the mesh is the coarsest already and no time passes.
+/// as long. Static steps take a third of their increments: homogeneous patches and what is one element have
+/// that only where no time passes. Empty when a mesh is the coarsest already.
 std::vector<Discretisation> other_discretisations(const Case& one);
 
 } // namespace dielast::cases

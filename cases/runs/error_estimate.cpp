@@ -182,7 +182,8 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   const std::vector<Discretisation> discretisations = other_discretisations(one);
   Estimates estimates;
   if (discretisations.empty()) {
-    estimates.reason = "the mesh is the coarsest already";
+    estimates.reason = one.parts.size() > 1 ? "the meshes of its parts cannot all be made coarser alike"
+                                            : "the mesh is the coarsest already";
     return estimates;
   }
   if (discretisations.front().size < 1 && own_run.device().tension_field) {

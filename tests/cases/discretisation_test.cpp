@@ -80,5 +80,10 @@ TEST(OtherDiscretisations, DoNotMixMeshesWhereTimePasses) {
   EXPECT_EQ(others[0].one.parts.front().mesh.rings, 3);
 }
 
+// Longer time steps alone tell nothing of the elements' part of the error.
+TEST(OtherDiscretisations, AreNoneWithTheCoarsestMeshWhereTimePasses) {
+  EXPECT_TRUE(other_discretisations(read_case(valid / "moved.toml", {"mesh.rings=3"})).empty());
+}
+
 } // namespace
 } // namespace dielast::cases
