@@ -51,7 +51,7 @@ struct Beam {
   double offset = 0; ///< of their axes from the lines, along the film's normal, m
 };
 
-/// [rod]: a film rolled or folded to a bar that pulls along itself, and is free across itself
+/// [rod]: a film rolled up to a bar that pulls along itself; both directions across it change alike
 struct Rod {
   double width = 0;                         ///< of one layer, unstretched, m
   int layers = 1;                           ///< of film, one on another or wound
