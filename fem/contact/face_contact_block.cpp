@@ -90,7 +90,7 @@ class FaceContactBlock final : public ContactBlock {
         pairs.push_back({surface, own, other});
       });
       std::ranges::sort(pairs);
-      pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     }
     if (choice_ == 0 || pairs != pairs_) {
       pairs_ = std::move(pairs);

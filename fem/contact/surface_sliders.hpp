@@ -38,8 +38,8 @@ class SurfaceSliders {
     Shape shape = Shape::Zero();                               ///< there
     Vector3d normal = Vector3d::Zero();                        ///< unit vector from there to the node
 
-    void add_nearest(int own_face, int other_face, double away, const Shape& at, const Vector3d& across) {
-      if (away < distance) *this = {force, away, own_face, other_face, at, across};
+    void add_nearest(int of_own, int of_other, double away, const Shape& at, const Vector3d& direction) {
+      if (away < distance) *this = {force, away, of_own, of_other, at, direction};
     }
   };
 
