@@ -151,6 +151,10 @@ Section mesh_section() {
   section.name = "mesh";
   section.meaning = "how fine the mesh is, or the user's own mesh";
   section.access = same_object();
+  section.access.entries = [](const void* part) { // what is a place has the mesh of another part
+    return static_cast<const Part*>(part)->has_mesh() ? std::vector<Access::Entry>{{"", part}}
+                                                      : std::vector<Access::Entry>{};
+  };
   section.selector = "geometry";
   for (const GeometryKind& kind : geometry_kinds())
     add_keys_of(kind.section.name, kind.mesh_keys, section.keys);

@@ -31,7 +31,6 @@ void write_section(const Section& section, const void* object, const std::string
   const std::string selected = section.selector == "geometry"
                                    ? geometry_name(*static_cast<const Part*>(object))
                                    : section.selected_in(object);
-  if (section.selector == "geometry" && selected.empty()) return; // a place has the mesh of another part
   for (const Key& key : section.keys)
     if (key.applies_to(selected) && key.binding.get)
       if (const auto value = key.binding.get(object))

@@ -34,6 +34,14 @@ bool is_without_mesh(const Node& outer) {
   return !has_geometry(outer) && (outer.find("part") || outer.find("place"));
 }
 
+/// A binding that gives nothing of a part that is a place: its position is that of another's mesh.
+Binding of_own_mesh(Binding binding) {
+  binding.get = [get = std::move(binding.get)](const void* part) {
+    return static_cast<const Part*>(part)->place.empty() ? get(part) : std::nullopt;
+  };
+  return binding;
+}
+
 } // namespace
 
 std::vector<Section> unnamed_part_sections() {
@@ -73,10 +81,10 @@ std::vector<Section> part_sections() {
            "its own")
           .refers_to(Reference::place)
           .optional(),
-      measure("at", "m", to(&Part::at), "where the origin of its own geometry is")
+      measure("at", "m", of_own_mesh(to(&Part::at)), "where the origin of its own geometry is")
           .values(3, 3)
           .otherwise("[0, 0, 0]"),
-      measure("turned", "rad", to(&Part::turned),
+      measure("turned", "rad", of_own_mesh(to(&Part::turned)),
               "angle by which its own geometry is turned about z, before it is placed")
           .otherwise("0 deg"),
   };

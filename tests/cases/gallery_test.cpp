@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/readers/reader.hpp"
+#include "cases/readers/resolved.hpp"
 #include "cases/readers/study_reader.hpp"
 #include "tests/cases/command.hpp"
 #include "tests/cases/gallery_files.hpp"
@@ -27,6 +29,12 @@ TEST_P(GalleryCase, PassesItsChecks) {
   const bool to_and_fro = GetParam().ends_with("cycles.toml");
   const double scale = to_and_fro ? 1200 * energy("capacitance") * 4000.0 * 4000.0 / 2 : work;
   EXPECT_LT(energy("energy_error"), (flows ? 1e-5 : 1e-8) * scale);
+}
+
+TEST_P(GalleryCase, IsTheSameCaseWhenItsResolvedTextIsRead) {
+  const std::string resolved = cases::resolved_text(cases::read_case(gallery / GetParam()));
+  write("resolved.toml", resolved);
+  EXPECT_EQ(cases::resolved_text(cases::read_case(directory / "resolved.toml")), resolved);
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, GalleryCase, testing::ValuesIn(gallery_files(false)), test_name);
