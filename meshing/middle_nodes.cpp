@@ -11,12 +11,8 @@ namespace {
 
 using Side = std::pair<int, int>;
 
-/// Corners at the ends of the sides, in the order of their middle nodes: those of a triangle, or a
-/// tetrahedron.
-constexpr std::array<std::array<std::size_t, 2>, 6> ends{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-
 Side side_of(std::span<const int> cell, std::size_t k) {
-  return std::minmax(cell[ends[k][0]], cell[ends[k][1]]);
+  return std::minmax(cell[side_ends[k][0]], cell[side_ends[k][1]]);
 }
 
 std::size_t sides_per_cell(CellType type) { return type == CellType::line2 ? 1 : is_triangle(type) ? 3 : 6; }

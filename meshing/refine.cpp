@@ -23,9 +23,6 @@ constexpr std::array<std::array<int, 4>, 8> eighths{{{0, 4, 6, 7},
                                                      {6, 8, 9, 7},
                                                      {6, 8, 7, 4}}};
 
-/// Corners at the ends of the sides of a triangle, or a tetrahedron; its middle nodes lie between them.
-constexpr std::array<std::array<std::size_t, 2>, 6> ends{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-
 int parts_of(CellType type) { return is_line(type) ? 2 : is_triangle(type) ? 4 : 8; }
 
 CellBlock split(const CellBlock& block) {
@@ -53,7 +50,7 @@ Eigen::Vector4d barycentric(std::size_t corners, int node) {
   Eigen::Vector4d l = Eigen::Vector4d::Zero();
   const auto n = static_cast<std::size_t>(node);
   if (n < corners) return Eigen::Vector4d::Unit(node);
-  for (const std::size_t end : ends[n - corners]) l[static_cast<int>(end)] = 0.5;
+  for (const std::size_t end : side_ends[n - corners]) l[static_cast<int>(end)] = 0.5;
   return l;
 }
 
@@ -67,7 +64,7 @@ Eigen::Vector3d between(const Mesh& mesh, std::span<const int> cell, int a, int 
     x += li * (2 * li - 1) * mesh.nodes[static_cast<std::size_t>(cell[i])];
   }
   for (std::size_t k = corners; k < cell.size(); ++k) {
-    const auto [from, to] = ends[k - corners];
+    const auto [from, to] = side_ends[k - corners];
     x += 4 * l[static_cast<int>(from)] * l[static_cast<int>(to)] *
          mesh.nodes[static_cast<std::size_t>(cell[k])];
   }
@@ -81,7 +78,7 @@ void bend(const Mesh& whole, const CellBlock& block, const CellBlock& parts, Mes
     const auto part = parts.cell(part_number);
     for (std::size_t side = 0; side + corners < part.size(); ++side)
       mesh.nodes[static_cast<std::size_t>(part[corners + side])] =
-          between(whole, block.cell(c), own[ends[side][0]], own[ends[side][1]]);
+          between(whole, block.cell(c), own[side_ends[side][0]], own[side_ends[side][1]]);
   };
   for (int c = 0; c < block.size(); ++c)
     for (int q = 0; q < parts_of(block.type); ++q)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/shares.hpp"
 
+#include "meshing/middle_nodes.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -14,10 +16,6 @@ namespace dielast::meshing {
 namespace {
 
 using Index = Eigen::Index;
-
-/// Corners at the ends of the sides, in the order of their middle nodes: of a line the first, of a triangle
-/// the first three.
-constexpr std::array<std::array<int, 2>, 6> ends{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
 bool has_middles(CellType type) { return nodes_per_cell(type) > corners_per_cell(type); }
 
@@ -40,28 +38,27 @@ Bounds bounds_of(const CellBlock& cells, int corners) {
     std::vector<int> nodes;
   };
   std::vector<Keyed> all;
-  const int own_corners = corners_per_cell(cells.type);
+  const auto own_corners = static_cast<std::size_t>(corners_per_cell(cells.type));
   const bool middles = has_middles(cells.type);
   for (int c = 0; c < cells.size(); ++c) {
     const auto cell = cells.cell(c);
     for (unsigned chosen = 0; chosen < 1U << own_corners; ++chosen) {
-      std::vector<int> own;
-      for (int k = 0; k < own_corners; ++k)
+      std::vector<std::size_t> own;
+      for (std::size_t k = 0; k < own_corners; ++k)
         if ((chosen >> k & 1U) != 0) own.push_back(k);
       if (std::ssize(own) != corners) continue;
       Keyed piece{{-1, -1, -1}, {}};
       for (std::size_t k = 0; k < own.size(); ++k) {
-        piece.nodes.push_back(cell[static_cast<std::size_t>(own[k])]);
+        piece.nodes.push_back(cell[own[k]]);
         piece.key.at(k) = piece.nodes.back();
       }
       std::ranges::sort(piece.key);
       for (std::size_t k = 0; middles && k < (corners == 2 ? 1U : 3U); ++k) {
-        const auto [a, b] =
-            std::minmax(own[static_cast<std::size_t>(ends[k][0])], own[static_cast<std::size_t>(ends[k][1])]);
-        const auto side = std::ranges::find_if(ends, [a = a, b = b](const auto& e) {
+        const auto [a, b] = std::minmax(own[side_ends[k][0]], own[side_ends[k][1]]);
+        const auto side = std::ranges::find_if(side_ends, [a = a, b = b](const auto& e) {
           return std::min(e[0], e[1]) == a && std::max(e[0], e[1]) == b;
         });
-        piece.nodes.push_back(cell[static_cast<std::size_t>(own_corners + (side - ends.begin()))]);
+        piece.nodes.push_back(cell[own_corners + static_cast<std::size_t>(side - side_ends.begin())]);
       }
       all.push_back(std::move(piece));
     }
@@ -116,7 +113,7 @@ std::vector<Point> points_in(CellType type) {
         point.slope.row(a) = (4 * bary[a] - 1) * change.row(a);
       }
       for (int m = corners; m < nodes; ++m) {
-        const auto [a, b] = ends[static_cast<std::size_t>(m - corners)];
+        const auto [a, b] = side_ends[static_cast<std::size_t>(m - corners)];
         point.shape[m] = 4 * bary[a] * bary[b];
         point.slope.row(m) = 4 * (bary[a] * change.row(b) + bary[b] * change.row(a));
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/solids/extruded.hpp"
 
+#include "meshing/middle_nodes.hpp"
 #include "meshing/solids/grid.hpp"
 
 #include <algorithm>
@@ -34,8 +35,6 @@ std::size_t between(std::size_t a, std::size_t b) {
   return (a + 1) % 3 == b ? 3 + a : 3 + b;
 }
 
-constexpr std::array<std::array<std::size_t, 2>, 6> sides{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-
 } // namespace
 
 Mesh extruded(const Mesh& drawing, const std::vector<double>& levels,
@@ -66,7 +65,7 @@ Mesh extruded(const Mesh& drawing, const std::vector<double>& levels,
         if ((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) < 0)
           std::swap(tetrahedron[0], tetrahedron[1]);
         for (const Corner& corner : tetrahedron) nodes.push_back(node(l, cell, corner.at, 2 * corner.up));
-        for (const auto& [a, b] : sides) {
+        for (const auto& [a, b] : side_ends) {
           const Corner &from = tetrahedron[a], &to = tetrahedron[b];
           nodes.push_back(node(l, cell, between(from.at, to.at), from.up + to.up));
         }
