@@ -14,10 +14,10 @@ namespace dielast::fem {
 namespace {
 
 constexpr int spare_vectors = 6, powers = 4, most_sweeps = 100;
-constexpr double tolerance = 1e-6;      ///< of modes; that of omega^2 is its square
-constexpr double spanned = 1e-10;       ///< part of a vector that is round-off
-constexpr double round_off = 1e-13;     ///< of omega^2, over that of the stiffest unknowns
-constexpr double singular_shift = 1e-9; ///< likewise
+constexpr double tolerance = 1e-6;        ///< of modes; that of omega^2 is its square
+constexpr double spanned = 1e-10;         ///< part of a vector that is round-off
+constexpr double omega_round_off = 1e-13; ///< of omega^2, over that of the stiffest unknowns
+constexpr double singular_shift = 1e-9;   ///< likewise
 
 /// As the state is, but for what moves with a vibration.
 State vibrating(const State& state, bool instantaneous) {
@@ -127,8 +127,8 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
       converged = error <= tolerance * std::abs(inverse_square);
       if (found <= last) continue;
       const double distance = std::abs(inverse_square - theta[order[static_cast<std::size_t>(last)]]);
-      const bool another =
-          converged ? !coincide(stiffness[found], stiffness[last], round_off * fastest) : distance > error;
+      const bool another = converged ? !coincide(stiffness[found], stiffness[last], omega_round_off * fastest)
+                                     : distance > error;
       if (!another) continue;
       converged = true;
       break;
@@ -137,7 +137,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
     Eigen::MatrixXd shapes = X.leftCols(found);
     for (auto shape : shapes.colwise()) shape /= std::sqrt(shape.dot(M * shape));
     stiffness.conservativeResize(found);
-    orient(shapes, stiffness, round_off * fastest, equilibrium.weight().head(free).cwiseInverse());
+    orient(shapes, stiffness, omega_round_off * fastest, equilibrium.weight().head(free).cwiseInverse());
     std::vector<VibrationMode> modes;
     for (Eigen::Index i = 0; i <= last; ++i) modes.push_back({stiffness[i], shapes.col(i)});
     std::ranges::stable_sort(modes, {}, &VibrationMode::stiffness);

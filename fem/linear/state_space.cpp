@@ -18,7 +18,7 @@ namespace {
 
 /// Energy of a static response, over the whole, below which the modes say it all.
 constexpr double negligible = 1e-10;
-constexpr double round_off = 1e-13; ///< likewise
+constexpr double energy_round_off = 1e-13; ///< likewise
 
 Eigen::MatrixXd projected(const SparseSymmetric& pattern, const std::vector<double>& values,
                           const Eigen::MatrixXd& V) {
@@ -44,7 +44,7 @@ Eigen::MatrixXd residual_responses(const Linearisation& linear, const Eigen::Mat
   Eigen::VectorXd energies = energy.values.tail(kept);
   Eigen::MatrixXd residual =
       responses * energy.vectors.rightCols(kept) * energies.cwiseSqrt().cwiseInverse().asDiagonal();
-  orient(residual, energies, round_off, weight);
+  orient(residual, energies, energy_round_off, weight);
   return residual;
 }
 
