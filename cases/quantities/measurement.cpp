@@ -77,6 +77,12 @@ bool Measurement::follows_fields() const {
 }
 
 void Measurement::step_ended(const std::string& step, const Measured& measured) {
+  // Courses are those of the steps that a case has: what a film does to settle before the first is none of
+  // it.
+  const bool is_own = std::ranges::count(case_.steps, step, &Step::name) > 0;
+  for (const Quantity& quantity : case_.quantities)
+    if (!is_own && quantity.since.empty() && quantity.kind->begin)
+      quantity.kind->begin(references, quantity, measured.state.time);
   for (std::size_t q = 0; q < case_.quantities.size(); ++q) {
     const Quantity& quantity = case_.quantities[q];
     if (quantity.since != step || step.empty()) continue;

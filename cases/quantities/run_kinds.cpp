@@ -79,6 +79,8 @@ double peak(References& references, const Quantity& quantity, double now, double
   return peak;
 }
 
+void begin_peak(References& references, const Quantity& quantity, double) { references.erase(quantity.name); }
+
 double mean(References& references, const Quantity& quantity, double now, double time) {
   if (!references.contains(quantity.name)) {
     if (!quantity.since.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -129,7 +131,8 @@ std::vector<QuantityKind> run_kinds() {
        .without_error =
            [](const Quantity& q) { return std::string(q.of == "error" ? "an error itself" : ""); }},
       {.word = "peak",
-       .meaning = "smallest or largest value of another quantity so far",
+       .meaning = "smallest or largest value of another quantity so far, from where the first of the case's "
+                  "steps sets out",
        .keys =
            [] {
              return std::vector<Key>{subject_key(), extreme_key()};
@@ -140,6 +143,7 @@ std::vector<QuantityKind> run_kinds() {
            },
        .so_far = peak,
        .unit_by = unit_of_subject,
+       .begin = begin_peak,
        .orders = {{1, 1}}}, // read at some times only
       {.word = "mean",
        .meaning = "mean of another quantity so far, over the time in which it has a value",

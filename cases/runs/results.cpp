@@ -104,7 +104,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                           .unit = unit_of(quantity, one.quantities),
                           .ratio = ratio_of(quantity),
                           .meaning = meaning_of(quantity),
-                          .peak = peak_of(quantity, q, journal)};
+                          .peak = peak_of(one, q, journal)};
     if (quantity.kind->of_run) {
       const auto margin = std::ranges::find(results.margins, quantity.of, &Margin::limit);
       if (margin != results.margins.end()) {

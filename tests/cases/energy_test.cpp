@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/readers/reader.hpp"
+#include "cases/runs/curves.hpp"
 #include "cases/runs/simulation.hpp"
 #include "tests/cases/scratch.hpp"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 // Works, heat and peaks of runs in which they once were wrong in silence. Works and heat of random transients
 // are in works_test.cpp.
@@ -204,6 +206,33 @@ TEST_F(Energy, peaks_and_means_do_not_depend_on_what_is_recorded) {
   EXPECT_NEAR(ends[0].at("usual"), ends[1].at("usual"), 1e-9 * ends[1].at("usual"));
   EXPECT_NEAR(ends[1].at("usual"), 0.2 * ends[1].at("strongest"), 0.003 * ends[1].at("strongest"));
   EXPECT_NEAR(ends[1].at("widest"), 1.018417, 1e-6);
+}
+
+// A film that is drawn stretched settles first, by itself: peaks are those of the steps that were asked for.
+TEST_F(Energy, peaks_do_not_count_what_settles_before_the_first_step) {
+  const auto rows =
+      run("[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+          "permittivity = \"4e-11 F/m\"\n[patch]\nmode = \"equal-biaxial\"\n[drive]\nvoltage = { wave = "
+          "\"trapezoid\", to = \"5 kV\", rise = \"0.1 s\", hold = \"0.1 s\", fall = \"0.1 s\" }\n"
+          "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\n"
+          "[[quantity]]\nname = \"widest\"\nkind = \"peak\"\nof = \"stretch_x\"\nextreme = \"maximum\"\n");
+  ASSERT_GT(rows.front().at("stretch_x"), 1.4);
+  ASSERT_LT(rows.back().at("stretch_x"), 1.1);
+  double widest = 0;
+  for (const Row& row : rows)
+    if (row.at("time") > 0) widest = std::max(widest, row.at("stretch_x"));
+  EXPECT_GT(widest, 1.002);
+  EXPECT_EQ(rows.back().at("widest"), widest);
+  const Case one = read_case(directory / "case.toml");
+  Journal journal;
+  for (const auto& [step, time, value] : {std::tuple{"drawn", 0.0, 9.0},
+                                          {"settle", 0.0, 1.0},
+                                          {"transient", 0.5, 3.0},
+                                          {"transient", 1.0, 1.0}}) {
+    journal.records.push_back({.step = step, .time = time});
+    journal.values.push_back(std::vector<double>(one.quantities.size(), value));
+  }
+  EXPECT_EQ(peak_of(one, 0, journal)->value, 3.0);
 }
 
 TEST_F(Energy, a_mean_begins_where_its_step_ends) {
