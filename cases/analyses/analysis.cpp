@@ -24,7 +24,7 @@ Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State s
     if (step.control == Control::charge) {
       state.charge[e] = held[e];
       state.supply[e] = fem::Supply::charge;
-    } else if (state.supply[e] == fem::Supply::charge) { // a source takes up at the electrode's voltage
+    } else if (fem::is_isolated(state.supply[e])) { // a source takes up at the electrode's voltage
       state.supply[e] = fem::Supply::voltage;
     }
   }

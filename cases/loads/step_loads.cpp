@@ -25,8 +25,8 @@ double shortest_relaxation(const materials::Material& material, const fem::Model
     shortest = std::min(shortest, material.viscosity / materials::initial_shear_modulus(material.law));
   const fem::Charges drawn = model.charges(model.initial_state(), false);
   for (const fem::Circuit& circuit : model.circuits)
-    shortest = std::min(shortest,
-                        circuit.resistance * drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
+    shortest = std::min(shortest, std::min(circuit.resistance, 1 / circuit.leakage) *
+                                      drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
   for (const fem::Sheet& sheet : model.sheets)
     shortest =
         std::min(shortest, sheet.resistance * drawn.capacitance[static_cast<std::size_t>(sheet.electrode)]);
@@ -62,12 +62,19 @@ const Signal* StepLoads::signal_of(const Step& step, const DrivenLoad& load) con
   return found == signals_.end() ? nullptr : found->second.get();
 }
 
+/// An isolated electrode keeps its charge, or loses it through a leak while time passes.
+fem::Supply StepLoads::isolated(const Step& step, std::size_t electrode) const {
+  const fem::Circuit* circuit = device_.model.circuit_of(electrode);
+  return step.duration && circuit && circuit->leakage > 0 ? fem::Supply::leak : fem::Supply::charge;
+}
+
 /// Circuits take time; without, an electrode is at its source's voltage.
 fem::Supply StepLoads::supply(const Step& step, std::size_t electrode) const {
   const bool is_ramp = step.kind == StepKind::voltage || step.kind == StepKind::release;
-  if (step.kind == StepKind::charge ? goal_of(step, electrode, &Drive::charge, {}).has_value()
-                                    : !is_ramp && step.control == Control::charge)
-    return fem::Supply::charge;
+  const bool isolates = !is_ramp && step.kind != StepKind::charge && step.control == Control::charge;
+  const bool follows = step.kind == StepKind::charge || (isolates && step.kind == StepKind::transient);
+  if (follows && goal_of(step, electrode, &Drive::charge, {})) return fem::Supply::charge;
+  if (isolates) return isolated(step, electrode);
   return step.duration && device_.model.circuit_of(electrode) ? fem::Supply::circuit : fem::Supply::voltage;
 }
 
@@ -87,13 +94,13 @@ void StepLoads::begin(int number, fem::State& state) const {
   bool connects = false;
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
     const bool is_about_it = step.electrode.empty() || step.electrode == case_.electrodes[e].name;
-    const fem::Supply next = supply(step, e);
-    if (next == state.supply[e] || (!is_about_it && state.supply[e] == fem::Supply::charge)) continue;
+    const bool stays = !is_about_it && fem::is_isolated(state.supply[e]);
+    const fem::Supply next = stays ? isolated(step, e) : supply(step, e);
+    if (next == state.supply[e]) continue;
     state.charge[e] = held.charge[e];
-    if (next == fem::Supply::circuit) {
+    if (next == fem::Supply::circuit)
       state.source[e] = state.voltage[e] / device_.model.circuit_of(e)->steady_share();
-      connects = true;
-    }
+    connects = connects || fem::flows(next);
     state.supply[e] = next;
   }
   connect_chamber(step, held, state);
@@ -167,7 +174,7 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
     return signal ? std::optional(signal->at(t)) : said();
   };
   for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
-    const bool isolated = supply(step, e) == fem::Supply::charge;
+    const bool isolated = fem::is_isolated(supply(step, e));
     const auto voltage = goal({Driven::voltage, case_.electrodes[e].name},
                               [&] { return goal_of(step, e, &Drive::voltage, t); });
     if (does(StepKind::voltage) && voltage && !isolated) {

@@ -26,6 +26,7 @@ class StepLoads {
   Eigen::VectorXd let_go{};
 
  private:
+  fem::Supply isolated(const Step& step, std::size_t electrode) const;
   fem::Supply supply(const Step& step, std::size_t electrode) const;
   /// What a ramp leads to, or a transient has at t; nothing where the step is not about it.
   static std::optional<double> goal_of(const Step& step, const std::optional<Waveform>& wave, Instant t);

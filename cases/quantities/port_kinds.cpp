@@ -18,7 +18,7 @@ Probe current(const Probing& probing) {
   const fem::Circuit* circuit = probing.device.model.circuit_of(e);
   return [e, circuit](const Measured& measured) {
     const fem::State& state = measured.state;
-    if (!circuit || state.supply[e] == fem::Supply::charge) return no_value;
+    if (!circuit || fem::is_isolated(state.supply[e])) return no_value;
     if (state.supply[e] == fem::Supply::circuit) return circuit->current(state.source[e], state.voltage[e]);
     return circuit->leakage * state.voltage[e]; // without time what leaks
   };
@@ -52,8 +52,9 @@ std::vector<QuantityKind> port_kinds() {
          return [e = probing.electrode()](const Measured& measured) { return measured.charges.charge[e]; };
        }},
       {.word = "current",
-       .meaning = "that the source of an electrode's [circuit] gives: without time what leaks; none where a "
-                  "charge is given (A)",
+       .meaning =
+           "that the source of an electrode's [circuit] gives: without time what leaks; none where the "
+           "electrode is isolated or its charge is given (A)",
        .unit = "A",
        .keys = electrode_keys,
        .in_words =

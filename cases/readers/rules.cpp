@@ -204,14 +204,26 @@ void check_own_weight(SectionReader& reader, const Node& tree, const Case& one) 
 
 /// A given charge stays what it is, whatever leaks.
 void check_leaks(SectionReader& reader, const Node& tree, const Case& one) {
-  const bool leaks = std::ranges::any_of(
-      one.circuits, [](const auto& circuit) { return circuit.second.leakage_resistance.has_value(); });
-  for (std::size_t s = 0; leaks && s < one.steps.size(); ++s) {
+  const auto leaks = [](const auto& circuit) { return circuit.second.leakage_resistance.has_value(); };
+  const auto leaks_under_a_charge = [&](const auto& circuit) {
+    const auto drive = one.drives.find(circuit.first);
+    return leaks(circuit) && drive != one.drives.end() && drive->second.charge;
+  };
+  const bool any = std::ranges::any_of(one.circuits, leaks);
+  const bool any_given = std::ranges::any_of(one.circuits, leaks_under_a_charge);
+  for (std::size_t s = 0; any && s < one.steps.size(); ++s) {
     const Step& step = one.steps[s];
-    if (!step.duration || (step.kind != StepKind::charge && step.control != Control::charge)) continue;
+    const bool isolated = step.control == Control::charge;
+    const bool given = (step.kind == StepKind::charge && step.duration && (step.to || any_given)) ||
+                       (step.kind == StepKind::transient && isolated && any_given);
     const Place at = place_of_step(tree, s);
-    reader.warn(at.source, at.key,
-                "nothing leaks here: electrodes keep their charges, in spite of leakage_resistance");
+    if (given)
+      reader.warn(at.source, at.key,
+                  "charges that are given here stay what they are, in spite of leakage_resistance");
+    if (step.kind == StepKind::relax && isolated)
+      reader.warn(at.source, at.key,
+                  "isolated electrodes keep their charges here, in spite of leakage_resistance: these leak "
+                  "while time passes, in a hold");
   }
 }
 

@@ -164,8 +164,7 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     unknown_because = "no voltage is applied at the end";
   else if (std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); }))
     unknown_because = "time passes: a run tells of its own course of the voltage only";
-  else if (std::ranges::any_of(state.supply,
-                               [](fem::Supply supply) { return supply == fem::Supply::charge; }))
+  else if (std::ranges::any_of(state.supply, [](fem::Supply supply) { return fem::is_isolated(supply); }))
     unknown_because = "an electrode is isolated: its voltage follows";
   std::vector<Passed> way;
   std::string stopped = outcome.kind;

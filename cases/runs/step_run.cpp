@@ -58,7 +58,7 @@ std::string StepRun::load_text(const fem::State& at, double s) const {
   std::string text;
   double largest = 0;
   for (std::size_t e = 0; e < at.voltage.size(); ++e) {
-    const bool isolated = at.supply[e] == fem::Supply::charge;
+    const bool isolated = fem::is_isolated(at.supply[e]);
     const double from = isolated ? begin.charge[e] : begin.voltage[e];
     const double to = isolated ? at.charge[e] : at.voltage[e];
     if (std::abs(to - from) <= largest) continue;

@@ -193,10 +193,11 @@ Section circuit_section() {
   section.keys = {
       measure("resistance", "Ohm", to(&Circuit::resistance), "between the source and the electrode")
           .at_least(smallest_resistance),
-      measure("leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
-              "through the film under the whole electrode; without it none leaks, nor does any where "
-              "control = \"charge\". In steps without a duration it divides the voltage as it does in the "
-              "long run")
+      measure(
+          "leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
+          "through the film under the whole electrode; without it none leaks. In steps without a duration "
+          "it divides the voltage as it does in the long run. An isolated electrode loses its charge "
+          "through it while time passes; a charge that is given stays")
           .at_least(smallest_resistance)
           .optional(),
       measure("current_limit", "A", to(&Circuit::current_limit),

@@ -114,8 +114,8 @@ Section step_section() {
       word("control",
            {{"voltage", "the electrodes stay connected to their sources", Control::voltage},
             {"charge",
-             "the electrodes are isolated, or follow their charges; a source that is connected "
-             "again takes up at the voltage that it needs to keep the electrode's",
+             "the electrodes are isolated, or follow their charges in a transient; a source that is "
+             "connected again takes up at the voltage that it needs to keep the electrode's",
              Control::charge}},
            to(&Step::control), "what the electrodes keep")
           .otherwise("voltage")

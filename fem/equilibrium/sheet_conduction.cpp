@@ -97,9 +97,8 @@ void SheetConduction::set_drops(State& state, const Drops& drops) const {
 /// Phi at which an electrode has no surplus of charge.
 void SheetConduction::follow_charge(State& state, std::size_t electrode, const Eigen::VectorXd& capacitance,
                                     const Drops& drops) const {
-  const Circuit* circuit =
-      state.supply[electrode] == Supply::circuit ? model_.circuit_of(electrode) : nullptr;
-  const double share = circuit ? state.scheme.dt / state.scheme.a0 : 0;
+  const bool has_circuit = flows(state.supply[electrode]);
+  const double share = has_circuit ? state.scheme.dt / state.scheme.a0 : 0;
   double& voltage = state.voltage[electrode];
   for (int correction = 0; correction <= most_corrections; ++correction) {
     set_drops(state, drops);
@@ -109,8 +108,8 @@ void SheetConduction::follow_charge(State& state, std::size_t electrode, const E
       surplus += capacitance[a] * (voltage - state.sheet_drop[a]);
       slope += capacitance[a] * (1 - drops.per_volt[a]) - share * point(a).leakage * drops.per_volt[a];
     }
-    if (circuit) {
-      const Circuit::Drawn drawn = circuit->drawn(state.source[electrode], voltage, state.scheme);
+    if (has_circuit) {
+      const Circuit::Drawn drawn = model_.taken(state, electrode);
       surplus += drawn.charge;
       slope += drawn.capacitance;
     }

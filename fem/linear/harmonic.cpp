@@ -22,6 +22,7 @@ PortEquation equation_of(const Linearisation::Port& port, Linearisation::Complex
   case Supply::charge:
     return {0, 1, drive};
   case Supply::circuit:
+  case Supply::leak: // without a conductance
     return {port.conductance + port.leakage, s, port.conductance * drive};
   }
   return {};

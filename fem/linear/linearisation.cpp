@@ -56,11 +56,11 @@ void Linearisation::add_ports() {
     Port port{state_.supply[p], charges.coupling[p].head(stiffness_.size), charges.capacitance[p]};
     if (const Chamber* chamber = model().chamber_of(p))
       port.capacitance = chamber->compliance(charges.charge[p], state_.voltage[p]);
-    if (port.supply == Supply::circuit) {
+    if (flows(port.supply)) {
       const Circuit& circuit = *model().circuit_of(p);
       const double drop = state_.source[p] - state_.voltage[p];
       const bool limited = std::abs(drop) > circuit.current_limit * circuit.resistance;
-      port.conductance = limited ? 0 : 1 / circuit.resistance;
+      port.conductance = limited || is_isolated(port.supply) ? 0 : 1 / circuit.resistance;
       port.leakage = circuit.leakage;
     }
     ports_.push_back(std::move(port));

@@ -11,7 +11,8 @@ namespace dielast::fem {
 /// A model about a relaxed equilibrium (prestretched, charged, under its dead forces), for small motions
 /// exp(s t) of everything:
 ///   Z(s) du - B dPhi = df,  Z = K + sum_r K_r s/(s + rate_r) + s C + s^2 M,  dQ = B^T du + C_el dPhi,
-/// and per port what its supply says: dPhi given, dQ given, or s dQ + G dPhi = (dU - dPhi)/R of its circuit.
+/// and per port what its supply says: dPhi given, dQ given, s dQ + G dPhi = (dU - dPhi)/R of its circuit, or
+/// s dQ + G dPhi = 0 of one that is isolated but for its leak.
 /// K: tangent at fixed voltages with the dashpots relaxed; K_r: what branches that relax at rate_r add to it
 /// at once (see Relaxation). Matrices in the pattern of the assembler's.
 class Linearisation {
@@ -34,7 +35,7 @@ class Linearisation {
   std::vector<Complex> dynamic_stiffness(Complex s) const;
 
   /// Per port: what is given, dQ/du (C/m, of the free equations), capacitance (F), 1/R (0 where the source is
-  /// at its current limit) and G (S). Of a chamber likewise with pressure and volume.
+  /// at its current limit, or not connected) and G (S). Of a chamber likewise with pressure and volume.
   struct Port {
     Supply supply{};
     Eigen::VectorXd coupling;

@@ -25,6 +25,7 @@ State vibrating(const State& state, bool instantaneous) {
   at.scheme = instantaneous ? materials::TimeScheme::frozen() : materials::TimeScheme::relaxed();
   at.motion_scheme = {};
   std::ranges::replace(at.supply, Supply::circuit, Supply::voltage);
+  std::ranges::replace(at.supply, Supply::leak, Supply::charge);
   return at;
 }
 

@@ -64,7 +64,7 @@ std::string unrest(Equilibrium& equilibrium, const State& state) {
 State relaxed(State state) {
   if (state.history) state.scheme = materials::TimeScheme::relaxed();
   for (Supply& supply : state.supply)
-    if (supply == Supply::circuit) supply = Supply::voltage; // the source keeps it
+    if (flows(supply)) supply = is_isolated(supply) ? Supply::charge : Supply::voltage; // the source keeps it
   return state;
 }
 

@@ -117,7 +117,7 @@ StateSpace state_space(Equilibrium& equilibrium, const State& state, const Chann
   std::vector<Index> charge_of(ports.size(), -1);
   Index states = charge;
   for (std::size_t p = 0; p < ports.size(); ++p)
-    if (ports[p].supply == Supply::circuit) charge_of[p] = states++;
+    if (flows(ports[p].supply)) charge_of[p] = states++;
   MatrixXd given = MatrixXd::Zero(static_cast<Index>(ports.size()), inputs); // per port
   for (Index i = 0; i < inputs; ++i)
     given(static_cast<Index>(channels.inputs[static_cast<std::size_t>(i)]), i) = 1;

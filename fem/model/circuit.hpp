@@ -12,7 +12,7 @@ namespace dielast::fem {
 ///   dQ/dt = i - G Phi,  i = (U - Phi)/R, at most the source's limit either way.
 /// Over a time step (see TimeScheme) this is Q(u, Phi) + drawn(Phi) = (h1 Q_n + h2 Q_{n-1}) / a0 with
 /// drawn = (dt/a0) (G Phi - i(Phi)), which grows with Phi: an electrode of given charge whose capacitance is
-/// larger. Q_n is an internal variable of the model.
+/// larger. Q_n is an internal variable of the model. Isolated (Supply::leak), i = 0.
 struct Circuit {
   int electrode = 0;
   double resistance = 0;                                          ///< R > 0, Ohm
@@ -32,6 +32,11 @@ struct Circuit {
     double capacitance = 0; ///< its slope, F
     double energy = 0;      ///< its integral over Phi, J
   };
+  /// What leaks of it alone.
+  Drawn leaked(double voltage, const materials::TimeScheme& scheme) const {
+    const double per_volt = scheme.dt / scheme.a0 * leakage;
+    return {per_volt * voltage, per_volt, per_volt * voltage * voltage / 2};
+  }
   Drawn drawn(double source, double voltage, const materials::TimeScheme& scheme) const {
     const double step = scheme.dt / scheme.a0, drop = source - voltage;
     const double limit = current_limit * resistance;

@@ -84,10 +84,18 @@ const Circuit* Model::circuit_of(std::size_t electrode) const {
   return found == circuits.end() ? nullptr : &*found;
 }
 
+Circuit::Drawn Model::taken(const State& state, std::size_t electrode) const {
+  const Circuit& circuit = *circuit_of(electrode);
+  const double voltage = state.voltage[electrode];
+  return state.supply[electrode] == Supply::leak
+             ? circuit.leaked(voltage, state.scheme)
+             : circuit.drawn(state.source[electrode], voltage, state.scheme);
+}
+
 double Model::given_charge(const State& state, std::size_t port) const {
   if (const Chamber* chamber = chamber_of(port))
     return chamber->filled(state.charge[port], state.voltage[port]);
-  if (state.supply[port] != Supply::circuit) return state.charge[port];
+  if (!flows(state.supply[port])) return state.charge[port];
   const Circuit* circuit = circuit_of(port);
   const std::size_t place = circuit_history + static_cast<std::size_t>(circuit - circuits.data());
   const History& past = *state.history;
@@ -156,10 +164,10 @@ Charges Model::surplus(const State& state, bool with_coupling) const {
     surplus.charge[e] -= given;
     if (const Chamber* chamber = chamber_of(e))
       surplus.capacitance[e] += chamber->compliance(std::max(given, least_volume()), state.voltage[e]);
-    if (state.supply[e] != Supply::circuit) continue;
-    const Circuit::Drawn taken = circuit_of(e)->drawn(state.source[e], state.voltage[e], state.scheme);
-    surplus.charge[e] += taken.charge;
-    surplus.capacitance[e] += taken.capacitance;
+    if (!flows(state.supply[e])) continue;
+    const Circuit::Drawn more = taken(state, e);
+    surplus.charge[e] += more.charge;
+    surplus.capacitance[e] += more.capacitance;
   }
   return surplus;
 }
@@ -171,8 +179,7 @@ double Model::supply_energy(const State& state) const {
     const Chamber* chamber = chamber_of(e);
     energy += chamber ? chamber->energy(state.charge[e], state.voltage[e])
                       : given_charge(state, e) * state.voltage[e];
-    if (state.supply[e] == Supply::circuit)
-      energy -= circuit_of(e)->drawn(state.source[e], state.voltage[e], state.scheme).energy;
+    if (flows(state.supply[e])) energy -= taken(state, e).energy;
   }
   return energy;
 }

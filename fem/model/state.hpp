@@ -36,7 +36,13 @@ enum class Supply : std::uint8_t {
   voltage, ///< its voltage (pressure)
   charge,  ///< its charge (volume): the voltage follows
   circuit, ///< the voltage of the source of its circuit: voltage and charge follow
+  leak,    ///< nothing: it is isolated but for the leak of its circuit, through which it loses its charge
 };
+
+/// Whether no source is connected.
+constexpr bool is_isolated(Supply supply) { return supply == Supply::charge || supply == Supply::leak; }
+/// Whether the charge follows from what has flown in time: one of the model's internal variables.
+constexpr bool flows(Supply supply) { return supply == Supply::circuit || supply == Supply::leak; }
 
 /// All that changes while a model is loaded. A value: a copy is a cutback, a serialised one is a restart.
 struct State {

@@ -265,8 +265,8 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   point.electrical = {voltage.head(electrodes), charge.head(electrodes)};
   point.resistance = {Eigen::VectorXd::Zero(electrodes), point.electrical.coordinate};
   for (const Circuit& circuit : model.circuits)
-    if (const auto e = static_cast<std::size_t>(circuit.electrode); state.supply[e] == Supply::circuit) {
-      const double drop = state.source[e] - state.voltage[e];
+    if (const auto e = static_cast<std::size_t>(circuit.electrode); flows(state.supply[e])) {
+      const double drop = is_isolated(state.supply[e]) ? 0 : state.source[e] - state.voltage[e];
       point.resistance.force[circuit.electrode] = drop;
       if (std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode)) continue;
       point.power[EnergyPoint::leak] += circuit.leakage * state.voltage[e] * state.voltage[e];

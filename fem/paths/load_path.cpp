@@ -38,6 +38,8 @@ void Loads::apply(State& state, const DofMap& dofs) const {
     case Supply::circuit:
       state.source[e] = source[e];
       break;
+    case Supply::leak:
+      break;
     }
   state.dead_force = dead_force;
   for (int n = 0; n < dofs.node_count(); ++n)

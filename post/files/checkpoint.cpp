@@ -107,7 +107,7 @@ fem::State restore_state(const json& archived, const StateSizes& sizes) {
   state.scalar = unpack(archived.at("scalar"), sizes.scalars);
   state.voltage = unpack(archived.at("voltage"), ports);
   for (const json& supply : archived.at("supply"))
-    if (const int number = supply; number < 0 || number > static_cast<int>(fem::Supply::circuit)) mismatch();
+    if (const int number = supply; number < 0 || number > static_cast<int>(fem::Supply::leak)) mismatch();
   state.supply = archived.at("supply").get<std::vector<fem::Supply>>();
   if (state.supply.size() != ports) mismatch();
   state.charge = unpack(archived.at("charge"), ports);

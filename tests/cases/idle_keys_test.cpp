@@ -93,8 +93,16 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       {"circuit.current_limit",
        film + disc + drive + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\ncurrent_limit = 1e-3\n",
        film + disc + drive + "[circuit]\nresistance = 1e6\ncurrent_limit = 1e-3\n" + transient},
-      {"step[1]", film + disc + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n" + charged_hold,
-       film + disc + "[circuit]\nresistance = 1e6\n" + charged_hold},
+      {"step[1]",
+       film + disc +
+           "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n[[step]]\nkind = "
+           "\"relax\"\ncontrol = \"charge\"\n",
+       film + disc + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n" + charged_hold},
+      {"step[1]",
+       film + disc + "[drive]\ncharge = 1e-9\n[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n" +
+           transient + "control = \"charge\"\n",
+       film + disc + "[drive]\ncharge = 1e-9\n[circuit]\nresistance = 1e6\n" + transient +
+           "control = \"charge\"\n"},
       {"plate.damping", film + diaphragm + "damping = 1\n" + weight,
        film + diaphragm + "damping = 1\n" + weight + transient},
       {"gravity.acceleration", "model = \"3d\"\n" + film + disc + "[gravity]\nacceleration = 1.6\n" + ramp,

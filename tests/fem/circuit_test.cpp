@@ -103,6 +103,31 @@ TEST(Circuit, a_limited_source_charges_linearly_then_exponentially) {
   }
 }
 
+// Isolated, a held film loses its charge with C/G, whatever its source; what it stored is heat in the leak.
+TEST(Circuit, an_isolated_film_loses_its_charge_through_the_leak) {
+  constexpr double leakage = 0.25 / resistance, lasts = capacitance / leakage;
+  ChargedFilm film({.leakage = leakage});
+  State start = film.model->initial_state();
+  start.voltage = {source};
+  start.supply = {Supply::leak};
+  film.model->charge_circuits(start);
+  const double stored = capacitance * source * source / 2;
+  const auto error = [&](int steps) {
+    const test::TimedRun run =
+        test::run_in_time(*film.equilibrium, start, test::constant_loads(film.model->dofs, start),
+                          test::equal_steps(steps, lasts));
+    const Work& work = run.balance.work();
+    EXPECT_NEAR(work.electrical, -stored * (1 - std::exp(-2.0)), 1e-3 * stored);
+    EXPECT_NEAR(work.source(), 0, 1.5 * stored / (steps * steps)); // of the second order
+    EXPECT_EQ(work.resistance, 0);
+    EXPECT_LT(run.balance.error(), 1e-3 * stored);
+    return film.held(run.end()) / (capacitance * source) - std::exp(-1.0);
+  };
+  const double coarse = error(40), fine = error(80);
+  EXPECT_LT(std::abs(fine), 1e-4);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+}
+
 /// Slope at the last of the parabola through three values, of the line where the first is missing.
 double slope_at_the_last(const std::array<double, 3>& t, const std::array<double, 3>& y, bool line) {
   const double last = (y[2] - y[1]) / (t[2] - t[1]);

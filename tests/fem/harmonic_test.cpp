@@ -121,6 +121,36 @@ struct Oscillator {
   Model model{.dofs = DofMap(4), .blocks = {}, .electrodes = {"film"}};
 };
 
+// Pushed by a force: s dQ + G dPhi = 0 makes it as stiff as an isolated one where it is quick, as a
+// grounded one where it is slow.
+TEST(Harmonic, of_an_isolated_film_that_leaks_goes_from_given_charge_to_given_voltage) {
+  const Oscillator oscillator({materials::NeoHookean{Oscillator::branch}, materials::Dashpot::log, 200});
+  Equilibrium equilibrium(oscillator.model, 1);
+  State state = oscillator.settled(equilibrium, 15e3);
+  state.charge = oscillator.model.charges(state, false).charge;
+  const HarmonicDrive push = HarmonicDrive::along(oscillator.model, 0);
+  const auto moved = [&](Supply supply, double omega) {
+    state.supply = {supply};
+    return harmonic_response(Linearisation(equilibrium, state), push, std::vector{omega}).at(0);
+  };
+  state.supply = {Supply::leak};
+  const Linearisation linear(equilibrium, state);
+  ASSERT_EQ(linear.ports().at(0).conductance, 0);
+  const double B = linear.ports()[0].coupling[0], C = linear.ports()[0].capacitance;
+  const double middle = Oscillator::G / C;
+  for (const double omega : {0.1 * middle, middle, 10 * middle}) {
+    const Linearisation::Complex s(0, omega);
+    const auto expected = 1.0 / (linear.dynamic_stiffness(s).at(0) + s * B * B / (s * C + Oscillator::G));
+    const HarmonicResponse at = moved(Supply::leak, omega);
+    EXPECT_LT(std::abs(at.displacement[0] - expected), 1e-12 * std::abs(expected));
+    EXPECT_LT(std::abs(at.current[0]), 1e-12 * std::abs(s * at.charge[0]));
+  }
+  for (const auto& [supply, omega] : {std::pair{Supply::charge, 1e6 * middle}, {Supply::voltage, 0.0}}) {
+    const auto like = moved(supply, omega).displacement[0];
+    EXPECT_LT(std::abs(moved(Supply::leak, omega).displacement[0] - like), 1e-9 * std::abs(like));
+  }
+}
+
 // Film W = mu/2 (2 l^2 + l^-4 - 3) - eps/2 (Phi/H)^2 l^4 per volume, l = 1 + u/a. A relaxed neo-Hookean
 // branch adds 12 mu_b/l^2 s/(s + rate), rate = mu_b/eta (log) or 6 mu_b/(eta l^2) (nominal along both axes).
 TEST(Harmonic, an_oscillator_with_branch_and_circuit_has_its_transfer_function) {
