@@ -47,7 +47,9 @@ void multiply_tile(int depth, const Real* left, const Real* right, Real* C, int 
   using Vector = typename Register<Real>::Type;
   using Unaligned = typename Register<Real>::Unaligned;
   constexpr int lanes = Register<Real>::size;
-  Vector sum[tile_columns][registers] = {};
+  Vector sum[tile_columns][registers]; // in registers: nothing may ask for its address
+  for (int j = 0; j < tile_columns; ++j)
+    for (int v = 0; v < registers; ++v) sum[j][v] = Vector{};
   for (int k = 0; k < depth; ++k, left += lanes, right += tile_columns) {
     Vector a[registers];
     for (int v = 0; v < registers; ++v)
@@ -64,8 +66,11 @@ void multiply_tile(int depth, const Real* left, const Real* right, Real* C, int 
     return;
   }
   const int filled = smaller(rows, registers * lanes);
+  Vector copy[tile_columns][registers];
+  for (int j = 0; j < tile_columns; ++j)
+    for (int v = 0; v < registers; ++v) copy[j][v] = sum[j][v];
   for (int j = 0; j < columns; ++j) {
-    const Real* const product = reinterpret_cast<const Real*>(sum[j]);
+    const Real* const product = reinterpret_cast<const Real*>(copy[j]);
     Real* const to = C + static_cast<std::ptrdiff_t>(j) * stride;
     if (overwrites)
       for (int i = 0; i < filled; ++i) to[i] = -product[i];
@@ -133,8 +138,6 @@ bool factor(int width, Real* A, int stride, DiagonalBlock<Real>& block) {
     for (int i = 0; i < vectors * lanes; ++i) own[i] = i >= j && i < width ? column[i] : 0;
   }
   for (int j = 0; j < width; ++j) {
-    for (int k = 0; k < j; ++k)
-      for (int v = j / lanes; v < vectors; ++v) columns[j][v] -= columns[k][v] * block.L[j][k];
     const auto* const own = reinterpret_cast<const Real*>(columns[j]);
     if (!(own[j] > 0) || __builtin_isinf(own[j])) return false;
     const Real pivot = root(own[j]), inverse = 1 / pivot;
@@ -143,6 +146,8 @@ bool factor(int width, Real* A, int stride, DiagonalBlock<Real>& block) {
     for (int i = j + 1; i < width; ++i) column[i] = block.L[i][j] = own[i];
     column[j] = pivot;
     block.L[j][j] = inverse;
+    for (int k = j + 1; k < width; ++k)
+      for (int v = k / lanes; v < vectors; ++v) columns[k][v] -= columns[j][v] * block.L[k][j];
   }
   return true;
 }
