@@ -72,9 +72,16 @@ typename MultifrontalCholesky<Real>::Front MultifrontalCholesky<Real>::front(int
 template<class Real>
 void add(int first, int count, const int* place, const int* together, const Real* from, Real* to) {
   for (int i = first; i < count; i += together[i]) {
-    const Real* const of_run = from + i;
-    Real* const to_run = to + place[i];
-    for (int k = 0; k < together[i]; ++k) to_run[k] += of_run[k];
+    const Real* __restrict of_run = from + i;
+    Real* __restrict to_run = to + place[i];
+    int left = together[i];
+    const auto add_runs = [&]<int size>() {
+      for (; left >= size; left -= size, of_run += size, to_run += size)
+        for (int k = 0; k < size; ++k) to_run[k] += of_run[k];
+    };
+    add_runs.template operator()<16>();
+    add_runs.template operator()<4>();
+    add_runs.template operator()<1>();
   }
 }
 
@@ -89,7 +96,11 @@ void MultifrontalCholesky<Real>::gather(const std::vector<double>& entries, doub
     const auto [entry, place, stride, count] = nodes_.runs[r];
     const double* const from = entries.data() + entry;
     Real* const to = own.panel + place;
-    for (int i = 0; i < count; ++i) to[static_cast<std::ptrdiff_t>(i) * stride] = static_cast<Real>(from[i]);
+    if (stride == 1)
+      for (int i = 0; i < count; ++i) to[i] = static_cast<Real>(from[i]);
+    else
+      for (int i = 0; i < count; ++i)
+        to[static_cast<std::ptrdiff_t>(i) * stride] = static_cast<Real>(from[i]);
   }
   if (lessened != 0)
     for (int k = 0; k < own.width; ++k)

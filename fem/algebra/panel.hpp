@@ -32,6 +32,9 @@ class Panel {
   /// Rows at once. Sums depend on them, and must not on where the panel lies in memory, as Eigen's own would.
   static constexpr int chunk = 16;
   using Chunk = Eigen::Array<Real, chunk, 1>;
+  /// Numbers that the memory is asked for ahead on the way back, where it does not see what comes: panels of
+  /// supernodes lie one behind the other.
+  static constexpr Eigen::Index asked_before = 16384 / sizeof(Real);
 
   template<int columns>
   void forward(Eigen::Index j, Vector& x) const {
@@ -55,8 +58,10 @@ class Panel {
     Eigen::Index i = j + columns;
     for (; i + chunk <= values_.rows(); i += chunk) {
       const Chunk rows = x.template segment<chunk>(i);
-      for (int c = 0; c < columns; ++c)
+      for (int c = 0; c < columns; ++c) {
+        __builtin_prefetch(values_.data() + (j + c) * values_.rows() + i - asked_before);
         sums[c] += rows * values_.col(j + c).template segment<chunk>(i).array();
+      }
     }
     Eigen::Matrix<Real, columns, 1> own;
     for (int c = 0; c < columns; ++c) {
