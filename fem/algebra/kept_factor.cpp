@@ -112,11 +112,22 @@ double KeptFactor::dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
   return std::accumulate(sums_.begin(), sums_.end(), 0.0);
 }
 
-bool KeptFactor::make(double lessened) {
+bool KeptFactor::prove(const Eigen::VectorXd* right) {
+  if (fails_) return false;
+  const double largest = right ? right->lpNorm<Eigen::Infinity>() : 0;
+  if (!(largest > 0)) return make(rounded);
+  const Eigen::VectorXd scaled = *right / largest; // as solve() does
+  const bool made = make(rounded, &scaled);
+  ahead_ = scaled;
+  return made;
+}
+
+bool KeptFactor::make(double lessened, const Eigen::VectorXd* right) {
   ++factorisations_;
   fresh_ = debt_ = 0;
   proves_ = lessened > 0;
-  made_ = factor_.factor(matrix_.values, lessened) && factor_.smallest_pivot().relative > least_pivot;
+  ahead_.resize(0);
+  made_ = factor_.factor(matrix_.values, lessened, right) && factor_.smallest_pivot().relative > least_pivot;
   fails_ = !made_;
   return made_;
 }
@@ -138,7 +149,11 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
     return now <= least || (iteration > (proves_ ? 1 : 2) && foreseen * now * now <= least * last);
   };
   for (int iteration = 1; iteration <= most; ++iteration) {
-    factor_.solve(r_, z_);
+    if (ahead_.size() == r_.size() && ahead_ == r_)
+      factor_.finish(z_);
+    else
+      factor_.solve(r_, z_);
+    ahead_.resize(0);
     ++solves_;
     const double rz = dot(r_, z_);
     if (rz == 0) return iteration;

@@ -27,8 +27,9 @@ class KeptFactor {
   /// one.
   [[nodiscard]] bool prepare();
   /// The same where nothing is known of the matrix: factors what is left when a part of its diagonal is taken
-  /// off, much more than the rounding of single precision. True proves it to be positive definite.
-  [[nodiscard]] bool prove() { return !fails_ && make(rounded); }
+  /// off, much more than the rounding of single precision. True proves it to be positive definite. A solve
+  /// with the `right` side, if it comes next, then costs less.
+  [[nodiscard]] bool prove(const Eigen::VectorXd* right = nullptr);
   /// x = A^-1 b with the current values, by corrections until one is below `tolerance` of x, in the norm of
   /// A. False: A has turned out not to be positive definite, or not in single precision.
   [[nodiscard]] bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance);
@@ -51,7 +52,7 @@ class KeptFactor {
   void for_blocks(const Function& f);
   double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
   static constexpr double rounded = 2e-6; ///< some thirty roundings
-  bool make(double lessened = 0);
+  bool make(double lessened = 0, const Eigen::VectorXd* right = nullptr);
   std::optional<int> iterate(Eigen::VectorXd& x, double& square, double tolerance, int most);
 
   const SparseSymmetric& matrix_;
@@ -65,6 +66,7 @@ class KeptFactor {
   double fresh_ = 0; ///< iterations per decade of the tolerance, of the first solve with the factor; 0 before
   double debt_ = 0;  ///< iterations beyond those
   int factorisations_ = 0, solves_ = 0;
+  Eigen::VectorXd ahead_; ///< right side that the factor has been made with; empty after a solve
   Eigen::VectorXd r_, z_, p_, Ap_;
 };
 

@@ -144,11 +144,14 @@ bool MultifrontalCholesky<Real>::factor_front(const std::vector<double>& entries
 }
 
 template<class Real>
-bool MultifrontalCholesky<Real>::factor(const std::vector<double>& entries, double lessened) {
+bool MultifrontalCholesky<Real>::factor(const std::vector<double>& entries, double lessened,
+                                        const Eigen::VectorXd* b) {
+  if (b) take(*b);
   std::atomic<bool> definite = true;
   workers_.run(nodes_.roots.size(), [&](std::size_t root) {
     climb(nodes_.roots[root], [&](int s, Workers& workers) {
       if (definite && !factor_front(entries, lessened, s, workers)) definite = false;
+      if (b && definite) forward(s);
     });
   });
   return definite;
@@ -200,15 +203,25 @@ void MultifrontalCholesky<Real>::backward(int s) {
 }
 
 template<class Real>
-void MultifrontalCholesky<Real>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  const auto size = static_cast<int>(x_.size());
-  workers_.run_blocks(size, permuted_together, [&](int first, int last) {
+void MultifrontalCholesky<Real>::take(const Eigen::VectorXd& b) {
+  workers_.run_blocks(static_cast<int>(x_.size()), permuted_together, [&](int first, int last) {
     for (int k = first; k < last; ++k) x_[at(k)] = static_cast<Real>(b[nodes_.permutation[at(k)]]);
   });
-  workers_.run(nodes_.roots.size(), [&](std::size_t root) {
-    climb(nodes_.roots[root], [this](int s, Workers&) { forward(s); });
-    descend(nodes_.roots[root], [this](int s) { backward(s); });
-  });
+}
+
+template<class Real>
+void MultifrontalCholesky<Real>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+  take(b);
+  workers_.run(nodes_.roots.size(),
+               [&](std::size_t root) { climb(nodes_.roots[root], [this](int s, Workers&) { forward(s); }); });
+  finish(x);
+}
+
+template<class Real>
+void MultifrontalCholesky<Real>::finish(Eigen::VectorXd& x) {
+  const auto size = static_cast<int>(x_.size());
+  workers_.run(nodes_.roots.size(),
+               [&](std::size_t root) { descend(nodes_.roots[root], [this](int s) { backward(s); }); });
   x.resize(size);
   workers_.run_blocks(size, permuted_together, [&](int first, int last) {
     for (int k = first; k < last; ++k) x[nodes_.permutation[at(k)]] = x_[at(k)];

@@ -21,8 +21,10 @@ class MultifrontalCholesky {
   MultifrontalCholesky(const Supernodes& supernodes, Workers& workers);
 
   /// `entries`: those of the matrix that the supernodes were made for; `lessened`: part of its diagonal that
-  /// is taken off. False: not positive definite in this precision, and no solve is possible.
-  [[nodiscard]] bool factor(const std::vector<double>& entries, double lessened = 0);
+  /// is taken off. False: not positive definite in this precision, and no solve is possible. `b`: half of the
+  /// solve for it is done on the way, while the panels are at hand; finish() does the other.
+  [[nodiscard]] bool factor(const std::vector<double>& entries, double lessened = 0,
+                            const Eigen::VectorXd* b = nullptr);
 
   struct Pivot {
     double relative = 1; ///< over the diagonal entry that it came from: no units
@@ -32,6 +34,8 @@ class MultifrontalCholesky {
   Pivot smallest_pivot() const;
   /// x = A^-1 b, with the rounding of this precision.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+  /// The same for the b of the last factor(), before any solve().
+  void finish(Eigen::VectorXd& x);
 
  private:
   /// A supernode's panel of L and what it changes in its parent's rows, by columns.
@@ -44,6 +48,7 @@ class MultifrontalCholesky {
   void climb(int s, const Function& f);
   template<class Function>
   void descend(int s, const Function& f);
+  void take(const Eigen::VectorXd& b);
   bool factor_front(const std::vector<double>& entries, double lessened, int s, Workers& workers);
   void gather(const std::vector<double>& entries, double lessened, int s);
   void pass_on(int s);

@@ -66,12 +66,12 @@ bool SymmetricSolver::factor(const Eigen::VectorXd* added) {
 
 int SymmetricSolver::negative_pivots() const { return definite_ ? 0 : indefinite_->negative_pivots(); }
 
-bool SymmetricSolver::precondition(bool known, bool close) {
+bool SymmetricSolver::precondition(bool known, bool close, const Eigen::VectorXd* right) {
   if (close && !known && iterates_) return true;
   const double least = known ? KeptFactor::least_cost : KeptFactor::least_cost_to_prove;
   if (!cholesky_ || KeptFactor::cost(cholesky_->supernodes) < least) return factor();
   if (!cholesky_->kept) cholesky_->kept.emplace(matrix_, cholesky_->supernodes, cholesky_->workers);
-  if (!(known ? cholesky_->kept->prepare() : cholesky_->kept->prove())) return factor();
+  if (!(known ? cholesky_->kept->prepare() : cholesky_->kept->prove(right))) return factor();
   definite_ = iterates_ = true;
   return true;
 }

@@ -35,8 +35,9 @@ class SymmetricSolver {
   int negative_pivots() const;
   /// Instead of factor(): a factor in single precision, where it proves the current values to be positive
   /// definite. Where that is `known`, the factor of earlier values may do; so does the last such factor where
-  /// the values are `close` to those that it was made of.
-  [[nodiscard]] bool precondition(bool known, bool close = false);
+  /// the values are `close` to those that it was made of. `right`: what solve() will be asked for next, if
+  /// that is known.
+  [[nodiscard]] bool precondition(bool known, bool close = false, const Eigen::VectorXd* right = nullptr);
   /// x with A x = b, size entries each. Requires a successful factor() or precondition(). After the latter
   /// the error in the norm of A is about `tolerance` times x; not a number where A was singular after all.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance = exact);

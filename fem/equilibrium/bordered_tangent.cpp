@@ -142,11 +142,11 @@ bool BorderedTangent::factor(const State& state, const PathBorder* path, const E
   return lu_.isInvertible();
 }
 
-bool BorderedTangent::precondition(const State& state, bool close) {
+bool BorderedTangent::precondition(const State& state, bool close, const Eigen::VectorXd* right) {
   if (any_follows(state)) return factor(state);
   follow_pattern();
   set_borders(state, nullptr);
-  if (!solver_->precondition(assembler_.convex(), close)) return false;
+  if (!solver_->precondition(assembler_.convex(), close, right)) return false;
   negative_pivots_ = unstable_modes_ = solver_->negative_pivots() - model_.dofs.scalar_count();
   return true;
 }

@@ -43,8 +43,9 @@ class BorderedTangent {
                             const Eigen::VectorXd* added = nullptr);
   /// As factor(), for steps of Newton's method: where K has no borders and is positive definite a factor in
   /// single precision does, an earlier one where that is known, and solve() is as good as its tolerance.
-  /// `close`: the last one was of a state close by, and stable.
-  [[nodiscard]] bool precondition(const State& state, bool close = false);
+  /// `close`: the last one was of a state close by, and stable. `right`: the f of solve() to come, if known.
+  [[nodiscard]] bool precondition(const State& state, bool close = false,
+                                  const Eigen::VectorXd* right = nullptr);
   /// Negative eigenvalues of K less those that the scalars of the model bring (see DofMap): unstable
   /// directions at fixed voltages.
   int negative_pivots() const { return negative_pivots_; }

@@ -160,13 +160,13 @@ double Equilibrium::step_size(const Eigen::VectorXd& step) const {
   return step.cwiseQuotient(weight_.head(step.size())).lpNorm<Eigen::Infinity>() / model_.extent;
 }
 
-bool Equilibrium::precondition(const State& state, bool close) {
+bool Equilibrium::precondition(const State& state, bool close, const Eigen::VectorXd* right) {
   {
     const Stopwatch watch(timings_.tangent, model_);
     assembler_.tangent(state);
   }
   const Stopwatch watch(timings_.factor, model_);
-  return tangent_.precondition(state, close);
+  return tangent_.precondition(state, close, right);
 }
 
 bool Equilibrium::factor(const State& state, const PathBorder* path, const Eigen::VectorXd* added) {
@@ -280,8 +280,8 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     result.negative_pivots = tangent_.negative_pivots();
     result.unstable_modes = tangent_.unstable_modes();
   };
-  const auto factor_and_count = [&](const State& at, bool close) {
-    const bool regular = precondition(at, close);
+  const auto factor_and_count = [&](const State& at, bool close, const Eigen::VectorXd* right = nullptr) {
+    const bool regular = precondition(at, close, right);
     if (regular) count();
     return regular;
   };
@@ -313,9 +313,9 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     stale_tangent = result.residual;
     ++timings_.iterations;
     const auto find_step = [&](const State& at, bool close) {
-      if (!factor_and_count(at, close)) return false;
-      const Stopwatch watch(timings_.solve, model_);
       right_ = -current.force.head(model_.dofs.free_count());
+      if (!factor_and_count(at, close, &right_)) return false;
+      const Stopwatch watch(timings_.solve, model_);
       tangent_.solve(right_, step, 0, tolerance_of_step(result.residual, options.tolerance));
       count();
       return true;

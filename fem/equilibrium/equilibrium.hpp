@@ -118,7 +118,8 @@ class Equilibrium {
   [[nodiscard]] bool factor(const State& state, const PathBorder* path = nullptr,
                             const Eigen::VectorXd* added = nullptr);
   /// The same for solves only, as good as their tolerance: see BorderedTangent::precondition.
-  [[nodiscard]] bool precondition(const State& state, bool close = false);
+  [[nodiscard]] bool precondition(const State& state, bool close = false,
+                                  const Eigen::VectorXd* right = nullptr);
   BorderedTangent& tangent() { return tangent_; }
   /// A positive weight per free equation that makes displacements comparable: the diagonal of the tangent as
   /// drawn (N/m, N m for rotations), not less than a small part of the largest.
