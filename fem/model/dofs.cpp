@@ -25,6 +25,15 @@ TiltAxes axes_about(const Eigen::Vector3d& director) {
   return axes;
 }
 
+/// Small angles by the series of the arc sine, which ends below a rounding.
+double angle_over_sine(double square_of_sine, double cosine) {
+  const double s = square_of_sine;
+  if (s < 1e-3 && cosine > 0)
+    return 1 + s * (1.0 / 6 + s * (3.0 / 40 + s * (15.0 / 336 + s * (105.0 / 3456))));
+  const double sine = std::sqrt(s);
+  return sine < 1e-8 ? 1 : std::atan2(sine, cosine) / sine;
+}
+
 } // namespace
 
 void DofMap::add(int node, int component) {
@@ -252,8 +261,7 @@ Eigen::VectorXd DofMap::increment(const State& from, const State& to) const {
       const TiltAxes& axes = axes_of(n);
       const Eigen::Vector3d old = director(axes), now = from.rotation[n].conjugate() * (to.rotation[n] * old);
       const Eigen::Vector2d sines(-axes.col(1).dot(now), axes.col(0).dot(now));
-      const double sine = sines.norm();
-      increment.segment<2>(e) = (sine < 1e-8 ? 1 : std::atan2(sine, old.dot(now)) / sine) * sines;
+      increment.segment<2>(e) = angle_over_sine(sines.squaredNorm(), old.dot(now)) * sines;
       continue;
     }
     const auto free = [this](int e) { return is_free(e); };
