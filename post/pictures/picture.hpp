@@ -37,7 +37,7 @@ struct Picture {
   std::vector<std::array<int, 4>> fins{}; ///< flat, the nodes of their corners
   std::vector<Panel> panels{};
   std::vector<Mark> marks{}; ///< in every panel
-  int width = 1600;          ///< px; the height follows from the shapes
+  int width = 1280;          ///< px, a fifth more than a page shows; the height follows from the shapes
 };
 
 // None of these needs a display. Each throws std::invalid_argument when a panel does not fit the mesh and for
