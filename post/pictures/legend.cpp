@@ -3,19 +3,36 @@
 
 #include "post/engineering.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace dielast::post {
 
 namespace {
 
+using Box = Eigen::AlignedBox2d;
+
 /// The largest of 1, 2 and 5 times a power of ten that is not above `limit`.
 double round_down(double limit) {
   const double power = std::pow(10, std::floor(std::log10(limit)));
   return (limit >= 5 * power ? 5 : limit >= 2 * power ? 2 : 1) * power;
+}
+
+/// The middle of nodes that lie around it and there.
+template<class Places>
+std::optional<Eigen::Vector2d> middle_of_area(const std::vector<int>& nodes, const Places& at) {
+  Box box;
+  for (const int node : nodes) box.extend(at(node));
+  const double near = 0.1 * box.diagonal().norm(); // thinner ones are lines
+  const auto is_there = [&](int node) { return (at(node) - box.center()).norm() <= near; };
+  if (box.sizes().minCoeff() <= 2 * near || std::ranges::none_of(nodes, is_there)) return std::nullopt;
+  return box.center();
 }
 
 } // namespace
@@ -89,6 +106,50 @@ void draw_colour_bar(cairo_t* cr, const std::string& quantity, const std::string
     cairo_rel_line_to(cr, 0, 6);
     cairo_stroke(cr);
     draw_text(cr, tick_label(k * step, decimals), x, y + height + 25, 17, faint_ink, Align::centre);
+  }
+}
+
+void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const std::vector<Eigen::Vector3d>& positions,
+                const Eigen::Vector2d& centre, double right,
+                const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& to_px) {
+  constexpr double dot = 3.5, size = 20, line = 26;
+  constexpr std::array<Colour, 6> colours{{{0.76, 0.16, 0.24},
+                                           {0.15, 0.39, 0.66},
+                                           {0.10, 0.50, 0.29},
+                                           {0.56, 0.29, 0.66},
+                                           {0.66, 0.38, 0.0},
+                                           {0.11, 0.14, 0.18}}};
+  const auto at = [&](int node) -> Eigen::Vector2d {
+    return positions[static_cast<std::size_t>(node)].head<2>();
+  };
+  for (std::size_t m = 0; m < marks.size(); ++m) {
+    set_colour(cr, colours[m % colours.size()]);
+    for (const int node : marks[m].nodes) {
+      const Eigen::Vector2d p = to_px(at(node));
+      cairo_arc(cr, p.x(), p.y(), dot, 0, 2 * std::numbers::pi);
+      cairo_fill(cr);
+    }
+  }
+  std::vector<Box> taken;
+  for (std::size_t m = 0; m < marks.size(); ++m) {
+    const int outermost = *std::ranges::max_element(
+        marks[m].nodes, {}, [&](int node) { return (at(node) - centre).squaredNorm(); });
+    const double advance = text_width(cr, marks[m].name, size);
+    Eigen::Vector2d beside = to_px(at(outermost)) + Eigen::Vector2d(2 * dot, size / 3);
+    if (beside.x() + advance > right) beside.x() -= 4 * dot + advance;
+    if (const auto middle = middle_of_area(marks[m].nodes, at))
+      beside = to_px(*middle) + Eigen::Vector2d(-advance / 2, size / 3);
+    const auto box = [&] {
+      return Box(beside - Eigen::Vector2d(0, size), beside + Eigen::Vector2d(advance, line - size));
+    };
+    while (std::ranges::any_of(taken, [&](const Box& other) { return other.intersects(box()); }))
+      beside.y() += line;
+    taken.push_back(box());
+    constexpr double halo = 3;
+    for (const double dx : {-halo, 0.0, halo})
+      for (const double dy : {-halo, 0.0, halo})
+        draw_text(cr, marks[m].name, beside.x() + dx, beside.y() + dy, size, {1, 1, 1});
+    draw_text(cr, marks[m].name, beside.x(), beside.y(), size, colours[m % colours.size()]);
   }
 }
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "post/pictures/colour_map.hpp"
+#include "post/pictures/picture.hpp"
 
 #include <cairo.h>
 
+#include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace dielast::post {
 
@@ -36,5 +39,12 @@ void draw_scale_bar(cairo_t* cr, double scale, double left, double y);
 /// units.
 void draw_colour_bar(cairo_t* cr, const std::string& quantity, const std::string& unit,
                      std::pair<double, double> range, double left, double y, double width);
+
+/// Dots at the marks' nodes, which are at `positions`, and the names: in the middle of a mark that fills an
+/// area, else beside the dot farthest from `centre`, on its left where it would not end before `right`, below
+/// names that it would overlap. `to_px`: of a place.
+void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const std::vector<Eigen::Vector3d>& positions,
+                const Eigen::Vector2d& centre, double right,
+                const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& to_px);
 
 } // namespace dielast::post

@@ -15,8 +15,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <numbers>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -43,14 +41,36 @@ struct Canvas {
   Context context;
 };
 
-/// Of a line of two nodes, or of three, the last in its middle; `goes_on`: from where the path has come.
-void add_path(cairo_t* cr, const CellBlock& block, int cell, const std::vector<Eigen::Vector3d>& positions,
-              bool goes_on = false) {
+using Way = std::vector<Eigen::Vector2d>;
+
+/// Of a line of two nodes, or of three, the last in its middle; from where the way has come, if it has.
+void add_cell(Way& way, const CellBlock& block, int cell, const std::vector<Eigen::Vector3d>& positions) {
   const auto n = block.cell(cell);
-  const auto at = [&](int node) { return positions[static_cast<std::size_t>(node)]; };
-  if (!goes_on) cairo_move_to(cr, at(n[0]).x(), at(n[0]).y());
-  if (n.size() > 2) cairo_line_to(cr, at(n[2]).x(), at(n[2]).y());
-  cairo_line_to(cr, at(n[1]).x(), at(n[1]).y());
+  const auto add = [&](int node) { way.push_back(positions[static_cast<std::size_t>(node)].head<2>()); };
+  if (way.empty()) add(n[0]);
+  if (n.size() > 2) add(n[2]);
+  add(n[1]);
+}
+
+/// Without points that lie as `near` as this to the straight line between those before and behind them.
+void stroke(cairo_t* cr, const Way& way, double near) {
+  const auto misses = [&](std::size_t from, std::size_t to) {
+    const Eigen::Vector2d line = way[to] - way[from];
+    const double square = line.squaredNorm();
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const Eigen::Vector2d p = way[i] - way[from];
+      const double part = square > 0 ? std::clamp(p.dot(line) / square, 0.0, 1.0) : 0;
+      if ((p - part * line).squaredNorm() > near * near) return true;
+    }
+    return false;
+  };
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (i > 0 && i + 1 < way.size() && !misses(last, i + 1)) continue;
+    cairo_line_to(cr, way[i].x(), way[i].y());
+    last = i;
+  }
+  cairo_stroke(cr);
 }
 
 Box extent(const meshing::Mesh& mesh, const Picture& picture, const Panel& panel, double wall_width) {
@@ -78,88 +98,37 @@ void stroke_rods(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture,
     if (is_line(block.type)) continue;
     for (int cell = 0; cell < block.size(); ++cell, ++number) {
       if (is_triangle(block.type) || is_tetrahedron(block.type)) continue;
-      add_path(cr, block, cell, panel.positions);
+      Way way;
+      add_cell(way, block, cell, panel.positions);
       set_colour(cr, panel.values.empty()
                          ? plain_film
                          : viridis((panel.values[number] - range.first) / (range.second - range.first)));
-      cairo_stroke(cr);
+      stroke(cr, way, 0);
     }
   }
 }
 
-void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, double width) {
+void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, double width, double px) {
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_width(cr, width);
   set_colour(cr, wall_colour);
-  constexpr int most_together = 8; // Cairo's time grows faster than the length of a path
+  constexpr int most_together = 32; // cells: Cairo's time grows faster than the length of a path
+  const double unseen = px / 10;
   for (const CellBlock& block : mesh.blocks) {
     if (!is_line(block.type)) continue;
+    Way way;
     for (int cell = 0, together = 0; cell < block.size(); ++cell) {
       const bool goes_on =
           together > 0 && together < most_together && block.cell(cell)[0] == block.cell(cell - 1)[1];
-      if (together > 0 && !goes_on) cairo_stroke(cr);
       together = goes_on ? together + 1 : 1;
-      add_path(cr, block, cell, panel.positions, goes_on);
+      if (!goes_on) {
+        stroke(cr, way, unseen);
+        way.clear();
+      }
+      add_cell(way, block, cell, panel.positions);
     }
-    cairo_stroke(cr);
-  }
-}
-
-/// The middle of nodes that lie around it and there.
-template<class Places>
-std::optional<Eigen::Vector2d> middle_of_area(const std::vector<int>& nodes, const Places& at) {
-  Box box;
-  for (const int node : nodes) box.extend(at(node));
-  const double near = 0.1 * box.diagonal().norm(); // thinner ones are lines
-  const auto is_there = [&](int node) { return (at(node) - box.center()).norm() <= near; };
-  if (box.sizes().minCoeff() <= 2 * near || std::ranges::none_of(nodes, is_there)) return std::nullopt;
-  return box.center();
-}
-
-/// The name stands in the middle of a mark that fills an area, else beside the outermost dot, on its left
-/// where it would not end before `right`, below names that it would overlap. `to_px`: from the view to px.
-template<class ToPixels>
-void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const Panel& panel,
-                const Eigen::Vector2d& centre, double right, const ToPixels& to_px) {
-  constexpr double dot = 3.5, size = 20, line = 26;
-  constexpr std::array<Colour, 6> colours{{{0.76, 0.16, 0.24},
-                                           {0.15, 0.39, 0.66},
-                                           {0.10, 0.50, 0.29},
-                                           {0.56, 0.29, 0.66},
-                                           {0.66, 0.38, 0.0},
-                                           {0.11, 0.14, 0.18}}};
-  const auto at = [&](int node) -> Eigen::Vector2d {
-    return panel.positions[static_cast<std::size_t>(node)].head<2>();
-  };
-  for (std::size_t m = 0; m < marks.size(); ++m) {
-    set_colour(cr, colours[m % colours.size()]);
-    for (const int node : marks[m].nodes) {
-      const Eigen::Vector2d p = to_px(at(node));
-      cairo_arc(cr, p.x(), p.y(), dot, 0, 2 * std::numbers::pi);
-      cairo_fill(cr);
-    }
-  }
-  std::vector<Box> taken;
-  for (std::size_t m = 0; m < marks.size(); ++m) {
-    const int outermost = *std::ranges::max_element(
-        marks[m].nodes, {}, [&](int node) { return (at(node) - centre).squaredNorm(); });
-    const double advance = text_width(cr, marks[m].name, size);
-    Eigen::Vector2d beside = to_px(at(outermost)) + Eigen::Vector2d(2 * dot, size / 3);
-    if (beside.x() + advance > right) beside.x() -= 4 * dot + advance;
-    if (const auto middle = middle_of_area(marks[m].nodes, at))
-      beside = to_px(*middle) + Eigen::Vector2d(-advance / 2, size / 3);
-    const auto box = [&] {
-      return Box(beside - Eigen::Vector2d(0, size), beside + Eigen::Vector2d(advance, line - size));
-    };
-    while (std::ranges::any_of(taken, [&](const Box& other) { return other.intersects(box()); }))
-      beside.y() += line;
-    taken.push_back(box());
-    constexpr double halo = 3;
-    for (const double dx : {-halo, 0.0, halo})
-      for (const double dy : {-halo, 0.0, halo})
-        draw_text(cr, marks[m].name, beside.x() + dx, beside.y() + dy, size, {1, 1, 1});
-    draw_text(cr, marks[m].name, beside.x(), beside.y(), size, colours[m % colours.size()]);
+    stroke(cr, way, unseen);
   }
 }
 
@@ -227,10 +196,10 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
   cairo_translate(cr, -box.center().x(), -box.center().y());
   fill_fins(cr, picture, panel, std::max(picture.wall_width, 1 / scale));
   stroke_rods(cr, mesh, picture, panel, range);
-  stroke_walls(cr, mesh, panel, std::max(picture.wall_width, 1 / scale));
+  stroke_walls(cr, mesh, panel, std::max(picture.wall_width, 1 / scale), 1 / scale);
   cairo_restore(cr);
   const Eigen::Vector2d middle(left + std::ceil(width) / 2, top + std::ceil(height) / 2);
-  draw_marks(cr, picture.marks, panel, box.center(), left + width + margin,
+  draw_marks(cr, picture.marks, panel.positions, box.center(), left + width + margin,
              [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
                return middle + scale * (x - box.center()).cwiseProduct(Eigen::Vector2d(1, -1));
              });
