@@ -168,8 +168,8 @@ TEST(Picture, ColoursSpanTheRangeOfAllPanels) {
                                         .unit = "V/m",
                                         .panels = {{"", mesh.nodes, {0, 0}}, {"", mesh.nodes, {8e7, 8e7}}}}));
   // Each panel is half of the width and square; the colour bar adds a few pixels.
-  EXPECT_NEAR(static_cast<double>(pixels.count(lowest)), 736 * 736, 0.03 * 736 * 736);
-  EXPECT_NEAR(static_cast<double>(pixels.count(highest)), 736 * 736, 0.03 * 736 * 736);
+  EXPECT_NEAR(static_cast<double>(pixels.count(lowest)), 576 * 576, 0.03 * 576 * 576);
+  EXPECT_NEAR(static_cast<double>(pixels.count(highest)), 576 * 576, 0.03 * 576 * 576);
 }
 
 TEST(Picture, NoTickIsMinusZero) {
