@@ -118,8 +118,10 @@ std::vector<double> DeviceModel::run(std::size_t run, const std::vector<double>&
       hertz.insert(hertz.end(), asked_.tests[t].x.begin(), asked_.tests[t].x.end());
   std::ranges::sort(hertz);
   hertz.erase(std::unique(hertz.begin(), hertz.end()), hertz.end());
-  for (Step& step : one.steps)
+  for (Step& step : one.steps) {
+    step.record.reset(); // what was measured may lie between the rows that somebody wants to read
     if (step.kind == StepKind::harmonic) step.sweep.at = hertz;
+  }
   const bool all_responses =
       std::ranges::all_of(group, [&](std::size_t t) { return asked_.tests[t].is_response(); });
   // Quantities that nobody asks for need not be evaluated along the way.

@@ -68,7 +68,6 @@ class Columns {
                              std::string_view si_unit) const {
     const int column = find(key, named, "");
     if (column < 0) return {};
-    if (si_unit == "1" && split_unit(named).unit == "%") return scaled(column, 0.01);
     if (const auto factor = factor_to_si(csv_, column, si_unit)) return scaled(column, *factor);
     report(key, fmt::format("found {}: its name has no unit; allowed one of {}, as in \"{} ({})\"",
                             toml_string(named), dimension(si_unit).usual, named, dimension(si_unit).shown));

@@ -37,9 +37,25 @@ class Columns {
   }
   std::vector<double> values(const std::string& name, std::string_view si_unit) const {
     const int column = find(name);
-    if (column >= 0) return si_column(csv_, column, si_unit);
+    if (column >= 0) return values(column, name, si_unit);
     wrong_.push_back({test_.table.find("file")->source, test_.path + ".file",
                       fmt::format("{} has no column {}, only {}", csv_.file, name, listed(csv_.names))});
+    return {};
+  }
+
+  /// Those of the column that find() has found by that name: what stands behind it is a unit.
+  std::vector<double> values(int column, const std::string& name, std::string_view si_unit) const {
+    const std::string& written = csv_.names[static_cast<std::size_t>(column)];
+    const std::string unit = written == name ? "" : split_unit(written).unit;
+    const bool pure = si_unit == "1" && (unit == "%" || unit == "1" || unit == "-");
+    if (unit.empty() || pure || (si_unit != "1" && factor_to_si(csv_, column, si_unit)))
+      return si_column(csv_, column, si_unit);
+    wrong_.push_back(
+        {{csv_.file, csv_.header_line, 1},
+         "",
+         fmt::format("found {}, whose unit \"{}\" is none of {}; without a unit the numbers are {}",
+                     toml_string(written), unit, name,
+                     si_unit == "1" ? "those of the run, no percent" : "in " + std::string(si_unit))});
     return {};
   }
 
@@ -53,12 +69,15 @@ FrequencyTable read_response(MeasuredResponse response, const CsvTable& csv, con
                              std::vector<Diagnostic>& wrong) {
   constexpr double degree = std::numbers::pi / 180;
   const std::size_t before = wrong.size();
-  const char* unit = unit_of(response);
-  FrequencyTable table{columns.values("frequency", "1/s"), {}};
+  std::string_view unit = unit_of(response);
+  if (const int column = std::max(columns.find("magnitude"), columns.find("real"));
+      response == MeasuredResponse::displacement && column >= 0 && !factor_to_si(csv, column, unit) &&
+      factor_to_si(csv, column, "rad/V^2"))
+    unit = "rad/V^2"; // of an angle
+  FrequencyTable table{columns.values("frequency", "Hz"), {}};
   const bool polar = columns.find("real") < 0;
   const std::vector<double> first = columns.values(polar ? "magnitude" : "real", unit);
-  const std::vector<double> second =
-      columns.values(polar ? "phase" : "imaginary", polar ? std::string_view("rad") : std::string_view(unit));
+  const std::vector<double> second = columns.values(polar ? "phase" : "imaginary", polar ? "rad" : unit);
   if (wrong.size() > before) return table;
   const bool degrees =
       polar && split_unit(csv.names[static_cast<std::size_t>(columns.find("phase"))]).unit.empty();
@@ -73,9 +92,13 @@ FrequencyTable read_response(MeasuredResponse response, const CsvTable& csv, con
 
 void read_quantity(DeviceTest& test, const CsvTable& csv, const Columns& columns, const Case& one,
                    std::vector<Diagnostic>& wrong) {
-  test.against = split_unit(csv.names.at(0)).name;
   const std::vector<post::Column> history = history_columns(one);
-  const auto column = std::ranges::find(history, test.against, &post::Column::name);
+  test.against = csv.names.at(0);
+  auto column = std::ranges::find(history, test.against, &post::Column::name);
+  if (column == history.end()) {
+    test.against = split_unit(csv.names[0]).name;
+    column = std::ranges::find(history, test.against, &post::Column::name);
+  }
   if (column == history.end()) {
     std::vector<std::string> known;
     for (const post::Column& each : history) known.push_back(each.name);
@@ -86,8 +109,10 @@ void read_quantity(DeviceTest& test, const CsvTable& csv, const Columns& columns
     return;
   }
   const auto quantity = std::ranges::find(history, test.quantity, &post::Column::name);
-  test.x = si_column(csv, 0, column->unit);
+  const std::size_t before = wrong.size();
+  test.x = columns.values(0, test.against, column->unit);
   for (const double value : columns.values(test.quantity, quantity->unit)) test.measured.emplace_back(value);
+  if (wrong.size() > before) return;
   require_growing(csv, 0, wrong);
   if (std::ranges::all_of(test.measured, [](const auto& value) { return value == 0.0; }))
     wrong.push_back({{csv.file, csv.header_line, 1}, "", "nothing other than 0 was measured"});

@@ -126,10 +126,10 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
 }
 
 std::optional<double> factor_to_si(const CsvTable& table, int column, std::string_view si_unit) {
-  if (si_unit == "1") return 1;
+  const std::string unit = split_unit(table.names.at(static_cast<std::size_t>(column))).unit;
+  if (si_unit == "1") return unit == "%" ? 0.01 : 1;
   try {
-    return parse_measure("1 " + split_unit(table.names.at(static_cast<std::size_t>(column))).unit, si_unit)
-        .value;
+    return parse_measure("1 " + unit, si_unit).value;
   } catch (const UnitError&) { // a word, not a unit
     return std::nullopt;
   }

@@ -39,7 +39,7 @@ NameWithUnit split_unit(const std::string& name);
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong);
 
 /// What the numbers of the column are multiplied by to be SI: its name ends in a unit of the dimension of
-/// `si_unit`. Nothing where the name has no such unit; 1 for a pure number.
+/// `si_unit`. Nothing where the name has no such unit; 1 for a pure number, 0.01 where it ends in %.
 std::optional<double> factor_to_si(const CsvTable& table, int column, std::string_view si_unit);
 
 /// The column in SI: its name ends in a unit of the dimension of `si_unit`, or its numbers are SI already.

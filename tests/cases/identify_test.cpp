@@ -108,6 +108,24 @@ TEST_F(Identify, TellsThatAnUnknownEndsAtTheLimitOfItsKey) {
   EXPECT_NE(warnings[0].find("is at its bound"), std::string::npos);
 }
 
+TEST_F(Identify, ConvertsFrequenciesAndPercent) {
+  write("g.csv", "frequency (rad/s),real_um/V^2,imaginary_mm/V^2\n6.283185307179586,1,2\n60,1,0\n");
+  write_test("\"film.material.shear_modulus\"", displacement);
+  const DeviceTest response = read_identification(directory / "identify.toml").tests[0];
+  EXPECT_NEAR(response.x[0], 1, 1e-12);
+  EXPECT_NEAR(response.measured[0].real(), 1e-6, 1e-18);
+  EXPECT_NEAR(response.measured[0].imag(), 2e-3, 1e-15);
+  write("v.csv", "voltage_kV,breakdown_ratio_%\n0.2,1\n0.4,2\n");
+  write_test("\"film.material.shear_modulus\"",
+             "[[identify.test]]\nfile = \"v.csv\"\nquantity = \"breakdown_ratio\"\n");
+  const DeviceTest quantity = read_identification(directory / "identify.toml").tests[0];
+  EXPECT_DOUBLE_EQ(quantity.x[1], 400);
+  EXPECT_DOUBLE_EQ(quantity.measured[1].real(), 0.02);
+  write("v.csv", "voltage_foo,breakdown_ratio\n0.2,1\n0.4,2\n");
+  EXPECT_NE(message().find("found \"voltage_foo\", whose unit \"foo\" is none of voltage"), std::string::npos)
+      << message();
+}
+
 TEST_F(Identify, TellsWhatAResponseLacks) {
   write("g.csv", "hertz,real[m/V^2],imaginary[m/V^2]\n1,1,0\n10,1,0\n");
   write_test("\"film.material.shear_modulus\"", displacement);

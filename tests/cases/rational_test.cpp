@@ -186,6 +186,14 @@ TEST_F(RationalFile, TellsWhatIsWrong) {
                                                  "numbers; more are needed");
   write("z.csv", "frequency[Hz],magnitude[Ohm],phase[deg]\n0,1,0\n10,1,0\n");
   EXPECT_EQ(message(z + "poles = 1"), "error: a response is above 0, at a frequency above 0");
+  for (const char* unit : {"dB", "mm", "Ohms_"}) {
+    write("z.csv", fmt::format("frequency[Hz],magnitude[{}],phase[deg]\n1,1,0\n10,1,0\n", unit));
+    EXPECT_EQ(
+        message(z + "poles = 1"),
+        fmt::format("error: found \"magnitude[{0}]\", whose unit \"{0}\" is none of magnitude; without a "
+                    "unit the numbers are in Ohm",
+                    unit));
+  }
 }
 
 } // namespace
