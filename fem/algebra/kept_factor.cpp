@@ -26,6 +26,13 @@ constexpr int most_blocks = 8, least_columns = 4096;
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// b over its largest entry, which is returned: the range of single precision is small.
+double scale(const Eigen::VectorXd& b, Eigen::VectorXd& scaled) {
+  const double largest = b.lpNorm<Eigen::Infinity>();
+  if (largest != 0) scaled = b / largest;
+  return largest;
+}
+
 } // namespace
 
 double KeptFactor::cost(const Supernodes& supernodes) {
@@ -114,19 +121,14 @@ double KeptFactor::dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
 
 bool KeptFactor::prove(const Eigen::VectorXd* right) {
   if (fails_) return false;
-  const double largest = right ? right->lpNorm<Eigen::Infinity>() : 0;
-  if (!(largest > 0)) return make(rounded);
-  const Eigen::VectorXd scaled = *right / largest; // as solve() does
-  const bool made = make(rounded, &scaled);
-  ahead_ = scaled;
-  return made;
+  return make(rounded, right && scale(*right, ahead_) > 0 ? &ahead_ : nullptr);
 }
 
 bool KeptFactor::make(double lessened, const Eigen::VectorXd* right) {
   ++factorisations_;
   fresh_ = debt_ = 0;
   proves_ = lessened > 0;
-  ahead_.resize(0);
+  is_ahead_ = right != nullptr;
   made_ = factor_.factor(matrix_.values, lessened, right) && factor_.smallest_pivot().relative > least_pivot;
   fails_ = !made_;
   return made_;
@@ -149,11 +151,11 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
     return now <= least || (iteration > (proves_ ? 1 : 2) && foreseen * now * now <= least * last);
   };
   for (int iteration = 1; iteration <= most; ++iteration) {
-    if (ahead_.size() == r_.size() && ahead_ == r_)
+    if (is_ahead_ && ahead_ == r_)
       factor_.finish(z_);
     else
       factor_.solve(r_, z_);
-    ahead_.resize(0);
+    is_ahead_ = false;
     ++solves_;
     const double rz = dot(r_, z_);
     if (rz == 0) return iteration;
@@ -186,9 +188,8 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
 
 bool KeptFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance) {
   x.setZero(b.size());
-  const double largest = b.lpNorm<Eigen::Infinity>();
+  const double largest = scale(b, r_);
   if (largest == 0) return true;
-  r_ = b / largest; // the range of single precision is small
   double square = 0;
   const bool fresh = fresh_ == 0;
   const double decades = -std::log10(tolerance), expected = fresh_ * decades;

@@ -66,7 +66,8 @@ class KeptFactor {
   double fresh_ = 0; ///< iterations per decade of the tolerance, of the first solve with the factor; 0 before
   double debt_ = 0;  ///< iterations beyond those
   int factorisations_ = 0, solves_ = 0;
-  Eigen::VectorXd ahead_; ///< right side that the factor has been made with; empty after a solve
+  Eigen::VectorXd ahead_; ///< right side that the factor has been made with
+  bool is_ahead_ = false; ///< no solve has followed
   Eigen::VectorXd r_, z_, p_, Ap_;
 };
 
