@@ -101,11 +101,10 @@ Section line_section() {
 Section rod_section() {
   Section section;
   section.name = "rod";
-  section.meaning =
-      "the film is rolled up to a bar: it pulls along itself, and across itself its width and thickness "
-      "change "
-      "alike, under voltage too, as a cylinder's that keeps its volume: by 1/sqrt(stretch). Film that lies "
-      "flat gives way otherwise, and has more capacitance: [strip]";
+  section.meaning = "the film is rolled up to a bar: it pulls along itself, and across itself its width and "
+                    "thickness change alike, under voltage too, as a cylinder's that keeps its volume: by "
+                    "1/sqrt(stretch). Film that lies flat gives way otherwise, and has more capacitance: "
+                    "[strip]";
   section.presence = Section::Presence::optional;
   section.access = present(&Part::rod);
   section.keys = rod_keys<Rod>([](auto& rod) -> auto& { return rod; });

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/readers/reader.hpp"
-#include "cases/runs/simulation.hpp"
-#include "tests/cases/scratch.hpp"
+#include "tests/cases/film_cases.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,19 +8,6 @@
 
 namespace dielast::cases {
 namespace {
-
-const std::string viscous_patch = R"(
-[film]
-thickness = "1 mm"
-[film.material]
-shear_modulus = "40 kPa"
-permittivity = "4e-11 F/m"
-[[film.material.branch]]
-shear_modulus = "40 kPa"
-relaxation_time = "1 s"
-[patch]
-mode = "equal-biaxial"
-)";
 
 /// Two electrodes on cells of a honeycomb, cut free and driven by 3 kV each.
 const std::string two_electrodes = R"(
@@ -110,7 +94,7 @@ TEST_F(Drives, ARampLeadsToTheSideOfAJumpBeforeTheTransient) {
                            "wave = \"square\", from = 2000, to = 3000, frequency = 0.1",
                            "wave = \"trapezoid\", from = 2000, to = 3000, hold = 100",
                            "wave = \"trapezoid\", from = 2000, to = 3000, hold = 50, period = 100"}) {
-    ASSERT_EQ(run(viscous_patch + "[drive]\nvoltage = { " + wave + " }" + steps).ending, Ending::complete);
+    ASSERT_EQ(run(branched_patch + "[drive]\nvoltage = { " + wave + " }" + steps).ending, Ending::complete);
     EXPECT_EQ(voltages(), (std::vector<double>{0, 1000, 2000, 3000, 3000, 3000})) << wave;
     EXPECT_TRUE(rows[3].record.jumped);
     EXPECT_EQ(rows[3].record.time, 0);
@@ -124,7 +108,7 @@ TEST_F(Drives, ARampLeadsToTheSideOfAJumpBeforeTheTransient) {
                            "wave = \"sine\", mean = 2000, amplitude = 0, frequency = 0.1",
                            "wave = \"unipolar sine\", from = 2000, amplitude = 1000, frequency = 0.1",
                            "wave = \"file\", file = \"table.csv\""}) {
-    ASSERT_EQ(run(viscous_patch + "[drive]\nvoltage = { " + wave + " }" + steps).ending, Ending::complete);
+    ASSERT_EQ(run(branched_patch + "[drive]\nvoltage = { " + wave + " }" + steps).ending, Ending::complete);
     EXPECT_EQ(rows.at(2).record.voltages.at(0), 2000) << wave;
     EXPECT_EQ(rows.size(), 5u) << wave;
   }
@@ -132,8 +116,8 @@ TEST_F(Drives, ARampLeadsToTheSideOfAJumpBeforeTheTransient) {
 
 // Neo-Hookean springs at both sides of the jump: closed form, mu (l^2 - l^-4) = eps (Phi/H)^2 l^4.
 TEST_F(Drives, AJumpActsAtOnceAtItsTimeAndIsLabelled) {
-  ASSERT_EQ(run(viscous_patch + "[drive]\nvoltage = { wave = \"step\", to = 3000, at = 0.3 }\n"
-                                "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = 10\n")
+  ASSERT_EQ(run(branched_patch + "[drive]\nvoltage = { wave = \"step\", to = 3000, at = 0.3 }\n"
+                                 "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = 10\n")
                 .ending,
             Ending::complete);
   std::vector<Row> at_jump;
@@ -151,8 +135,8 @@ TEST_F(Drives, AJumpActsAtOnceAtItsTimeAndIsLabelled) {
 
 TEST_F(Drives, AWaveThatOnlyTurnsGivesNoSecondRow) {
   write("table.csv", "time_s,voltage_V\n0,0\n0.3,1000\n0.5,3000\n0.7,0\n1,500\n");
-  ASSERT_EQ(run(viscous_patch + "[drive]\nvoltage = { wave = \"file\", file = \"table.csv\" }\n"
-                                "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = 10\n")
+  ASSERT_EQ(run(branched_patch + "[drive]\nvoltage = { wave = \"file\", file = \"table.csv\" }\n"
+                                 "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = 10\n")
                 .ending,
             Ending::complete);
   EXPECT_EQ(rows.size(), 11u);
@@ -166,7 +150,7 @@ TEST_F(Drives, OfEitherSignActAlike) {
   const std::string steps = "\n[[step]]\nkind = \"voltage\"\nincrements = 2\n";
   std::vector<double> found;
   for (const char* drive : {"\"5 kV\"", "\"-5 kV\"", "{ wave = \"constant\", to = \"-5 kV\" }"}) {
-    ASSERT_EQ(run(viscous_patch + "[drive]\nvoltage = " + drive + steps).ending, Ending::complete);
+    ASSERT_EQ(run(branched_patch + "[drive]\nvoltage = " + drive + steps).ending, Ending::complete);
     found.push_back(last("stretch_x"));
     EXPECT_EQ(std::abs(rows.back().record.largest_voltage()), 5000);
     EXPECT_NEAR(last("max_field"), 5e6 * last("stretch_x") * last("stretch_x"), 1);

@@ -14,6 +14,20 @@
 
 namespace dielast::cases {
 
+/// Film with one branch, to be driven.
+inline const std::string branched_patch = R"(
+[film]
+thickness = "1 mm"
+[film.material]
+shear_modulus = "40 kPa"
+permittivity = "4e-11 F/m"
+[[film.material.branch]]
+shear_modulus = "40 kPa"
+relaxation_time = "1 s"
+[patch]
+mode = "equal-biaxial"
+)";
+
 /// Cases written by a test and run in its own process.
 class FilmCases : public test::ScratchTest {
  protected:

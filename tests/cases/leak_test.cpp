@@ -10,22 +10,9 @@
 namespace dielast::cases {
 namespace {
 
-const std::string leaking_film = R"(
-[film]
-thickness = "1 mm"
-[film.material]
-shear_modulus = "40 kPa"
-permittivity = "4e-11 F/m"
-[[film.material.branch]]
-shear_modulus = "40 kPa"
-relaxation_time = "1 s"
-[patch]
-mode = "equal-biaxial"
-)";
-
 class Leak : public FilmCases {};
 
-/// The film of `leaking_film`, 1 mm thick and free, with the charge Q and one viscous stretch x: Q and x by
+/// The film of `branched_patch`, 1 mm thick and free, with the charge Q and one viscous stretch x: Q and x by
 /// the classical Runge-Kutta method, the stretch from the balance at each of their values.
 struct LeakingPatch {
   static constexpr double mu = 40e3, relaxation = 1, drawn = 4e-12, volume = 1e-7; ///< Pa, s, F, m^3
@@ -59,7 +46,7 @@ struct LeakingPatch {
 };
 
 TEST_F(Leak, AnIsolatedElectrodeLosesItsChargeThroughTheLeakWhileTimePasses) {
-  const std::string text = leaking_film +
+  const std::string text = branched_patch +
                            "[drive]\ncharge = \"20 nC\"\n[circuit]\nresistance = \"1 Mohm\"\n"
                            "leakage_resistance = \"1 TOhm\"\n[solver]\ntime_tolerance = 1e-8\n"
                            "[[step]]\nkind = \"charge\"\n[[step]]\nkind = \"hold\"\nduration = \"5 s\"\n"
