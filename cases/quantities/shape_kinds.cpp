@@ -25,6 +25,20 @@ Shape distance(const Probing& probing) {
   return [between, turned](const fem::State& at) { return turned ? -between(at) : between(at); };
 }
 
+/// A distance whose relative change is asked for: as drawn there is one.
+Shape relative_distance(const Probing& probing) {
+  const Quantity& quantity = probing.quantity;
+  const fem::State drawn = probing.device.model.initial_state();
+  const Eigen::Vector3d apart = centroid(probing.device, quantity.between[1], drawn) -
+                                centroid(probing.device, quantity.between[0], drawn);
+  const double nothing = 1e-9 * probing.device.mesh.bounds().diagonal().norm();
+  if (apart.norm() <= nothing)
+    probing.refuse("between", "as drawn the two have one centroid: there is no length to compare with");
+  if (std::abs(component(apart, quantity.along)) <= nothing)
+    probing.refuse("along", "as drawn the two lie across this axis: there is no length to compare with");
+  return distance(probing);
+}
+
 Shape size(const Probing& probing) {
   return [&mesh = probing.device.mesh, &quantity = probing.quantity](const fem::State& state) {
     Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -47,7 +61,7 @@ Shape stretch(const Probing& probing) {
           "quantity.between",
           fmt::format("quantity \"{}\": \"{}\" and \"{}\" have no film of one prestretch in common",
                       quantity.name, quantity.between[0], quantity.between[1])}});
-  const Shape length = distance(probing);
+  const Shape length = relative_distance(probing);
   return [length, drawn = length(probing.device.model.initial_state()),
           by = *prestretch](const fem::State& state) { return length(state) / drawn * by; };
 }
@@ -280,7 +294,7 @@ std::vector<QuantityKind> shape_kinds() {
              return fmt::format("elongation from {} to {}{}, since {}{}", q.between[0], q.between[1],
                                 along_words(q), since_words(q), at_words(q));
            },
-       .shape = distance,
+       .shape = relative_distance,
        .since = change,
        .relative = true},
       {.word = "stretch",

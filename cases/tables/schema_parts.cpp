@@ -84,8 +84,11 @@ std::vector<Section> part_sections() {
       measure("at", "m", of_own_mesh(to(&Part::at)), "where the origin of its own geometry is")
           .values(3, 3)
           .otherwise("[0, 0, 0]"),
-      measure("turned", "rad", of_own_mesh(to(&Part::turned)),
-              "angle by which its own geometry is turned about z, before it is placed")
+      measure(
+          "turned", "rad", of_own_mesh(to(&Part::turned)),
+          "angle by which its own geometry is turned about z, before it is placed; its standard quantities "
+          "along x and y turn with it by 90 deg, by other angles distances are those along the straight line "
+          "and sizes are left out")
           .otherwise("0 deg"),
   };
   part.sections.push_back(film_section());

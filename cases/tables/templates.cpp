@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/tables/templates.hpp"
 
+#include "cases/geometries/turned_quantities.hpp"
 #include "cases/language/convert.hpp"
 #include "cases/language/schema.hpp"
 #include "cases/text/units.hpp"
@@ -141,12 +142,9 @@ Node& list_at(Node& tree, const std::string& key) {
 void add_patch_steps(Node& tree) {
   const Source source{tree.source.file, 0, 0};
   Node& steps = list_at(tree, "step");
-  const bool written = steps.source.line > 0 || steps.source.file.text() != source.file.text();
-  if (written) return;
+  if (steps.source.line > 0 || steps.source.file.text() != source.file.text()) return; // written
   for (const std::string& kind : patch_steps(tree)) {
-    const bool known =
-        std::ranges::any_of(steps.items, [&](const Node& s) { return text_at(s, "kind") == kind; });
-    if (known) continue;
+    if (std::ranges::any_of(steps.items, [&](const Node& s) { return text_at(s, "kind") == kind; })) continue;
     Node step;
     step.source = source;
     step.add("kind", text_node(kind, source));
@@ -349,6 +347,7 @@ std::vector<Node> template_quantities(const Node& tree, const Template& device, 
       if (const std::string body = text_at(*pivot, "body"); !body.empty()) quantity.find("of")->text = body;
     quantities.push_back(std::move(quantity));
   }
+  if (!part.empty()) turn_standard_quantities(quantities, *tree.find("part")->find(part));
   return quantities;
 }
 

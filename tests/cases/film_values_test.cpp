@@ -121,6 +121,18 @@ TEST_F(FilmValues, BesideTheFilmOrOnAnEdgeOfAnElectrodeThereAreNone) {
             at(line, 9) + "quantity[1].place: " + two);
 }
 
+// A relative change needs something to compare with: 0/0 would be any number.
+TEST_F(FilmValues, ElongationsAcrossAnAxisAreRefused) {
+  const std::string disc = film("3d") + "[disc]\nradius = \"30 mm\"\nelectrode_radius = \"10 mm\"\n[drive]\n"
+                                        "voltage = \"1 kV\"\n[[step]]\nkind = \"voltage\"\n";
+  const auto of = [&](const std::string& between, const std::string& along) {
+    return refusal(disc + "[[quantity]]\nname = \"e\"\nkind = \"elongation\"\nbetween = " + between + along);
+  };
+  EXPECT_NE(of("[\"rim\", \"centre\"]", "").find("as drawn the two have one centroid"), std::string::npos);
+  EXPECT_NE(of("[\"rim\", \"electrode_edge\"]", "\nalong = \"z\"").find("as drawn the two"),
+            std::string::npos);
+}
+
 // A roll's end feels the film's tension; the node of the cap on which it ends has no film.
 TEST_F(FilmValues, FilmPullsWhereItEnds) {
   const auto roll = [](const std::string& place) {

@@ -311,6 +311,39 @@ TEST_F(Parts, ATurnedPatchIsTheSamePatch) {
               2, 1e-12);
 }
 
+// Its own x and y are meant, wherever they point to.
+TEST_F(Parts, StandardQuantitiesTurnWithTheirPart) {
+  const auto honeycomb = [&](const std::string& turned) {
+    return values("[part.a]\nturned = \"" + turned +
+                  "\"\n[part.a.film]\nmaterial = \"VHB 4910 (honeycomb)\"\nthickness = \"0.5 mm\"\n"
+                  "prestretch = 1.4\n[part.a.honeycomb]\nangle = \"130 deg\"\ncolumns = [1, 2, 1]\n"
+                  "wall_length = \"6 mm\"\nwall_width = \"0.6 mm\"\nwall_height = \"2 "
+                  "mm\"\n[part.a.mesh]\nwall_elements = 2\n[[support]]\nplace = "
+                  "\"a.left_apex\"\nfix = [\"x\", \"y\", \"turn_z\"]\n[drive]\nvoltage = \"2 kV\"\n"
+                  "[[step]]\nkind = \"release\"\n[[step]]\nkind = \"voltage\"\n");
+  };
+  const auto straight = honeycomb("0 deg");
+  for (const char* turned : {"90 deg", "37 deg", "-180 deg"}) {
+    const auto found = honeycomb(turned);
+    for (const char* name : {"a_eps_x", "a_eps_y", "a_released_length_x", "a_released_length_y"})
+      EXPECT_NEAR(found.at(name), straight.at(name), 1e-9 * std::abs(straight.at(name))) << name << turned;
+  }
+  const auto rectangle = [&](const std::string& turned) {
+    return values("[part.r]\nturned = \"" + turned +
+                  "\"\n[part.r.film]\nthickness = \"1 mm\"\nprestretch = 2.5\n[part.r.film.material]\n"
+                  "shear_modulus = \"50 kPa\"\nrelative_permittivity = 4\n[part.r.rectangle]\nlength = \"40 "
+                  "mm\"\nwidth = \"20 mm\"\nelectrode_length = \"20 mm\"\nelectrode_width = \"10 mm\"\n"
+                  "[part.r.mesh]\nacross = 8\n[drive]\nvoltage = \"3 kV\"\n");
+  };
+  const auto upright = rectangle("270 deg"), lying = rectangle("0 deg"), askew = rectangle("10 deg");
+  EXPECT_GT(std::abs(lying.at("r_strain_x") / lying.at("r_strain_y") - 1), 0.1);
+  for (const char* name : {"r_strain_x", "r_strain_y"}) {
+    EXPECT_NEAR(upright.at(name), lying.at(name), 1e-9) << name;
+    EXPECT_FALSE(askew.contains(name)) << name;
+  }
+  EXPECT_NEAR(askew.at("r_areal_strain"), lying.at("r_areal_strain"), 1e-9);
+}
+
 const std::string two_discs = R"toml(
 [part.a.film]
 material = "VHB 4910 (honeycomb)"
