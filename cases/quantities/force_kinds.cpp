@@ -61,12 +61,14 @@ std::string touches_not(const Case& one, const Quantity& quantity) {
 }
 
 Probe nominal_stress(const Probing& probing) {
-  return [near = film_at(probing.quantity.of, probing.device.mesh),
-          along = *probing.quantity.along](const Measured& measured) {
+  return [near = film_at(probing.quantity.of, probing.device.mesh), along = *probing.quantity.along,
+          of_revolution = probing.one.dimension == fem::Dimension::axisymmetric](const Measured& measured) {
     double sum = 0, volume = 0;
     for (const fem::MembraneSample& s : measured.samples.film) {
       if (!near[static_cast<std::size_t>(s.cell)]) continue;
-      sum += s.volume * s.F.row(along).dot(s.S.col(along));
+      // A film of revolution turns its meridian with it, whichever way that was drawn.
+      sum += s.volume *
+             (of_revolution ? s.F.col(along).norm() * s.S(along, along) : s.F.row(along).dot(s.S.col(along)));
       volume += s.volume;
     }
     return volume > 0 ? sum / volume : no_value;
@@ -78,7 +80,9 @@ Probe nominal_stress(const Probing& probing) {
 std::vector<QuantityKind> force_kinds() {
   return {
       {.word = "force",
-       .meaning = "reaction at a support while it holds, with what its masses and dampers take (N)",
+       .meaning =
+           "reaction at a support while it holds, with what its masses and dampers take; in a model of "
+           "revolution radial forces all around are summed as if they were along x (N)",
        .unit = "N",
        .keys =
            [] {
@@ -93,7 +97,8 @@ std::vector<QuantityKind> force_kinds() {
            },
        .probe = force},
       {.word = "film force",
-       .meaning = "with which the film pulls on a place (N)",
+       .meaning = "with which the film pulls on a place; in a model of revolution the radial pulls all "
+                  "around are summed as if they were along x (N)",
        .unit = "N",
        .keys =
            [] {
@@ -147,7 +152,9 @@ std::vector<QuantityKind> force_kinds() {
              return surfaces ? wrong : "the walls of a lattice touch along lines: ask for the contact force";
            }},
       {.word = "nominal stress",
-       .meaning = "force over undeformed section, mean over the film at a place (Pa)",
+       .meaning =
+           "force over undeformed section, mean over the film at a place; in a model of revolution x is "
+           "along the meridian, y around the axis (Pa)",
        .unit = "Pa",
        .keys =
            [] {
