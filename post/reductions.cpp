@@ -146,31 +146,47 @@ std::vector<Scalar> scalars() {
   return all;
 }
 
-Extremes::Extremes(const fem::Samples& samples) {
-  const auto add = [this](const auto& points, const auto& fields, auto make_point, Part part) {
-    const std::size_t first = entries_.size();
+WantedScalars::WantedScalars(std::vector<std::string> names) : names_(std::move(names)) {
+  std::size_t known = 0;
+  const auto add = [&](auto& rows, const auto& fields) {
     for (const auto& field : fields)
       for (std::size_t c = 0; c < static_cast<std::size_t>(field.width()); ++c)
-        entries_.push_back({scalar_name(field, c), std::nullopt, std::nullopt});
-    std::array<double, widest_field> values;
-    for (const auto& sample : points) {
-      const auto point = make_point(sample);
-      std::size_t entry = first;
-      for (const auto& field : fields) {
-        field.evaluate(point, values.data());
-        for (std::size_t c = 0; c < static_cast<std::size_t>(field.width()); ++c, ++entry) {
-          auto& [name, low, high] = entries_[entry];
-          if (!low || values[c] < low->value) low = Extremum{values[c], sample.cell, part};
-          if (!high || values[c] > high->value) high = Extremum{values[c], sample.cell, part};
-        }
-      }
+        for (std::size_t n = 0; n < names_.size(); ++n)
+          if (scalar_name(field, c) == names_[n]) rows.push_back({&field, c, n});
+    known += rows.size();
+  };
+  add(film_, film_fields());
+  add(walls_, wall_fields());
+  if (known != names_.size()) throw std::invalid_argument("extremes of an unknown field");
+}
+
+const WantedScalars& WantedScalars::all() {
+  static const WantedScalars all([] {
+    std::vector<std::string> names;
+    for (const Scalar& scalar : scalars()) names.push_back(scalar.name);
+    return names;
+  }());
+  return all;
+}
+
+Extremes::Extremes(const fem::Samples& samples, const WantedScalars& wanted)
+    : wanted_(wanted), ends_(wanted.names_.size()) {
+  std::array<double, widest_field> values;
+  const auto look = [&](const auto& point, const auto& rows, int cell, Part part) {
+    const void* evaluated = nullptr; // components of a field follow one another
+    for (const auto& row : rows) {
+      if (row.field != evaluated) row.field->evaluate(point, values.data());
+      evaluated = row.field;
+      auto& [low, high] = ends_[row.number];
+      const double value = values[row.component];
+      if (!low || value < low->value) low = Extremum{value, cell, part};
+      if (!high || value > high->value) high = Extremum{value, cell, part};
     }
   };
-  add(
-      samples.film, film_fields(), [](const fem::MembraneSample& sample) { return FilmPoint(sample); },
-      Part::film);
-  add(
-      samples.walls, wall_fields(), [](const fem::BeamSample& sample) { return sample; }, Part::walls);
+  if (!wanted.film_.empty())
+    for (const auto& sample : samples.film) look(FilmPoint(sample), wanted.film_, sample.cell, Part::film);
+  if (!wanted.walls_.empty())
+    for (const auto& sample : samples.walls) look(sample, wanted.walls_, sample.cell, Part::walls);
 }
 
 double film_value(const fem::MembraneSample& sample, std::string_view scalar) {
@@ -185,9 +201,11 @@ double film_value(const fem::MembraneSample& sample, std::string_view scalar) {
 }
 
 std::optional<Extremum> Extremes::find(std::string_view scalar, Extreme which) const {
-  for (const Entry& entry : entries_)
-    if (entry.name == scalar) return which == Extreme::minimum ? entry.low : entry.high;
-  throw std::invalid_argument("unknown field '" + std::string(scalar) + "'");
+  const auto found = std::ranges::find(wanted_.names_, scalar);
+  if (found == wanted_.names_.end())
+    throw std::invalid_argument("field '" + std::string(scalar) + "' is unknown, or was not wanted");
+  const Ends& ends = ends_[static_cast<std::size_t>(found - wanted_.names_.begin())];
+  return which == Extreme::minimum ? ends.low : ends.high;
 }
 
 std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count) {

@@ -49,20 +49,41 @@ struct Extremum {
   Part part{};
 };
 
-/// The smallest and largest values of every scalar of a state, found in one pass over its integration points.
+/// Scalars of which the extremes are wanted.
+class WantedScalars {
+ public:
+  /// Throws std::invalid_argument for an unknown name.
+  explicit WantedScalars(std::vector<std::string> names);
+  static const WantedScalars& all();
+
+ private:
+  friend class Extremes;
+  template<class Point>
+  struct Row {
+    const Field<Point>* field;
+    std::size_t component, number; ///< of the field's; among the names
+  };
+  std::vector<std::string> names_;
+  std::vector<Row<FilmPoint>> film_;
+  std::vector<Row<fem::BeamSample>> walls_;
+};
+
+/// The smallest and largest values of scalars of a state, found in one pass over its integration points.
 class Extremes {
  public:
-  explicit Extremes(const fem::Samples& samples);
+  /// `wanted` must outlive this.
+  explicit Extremes(const fem::Samples& samples, const WantedScalars& wanted = WantedScalars::all());
 
-  /// Nothing when the model has no points of that part. Throws std::invalid_argument for an unknown name.
+  /// Nothing when the model has no points of that part. Throws std::invalid_argument for a scalar that was
+  /// not wanted.
   std::optional<Extremum> find(std::string_view scalar, Extreme which) const;
 
  private:
-  struct Entry {
-    std::string name;
+  struct Ends {
     std::optional<Extremum> low, high;
   };
-  std::vector<Entry> entries_; ///< in the order of scalars()
+  const WantedScalars& wanted_;
+  std::vector<Ends> ends_; ///< one per scalar
 };
 
 /// How steep a scalar is where it is extreme: the largest difference between the extremum and the values at

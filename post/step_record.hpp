@@ -2,17 +2,31 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace dielast::post {
 
+/// Where a step is.
+struct Moment {
+  double load_factor = 0;       ///< 0..1 within the step
+  double time = 0;              ///< s
+  std::vector<double> voltages; ///< V, one per electrode
+};
+
 /// Something a user must know about an accepted state.
 struct Event {
   std::string
       kind; ///< "loss of tension", "breakdown", "wall contact", "wall yield", "limit point", "instability"
-  std::string place;   ///< named place, e.g. "cell[2,3]"; empty when it is everywhere
-  std::string message; ///< one sentence with numbers and units
+  std::string place;              ///< named place, e.g. "cell[2,3]"; empty when it is everywhere
+  std::string message;            ///< one sentence with numbers and units
+  std::optional<Moment> before{}; ///< where it was on the way to the record that tells of it
+};
+
+/// The value of the largest magnitude that a quantity has had, and when.
+struct Peak {
+  double value = 0, time = 0; ///< SI, s
 };
 
 /// One accepted increment of one step.

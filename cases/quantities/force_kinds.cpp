@@ -14,7 +14,7 @@ namespace {
 
 Probe force(const Probing& probing) {
   return [&device = probing.device, &quantity = probing.quantity](const Measured& measured) {
-    return component(support_force(device, quantity.of, measured.reaction), quantity.along);
+    return component(support_force(device, quantity.of, measured.reaction()), quantity.along);
   };
 }
 
@@ -30,7 +30,7 @@ Probe moment(const Probing& probing) {
   const fem::DofMap& dofs = probing.device.model.dofs;
   const int master = probing.device.mesh.node_sets.at(probing.quantity.of).front();
   return [&dofs, e = dofs.equation(master, 3 + *probing.quantity.along)](const Measured& measured) {
-    return dofs.is_held(e) ? measured.reaction[e] : 0.0;
+    return dofs.is_held(e) ? measured.reaction()[e] : 0.0;
   };
 }
 

@@ -4,20 +4,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dielast::cases {
 
 Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::State& at,
-                   const fem::EnergyBalance& balance, bool with_fields)
-    : equilibrium(solver), state(at), samples(with_fields ? device.model.sample(at) : fem::Samples{}),
-      extremes(samples), charges(device.model.charges(at, false)), energy(balance) {
-  fem::external_force(equilibrium, at, reaction);
-  Eigen::VectorXd dead = at.dead_force;
-  device.model.dofs.gather(at, dead);
-  reaction -= dead;
+                   const fem::EnergyBalance& balance, const post::WantedScalars& scalars)
+    : equilibrium(solver), state(at), samples(device.model.sample(at)), extremes(samples, scalars),
+      charges(device.model.charges(at, false)), energy(balance) {}
+
+const Eigen::VectorXd& Measured::reaction() const {
+  if (reaction_.size() > 0) return reaction_;
+  fem::external_force(equilibrium, state, reaction_);
+  Eigen::VectorXd dead = state.dead_force;
+  equilibrium.model().dofs.gather(state, dead);
+  reaction_ -= dead;
+  return reaction_;
 }
 
-Measurement::Measurement(const Case& one, const Device& device) : case_(one), device_(device) { prepare(); }
+Measurement::Measurement(const Case& one, const Device& device) : case_(one), device_(device) {
+  prepare();
+  begin_peaks();
+}
+
+void Measurement::begin_peaks() { peaks.assign(case_.quantities.size(), {no_value, 0}); }
 
 void Measurement::prepare() {
   const fem::State initial = device_.model.initial_state();
@@ -51,7 +61,18 @@ std::vector<double> Measurement::all(const Measured& measured) {
   for (std::size_t q = 0; q < values.size(); ++q)
     if (const Quantity& quantity = case_.quantities[q]; quantity.kind->so_far)
       values[q] = quantity.kind->so_far(references, quantity, values[subject(quantity)], measured.state.time);
+  constexpr double same = 1 + 1e-9; // of two that rounding makes different the first
+  for (std::size_t q = 0; q < values.size(); ++q)
+    if (!std::isnan(values[q]) && !(std::abs(values[q]) <= same * std::abs(peaks[q].value)))
+      peaks[q] = {values[q], measured.state.time};
   return values;
+}
+
+std::vector<std::string> Measurement::scalars() const {
+  std::vector<std::string> names;
+  for (const Quantity& quantity : case_.quantities)
+    if (quantity.kind->extreme && std::ranges::count(names, quantity.of) == 0) names.push_back(quantity.of);
+  return names;
 }
 
 std::size_t Measurement::subject(const Quantity& quantity) const {
@@ -59,27 +80,11 @@ std::size_t Measurement::subject(const Quantity& quantity) const {
   return static_cast<std::size_t>(found - case_.quantities.begin());
 }
 
-void Measurement::pass(const Measured& measured) {
-  for (const Quantity& quantity : case_.quantities)
-    if (quantity.kind->so_far)
-      quantity.kind->so_far(references, quantity, value(subject(quantity), measured), measured.state.time);
-}
-
-bool Measurement::follows_course() const {
-  return std::ranges::any_of(case_.quantities,
-                             [](const Quantity& quantity) { return quantity.kind->so_far != nullptr; });
-}
-
-bool Measurement::follows_fields() const {
-  return std::ranges::any_of(case_.quantities, [this](const Quantity& quantity) {
-    return quantity.kind->so_far && case_.quantities[subject(quantity)].kind->fields;
-  });
-}
-
 void Measurement::step_ended(const std::string& step, const Measured& measured) {
   // Courses are those of the steps that a case has: what a film does to settle before the first is none of
   // it.
   const bool is_own = std::ranges::count(case_.steps, step, &Step::name) > 0;
+  if (!is_own) begin_peaks();
   for (const Quantity& quantity : case_.quantities)
     if (!is_own && quantity.since.empty() && quantity.kind->begin)
       quantity.kind->begin(references, quantity, measured.state.time);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/quantities/probing.hpp"
+#include "post/step_record.hpp"
 
 #include <string>
 #include <vector>
@@ -17,26 +18,27 @@ class Measurement {
   /// Makes what is measured ready again: the device was made again, in its place.
   void prepare();
 
-  /// All quantities, in the case's order and in SI; NaN where one has no meaning yet (an elongation since a
-  /// step that has not ended).
+  /// Scalars of which quantities need the extremes.
+  std::vector<std::string> scalars() const;
+
+  /// All quantities of the next accepted state, in the case's order and in SI; NaN where one has no meaning
+  /// yet (an elongation since a step that has not ended).
   std::vector<double> all(const Measured& measured);
 
   /// One of them, by its number in the case; NaN of those of another's course, too.
   double value(std::size_t number, const Measured& measured) const;
-
-  /// Sees a state that is not recorded: for quantities of another's course.
-  void pass(const Measured& measured);
-  bool follows_course() const;
-  /// Whether that is of quantities that are measured on fields.
-  bool follows_fields() const;
 
   /// Says that a step ended in this state: elongations and displacements since it start here.
   void step_ended(const std::string& step, const Measured& measured);
 
   /// Lengths and displacements that quantities are relative to, and courses so far; stored with a checkpoint.
   References references;
+  /// Of every quantity, from where the first of the case's own steps sets out; NaN where it has had no value.
+  /// Stored with a checkpoint.
+  std::vector<post::Peak> peaks;
 
  private:
+  void begin_peaks();
   /// The number of the quantity whose course one follows.
   std::size_t subject(const Quantity& quantity) const;
 

@@ -15,19 +15,24 @@ namespace dielast::cases {
 
 /// A state, with what is needed to measure it.
 struct Measured {
-  /// Without fields, samples and extremes are empty.
+  /// `scalars`: of which the extremes are wanted; it must outlive this.
   Measured(const Device& device, fem::Equilibrium& equilibrium, const fem::State& state,
-           const fem::EnergyBalance& energy, bool with_fields = true);
+           const fem::EnergyBalance& energy, const post::WantedScalars& scalars = post::WantedScalars::all());
+
+  /// Of supports on the device at held equations (see DofMap), N and N m.
+  const Eigen::VectorXd& reaction() const;
 
   fem::Equilibrium& equilibrium;
   bool may_rest = true; ///< asked for stiffness and vibrations, where it is at rest; not on the way in time
 
   const fem::State& state;
   fem::Samples samples;
-  post::Extremes extremes;  ///< of these samples
-  Eigen::VectorXd reaction; ///< of supports on the device at held equations (see DofMap), N and N m
+  post::Extremes extremes; ///< of the scalars that are wanted
   fem::Charges charges;
   const fem::EnergyBalance& energy;
+
+ private:
+  mutable Eigen::VectorXd reaction_; ///< empty until somebody asks
 };
 
 /// A quantity and the device that it is of. Probes keep references to what they need of both.

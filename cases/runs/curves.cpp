@@ -47,22 +47,15 @@ std::vector<std::size_t> users_first(const Case& one) {
   return order;
 }
 
-std::optional<post::Peak> peak_of(const Case& one, std::size_t q, const Journal& journal) {
+std::optional<post::Peak> peak_of(const Case& one, std::size_t q, const std::vector<post::Peak>& peaks,
+                                  const Journal& journal) {
   constexpr double notable = 1.01; // of the last value
   const auto& records = journal.records;
   if (records.empty() || records.back().time == 0 || !one.quantities[q].at.empty()) return std::nullopt;
-  // From where the case's own steps set out: a film may have settled before.
-  const auto own = std::ranges::find(records, one.steps.front().name, &post::StepRecord::step);
-  const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, own - records.begin() - 1));
   const double last = journal.values.back()[q];
-  double size = std::isfinite(last) ? notable * std::abs(last) : 0;
-  std::optional<post::Peak> peak;
-  for (std::size_t r = first; r < records.size(); ++r)
-    if (const double value = journal.values[r][q]; std::abs(value) > size * (1 + round_off)) {
-      size = std::abs(value);
-      peak = {value, records[r].time};
-    }
-  return peak;
+  const double least = std::isfinite(last) ? notable * std::abs(last) : 0;
+  if (!(std::abs(peaks[q].value) > least)) return std::nullopt;
+  return peaks[q];
 }
 
 std::vector<post::Plot> curves(const Case& one, const Journal& journal, std::vector<std::string>& left_out) {

@@ -21,9 +21,10 @@ inline constexpr double round_off = 1e-9; ///< of the largest number of the same
 /// Numbers of the quantities: the user's own before the standard ones.
 std::vector<std::size_t> users_first(const Case& one);
 
-/// What the quantity of number `q` is where it is largest in size in a run in time, from where the first of
-/// the case's steps sets out; nothing where that is within 1 % of what it is at the end.
-std::optional<post::Peak> peak_of(const Case& one, std::size_t q, const Journal& journal);
+/// The peak of the quantity of number `q` in a run in time; nothing where that is within 1 % of what it is at
+/// the end.
+std::optional<post::Peak> peak_of(const Case& one, std::size_t q, const std::vector<post::Peak>& peaks,
+                                  const Journal& journal);
 
 /// Every quantity against time, where it passes; otherwise against the largest voltage from where it rises,
 /// or against the load factor of the last step in a run without voltage; strains in one plot. Quantities that

@@ -20,7 +20,25 @@ Eigen::VectorXd unpack(const json& packed, const post::StateSizes& sizes) {
 
 } // namespace
 
+json archive(const post::Event& event) {
+  json archived{{"kind", event.kind}, {"place", event.place}, {"message", event.message}};
+  if (event.before)
+    archived["before"] = {event.before->load_factor, event.before->time, event.before->voltages};
+  return archived;
+}
+
+post::Event restore_event(const json& archived) {
+  post::Event event{archived.at("kind"), archived.at("place"), archived.at("message")};
+  if (const auto before = archived.find("before"); before != archived.end())
+    event.before = {before->at(0), before->at(1), before->at(2)};
+  return event;
+}
+
 json archive(const SimulationProgress& progress) {
+  json news = json::array();
+  for (const post::Event& event : progress.news) news.push_back(archive(event));
+  std::vector<double> peaks; // values and times
+  for (const post::Peak& peak : progress.peaks) peaks.insert(peaks.end(), {peak.value, peak.time});
   const std::optional<fem::ContinuationProgress>& followed = progress.in_step.followed;
   return {{"step", progress.step},
           {"records", progress.records},
@@ -33,6 +51,8 @@ json archive(const SimulationProgress& progress) {
           {"time_error", progress.time_error},
           {"let_go", pack(progress.let_go)},
           {"signals", progress.signals},
+          {"news", std::move(news)},
+          {"peaks", post::pack(peaks)},
           {"unseen",
            {{"kinetic", progress.unseen.kinetic},
             {"size", progress.unseen.size},
@@ -53,6 +73,9 @@ SimulationProgress restore_progress(const json& archived, const post::StateSizes
   progress.time_error = archived.at("time_error");
   progress.let_go = unpack(archived.at("let_go"), sizes);
   progress.signals = archived.at("signals");
+  for (const json& event : archived.at("news")) progress.news.push_back(restore_event(event));
+  const std::vector<double> peaks = post::unpack(archived.at("peaks"));
+  for (std::size_t i = 0; i + 1 < peaks.size(); i += 2) progress.peaks.push_back({peaks[i], peaks[i + 1]});
   const json& unseen = archived.at("unseen");
   progress.unseen = {unseen.at("kinetic"), unseen.at("size"), unpack(unseen.at("start"), sizes),
                      unpack(unseen.at("farthest"), sizes)};

@@ -35,7 +35,7 @@ constexpr std::chrono::seconds checkpoint_interval{2};
 
 json archive(const post::StepRecord& record) {
   json events = json::array();
-  for (const post::Event& event : record.events) events.push_back({event.kind, event.place, event.message});
+  for (const post::Event& event : record.events) events.push_back(cases::archive(event));
   return {{"index", record.index},
           {"step", record.step},
           {"load_factor", record.load_factor},
@@ -52,8 +52,7 @@ post::StepRecord restore_record(const json& archived) {
   post::StepRecord record{archived.at("index"),    archived.at("step"),           archived.at("load_factor"),
                           archived.at("time"),     archived.at("voltages"),       archived.at("iterations"),
                           archived.at("residual"), archived.at("unstable_modes"), {}};
-  for (const json& event : archived.at("events"))
-    record.events.push_back({event.at(0), event.at(1), event.at(2)});
+  for (const json& event : archived.at("events")) record.events.push_back(restore_event(event));
   record.jumped = archived.at("jumped");
   return record;
 }

@@ -47,6 +47,10 @@ struct Journal {
   std::vector<Analysis> analyses;
 };
 
+/// An event in a checkpoint.
+nlohmann::json archive(const post::Event& event);
+post::Event restore_event(const nlohmann::json& archived);
+
 /// A simulation's progress in a checkpoint, bit for bit.
 nlohmann::json archive(const SimulationProgress& progress);
 /// Throws CheckpointError and what JSON throws where it is not that of a model of these sizes.

@@ -104,7 +104,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                           .unit = unit_of(quantity, one.quantities),
                           .ratio = ratio_of(quantity),
                           .meaning = meaning_of(quantity),
-                          .peak = peak_of(one, q, journal)};
+                          .peak = peak_of(one, q, simulation.peaks(), journal)};
     if (quantity.kind->of_run) {
       const auto margin = std::ranges::find(results.margins, quantity.of, &Margin::limit);
       if (margin != results.margins.end()) {
@@ -188,8 +188,9 @@ json summary_json(const Case& one, const Device& device, const Results& results,
       events.push_back({{"kind", event.kind},
                         {"step", record.step},
                         {"record", record.index},
-                        {"load_factor", record.load_factor},
-                        {"voltages", record.voltages},
+                        {"load_factor", event.before ? event.before->load_factor : record.load_factor},
+                        {"time", event.before ? event.before->time : record.time},
+                        {"voltages", event.before ? event.before->voltages : record.voltages},
                         {"place", event.place},
                         {"message", message_of(event, results)}});
   // The bifurcation at which a run ends as at a limit point is told by the event that located it.
@@ -204,6 +205,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                       {"step", last.step},
                       {"record", last.index},
                       {"load_factor", last.load_factor},
+                      {"time", last.time},
                       {"voltages", last.voltages},
                       {"place", ""},
                       {"message", results.outcome.message}});

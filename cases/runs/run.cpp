@@ -180,8 +180,6 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   log.info("results");
   for (const post::QuantityRow& row : results.quantities)
     log.info("  {:<24} {}{}{}", row.name, post::with_error(row), row.peak ? ", " : "", post::peak_note(row));
-  if (std::ranges::any_of(one.steps, [](const Step& step) { return step.record.has_value(); }))
-    log.info("  events and peaks are those of the rows that \"record\" asks for, not of the times between");
   if (one.error_estimate && outcome.ending == Ending::complete && !estimates.reason.empty())
     log.warn("  no error estimate: {}", estimates.reason);
   for (const EventRemark& event : estimates.events) log.warn("  {}: {}", event.kind, event.remark);

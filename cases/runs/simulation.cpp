@@ -43,6 +43,14 @@ post::Event left_out(double ratio, const Step& step) {
               step.name, ratio)};
 }
 
+/// Those of which extremes are needed.
+post::WantedScalars wanted(const Measurement& measurement) {
+  std::vector<std::string> names = measurement.scalars();
+  for (const char* scalar : Watch::scalars)
+    if (std::ranges::count(names, scalar) == 0) names.emplace_back(scalar);
+  return post::WantedScalars(std::move(names));
+}
+
 /// Whether a step is about voltages, and the case has none.
 bool lacks_voltage(const Case& one, const Step& step) {
   const auto charged = [](const auto& drive) { return drive.second.voltage || drive.second.charge; };
@@ -57,7 +65,7 @@ bool lacks_voltage(const Case& one, const Step& step) {
 Simulation::Simulation(const Case& one, int threads)
     : case_(one), threads_(threads), holding_(holding_in(one, one.steps, 0)),
       now_(with_supports(one, holding_)), device_(build_device(now_)), measurement_(one, device_),
-      signals_(signals_of(one)), watch_(device_), steps_(one.steps),
+      signals_(signals_of(one)), watch_(device_), scalars_(wanted(measurement_)), steps_(one.steps),
       results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
   equilibrium_.emplace(device_.model, threads);
   frame_ = frame_force();
@@ -111,10 +119,10 @@ void Simulation::change_supports(fem::State& state) {
   if (holding_in(case_, steps_, step_) == holding_) return;
   const fem::DofMap before = device_.model.dofs;
   if (!steps_[static_cast<std::size_t>(step_)].inertia) state.motion.reset(); // balanced as it will be
-  const Measured measured(device_, *equilibrium_, state, energy_, false);
+  const Eigen::VectorXd reaction = Measured(device_, *equilibrium_, state, energy_, scalars_).reaction();
   enter(step_);
   const Renumbering renumbered(before, device_.model.dofs);
-  const Eigen::VectorXd let_go = renumbered.let_go(measured.reaction);
+  const Eigen::VectorXd let_go = renumbered.let_go(reaction);
   state = renumbered(std::move(state));
   state.dead_force += let_go;
   if (!let_go.isZero(0)) loads_->let_go = let_go;
@@ -136,7 +144,7 @@ Eigen::VectorXd Simulation::frame_force() {
 SimulationProgress Simulation::progress() const {
   SimulationProgress progress{
       step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
-      time_error_, loads_->let_go, {},       unseen_};
+      time_error_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_};
   for (const auto& [load, signal] : signals_) progress.signals.push_back(signal->memory());
   return progress;
 }
@@ -151,6 +159,9 @@ void Simulation::resume(const SimulationProgress& progress) {
   watch_.active = progress.active_events;
   time_error_ = progress.time_error;
   unseen_ = progress.unseen;
+  if (progress.peaks.size() != measurement_.peaks.size()) throw post::CheckpointError("damaged");
+  measurement_.peaks = progress.peaks;
+  news_ = progress.news;
   loads_->let_go = progress.let_go;
   if (progress.signals.size() != signals_.size()) throw post::CheckpointError("damaged");
   auto kept = progress.signals.begin();
@@ -228,7 +239,7 @@ bool Simulation::sample(const Step& step, double load_factor, const fem::State& 
   const double t = load_factor * *step.duration;
   for (const auto& [load, signal] : signals_) {
     if (!signal->samples(t)) continue;
-    Measured measured(device_, *equilibrium_, state, energy_);
+    Measured measured(device_, *equilibrium_, state, energy_, scalars_);
     measured.may_rest = false;
     const std::string wrong = signal->sample(t, measured, measurement_);
     if (wrong.empty()) continue;
@@ -238,6 +249,7 @@ bool Simulation::sample(const Step& step, double load_factor, const fem::State& 
   return true;
 }
 
+/// Looks for events and peaks in every accepted state, whatever is recorded.
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
   if (!admits(step, increment.load_factor, state)) return false;
@@ -245,9 +257,22 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   if (!sample(step, increment.load_factor, state)) return false;
   if (increment.lands) return record(observer, step, state, increment);
   unrecorded_ = increment;
-  if (measurement_.follows_course())
-    measurement_.pass({device_, *equilibrium_, state, energy_, measurement_.follows_fields()});
+  Measured measured(device_, *equilibrium_, state, energy_, scalars_);
+  measured.may_rest = !step.duration;
+  measurement_.all(measured);
+  std::vector<post::Event> found = watch_.check(state, measured.extremes, increment.newton.unstable_modes);
+  for (post::Event& event : found) {
+    if (std::ranges::count(news_, event.kind, &post::Event::kind) > 0) continue; // one of a kind for a record
+    event.before = {increment.load_factor, state.time, voltages(state)};
+    if (step.duration) event.message += fmt::format(" (at {})", post::engineering(state.time, "s"));
+    news_.push_back(std::move(event));
+  }
   return !observer.on_pass || observer.on_pass();
+}
+
+std::vector<double> Simulation::voltages(const fem::State& state) const {
+  return {state.voltage.begin(),
+          state.voltage.begin() + static_cast<std::ptrdiff_t>(case_.electrodes.size())};
 }
 
 bool Simulation::record(const SimulationObserver& observer, const Step& step, const fem::State& state,
@@ -255,7 +280,7 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
   unrecorded_.reset();
   const bool is_drawn = records_ == 0;
   const bool ends = !is_drawn && increment.load_factor >= 1;
-  Measured measured(device_, *equilibrium_, state, energy_);
+  Measured measured(device_, *equilibrium_, state, energy_, scalars_);
   measured.may_rest = ends || !step.duration;
   if (ends) measurement_.step_ended(step.name, measured);
   const std::vector<double> values = measurement_.all(measured);
@@ -276,18 +301,16 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
   }
   for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes))
     events.push_back(std::move(event));
-  const post::StepRecord record{
-      .index = records_++,
-      .step = is_drawn ? drawn : step.name,
-      .load_factor = increment.load_factor,
-      .time = state.time,
-      .voltages = {state.voltage.begin(),
-                   state.voltage.begin() + static_cast<std::ptrdiff_t>(case_.electrodes.size())},
-      .iterations = newton.iterations,
-      .residual = newton.residual,
-      .unstable_modes = newton.unstable_modes,
-      .events = std::move(events),
-      .jumped = increment.jumped};
+  const post::StepRecord record{.index = records_++,
+                                .step = is_drawn ? drawn : step.name,
+                                .load_factor = increment.load_factor,
+                                .time = state.time,
+                                .voltages = voltages(state),
+                                .iterations = newton.iterations,
+                                .residual = newton.residual,
+                                .unstable_modes = newton.unstable_modes,
+                                .events = std::move(events),
+                                .jumped = increment.jumped};
   return !observer.on_accept || observer.on_accept({record, measured, values, ends});
 }
 

@@ -24,6 +24,8 @@ struct SimulationProgress {
   Eigen::VectorXd let_go{};                   ///< see StepLoads
   std::vector<std::vector<double>> signals{}; ///< what each of them keeps
   fem::UnseenMotion unseen{};                 ///< of the current step
+  std::vector<post::Peak> peaks{};            ///< see Measurement
+  std::vector<post::Event> news{};            ///< for the next record
 };
 
 /// An accepted state.
@@ -79,6 +81,8 @@ class Simulation {
   const fem::EnergyBalance& energy() const { return energy_; }
   /// Sum of the errors that the time steps may have added to internal variables and motion, relative.
   double time_error() const { return time_error_; }
+  /// Of the quantities, see Measurement.
+  const std::vector<post::Peak>& peaks() const { return measurement_.peaks; }
   void set_results(std::vector<double> results) { results_ = std::move(results); }
 
  private:
@@ -91,6 +95,7 @@ class Simulation {
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);
   bool record(const SimulationObserver& observer, const Step& step, const fem::State& state,
               const fem::Increment& increment);
+  std::vector<double> voltages(const fem::State& state) const;
 
   const Case& case_;
   int threads_;
@@ -101,6 +106,7 @@ class Simulation {
   Measurement measurement_;
   Signals signals_;
   Watch watch_;
+  post::WantedScalars scalars_; ///< of which extremes are needed
   std::vector<Step> steps_;
   std::vector<std::string> warnings_;
   std::optional<Outcome> refusal_; ///< of a state that no physics allows

@@ -6,6 +6,7 @@
 #include "post/reductions.hpp"
 #include "post/step_record.hpp"
 
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +21,10 @@ constexpr double smallest_stress = 1e-3;
 /// again while it lasts.
 class Watch {
  public:
+  /// Those of which extremes are needed.
+  static constexpr std::array scalars{"tension_state", "min_principal_stress", "breakdown_ratio",
+                                      "yield_ratio"};
+
   /// The device must outlive this.
   explicit Watch(const Device& device);
 

@@ -107,8 +107,9 @@ Section step_section() {
           .replacing("duration")
           .only(ramps),
       measure("record", "s", to(&Step::record),
-              "time between rows of the history, in which events are looked for; without it one for each "
-              "increment")
+              "time between rows of the history; without it one for each increment. Events and peaks are "
+              "those of "
+              "all time steps")
           .above(0)
           .optional()
           .only(moving),

@@ -32,7 +32,7 @@ std::string value_text(const QuantityRow& row, const ScaledUnit& scaled) {
 
 constexpr std::size_t most_rows = 500;
 
-std::string load_text(const StepRecord& record) { return significant(record.load_factor, 3); }
+std::string load_text(double load_factor) { return significant(load_factor, 3); }
 
 } // namespace
 
@@ -86,8 +86,11 @@ Table event_table(std::span<const StepRecord> records) {
   Table table{{"Step", "Load", "Event", "Place", "What happened"}, {}};
   for (const StepRecord& record : records)
     for (const Event& event : record.events)
-      table.rows.push_back(
-          {record.step, load_text(record), {event.kind, Tone::warning}, event.place, event.message});
+      table.rows.push_back({record.step,
+                            load_text(event.before ? event.before->load_factor : record.load_factor),
+                            {event.kind, Tone::warning},
+                            event.place,
+                            event.message});
   return table;
 }
 
@@ -100,7 +103,7 @@ Table increment_table(std::span<const StepRecord> records) {
     double voltage = 0;
     for (const double v : record.voltages)
       if (std::abs(v) > std::abs(voltage)) voltage = v;
-    table.rows.push_back({fmt::to_string(record.index), record.step, load_text(record),
+    table.rows.push_back({fmt::to_string(record.index), record.step, load_text(record.load_factor),
                           engineering(voltage, "V"), fmt::to_string(record.iterations),
                           fmt::format("{:.1e}", record.residual),
                           record.unstable_modes == 0

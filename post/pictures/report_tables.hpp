@@ -12,11 +12,6 @@
 namespace dielast::post {
 
 /// A number of the run as the summary shows it.
-/// The largest value in size that a quantity has had, SI, and when, s.
-struct Peak {
-  double value = 0, time = 0;
-};
-
 struct QuantityRow {
   std::string name;
   double value = 0; ///< SI; NaN where it could not be had

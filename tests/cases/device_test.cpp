@@ -56,7 +56,7 @@ TEST(FreeBody, ItsPinsExertNoForce) {
     SimulationObserver observer;
     observer.on_accept = [&](const Frame& frame) {
       if (frame.ends_step) {
-        pins = std::max(pins, frame.measured.reaction.tail(dofs.count() - dofs.free_count()).norm());
+        pins = std::max(pins, frame.measured.reaction().tail(dofs.count() - dofs.free_count()).norm());
         forces = 45e3 * 1e-3 * 8e-3; // mu H L
       }
       return true;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What happens between the rows of a history.
+#include "cases/runs/recorder.hpp"
+#include "tests/cases/case_test.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+class BetweenRows : public test::CaseTest {
+ protected:
+  /// A free film of 50 kPa under 5 kV and a sine of 3 kV, 1 Hz, in steps of 10 ms.
+  Case wave(const std::string& record) const {
+    return read("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"50 kPa\"\npermittivity = "
+                "\"4e-11 F/m\"\nbreakdown_field = \"7.8 MV/m\"\n[patch]\nmode = \"equal-biaxial\"\n[drive]\n"
+                "voltage = { wave = \"sine\", mean = \"5 kV\", amplitude = \"3 kV\", frequency = \"1 Hz\" }\n"
+                "[[step]]\nkind = \"transient\"\nduration = \"2.1 s\"\nincrements = 210\n" +
+                (record.empty() ? "" : "record = \"" + record + "\"\n"));
+  }
+  struct Told {
+    double time, voltage, load_factor;
+  };
+  /// Breakdowns and the peak of the field.
+  struct Course {
+    std::vector<Told> breakdowns;
+    post::Peak field;
+  };
+  void note(const post::StepRecord& record, Course& course) const {
+    for (const post::Event& event : record.events) {
+      EXPECT_EQ(event.kind, "breakdown");
+      const post::Moment at =
+          event.before.value_or(post::Moment{record.load_factor, record.time, record.voltages});
+      course.breakdowns.push_back({at.time, at.voltages.at(0), at.load_factor});
+    }
+  }
+  static std::size_t number_of(const Case& one, const std::string& quantity) {
+    return static_cast<std::size_t>(std::ranges::find(one.quantities, quantity, &Quantity::name) -
+                                    one.quantities.begin());
+  }
+  Course course(const Case& one) const {
+    Course course;
+    Simulation simulation(one, 1);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      note(frame.record, course);
+      return true;
+    };
+    EXPECT_EQ(simulation.run(observer).ending, Ending::complete);
+    course.field = simulation.peaks()[number_of(one, "max_field")];
+    return course;
+  }
+};
+
+// The largest field is that at 8 kV: mu (l^2 - l^-4) = eps E^2, E = l^2 V / H.
+TEST_F(BetweenRows, EventsAndPeaksAreThoseOfAllTimeSteps) {
+  double stretch = 1;
+  for (int i = 0; i < 100; ++i) stretch = std::pow(1 - 4e-11 / 50e3 * std::pow(8e6 * stretch, 2), -1.0 / 6);
+  const double largest = 8e6 * stretch * stretch;
+  for (const auto& [record, told] : {std::pair{"", 2u}, {"0.35 s", 2u}, {"2.1 s", 1u}}) {
+    const Course found = course(wave(record));
+    EXPECT_NEAR(found.field.value / largest, 1, 1e-9) << record;
+    EXPECT_NEAR(found.field.time, 0.25, 1e-9) << record;
+    ASSERT_EQ(found.breakdowns.size(), told) << record; // between two rows one of a kind
+    for (unsigned i = 0; i < told; ++i) {
+      const Told& at = found.breakdowns[i];
+      EXPECT_NEAR(at.time, i + 0.18, 1e-9) << record;
+      EXPECT_NEAR(at.load_factor, at.time / 2.1, 1e-9) << record;
+      EXPECT_NEAR(at.voltage, 5e3 + 3e3 * std::sin(2 * std::numbers::pi * 0.18), 1e-6) << record;
+    }
+  }
+}
+
+// Stopped behind what is told in the row to come.
+TEST_F(BetweenRows, AResumedRunTellsWhatWasBeforeIt) {
+  const Case one = wave("2.1 s");
+  for (const int states : {10, 22, 30}) {
+    Course found;
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      note(frame.record, found);
+      return true;
+    };
+    int passed = 0;
+    observer.on_pass = [&] { return ++passed != states; };
+    Simulation stopped(one, 1);
+    ASSERT_EQ(stopped.run(observer).ending, Ending::interrupted);
+    const nlohmann::json kept =
+        nlohmann::json::from_cbor(nlohmann::json::to_cbor(archive(stopped.progress())));
+    Simulation resumed(one, 1);
+    resumed.resume(restore_progress(kept, post::StateSizes::of(resumed.device().model)));
+    ASSERT_EQ(resumed.run(observer).ending, Ending::complete);
+    const Course straight = course(one);
+    EXPECT_EQ(resumed.peaks()[number_of(one, "max_field")].value, straight.field.value) << states;
+    EXPECT_EQ(resumed.peaks()[number_of(one, "max_field")].time, straight.field.time) << states;
+    ASSERT_EQ(found.breakdowns.size(), 1u) << states;
+    EXPECT_EQ(found.breakdowns[0].time, straight.breakdowns[0].time) << states;
+  }
+}
+
+} // namespace
+} // namespace dielast::cases
