@@ -105,7 +105,6 @@ void StepLoads::begin(int number, fem::State& state) const {
   }
   connect_chamber(step, held, state);
   if (connects) device_.model.charge_circuits(state);
-  if (!step.inertia) state.motion.reset();
 }
 
 bool StepLoads::happened(int step, StepKind kind) const {
@@ -163,10 +162,14 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   fem::Loads loads = start;
   const auto does = [&step](StepKind kind) { return step.kind == kind || step.kind == StepKind::transient; };
   const bool has_let_go = let_go.size() > 0;
-  if (does(StepKind::force) || step.kind == StepKind::release || step.kind == StepKind::weight)
+  if (does(StepKind::force)) {
     loads.dead_force = dead_force(number, t);
-  else if (has_let_go)
-    loads.dead_force -= let_go;
+  } else { // what no step is about stays where the one before has left it
+    const auto is_first = [&](StepKind kind) { return step.kind == kind && !happened(number - 1, kind); };
+    if (is_first(StepKind::release)) loads.dead_force -= frame_force_;
+    if (is_first(StepKind::weight)) loads.dead_force += device_.weight;
+    if (has_let_go) loads.dead_force -= let_go;
+  }
   if (has_let_go) loads.dead_force += left(step, t) * let_go;
   if (does(StepKind::move)) move(step, loads.held, t);
   const auto goal = [&](const DrivenLoad& load, const auto& said) {

@@ -15,8 +15,7 @@ class StepLoads {
   StepLoads(const Case& one, const Device& device, const std::vector<Step>& steps, const Signals& signals,
             Eigen::VectorXd frame_force);
 
-  /// Connects and isolates electrodes as the step wants; what becomes isolated keeps its charge. Without
-  /// inertia the device comes to rest.
+  /// Connects and isolates electrodes as the step wants; what becomes isolated keeps its charge.
   void begin(int step, fem::State& state) const;
   /// From the loads `start` on: straight to the goals of a ramp, along the waves of a transient.
   fem::LoadPath path(int step, const fem::Loads& start) const;

@@ -42,7 +42,9 @@ constexpr std::array energy_parts{
                [](Balance b) { return b.work().resistance; }},
     EnergyPart{"leak_heat", "turned into heat by the current that leaks through the film",
                [](Balance b) { return b.work().leak; }},
-    EnergyPart{"released", "set free when the device is cut free or jumps to another state",
+    EnergyPart{"released",
+               "set free when the device is cut free, jumps to another state, or comes to rest where a step "
+               "without inertia follows one with it",
                [](Balance b) { return b.work().released; }},
     EnergyPart{"wrinkle_regularisation",
                "part of `elastic` that only keeps wrinkled film from being singular",

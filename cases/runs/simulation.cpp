@@ -3,6 +3,8 @@
 
 #include "cases/language/conditions.hpp"
 #include "cases/runs/phases.hpp"
+#include "fem/linear/rest.hpp"
+#include "fem/paths/homotopy.hpp"
 #include "post/engineering.hpp"
 #include "post/files/checkpoint_file.hpp"
 
@@ -112,13 +114,41 @@ void Simulation::enter(int step) {
   loads_.emplace(now_, device_, steps_, signals_, frame_);
 }
 
+/// What has moved comes to rest at the beginning of a step without inertia: the step goes on from there.
+/// False where there is no rest; refusal_ says so.
+bool Simulation::come_to_rest(fem::State& state) {
+  const Step& step = steps_[static_cast<std::size_t>(step_)];
+  if (step.inertia || !state.motion) return true;
+  const bool moves = fem::moves_on(*equilibrium_, state);
+  const double kinetic = energy_.parts().kinetic;
+  std::optional<fem::State> rest = fem::at_rest(*equilibrium_, state, loads_->options(step_));
+  if (!rest) {
+    refusal_ = {
+        Ending::gave_up, "no equilibrium",
+        fmt::format("step \"{0}\" is without inertia and begins in motion, and no equilibrium was found "
+                    "where the device would come to rest; give \"{0}\" inertia = true, or let it come "
+                    "to rest before by damping",
+                    step.name)};
+    return false;
+  }
+  state = *std::move(rest);
+  const auto release = energy_.add_after_jump(fem::energy_point(*equilibrium_, state, 1));
+  accounted_ = state;
+  if (moves)
+    news_.push_back(
+        {"came to rest", "",
+         fmt::format("step \"{}\" is without inertia and begins in motion ({} of kinetic energy): it "
+                     "goes on from where the device comes to rest; {} were released",
+                     step.name, post::engineering(kinetic, "J"), post::engineering(release.energy, "J"))});
+  return true;
+}
+
 /// Supports let go and take hold at the beginning of the current step. What lets go hands its forces to the
 /// loads, so that the state stays in balance.
 void Simulation::change_supports(fem::State& state) {
   loads_->let_go.resize(0);
   if (holding_in(case_, steps_, step_) == holding_) return;
   const fem::DofMap before = device_.model.dofs;
-  if (!steps_[static_cast<std::size_t>(step_)].inertia) state.motion.reset(); // balanced as it will be
   const Eigen::VectorXd reaction = Measured(device_, *equilibrium_, state, energy_, scalars_).reaction();
   enter(step_);
   const Renumbering renumbered(before, device_.model.dofs);
@@ -331,7 +361,8 @@ Outcome Simulation::run(const SimulationObserver& observer) {
       continue;
     }
     if (ramp.load_factor >= 1 || ramp.increment == 0) {
-      fem::State state = std::move(ramp.points.back().state);
+      fem::State state = ramp.points.back().state;
+      if (!come_to_rest(state)) return *std::exchange(refusal_, std::nullopt);
       change_supports(state);
       loads_->begin(step_, state);
       unseen_ = {};

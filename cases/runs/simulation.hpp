@@ -87,6 +87,7 @@ class Simulation {
 
  private:
   Eigen::VectorXd frame_force();
+  bool come_to_rest(fem::State& state);
   void change_supports(fem::State& state);
   bool admits(const Step& step, double load_factor, const fem::State& state);
   bool sample(const Step& step, double load_factor, const fem::State& state);

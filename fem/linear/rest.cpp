@@ -33,9 +33,10 @@ bool conducts(Equilibrium& equilibrium, const State& state) {
   return (rest.sheet_drop - state.sheet_drop).lpNorm<Eigen::Infinity>() > still * largest;
 }
 
-/// Whether what has a mass would go on: to where its forces balance, and beyond as far as its kinetic energy
-/// carries it there.
-bool moves(Equilibrium& equilibrium, const State& state) {
+} // namespace
+
+// To where its forces balance, and beyond as far as its kinetic energy carries it there.
+bool moves_on(Equilibrium& equilibrium, const State& state) {
   if (!state.motion) return false;
   const Eigen::Index free = equilibrium.model().dofs.free_count();
   State at = state;
@@ -52,12 +53,10 @@ bool moves(Equilibrium& equilibrium, const State& state) {
   return equilibrium.step_size(step) + seconds * equilibrium.step_size(velocity) > still;
 }
 
-} // namespace
-
 std::string unrest(Equilibrium& equilibrium, const State& state) {
   if (flows(equilibrium.model(), state)) return "dashpots flow";
   if (conducts(equilibrium, state)) return "current flows along an electrode";
-  if (moves(equilibrium, state)) return "the device moves";
+  if (moves_on(equilibrium, state)) return "the device moves";
   return "";
 }
 

@@ -13,6 +13,9 @@ namespace dielast::fem {
 /// which would go on by more than 1e-4 of the model's extent. Empty at rest.
 std::string unrest(Equilibrium& equilibrium, const State& state);
 
+/// Whether what has a mass would go on by more than that.
+bool moves_on(Equilibrium& equilibrium, const State& state);
+
 /// The same state as its branches let it move slowly.
 State relaxed(State state);
 

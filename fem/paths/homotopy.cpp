@@ -8,6 +8,7 @@ namespace dielast::fem {
 
 namespace {
 
+constexpr double fading_part = 1e-3;   ///< of forces, at least
 constexpr int back_parts = 8;          ///< of loads that are taken back
 constexpr double almost_none = 0.02;   ///< of the loads
 constexpr double same_state = 1e-3;    ///< of the way
@@ -27,6 +28,19 @@ LoadPath fading_imbalance(Equilibrium& equilibrium, const State& state) {
     now.dead_force = loads + (1 - part) * lacking;
   };
   return path;
+}
+
+std::optional<State> at_rest(Equilibrium& equilibrium, State state, const RampOptions& options) {
+  state.motion.reset();
+  state.scheme = materials::TimeScheme::frozen();
+  const LoadPath path = fading_imbalance(equilibrium, state);
+  path.apply(state, 0);
+  const RampOptions fading{.newton = options.newton,
+                           .smallest_increment = std::min(options.smallest_increment, fading_part),
+                           .instantaneous = true};
+  RampProgress progress = RampProgress::begin(state, equilibrium.model().dofs, fading);
+  if (ramp(equilibrium, path, fading, progress, {}).end != RampEnd::complete) return std::nullopt;
+  return progress.points.back().state;
 }
 
 bool is_reached_continuously(Equilibrium& equilibrium, const State& from, const State& to,

@@ -3,11 +3,17 @@
 
 #include "fem/paths/ramp.hpp"
 
+#include <optional>
+
 namespace dielast::fem {
 
 /// Forces that would balance `state` under its own loads and time scheme, added to its dead forces and taken
 /// away while the load factor goes from 0 to 1: a path on which no time passes.
 LoadPath fading_imbalance(Equilibrium& equilibrium, const State& state);
+
+/// Where a device comes to rest that is not in equilibrium as its masses no longer move: at the same loads,
+/// its dashpots as they are, along a path on which the missing forces fade. Nothing where there is none.
+std::optional<State> at_rest(Equilibrium& equilibrium, State state, const RampOptions& options);
 
 /// Whether a state that one increment in time has led to is also reached from the last state by a stable,
 /// continuous path: at the loads and with the time scheme of the increment, while the forces fade that the

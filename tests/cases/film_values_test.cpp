@@ -150,6 +150,27 @@ TEST_F(FilmValues, FilmPullsWhereItEnds) {
             at(18, 6) + "quantity[1].of: no film meets this place, so none pulls on it");
 }
 
+// A meridian may be drawn from outside to inside, or upright.
+TEST_F(FilmValues, NominalStressIsAlongTheMeridian) {
+  const auto stress = [](const std::string& place) {
+    return fmt::format("[[quantity]]\nname = \"along\"\nkind = \"nominal stress\"\nof = \"{0}\"\nalong = "
+                       "\"x\"\n[[quantity]]\nname = \"around\"\nkind = \"nominal stress\"\nof = \"{0}\"\n"
+                       "along = \"y\"\n",
+                       place);
+  };
+  for (const std::string model : {"axisymmetric", "planar", "3d"}) {
+    const Ran ran = run(film(model) + "[disc]\nradius = \"30 mm\"\n" + stress("film"));
+    for (const char* name : {"along", "around"})
+      EXPECT_NEAR(ran.last(name), 40e3 * (2 - std::pow(2.0, -5)), 1e-6) << model << name;
+  }
+  const std::string roll =
+      "[film]\nthickness = \"1 mm\"\nprestretch = [2, 1]\n[film.material]\nshear_modulus = "
+      "\"40 kPa\"\nrelative_permittivity = 3\n[roll]\nlength = \"20 mm\"\nradius = \"5 "
+      "mm\"\n[[body]]\nname = \"caps\"\nplaces = [\"lower_end\", \"upper_end\"]\nfix = "
+      "[\"z\"]\n[[step]]\nkind = \"release\"\n";
+  EXPECT_NEAR(run(roll + stress("upper_end")).last("along"), 40e3 * (2 - std::pow(2, -3)), 1e-6);
+}
+
 // Clamped film that is all under voltage has nowhere to go: its tension falls everywhere alike.
 TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
   for (const std::string model : {"axisymmetric", "planar", "3d"}) {
