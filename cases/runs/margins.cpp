@@ -20,6 +20,7 @@ struct Passed {
   double breakdown = unknown, least_stress = unknown, yield = unknown;
   double slack = unknown;         ///< of film that may wrinkle: its tension_state
   std::vector<std::string> kinds; ///< of its events
+  bool on_the_way_back = false;   ///< to no voltage, from the end of the run
 };
 
 /// The value of a standard or written quantity of that kind; NaN where the case has none.
@@ -69,19 +70,19 @@ std::vector<Passed> way_of(const Case& one, const Journal& journal) {
   return way;
 }
 
-/// What comes after the end of the run when its voltages rise on.
-std::vector<Passed> way_beyond(const Case& one, const Simulation& own, const post::StepRecord& end,
-                               int threads, std::string& stopped) {
+/// What comes after the end of the run when all of its voltages go on to `factor` times what they are there.
+std::vector<Passed> way_on(const Case& one, const Simulation& own, const post::StepRecord& end, double factor,
+                           int threads, std::string& stopped) {
   constexpr int increments_per_voltage = 20;
   Case further = one;
   further.steps = own.steps();
   Step step{.kind = StepKind::voltage, .name = "margins"};
-  step.increments =
-      std::max(1, static_cast<int>(std::ceil(increments_per_voltage * (one.margins_up_to - 1))));
+  for (const Step& before : further.steps)
+    if (!before.is_analysis()) step.response = before.response;
+  step.increments = std::max(1, static_cast<int>(std::ceil(increments_per_voltage * std::abs(factor - 1))));
   further.steps.push_back(step);
   for (std::size_t e = 0; e < one.electrodes.size(); ++e)
-    further.drives[one.electrodes[e].name].voltage =
-        Waveform::constant_at(one.margins_up_to * end.voltages[e]);
+    further.drives[one.electrodes[e].name].voltage = Waveform::constant_at(factor * end.voltages[e]);
   std::vector<Passed> way;
   try {
     Simulation simulation(further, threads);
@@ -120,6 +121,12 @@ std::vector<Passed> way_beyond(const Case& one, const Simulation& own, const pos
   return way;
 }
 
+/// Whether limits that states tell are behind it.
+bool is_beyond(const Passed& passed, bool wrinkles) {
+  return passed.breakdown >= 1 || passed.yield >= 1 ||
+         (wrinkles ? passed.slack > 0 : passed.least_stress <= -smallest_stress);
+}
+
 /// Where a value, linear between the states, passes zero from below.
 Margin crossing(const std::vector<Passed>& way, const std::function<double(const Passed&)>& value) {
   if (std::ranges::all_of(way, [&](const Passed& passed) { return std::isnan(value(passed)); }))
@@ -128,11 +135,17 @@ Margin crossing(const std::vector<Passed>& way, const std::function<double(const
     const double now = value(way[i]);
     if (!(now >= 0)) continue;
     if (i == 0 || std::isnan(value(way[i - 1])))
-      return {.factor = way[i].factor,
-              .remark = way[i].factor == 0 ? "passed without voltage" : "passed earlier"};
+      return way[i].factor == 0
+                 ? Margin{.factor = 0, .remark = "passed without voltage"}
+                 : Margin{.remark =
+                              fmt::format("not known: passed already at {:.4g} times the voltage of the end, "
+                                          "the least of which the run tells",
+                                          way[i].factor)};
     const double before = value(way[i - 1]);
     const double t = before / (before - now);
-    return {.factor = std::lerp(way[i - 1].factor, way[i].factor, t)};
+    return {.factor = std::lerp(way[i - 1].factor, way[i].factor, t),
+            .remark =
+                way[i].on_the_way_back ? "on the way back to 0 V, with all other loads of the end" : ""};
   }
   return {};
 }
@@ -171,8 +184,22 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   double up_to = 1;
   if (unknown_because.empty()) {
     way = way_of(one, journal);
-    if (one.margins_up_to > 1 && outcome.ending == Ending::complete) {
-      for (Passed& passed : way_beyond(one, simulation, journal.records.back(), threads, stopped))
+    const bool complete = outcome.ending == Ending::complete;
+    // Something else than the voltages has led there, or they were not in proportion.
+    if (complete && way.front().factor > 0 && is_beyond(way.front(), simulation.device().tension_field)) {
+      std::string unused;
+      const double least = way.front().factor;
+      for (Passed& passed : way_on(one, simulation, journal.records.back(), 0, threads, unused))
+        if (passed.factor < least) {
+          passed.kinds.clear(); // of a path that the run did not take
+          way.insert(way.begin(), std::move(passed));
+          way.front().on_the_way_back = true;
+          if (way.size() > 1) way[1].on_the_way_back = true;
+        }
+    }
+    if (one.margins_up_to > 1 && complete) {
+      for (Passed& passed :
+           way_on(one, simulation, journal.records.back(), one.margins_up_to, threads, stopped))
         way.push_back(std::move(passed));
       up_to = way.back().factor;
     }

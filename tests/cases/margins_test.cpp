@@ -101,6 +101,42 @@ TEST_F(Margins, HeldFilmLosesItsTensionWhereTheFieldBalancesIt) {
   EXPECT_NEAR(*ahead.at("loss of tension").factor, 2, 5e-3);
 }
 
+// A force that comes last stretches the film l times under 3 kV and the stress 60 kPa: at the factor f on the
+// voltage the true field l^2 f V / H is the breakdown field where 60 kPa l = mu (l^2 - l^-4) - eps E^2.
+TEST_F(Margins, WhatAForcePassesIsTheFactorOnTheVoltage) {
+  const std::string pulled = "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"50 "
+                             "kPa\"\npermittivity = \"4e-11 F/m\"\n"
+                             "breakdown_field = \"5 MV/m\"\n[patch]\nmode = \"equal-biaxial\"\nstress_x = "
+                             "\"60 kPa\"\n[[step]]\nkind = "
+                             "\"voltage\"\nto = \"3 kV\"\n[[step]]\nkind = \"force\"\n";
+  double low = 1, high = 3;
+  for (int i = 0; i < 60; ++i) {
+    const double l = (low + high) / 2;
+    (50e3 * (l * l - std::pow(l, -4)) - 4e-11 * 25e12 > 60e3 * l ? high : low) = l;
+  }
+  const double factor = 5e6 * 1e-3 / (low * low) / 3e3;
+  const Margin found = margins(pulled).at("breakdown");
+  ASSERT_TRUE(found.factor) << found.remark;
+  EXPECT_NEAR(*found.factor, factor, 2e-3);
+  EXPECT_NEAR(factor, 0.850, 5e-4);
+  EXPECT_EQ(found.remark, "on the way back to 0 V, with all other loads of the end");
+  // the other way round the run itself tells
+  const Margin told = margins(pulled.substr(0, pulled.find("[[step]]")) +
+                              "[[step]]\nkind = \"force\"\n[[step]]\nkind = \"voltage\"\nto = \"3 kV\"\n")
+                          .at("breakdown");
+  ASSERT_TRUE(told.factor);
+  EXPECT_NEAR(*told.factor, factor, 2e-3);
+  EXPECT_EQ(told.remark, "");
+  // pressed together, with a voltage or without
+  const auto held =
+      margins("[film]\nthickness = \"1 mm\"\nprestretch = 1.2\n[film.material]\nshear_modulus = \"50 "
+              "kPa\"\npermittivity = \"4e-11 F/m\"\n[patch]\nstretch_x = 0.9\nstretch_y = 0.9\n"
+              "[[step]]\nkind = \"voltage\"\nto = \"1 kV\"\n[[step]]\nkind = \"move\"\n");
+  ASSERT_TRUE(held.at("loss of tension").factor);
+  EXPECT_EQ(*held.at("loss of tension").factor, 0);
+  EXPECT_EQ(held.at("loss of tension").remark, "passed without voltage");
+}
+
 TEST_F(Margins, WithoutAVoltageOrInTimeNothingIsKnown) {
   EXPECT_EQ(margins(patch(0, 1e9)).at("pull-in").remark, "not known: no voltage is applied at the end");
   const auto timed = margins(patch(500, 1e9, "duration = \"1 s\"\n"));
