@@ -2,6 +2,7 @@
 #include "cases/runs/simulation.hpp"
 
 #include "cases/language/conditions.hpp"
+#include "cases/loads/sudden_motion.hpp"
 #include "cases/runs/phases.hpp"
 #include "fem/linear/rest.hpp"
 #include "fem/paths/homotopy.hpp"
@@ -28,22 +29,6 @@ std::string ways_on(const Case& one, const Step& step) {
 constexpr double balanced = 1e-9;
 
 const std::string drawn = "drawn"; ///< name of the state before the first step
-
-post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step& step) {
-  return {"unresolved energy", "",
-          fmt::format("works and heat are known to {} only, of {} that were exchanged: give the step \"{}\" "
-                      "more increments{}",
-                      post::engineering(energy.error, "J"), post::engineering(energy.exchanged, "J"),
-                      step.name, step.duration ? " or [solver] a smaller time_tolerance" : "")};
-}
-
-post::Event left_out(double ratio, const Step& step) {
-  return {"inertia left out", "",
-          fmt::format(
-              "step \"{}\" moves so fast that its kinetic energy would be {:.2g} times the work that takes "
-              "the device as far: with inertia = true it would move otherwise",
-              step.name, ratio)};
-}
 
 /// Those of which extremes are needed.
 post::WantedScalars wanted(const Measurement& measurement) {
@@ -201,21 +186,6 @@ void Simulation::resume(const SimulationProgress& progress) {
   }
 }
 
-namespace {
-
-/// What a jump set free, of which a step that cuts the device free says nothing.
-post::Event jumped(const std::optional<fem::EnergyBalance::JumpRelease>& release) {
-  std::string text = "jumped to another stable state";
-  if (release && release->energy > release->doubt)
-    text += fmt::format("; {} were released", post::engineering(release->energy, "J"));
-  else if (release)
-    text += fmt::format("; less was released than the {} to which the works of its increment are known",
-                        post::engineering(release->doubt, "J"));
-  return {"jump", "", text};
-}
-
-} // namespace
-
 void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {
   if (increment.turns) energy_.corner();
   fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length);
@@ -229,11 +199,15 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     release = energy_.add_after_jump(std::move(point));
   else
     energy_.add(std::move(point));
-  if (reached == Reached::by_jump) news_.push_back(jumped(release));
   if (records_ == 0) return;
   const Step& step = steps_[static_cast<std::size_t>(step_)];
-  if (step.duration && !step.inertia && device_.model.inertia.mass.nonZeros() > 0)
+  const bool unseen = step.duration && !step.inertia && device_.model.inertia.mass.nonZeros() > 0;
+  if (reached == Reached::by_jump) {
+    news_.push_back(jumped(release, unseen));
+    unseen_ = {}; // neither the jump nor the way to the limit before it has a speed that time steps resolve
+  } else if (unseen) {
     unseen_.pass(device_.model, before, state);
+  }
 }
 
 /// Whether the permittivity of film under an electrode is positive everywhere; otherwise refusal_ says where
@@ -319,16 +293,21 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
     if (at.empty() || (ends && at == step.name)) results_[q] = values[q];
   }
   const fem::NewtonResult& newton = increment.newton;
-  std::vector<post::Event> events = std::exchange(news_, {});
   energy_.judge();
-  if (const auto energy = energy_.worst(); ends && energy.is_poor())
-    events.push_back(poor_energy(energy, step));
-  if (ends && unseen_.kinetic > 0) {
+  if (const auto energy = energy_.worst(); ends && energy.is_poor()) {
+    std::string sudden; // in this step, or before
+    const std::span<const Step> steps(steps_);
+    for (std::size_t s = static_cast<std::size_t>(step_) + 1; s > 0 && sudden.empty(); --s)
+      sudden = sudden_motion(case_, steps.first(s));
+    news_.push_back(poor_energy(energy, step, sudden));
+  }
+  constexpr double negligible = 1e-12; // of the energy that was exchanged: what equilibria are known to
+  if (ends && unseen_.kinetic > negligible * energy_.record().exchanged) {
     constexpr double notable = 0.02; // the square of a frequency over the lowest natural one
     const double work = unseen_.work(equilibrium_->assembler(), state);
-    if (work > 0 && unseen_.kinetic > notable * work)
-      events.push_back(left_out(unseen_.kinetic / work, step));
+    if (work > 0 && unseen_.kinetic > notable * work) news_.push_back(left_out(unseen_.kinetic / work, step));
   }
+  std::vector<post::Event> events = std::exchange(news_, {});
   for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes))
     events.push_back(std::move(event));
   const post::StepRecord record{.index = records_++,

@@ -111,4 +111,38 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
   return events;
 }
 
+post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step& step,
+                        const std::string& sudden) {
+  std::string text =
+      fmt::format("works and heat are known to {} only, of {} that were exchanged: ",
+                  post::engineering(energy.error, "J"), post::engineering(energy.exchanged, "J"));
+  if (sudden.empty())
+    text += fmt::format("give the step \"{}\" more increments{}", step.name,
+                        step.duration ? " or [solver] a smaller time_tolerance" : "");
+  else
+    text += sudden +
+            ", which no time step resolves: let its wave set out smoothly, as a \"unipolar sine\" does, "
+            "or a sine of phase = \"90 deg\" behind a step of kind \"move\"";
+  return {"unresolved energy", "", text};
+}
+
+post::Event left_out(double ratio, const Step& step) {
+  return {"inertia left out", "",
+          fmt::format(
+              "step \"{}\" moves so fast that its kinetic energy would be {:.2g} times the work that takes "
+              "the device as far: with inertia = true it would move otherwise",
+              step.name, ratio)};
+}
+
+post::Event jumped(const std::optional<fem::EnergyBalance::JumpRelease>& release, bool unseen) {
+  std::string text = "jumped to another stable state";
+  if (release && release->energy > release->doubt)
+    text += fmt::format("; {} were released", post::engineering(release->energy, "J"));
+  else if (release)
+    text += fmt::format("; less was released than the {} to which the works of its increment are known",
+                        post::engineering(release->doubt, "J"));
+  if (unseen) text += "; whether inertia would have counted before that in this step is not known";
+  return {"jump", "", text};
+}
+
 } // namespace dielast::cases

@@ -3,6 +3,7 @@
 
 #include "cases/devices/device.hpp"
 #include "fem/contact/wall_contact.hpp"
+#include "fem/paths/energy_balance.hpp"
 #include "post/reductions.hpp"
 #include "post/step_record.hpp"
 
@@ -42,5 +43,14 @@ class Watch {
   std::optional<fem::WallContactSearch> contacts_;
   const meshing::CellBlock* lines_;
 };
+
+/// The energy balance is not known well enough; `sudden`: what a support was asked for that masses cannot do.
+post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step& step,
+                        const std::string& sudden);
+/// Inertia was left out of a motion whose kinetic energy would be `ratio` times the work that it takes.
+post::Event left_out(double ratio, const Step& step);
+/// What a jump set free, of which a step that cuts the device free says nothing. `unseen`: the step leaves
+/// out inertia, and what it has done before the jump is not judged.
+post::Event jumped(const std::optional<fem::EnergyBalance::JumpRelease>& release, bool unseen);
 
 } // namespace dielast::cases

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/loads/sudden_motion.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/runs/simulation.hpp"
 #include "tests/cases/scratch.hpp"
@@ -40,6 +41,21 @@ class Energy : public test::ScratchTest {
     for (std::size_t q = 0; q < one.quantities.size(); ++q)
       peaks[one.quantities[q].name] = simulation.peaks()[q];
     return rows;
+  }
+  /// Messages of the events of a kind.
+  std::vector<std::string> told(const std::string& kind, const std::string& text) const {
+    write("case.toml", text);
+    const Case one = read_case(directory / "case.toml");
+    std::vector<std::string> messages;
+    Simulation simulation(one, 1);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      for (const post::Event& event : frame.record.events)
+        if (event.kind == kind) messages.push_back(event.message);
+      return true;
+    };
+    EXPECT_EQ(simulation.run(observer).ending, Ending::complete);
+    return messages;
   }
   static std::string film(double modulus, const std::string& rest = "") {
     return fmt::format("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = {}\npermittivity = "
@@ -228,6 +244,73 @@ TEST_F(Energy, peaks_do_not_count_what_settles_before_the_first_step) {
   EXPECT_GT(widest, 1.002);
   EXPECT_EQ(rows.back().at("widest"), widest);
   EXPECT_NEAR(peaks.at("stretch_x").value, widest, 1e-8);
+}
+
+// Rounding moves the film by 1e-12 of its length in the hold: no motion to have a kinetic energy.
+TEST_F(Energy, rounding_is_no_motion) {
+  const std::string held =
+      film(50e3, "density = \"1000 kg/m^3\"\n") +
+      "[patch]\nlength = \"50 mm\"\n[circuit]\nresistance = \"1 MOhm\"\nleakage_resistance = \"10 "
+      "GOhm\"\ncurrent_limit = \"1e-7 A\"\n[drive]\nvoltage = \"3 kV\"\n[[step]]\nkind = "
+      "\"voltage\"\nduration = "
+      "\"20 s\"\n[[step]]\nkind = \"hold\"\nduration = \"20 s\"\n";
+  EXPECT_TRUE(told("inertia left out", held).empty());
+}
+
+// What a jump covers in a time step is no speed, nor is what the way to the limit does, where stiffness
+// vanishes.
+TEST_F(Energy, a_jump_is_no_speed) {
+  for (const char* record : {"0.1 s", "0.35 s", "2 s", "10 s"}) {
+    const std::string ramp =
+        fmt::format("[film]\nthickness = \"1 mm\"\n[film.material]\nlaw = \"gent\"\nshear_modulus = \"50 "
+                    "kPa\"\nstretch_limit = "
+                    "20\npermittivity = \"4e-11 F/m\"\ndensity = \"1000 kg/m^3\"\n[patch]\nmode = "
+                    "\"equal-biaxial\"\nlength = \"50 mm\"\n[drive]\nvoltage = {{ wave = \"ramp\", to = \"30 "
+                    "kV\", duration = "
+                    "\"10 s\" }}\n[[step]]\nkind = \"transient\"\nduration = \"10 s\"\non_instability = "
+                    "\"jump\"\nrecord = "
+                    "\"{}\"\n",
+                    record);
+    const auto jumps = told("jump", ramp);
+    ASSERT_EQ(jumps.size(), 1u) << record;
+    EXPECT_NE(jumps[0].find("whether inertia would have counted before that in this step is not known"),
+              std::string::npos)
+        << jumps[0];
+    EXPECT_TRUE(told("inertia left out", ramp).empty()) << record;
+  }
+}
+
+// A support that sets out with a finite speed pushes masses the harder the shorter the time steps are.
+TEST_F(Energy, a_support_that_sets_out_at_once_is_told_where_it_leaves_the_works_unknown) {
+  const auto shaken = [this](const std::string& wave, const std::string& before = "", int increments = 400) {
+    return told(
+        "unresolved energy",
+        film(50e3) +
+            "[patch]\nmode = \"pure-shear\"\nlength = \"50 mm\"\n[[support]]\nplace = \"right\"\nfix = "
+            "[\"x\"]\ndisplacement.x = { " +
+            wave + " }\n[[point_mass]]\nplace = \"right\"\nmass = \"20 g\"\ndamping = \"0.05 N.s/m\"\n" +
+            before +
+            fmt::format("[[step]]\nkind = \"transient\"\nduration = \"0.4 s\"\nincrements = {}\ninertia = "
+                        "true\n",
+                        increments));
+  };
+  const std::string sine = "wave = \"sine\", amplitude = \"1 mm\", frequency = \"5 Hz\"";
+  const std::string move = "[[step]]\nkind = \"move\"\n";
+  const auto at_once = shaken(sine);
+  ASSERT_EQ(at_once.size(), 1u);
+  EXPECT_NE(
+      at_once[0].find("support \"right\" is to set out with 31.42 mm/s along x at once, which no time step"),
+      std::string::npos)
+      << at_once[0];
+  shaken("wave = \"ramp\", to = \"1 mm\", at = \"0.1 s\", duration = \"0.1 s\"");
+  const Case corner = read_case(directory / "case.toml");
+  EXPECT_EQ(sudden_motion(corner, corner.steps),
+            "support \"right\" is to change its speed by 10.00 mm/s along x at once, at 100.0 ms");
+  const auto jump = shaken(sine + ", phase = \"90 deg\"");
+  ASSERT_EQ(jump.size(), 1u);
+  EXPECT_NE(jump[0].find("is to move by 1.000 mm along x at once"), std::string::npos) << jump[0];
+  EXPECT_TRUE(shaken(sine + ", phase = \"90 deg\"", move).empty());
+  EXPECT_TRUE(shaken("wave = \"unipolar sine\", amplitude = \"1 mm\", frequency = \"5 Hz\"").empty());
 }
 
 TEST_F(Energy, a_mean_begins_where_its_step_ends) {
