@@ -184,7 +184,8 @@ fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
 fem::State operating_point(const Device& device, fem::State state) {
   for (const fem::Circuit& circuit : device.model.circuits) {
     const auto e = static_cast<std::size_t>(circuit.electrode);
-    if (state.supply[e] != fem::Supply::circuit) state.source[e] = state.voltage[e] / circuit.steady_share();
+    if (state.supply[e] != fem::Supply::circuit)
+      state.source[e] = circuit.holding_source(state.source[e], state.voltage[e]);
     state.supply[e] = fem::Supply::circuit;
   }
   return state;

@@ -159,6 +159,12 @@ Condition circuits_matter() {
                      });
 }
 
+Condition limits_matter() {
+  return on<Circuit>(
+      "a step with a duration, or a leakage_resistance",
+      [](const Case& one, const Circuit& circuit) { return is_timed(one) || circuit.leakage_resistance; });
+}
+
 Condition time_steps_matter() {
   return on_case("a step with a duration in which branches, a circuit or a sheet_resistance flow, or inertia",
                  [](const Case& one) {

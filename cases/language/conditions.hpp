@@ -21,6 +21,7 @@ Condition has_mass();          ///< something has one
 Condition film_flows();        ///< a dashpot beside the law is felt
 Condition branches_flow();     ///< some of the branch's springs are felt
 Condition circuits_matter();   ///< time passes, something is linearised, or the circuit leaks
+Condition limits_matter();     ///< time passes, or the circuit leaks
 Condition time_steps_matter(); ///< in a step with a duration something flows or has inertia
 Condition voltage_applies();
 Condition chamber_is_open(); ///< a step reaches or follows its pressure

@@ -99,7 +99,7 @@ void StepLoads::begin(int number, fem::State& state) const {
     if (next == state.supply[e]) continue;
     state.charge[e] = held.charge[e];
     if (next == fem::Supply::circuit)
-      state.source[e] = state.voltage[e] / device_.model.circuit_of(e)->steady_share();
+      state.source[e] = device_.model.circuit_of(e)->holding_source(state.source[e], state.voltage[e]);
     connects = connects || fem::flows(next);
     state.supply[e] = next;
   }
@@ -183,13 +183,13 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
     if (does(StepKind::voltage) && voltage && !isolated) {
       loads.source[e] = *voltage;
       const fem::Circuit* circuit = device_.model.circuit_of(e);
-      loads.voltage[e] = loads.source[e] * (circuit ? circuit->steady_share() : 1);
+      loads.voltage[e] = circuit ? circuit->steady_voltage(loads.source[e]) : loads.source[e];
     }
     if (const auto charge = goal_of(step, e, &Drive::charge, t); does(StepKind::charge) && charge && isolated)
       loads.charge[e] = *charge;
     if (const fem::Circuit* circuit = device_.model.circuit_of(e);
         step.kind == StepKind::relax && circuit && !isolated)
-      loads.voltage[e] = loads.source[e] * circuit->steady_share();
+      loads.voltage[e] = circuit->steady_voltage(loads.source[e]);
   }
   if (case_.chamber) {
     const std::size_t port = case_.electrodes.size();

@@ -201,10 +201,11 @@ Section circuit_section() {
           .at_least(smallest_resistance)
           .optional(),
       measure("current_limit", "A", to(&Circuit::current_limit),
-              "current that the source gives or takes at most")
+              "current that the source gives or takes at most. In steps without a duration the voltage is at "
+              "most that at which as much leaks")
           .above(0)
           .optional()
-          .only_with(when::time_passes()),
+          .only_with(when::limits_matter()),
   };
   return section;
 }

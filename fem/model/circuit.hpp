@@ -4,6 +4,7 @@
 #include "materials/branches/time_scheme.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace dielast::fem {
@@ -24,8 +25,19 @@ struct Circuit {
   double current(double source, double voltage) const {
     return std::clamp((source - voltage) / resistance, -current_limit, current_limit);
   }
-  /// Part of U that reaches the electrode once nothing changes any more.
+  /// Part of U that reaches the electrode once nothing changes any more, where the source is below its limit.
   double steady_share() const { return 1 / (1 + resistance * leakage); }
+  /// Phi once nothing changes any more, V: what leaks is what the source gives, at most its limit.
+  double steady_voltage(double source) const {
+    const double most = current_limit / leakage; // infinite where nothing leaks
+    return std::clamp(source * steady_share(), -most, most);
+  }
+  /// U that keeps Phi for ever: what it is where it does, otherwise one below the limit.
+  double holding_source(double source, double voltage) const {
+    constexpr double rounding = 1e-9;
+    const bool holds = std::abs(steady_voltage(source) - voltage) <= rounding * std::abs(voltage);
+    return holds ? source : voltage / steady_share();
+  }
 
   struct Drawn {
     double charge = 0;      ///< C

@@ -53,7 +53,7 @@ struct State {
   Eigen::VectorXd dead_force;  ///< per equation (see DofMap): N, or N m for rotations
   std::vector<Supply> supply;  ///< likewise: what is given
   std::vector<double> charge;  ///< likewise: the given charge, C, or pumped volume, m^3
-  std::vector<double> source;  ///< likewise: voltage of the circuit's source, V
+  std::vector<double> source;  ///< likewise: voltage of the source, before its circuit, V
   Eigen::VectorXd sheet_drop; ///< per Model::sheet_points, the electrode's voltage less the sheet's there, V;
                               ///< empty: none
   double time = 0;            ///< s

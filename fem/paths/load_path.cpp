@@ -31,6 +31,7 @@ void Loads::apply(State& state, const DofMap& dofs) const {
   for (std::size_t e = 0; e < voltage.size(); ++e) switch (state.supply[e]) {
     case Supply::voltage:
       state.voltage[e] = voltage[e];
+      state.source[e] = source[e];
       break;
     case Supply::charge:
       state.charge[e] = charge[e];

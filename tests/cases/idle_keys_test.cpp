@@ -91,7 +91,8 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       {"circuit", film + disc + drive + "[circuit]\nresistance = 1e6\n",
        film + disc + drive + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n"},
       {"circuit.current_limit",
-       film + disc + drive + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\ncurrent_limit = 1e-3\n",
+       film + disc + drive + "[circuit]\nresistance = 1e6\ncurrent_limit = 1e-3\n" + ramp +
+           "[[step]]\nkind = \"harmonic\"\n",
        film + disc + drive + "[circuit]\nresistance = 1e6\ncurrent_limit = 1e-3\n" + transient},
       {"step[1]",
        film + disc +

@@ -107,6 +107,32 @@ TEST_F(RelaxTest, ChargesBehindCircuits) {
   EXPECT_NEAR(simulation.state().voltage[0], 1500, 1e-6);
 }
 
+// What leaks is at most what the source gives: 1.5 kV by its limit of 5 uA, where the resistances alone leave
+// 2.4 kV.
+TEST_F(RelaxTest, NoSourceGivesMoreThanItsLimit) {
+  const std::string limited = "[circuit]\nresistance = \"100 Mohm\"\nleakage_resistance = \"300 Mohm\"\n"
+                              "current_limit = \"5 uA\"\n[[step]]\nkind = \"force\"\n";
+  const std::string more = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\n[[quantity]]\nname = \"i\"\n"
+                           "kind = \"current\"\nof = \"film\"\n";
+  for (const std::string to : {"3.2 kV", "-3.2 kV"})
+    for (const std::string step :
+         {"transient\"\nduration = \"1 ms\"\n[[step]]\nkind = \"relax\"\n", "voltage\"\n"}) {
+      std::string drive = patch;
+      drive.replace(drive.find("2 kV"), 4, to);
+      const double sign = to.starts_with('-') ? -1 : 1;
+      for (const bool held : {false, true}) {
+        const Case one = read(film + drive + limited + "[[step]]\nkind = \"" + step + (held ? more : ""));
+        EXPECT_TRUE(one.warnings.empty()) << one.warnings[0].text();
+        Simulation simulation(one, 1);
+        const Outcome outcome = simulation.run({});
+        ASSERT_EQ(outcome.ending, Ending::complete) << outcome.message;
+        EXPECT_NEAR(simulation.state().voltage[0], sign * 1500, 1e-5);
+        if (!held) continue;
+        EXPECT_NEAR(last(one, simulation, "i"), sign * 5e-6, 1e-13);
+      }
+    }
+}
+
 TEST_F(RelaxTest, WithoutAnythingThatFlowsItHasNoEffect) {
   const Case one = read(film + patch + loaded + "[[step]]\nkind = \"relax\"\n");
   ASSERT_FALSE(one.warnings.empty());
