@@ -183,6 +183,7 @@ struct Step {
   std::optional<double> duration{}; ///< s; absent: a ramp that takes no time
   Response response{};              ///< without a duration
   std::optional<double> record{};   ///< s: history has rows only at its multiples; absent: at every increment
+  std::vector<double> stops{};      ///< load factors at which rows are wanted instead, ascending; of no key
   Control control{};                ///< of steps that ramp neither voltage nor charge
   bool inertia = false;             ///< of transient and hold: what has a mass resists acceleration
   OnInstability on_instability{};

@@ -15,10 +15,15 @@ namespace dielast::cases {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double same_place = 2e-9;   ///< in load factors
+constexpr double beside = 0.2;        ///< of a place where something was measured, in increments of a step
+constexpr double close_enough = 1e-5; ///< of a row to what was measured, over its range
+constexpr int most_runs = 4;          ///< to get there
 
-/// What a run has recorded: rows of the history, and its first response.
+/// What a run has recorded: rows of the history, the steps that led to them, and its first response.
 struct Recorded {
-  std::vector<std::vector<double>> rows;
+  std::vector<std::vector<double>> rows; ///< a row begins with the load factor
+  std::vector<std::string> steps;
   std::optional<Analysis> response;
 };
 
@@ -32,6 +37,7 @@ Recorded record(const Case& one, bool with_rows, bool with_response) {
       row.insert(row.end(), frame.record.voltages.begin(), frame.record.voltages.end());
       row.insert(row.end(), frame.values.begin(), frame.values.end());
       recorded.rows.push_back(std::move(row));
+      recorded.steps.push_back(frame.record.step);
       return true;
     };
   if (with_response)
@@ -47,34 +53,111 @@ std::size_t column_of(const std::vector<post::Column>& columns, const std::strin
   return static_cast<std::size_t>(std::ranges::find(columns, name, &post::Column::name) - columns.begin());
 }
 
-/// A column of the history against another, which grows, at these places: between rows along straight lines.
-std::vector<double> interpolated(const std::vector<std::vector<double>>& rows, std::size_t x, std::size_t y,
-                                 const std::vector<double>& at, const std::string& name) {
-  std::vector<std::pair<double, double>> curve;
-  for (const auto& row : rows) {
-    if (!std::isfinite(row[y])) continue;
-    while (!curve.empty() && curve.back().first >= row[x]) curve.pop_back(); // the last way is meant
-    curve.emplace_back(row[x], row[y]);
-  }
-  std::vector<double> values;
-  for (const double place : at) {
-    const auto after = std::ranges::lower_bound(curve, place, {}, &std::pair<double, double>::first);
-    const double slack = curve.empty() ? 0 : 1e-9 * std::abs(curve.back().first);
-    if (after == curve.end() && !curve.empty() && place <= curve.back().first + slack) {
-      values.push_back(curve.back().second);
-      continue;
+/// Rows of the history between which a column grows up to each of some places; the last way there is meant.
+class Course {
+ public:
+  Course(const Recorded& recorded, std::size_t x, std::size_t y) : recorded_(recorded), x_(x), y_(y) {
+    for (std::size_t row = 0; row < recorded.rows.size(); ++row) {
+      if (!std::isfinite(at(row, y)) || !std::isfinite(at(row, x))) continue;
+      while (!rows_.empty() && at(rows_.back(), x) >= at(row, x)) rows_.pop_back();
+      rows_.push_back(row);
     }
-    if (after == curve.end() || (after == curve.begin() && place < after->first - slack))
+  }
+
+  /// Number of the first row at or behind a place, in order of growth. Throws where the run does not get
+  /// there.
+  std::size_t find(double place, const std::string& name) const {
+    const double slack = rows_.empty() ? 0 : 1e-9 * std::abs(at(rows_.back(), x_));
+    const auto after =
+        std::ranges::lower_bound(rows_, place - slack, {}, [this](std::size_t row) { return at(row, x_); });
+    if (after == rows_.end() || (after == rows_.begin() && place < at(*after, x_) - slack))
       throw std::runtime_error(fmt::format("{}: the run does not come to {:.6g}", name, place));
-    if (after == curve.begin()) {
-      values.push_back(after->second);
-      continue;
-    }
-    const auto before = std::prev(after);
-    const double part = (place - before->first) / (after->first - before->first);
-    values.push_back(std::lerp(before->second, after->second, part));
+    return static_cast<std::size_t>(after - rows_.begin());
   }
-  return values;
+  /// The other column there; between rows along a straight line.
+  double value(double place, const std::string& name) const {
+    const std::size_t after = find(place, name);
+    const double x = at(rows_[after], x_), y = at(rows_[after], y_);
+    if (after == 0 || place >= x) return y;
+    const double x0 = at(rows_[after - 1], x_), y0 = at(rows_[after - 1], y_);
+    return std::lerp(y0, y, (place - x0) / (x - x0));
+  }
+  /// Where a step has to stop so that a row is at the place: its name and load factor; there now if it is
+  /// within `tolerance` of a row, or beyond what a step of its own goes through.
+  std::pair<std::string, double> stop(double place, double tolerance, const std::string& name) const {
+    const std::size_t after = find(place, name);
+    const std::size_t row = rows_[after];
+    if (after == 0 || at(row, x_) - place <= tolerance) return {recorded_.steps[row], at(row, 0)};
+    const std::size_t before = rows_[after - 1];
+    const bool same_step = recorded_.steps[before] == recorded_.steps[row];
+    if (place - at(before, x_) <= tolerance) return {recorded_.steps[before], at(before, 0)};
+    // The load factor as a polynomial of the column, through up to four rows of the step.
+    std::vector<std::pair<double, double>> points;
+    for (std::size_t i = after < 2 ? 0 : after - 2; i < std::min(rows_.size(), after + 2); ++i)
+      if (recorded_.steps[rows_[i]] == recorded_.steps[row])
+        points.emplace_back(at(rows_[i], x_), at(rows_[i], 0));
+      else if (i + 1 == after)
+        points.emplace_back(at(rows_[i], x_), 0.0); // the end of a step is the start of the next
+    double s = 0;
+    for (const auto& [x, factor] : points) {
+      double weight = 1;
+      for (const auto& [other, unused] : points)
+        if (other != x) weight *= (place - other) / (x - other);
+      s += weight * factor;
+    }
+    const double s0 = same_step ? at(before, 0) : 0, s1 = at(row, 0);
+    if (!(s > s0 && s < s1)) s = std::lerp(s0, s1, (place - at(before, x_)) / (at(row, x_) - at(before, x_)));
+    return {recorded_.steps[row], s};
+  }
+
+  bool is_row(const std::string& step, double s) const {
+    return std::ranges::any_of(rows_, [&](std::size_t row) {
+      return recorded_.steps[row] == step && std::abs(at(row, 0) - s) < same_place;
+    });
+  }
+
+ private:
+  double at(std::size_t row, std::size_t column) const { return recorded_.rows[row][column]; }
+
+  const Recorded& recorded_;
+  std::size_t x_, y_;
+  std::vector<std::size_t> rows_; ///< of these the column grows
+};
+
+using Stops = std::map<std::string, std::vector<double>>; ///< load factors of steps, by their names
+
+/// Whether one of these is there, to round-off.
+bool contains(const std::vector<double>& all, double s) {
+  return std::ranges::any_of(all, [s](double other) { return std::abs(other - s) < same_place; });
+}
+
+void set_stops(Case& one, Stops stops, bool with_increments) {
+  for (Step& step : one.steps) {
+    std::vector<double> wanted = std::move(stops[step.name]);
+    std::erase_if(wanted, [](double s) { return !(s > same_place && s < 1 - same_place); });
+    std::ranges::sort(wanted);
+    step.stops.clear();
+    for (const double s : wanted)
+      if (step.stops.empty() || s - step.stops.back() > same_place) step.stops.push_back(s);
+    if (!with_increments || step.stops.empty()) continue;
+    const std::vector<double> measured = step.stops; // short time steps beside them are of no use
+    for (int i = 1; i < step.increments; ++i) {
+      const double s = static_cast<double>(i) / step.increments;
+      const auto near = [&](double other) { return std::abs(other - s) < beside / step.increments; };
+      if (std::ranges::none_of(measured, near)) step.stops.push_back(s);
+    }
+    std::ranges::sort(step.stops);
+  }
+}
+
+/// Where in the case's steps it is that a test was measured against time.
+void add_times(const Case& one, const std::vector<double>& times, Stops& stops) {
+  double start = 0;
+  for (const Step& step : one.steps) {
+    if (!step.duration) continue;
+    for (const double t : times) stops[step.name].push_back((t - start) / *step.duration);
+    start += *step.duration;
+  }
 }
 
 std::complex<double> polar(const std::vector<double>& row, std::size_t magnitude) {
@@ -126,20 +209,46 @@ std::vector<double> DeviceModel::run(std::size_t run, const std::vector<double>&
       std::ranges::all_of(group, [&](std::size_t t) { return asked_.tests[t].is_response(); });
   // Quantities that nobody asks for need not be evaluated along the way.
   const std::vector<post::Column> columns = history_columns(one);
-  const Recorded recorded = record(one, !all_responses, !hertz.empty());
+  const auto course = [&](const DeviceTest& test, const Recorded& recorded) {
+    return Course(recorded, column_of(columns, test.against), column_of(columns, test.quantity));
+  };
+  Stops times;
+  for (const std::size_t t : group)
+    if (asked_.tests[t].against == "time") add_times(one, asked_.tests[t].x, times);
+  set_stops(one, times, false);
+  Recorded recorded = record(one, !all_responses, !hertz.empty());
+  const std::optional<Analysis> responses = std::move(recorded.response);
+  for (int runs = 1; runs < most_runs; ++runs) { // those that follow stop where something was measured
+    Stops stops;
+    bool farther = false;
+    for (const std::size_t t : group) {
+      const DeviceTest& test = asked_.tests[t];
+      if (test.is_response()) continue;
+      const Course rows = course(test, recorded);
+      const double range = test.x.size() > 1 ? test.x.back() - test.x.front() : std::abs(test.x.front());
+      for (const double x : test.x) {
+        const auto [name, s] = rows.stop(x, close_enough * range, test.name());
+        stops[name].push_back(s);
+        const auto step = std::ranges::find(one.steps, name, &Step::name);
+        farther = farther || (!rows.is_row(name, s) && step != one.steps.end() && !contains(step->stops, s));
+      }
+    }
+    if (!farther) break;
+    set_stops(one, std::move(stops), true);
+    recorded = record(one, true, false);
+  }
   std::vector<double> model;
   for (const std::size_t t : group) {
     const DeviceTest& test = asked_.tests[t];
     if (!test.is_response()) {
-      const std::vector<double> found = interpolated(recorded.rows, column_of(columns, test.against),
-                                                     column_of(columns, test.quantity), test.x, test.name());
-      model.insert(model.end(), found.begin(), found.end());
+      const Course rows = course(test, recorded);
+      for (const double x : test.x) model.push_back(rows.value(x, test.name()));
       continue;
     }
     for (const double frequency : test.x) {
       const auto place = std::ranges::lower_bound(hertz, frequency) - hertz.begin();
       const std::complex<double> found =
-          response(test, *recorded.response, recorded.response->rows[static_cast<std::size_t>(place)]);
+          response(test, *responses, responses->rows[static_cast<std::size_t>(place)]);
       model.insert(model.end(), {found.real(), found.imag()});
     }
   }

@@ -267,6 +267,7 @@ fem::RampOptions StepLoads::options(int number) const {
       .newton = {case_.solver.tolerance, case_.solver.max_iterations, device_.tension_field},
       .increments = step.increments,
       .smallest_increment = case_.solver.smallest_increment,
+      .stops = step.stops,
       .instantaneous = step.response == Response::instantaneous,
       .time_tolerance = case_.solver.time_tolerance};
   if (!step.duration) return options;

@@ -67,7 +67,7 @@ Section identify_section() {
       text("file", to(&DeviceTest::file), "CSV file; its path starts at this file's folder"),
       text("quantity", to(&DeviceTest::quantity),
            "quantity of the case whose column the file has, against its first column: \"time\" or another "
-           "column of the run's history, in which the run goes on only"),
+           "column of the run's history, in which the run goes on only. The run stops at each of its values"),
       word("response", responses(), to(&DeviceTest::response),
            "of the case's step of kind \"harmonic\", instead of a quantity: columns \"frequency\", and "
            "\"real\" and \"imaginary\" or \"magnitude\" and \"phase\"")

@@ -14,8 +14,8 @@ namespace dielast::fem {
 
 namespace {
 
+constexpr double round_off = load_factor_round_off;
 constexpr std::size_t most_points = 4; ///< of the predictor
-constexpr double round_off = 1e-9;     ///< in load factors
 constexpr double most_growth = 2;      ///< of a time step: BDF2 is stable below 2.41
 constexpr double safety = 0.9;
 constexpr int jump_parts = 8;              ///< of loads that jump
@@ -32,7 +32,7 @@ class Ramp {
   Ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options, RampProgress& progress,
        const RampObserver& observer)
       : equilibrium_(equilibrium), path_(path), options_(options), progress_(progress), observer_(observer),
-        largest_(1.0 / options.increments), landing_(options.landing > 0 ? options.landing : largest_),
+        largest_(1.0 / options.increments),
         smallest_(options.duration > 0 ? smallest_in_time : options.smallest_increment) {
     if (options.inertia) massless_ = stiffness_without_mass(equilibrium, last());
   }
@@ -66,7 +66,7 @@ class Ramp {
   const RampOptions& options_;
   RampProgress& progress_;
   const RampObserver& observer_;
-  double largest_, landing_, smallest_;
+  double largest_, smallest_;
   Eigen::VectorXd massless_; ///< with inertia, see stiffness_without_mass()
   NewtonResult newton_;
   std::optional<Eigen::VectorXd> slope_; ///< at the trial state
@@ -84,8 +84,7 @@ double Ramp::next_break() const {
 /// Steps end where results are wanted and at breaks; equal parts lead there, so that no sliver is left.
 double Ramp::next_load_factor() const {
   const double s = progress_.load_factor;
-  const double landing = (std::floor((s + round_off) / landing_) + 1) * landing_;
-  const double stop = next_break();
+  const double landing = options_.next_landing(s), stop = next_break();
   const double goal = landing > stop - round_off ? stop : landing;
   const double parts = std::ceil((goal - s) / progress_.increment - round_off);
   return parts <= 1 ? goal : s + (goal - s) / parts;
@@ -304,7 +303,8 @@ bool Ramp::flow() {
 
 bool Ramp::accept(State state, double s) {
   progress_.at_break = timed() && s < 1 && std::abs(s - next_break()) < round_off;
-  const bool lands = !timed() || std::abs(s - std::round(s / landing_) * landing_) < round_off || s >= 1;
+  const bool lands =
+      !timed() || s >= 1 || std::abs(s - options_.next_landing(progress_.load_factor)) < round_off;
   const double length = s - progress_.load_factor;
   progress_.load_factor = s;
   unstable_before_ = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
@@ -385,11 +385,6 @@ RampResult Ramp::run() {
 }
 
 } // namespace
-
-RampProgress RampProgress::begin(const State& state, const DofMap& dofs, const RampOptions& options) {
-  const double largest = 1.0 / options.increments;
-  return {.start = Loads::of(state, dofs), .increment = largest, .points = {{0, state}}};
-}
 
 RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,
                 RampProgress& progress, const RampObserver& observer) {

@@ -8,18 +8,25 @@
 
 namespace dielast::fem {
 
+/// Load factors nearer than this are one.
+inline constexpr double load_factor_round_off = 1e-9;
+
 struct RampOptions {
   NewtonOptions newton;
   int increments = 1;               ///< the largest increment is this part of the step
   double smallest_increment = 1e-3; ///< of the load factor; a step that needs less gives up
   int most_tries = 1000000;         ///< increments, in vain or not; a step that needs more has no end
-  double landing = 0;  ///< load factors at whose multiples a result is wanted; 0: at every 1/increments
-  double duration = 0; ///< s; 0: no time passes
+  double landing = 0;        ///< load factors at whose multiples a result is wanted; 0: at every 1/increments
+  std::vector<double> stops; ///< load factors where results are wanted instead, ascending, and at the end
+  double duration = 0;       ///< s; 0: no time passes
   bool instantaneous = false;   ///< no time passes: dashpots stay as they are; otherwise they flow to the end
   double time_tolerance = 1e-6; ///< local error of internal variables and motion per increment, relative
   double first_time_step = 0;   ///< s, after every break; 0: the largest increment
   bool inertia = false;         ///< what has a mass moves by generalised-alpha; otherwise without inertia
   double high_frequencies = 0.8; ///< what generalised-alpha leaves of the highest ones after a step, 0..1
+
+  /// Where behind the load factor s a result is wanted.
+  double next_landing(double s) const;
 };
 
 /// What an accepted increment was like.

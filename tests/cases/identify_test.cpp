@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Identification of whole devices: what was put into a run is found again, and what cannot be is told.
+#include "cases/case/quantities.hpp"
 #include "cases/fits/device_model.hpp"
 #include "cases/fits/identify.hpp"
 #include "cases/readers/identify_reader.hpp"
+#include "cases/readers/reader.hpp"
+#include "cases/runs/simulation.hpp"
 #include "tests/cases/scratch.hpp"
 
 #include <fmt/format.h>
@@ -89,6 +92,56 @@ TEST_F(Identify, FindsWhatWasPutIn) {
   EXPECT_NEAR(found.unknowns[0].value, 500, 1e-3);
   EXPECT_NEAR(found.unknowns[1].value, 200, 1e-2);
   for (const double error : found.errors) EXPECT_LT(error, 1e-4);
+}
+
+// Where something was measured the run stops, however few increments the case takes: between them a limit
+// point's neighbourhood is no straight line.
+TEST_F(Identify, TakesTheRunWhereItWasMeasured) {
+  const std::string patch =
+      "[film]\nthickness = \"1 mm\"\n[film.material]\nlaw = \"gent\"\nshear_modulus = \"50 kPa\"\n"
+      "stretch_limit = 20\npermittivity = \"4e-11 F/m\"\n[patch]\n[[quantity]]\nname = \"Q\"\n"
+      "kind = \"charge\"\nof = \"film\"\n[drive]\n";
+  const std::string ramp = "voltage = \"20 kV\"\n[[step]]\nkind = \"voltage\"\nincrements = ";
+  const std::string wave = "voltage = { wave = \"sine\", mean = \"9 kV\", amplitude = \"6 kV\", frequency "
+                           "= \"1 Hz\" }\n[[step]]\nkind = \"transient\"\nduration = \"0.2 s\"\n"
+                           "increments = ";
+  struct Measured {
+    std::string drive, against, quantity;
+  };
+  for (const Measured& each :
+       {Measured{ramp, "voltage[V]", "Q[C]"}, Measured{ramp, "Q[C]", "stretch_x"},
+        Measured{wave, "time[s]", "Q[C]"}, Measured{wave, "voltage[V]", "stretch_x"}}) {
+    write("stack.toml", patch + each.drive + "150\n");
+    const Case fine = read_case(directory / "stack.toml");
+    const std::vector<post::Column> columns = history_columns(fine);
+    const auto place = [&](const std::string& name) {
+      const auto found = std::ranges::find(columns, name.substr(0, name.find('[')), &post::Column::name);
+      return static_cast<std::size_t>(found - columns.begin());
+    };
+    std::string table = each.against + "," + each.quantity + "\n";
+    Simulation simulation(fine, 1);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      std::vector<double> row{frame.record.load_factor, frame.record.time};
+      row.insert(row.end(), frame.record.voltages.begin(), frame.record.voltages.end());
+      row.insert(row.end(), frame.values.begin(), frame.values.end());
+      if (frame.record.index % 7 == 3)
+        table += fmt::format("{:.17g},{:.17g}\n", row[place(each.against)], row[place(each.quantity)]);
+      return true;
+    };
+    ASSERT_EQ(simulation.run(observer).ending, Ending::complete);
+    write("v.csv", table);
+    write("stack.toml", patch + each.drive + "4\n");
+    write_test("\"film.material.shear_modulus\"", "[[identify.test]]\nfile = \"v.csv\"\nquantity = \"" +
+                                                      each.quantity.substr(0, each.quantity.find('[')) +
+                                                      "\"\n");
+    const Identification asked = read_identification(directory / "identify.toml");
+    const std::vector<double> model = DeviceModel(asked).run(0, {50});
+    ASSERT_EQ(model.size(), asked.tests[0].measured.size());
+    for (std::size_t row = 0; row < model.size(); ++row)
+      EXPECT_NEAR(model[row], asked.tests[0].measured[row].real(), 1e-6 * std::abs(model[row]))
+          << each.against << " " << row;
+  }
 }
 
 // The measured impedance is that of a permittivity below the lowest that the key takes.
