@@ -33,6 +33,23 @@ bool conducts(Equilibrium& equilibrium, const State& state) {
   return (rest.sheet_drop - state.sheet_drop).lpNorm<Eigen::Infinity>() > still * largest;
 }
 
+/// What a port's charge does that is not at its end.
+std::string charges(const Model& model, const State& state) {
+  for (const Circuit& circuit : model.circuits) {
+    const auto e = static_cast<std::size_t>(circuit.electrode);
+    const double voltage = state.voltage[e];
+    if (state.supply[e] == Supply::leak &&
+        std::abs(model.charges(state, false).charge[e]) > still * circuit.charge_scale)
+      return "electrode \"" + model.electrodes[e] + "\" is isolated and leaks";
+    const bool spreads = std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode) > 0;
+    if (state.supply[e] != Supply::circuit || spreads) continue;
+    const double end = circuit.steady_voltage(state.source[e]);
+    if (std::abs(end - voltage) > still * std::max(std::abs(end), std::abs(voltage)))
+      return "charge flows through the circuit of electrode \"" + model.electrodes[e] + "\"";
+  }
+  return "";
+}
+
 } // namespace
 
 // To where its forces balance, and beyond as far as its kinetic energy carries it there.
@@ -56,6 +73,7 @@ bool moves_on(Equilibrium& equilibrium, const State& state) {
 std::string unrest(Equilibrium& equilibrium, const State& state) {
   if (flows(equilibrium.model(), state)) return "dashpots flow";
   if (conducts(equilibrium, state)) return "current flows along an electrode";
+  if (std::string found = charges(equilibrium.model(), state); !found.empty()) return found;
   if (moves_on(equilibrium, state)) return "the device moves";
   return "";
 }

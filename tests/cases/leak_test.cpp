@@ -77,5 +77,86 @@ TEST_F(Leak, AnIsolatedElectrodeLosesItsChargeThroughTheLeakWhileTimePasses) {
   EXPECT_NEAR(run(text + driven + quantities).last("Q"), patch.charge, 1e-3 * patch.charge);
 }
 
+// Electrode with a resistance of its own, isolated and leaking: the run goes on from a checkpoint bit for
+// bit, and what is lost has leaked under the sheet.
+TEST_F(Leak, UnderAResistiveElectrodeGoesOnFromACheckpoint) {
+  write("sheet.toml", "model = \"axisymmetric\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2\n"
+                      "[film.material]\nshear_modulus = \"40 kPa\"\nrelative_permittivity = 4\n"
+                      "[[film.material.branch]]\nshear_modulus = \"30 kPa\"\nrelaxation_time = \"1 s\"\n"
+                      "[disc]\nradius = \"50 mm\"\nelectrode_radius = \"20 mm\"\n[mesh]\nrings = 6\n"
+                      "[[electrode]]\nname = \"film\"\nplace = \"electrode\"\n"
+                      "sheet_resistance = \"100 GOhm\"\nterminal = \"electrode_edge\"\n"
+                      "[circuit]\nresistance = \"1 MOhm\"\nleakage_resistance = \"30 GOhm\"\n"
+                      "[drive]\nvoltage = \"3 kV\"\n[solver]\ntime_tolerance = 1e-7\n"
+                      "[[step]]\nkind = \"voltage\"\n[[step]]\nkind = \"hold\"\nduration = \"3 s\"\n"
+                      "control = \"charge\"\n[[quantity]]\nname = \"leaked\"\nkind = \"energy\"\n"
+                      "of = \"leak_heat\"\n");
+  const Case one = read_case(directory / "sheet.toml");
+  Simulation whole(one, 1), first(one, 1), second(one, 1);
+  std::vector<double> charge, time, leaking; // C, s, A
+  SimulationObserver observer;
+  observer.on_accept = [&](const Frame& frame) {
+    const fem::State& state = frame.measured.state;
+    if (frame.record.step != "hold") charge.clear(), time.clear(), leaking.clear();
+    charge.push_back(frame.measured.charges.charge[0]);
+    time.push_back(state.time);
+    double current = 0;
+    const auto& points = whole.device().model.sheet_points;
+    for (std::size_t a = 0; a < points.size(); ++a)
+      current += points[a].leakage *
+                 (state.voltage[0] -
+                  (state.sheet_drop.size() > 0 ? state.sheet_drop[static_cast<Eigen::Index>(a)] : 0));
+    leaking.push_back(current);
+    return true;
+  };
+  ASSERT_EQ(whole.run(observer).ending, Ending::complete);
+  ASSERT_EQ(whole.state().supply[0], fem::Supply::leak);
+  double leaked = 0;
+  for (std::size_t i = 1; i < time.size(); ++i)
+    leaked += (time[i] - time[i - 1]) * (leaking[i] + leaking[i - 1]) / 2;
+  EXPECT_GT(leaked, 0.05 * charge.front());
+  EXPECT_NEAR(charge.front() - charge.back(), leaked, 1e-3 * leaked);
+  EXPECT_GT(whole.state().sheet_drop.cwiseAbs().maxCoeff(), 1); // V: what leaks in the middle flows there
+  int rows = 0;
+  observer.on_accept = [&rows](const Frame& frame) { return frame.record.step != "hold" || ++rows < 6; };
+  ASSERT_EQ(first.run(observer).ending, Ending::interrupted);
+  second.resume(restore_progress(archive(first.progress()), post::StateSizes::of(second.device().model)));
+  ASSERT_EQ(second.run({}).ending, Ending::complete);
+  EXPECT_EQ(second.state().displacement, whole.state().displacement);
+  EXPECT_EQ(second.state().voltage, whole.state().voltage);
+  EXPECT_EQ(second.state().sheet_drop, whole.state().sheet_drop);
+}
+
+// A charge that is being lost, or that still flows in, is no state of rest.
+TEST_F(Leak, NoVibrationGoesAboutAStateWhoseChargeChanges) {
+  const std::string disc = "model = \"axisymmetric\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2\n"
+                           "[film.material]\nshear_modulus = \"40 kPa\"\nrelative_permittivity = 4\n"
+                           "density = \"1000 kg/m^3\"\n[disc]\nradius = \"50 mm\"\n"
+                           "electrode_radius = \"20 mm\"\n[mesh]\nrings = 6\n[circuit]\n"
+                           "resistance = \"1 GOhm\"\nleakage_resistance = \"100 GOhm\"\n[drive]\n"
+                           "voltage = \"3 kV\"\n";
+  const std::string volts = "[[step]]\nkind = \"voltage\"\n";
+  const std::string isolated = volts + "[[step]]\nkind = \"hold\"\ncontrol = \"charge\"\nduration = ";
+  const std::string charging = "[[step]]\nkind = \"transient\"\nduration = \"0.1 s\"\n";
+  struct Before {
+    std::string steps, refusal;
+  };
+  for (const std::string kind : {"modes", "harmonic"})
+    for (const Before& before : {Before{volts, ""},
+                                 {isolated + "\"1 s\"\n", "electrode \"film\" is isolated and leaks"},
+                                 {isolated + "\"2000 s\"\n", ""},
+                                 {charging, "charge flows through the circuit of electrode \"film\""},
+                                 {charging + "[[step]]\nkind = \"relax\"\n", ""}}) {
+      write("disc.toml", disc + before.steps + "[[step]]\nkind = \"" + kind + "\"\n");
+      const Case one = read_case(directory / "disc.toml");
+      Simulation simulation(one, 1);
+      SimulationObserver observer;
+      observer.on_analysis = [](const Analysis&, const fem::State&) {};
+      const Outcome outcome = simulation.run(observer);
+      EXPECT_EQ(outcome.ending, before.refusal.empty() ? Ending::complete : Ending::gave_up) << before.steps;
+      EXPECT_NE(outcome.message.find(before.refusal), std::string::npos) << outcome.message;
+    }
+}
+
 } // namespace
 } // namespace dielast::cases

@@ -5,6 +5,7 @@
 #include "fem/linear/balanced_truncation.hpp"
 #include "tests/fem/diaphragm.hpp"
 #include "tests/fem/material_point_block.hpp"
+#include "tests/fem/sample_meshes.hpp"
 
 #include <numbers>
 
@@ -81,6 +82,39 @@ TEST_F(LinearDiaphragm, is_driven_by_voltage_or_charge_without_a_circuit) {
     const StateSpace model = state_space(equilibrium, rest, channels(diaphragm), {});
     EXPECT_LT(largest_error(model, Linearisation(equilibrium, rest), channels(diaphragm), band()), 1e-6);
   }
+}
+
+// Two electrodes: one is driven, the other isolated but for its leak, whose charge is a state.
+TEST(StateSpace, of_an_isolated_electrode_that_leaks_is_the_response) {
+  const meshing::Mesh mesh = test::distorted_square(4, 2, 0.01);
+  std::vector<int> electrodes(32, 0);
+  std::fill(electrodes.begin() + 16, electrodes.end(), 1);
+  auto model = test::unnumbered_model(
+      mesh.node_count(), true,
+      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
+  model->electrodes = {"driven", "leaking"};
+  model->circuits = {{.electrode = 1, .resistance = 1e6, .leakage = 1e-12}};
+  model->place_histories();
+  for (const int a : mesh.node_sets.at("edge"))
+    for (const int c : {0, 1}) model->dofs.hold(a, c);
+  model->dofs.number();
+  model->length_scale = model->extent = 0.01;
+  Equilibrium equilibrium(*model, 1);
+  State state = model->initial_state();
+  state.scheme = materials::TimeScheme::relaxed();
+  state.voltage = {8e3, 6e3};
+  ASSERT_EQ(equilibrium.solve(state, {.tolerance = 1e-13}).outcome, Outcome::converged);
+  state = model->settled(std::move(state));
+  state.charge = model->charges(state, false).charge;
+  state.supply[1] = Supply::leak;
+  const Channels channels{{0}, Eigen::MatrixXd::Identity(2, model->dofs.free_count()), {0, 1}};
+  const StateSpace small = state_space(equilibrium, state, channels, {});
+  ASSERT_EQ(small.order(), 1); // nothing has a mass
+  const double rate = -small.A(0, 0), C = state.charge[1] / 6e3;
+  EXPECT_GT(rate, 0.5 * 1e-12 / C);
+  EXPECT_LT(rate, 1e-12 / C); // the film gives way
+  const std::vector<double> omega{0.01 * rate, rate, 100 * rate};
+  EXPECT_LT(largest_error(small, Linearisation(equilibrium, state), channels, omega), 1e-9);
 }
 
 TEST_F(LinearDiaphragm, has_none_where_rates_vary_or_nothing_is_stable) {
