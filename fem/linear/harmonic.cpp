@@ -2,7 +2,9 @@
 #include "fem/linear/harmonic.hpp"
 
 #include "fem/algebra/dense_algebra.hpp"
+#include "fem/linear/response_basis.hpp"
 
+#include <bit>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +30,16 @@ PortEquation equation_of(const Linearisation::Port& port, Linearisation::Complex
   return {};
 }
 
+/// The first and the last, then what lies in the middle between those before.
+std::vector<std::size_t> halving_order(std::size_t count) {
+  std::vector<std::size_t> order;
+  if (count > 0) order.push_back(0);
+  if (count > 1) order.push_back(count - 1);
+  for (std::size_t stride = std::bit_ceil(count) / 2; stride > 0; stride /= 2)
+    for (std::size_t i = stride; i + 1 < count; i += 2 * stride) order.push_back(i);
+  return order;
+}
+
 } // namespace
 
 HarmonicDrive HarmonicDrive::at_port(const Model& model, std::size_t port) {
@@ -49,14 +61,14 @@ std::vector<HarmonicResponse> harmonic_response(const Linearisation& at, const H
   for (Eigen::Index p = 0; p < count; ++p) columns.col(p) = ports[static_cast<std::size_t>(p)].coupling;
   columns.col(count) = drive.force;
 
-  ComplexSolver solver(at.stiffness());
-  std::vector<HarmonicResponse> responses;
-  for (const double omega : frequencies) {
+  ResponseBasis basis(at, columns);
+  std::vector<HarmonicResponse> responses(frequencies.size());
+  for (const std::size_t place : halving_order(frequencies.size())) {
+    const double omega = frequencies[place];
     const Linearisation::Complex s(0, omega);
-    auto Z = at.dynamic_stiffness(s);
-    if (!solver.factor(Z))
-      throw std::domain_error("undamped resonance at " + std::to_string(omega) + " rad/s");
-    const Eigen::MatrixXcd X = solver.solve(columns.cast<Linearisation::Complex>());
+    const auto found = basis.solve(s);
+    if (!found) throw std::domain_error("undamped resonance at " + std::to_string(omega) + " rad/s");
+    const Eigen::MatrixXcd& X = *found;
     // dQ = held dPhi + pressed
     Eigen::MatrixXcd held = columns.leftCols(count).transpose() * X.leftCols(count);
     const Eigen::VectorXcd pressed = columns.leftCols(count).transpose() * X.col(count);
@@ -79,7 +91,7 @@ std::vector<HarmonicResponse> harmonic_response(const Linearisation& at, const H
     response.displacement = X.leftCols(count) * response.voltage + X.col(count);
     response.charge = held * response.voltage + pressed;
     response.current = s * response.charge + leakage.cwiseProduct(response.voltage);
-    responses.push_back(std::move(response));
+    responses[place] = std::move(response);
   }
   return responses;
 }

@@ -29,7 +29,7 @@ struct HarmonicResponse {
 };
 
 /// Steady response to a small harmonic drive at each of the frequencies (rad/s, 0 too), branches and circuits
-/// taken along: Z(i omega) of the linearisation is factored, the ports are eliminated. Throws
+/// taken along: Z(i omega) u = B is solved (see ResponseBasis), the ports are eliminated. Throws
 /// std::domain_error at an undamped resonance.
 std::vector<HarmonicResponse> harmonic_response(const Linearisation& at, const HarmonicDrive& drive,
                                                 std::span<const double> frequencies);

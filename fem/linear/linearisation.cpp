@@ -67,19 +67,33 @@ void Linearisation::add_ports() {
   }
 }
 
-std::vector<Linearisation::Complex> Linearisation::dynamic_stiffness(Complex s) const {
-  const std::size_t size = stiffness_.values.size();
-  std::vector<Complex> Z(size);
-  for (std::size_t i = 0; i < size; ++i) Z[i] = stiffness_.values[i] + s * damping_[i] + s * s * mass_[i];
-  for (std::size_t r = 0; r < rates_.size(); ++r) {
-    const Complex factor = s / (s + rates_[r]);
-    for (std::size_t i = 0; i < size; ++i) Z[i] += factor * relaxing_[r][i];
-  }
-  if (!rates_vary_) return Z;
+std::vector<const std::vector<double>*> Linearisation::terms() const {
+  std::vector<const std::vector<double>*> all{&stiffness_.values, &damping_, &mass_};
+  for (const auto& each : relaxing_) all.push_back(&each);
+  return all;
+}
+
+std::vector<Linearisation::Complex> Linearisation::weights(Complex s) const {
+  std::vector<Complex> all{1, s, s * s};
+  for (const double rate : rates_) all.push_back(s / (s + rate));
+  return all;
+}
+
+std::array<std::vector<double>, 2> Linearisation::varying(Complex s) const {
+  if (!rates_vary_) return {};
   const Assembler& assembler = equilibrium_.assembler();
-  const auto storage = assembler.relaxation(state_, [s](double rate) { return (s / (s + rate)).real(); });
-  const auto loss = assembler.relaxation(state_, [s](double rate) { return (s / (s + rate)).imag(); });
-  for (std::size_t i = 0; i < size; ++i) Z[i] += Complex(storage[i], loss[i]);
+  return {assembler.relaxation(state_, [s](double rate) { return (s / (s + rate)).real(); }),
+          assembler.relaxation(state_, [s](double rate) { return (s / (s + rate)).imag(); })};
+}
+
+std::vector<Linearisation::Complex> Linearisation::dynamic_stiffness(Complex s) const {
+  std::vector<Complex> Z(stiffness_.values.size());
+  const auto matrices = terms();
+  const auto factors = weights(s);
+  for (std::size_t k = 0; k < matrices.size(); ++k)
+    for (std::size_t i = 0; i < Z.size(); ++i) Z[i] += factors[k] * (*matrices[k])[i];
+  const auto [storage, loss] = varying(s);
+  for (std::size_t i = 0; i < storage.size(); ++i) Z[i] += Complex(storage[i], loss[i]);
   return Z;
 }
 

@@ -4,6 +4,7 @@
 #include "fem/algebra/complex_solver.hpp"
 #include "fem/equilibrium/equilibrium.hpp"
 
+#include <array>
 #include <complex>
 
 namespace dielast::fem {
@@ -33,6 +34,11 @@ class Linearisation {
   bool rates_vary() const { return rates_vary_; }
   /// Z(s), N/m.
   std::vector<Complex> dynamic_stiffness(Complex s) const;
+  /// Real matrices and the functions of s of which Z(s) is the sum, and what varying(s) adds: K first.
+  std::vector<const std::vector<double>*> terms() const;
+  std::vector<Complex> weights(Complex s) const;
+  /// Real and imaginary part of what branches add whose rates vary; empty where none does.
+  std::array<std::vector<double>, 2> varying(Complex s) const;
 
   /// Per port: what is given, dQ/du (C/m, of the free equations), capacitance (F), 1/R (0 where the source is
   /// at its current limit, or not connected) and G (S). Of a chamber likewise with pressure and volume.

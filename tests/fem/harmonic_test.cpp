@@ -2,6 +2,7 @@
 #include "fem/linear/harmonic.hpp"
 
 #include "fem/elements/point_mass_block.hpp"
+#include "fem/linear/response_basis.hpp"
 #include "tests/fem/diaphragm.hpp"
 #include "tests/fem/sample_meshes.hpp"
 
@@ -215,6 +216,49 @@ TEST(Harmonic, at_frequency_zero_is_the_slope_of_the_static_curve) {
   const auto free =
       harmonic_response(linear, HarmonicDrive::along(diaphragm.model, diaphragm.plate), zero).front();
   EXPECT_LT(held.displacement[diaphragm.plate].real(), free.displacement[diaphragm.plate].real());
+}
+
+// Film with mass and branches, of one rate each or with rates that vary: few factors give all responses, and
+// what they give is the solution with the matrix itself.
+TEST(ResponseBasis, gives_what_factoring_gives) {
+  for (const bool nominal : {false, true}) {
+    const test::DiaphragmData data{
+        .damping = 1.6,
+        .branches = {{materials::NeoHookean{15e3}, materials::Dashpot::log, 15e3 * 0.05},
+                     {materials::NeoHookean{5e3},
+                      nominal ? materials::Dashpot::nominal : materials::Dashpot::log, 15e3}},
+        .circuits = {{.electrode = 0, .resistance = 1.87e6, .leakage = 1e-9}},
+        .rings = 4};
+    const test::Diaphragm diaphragm(data);
+    Equilibrium equilibrium(diaphragm.model, 1);
+    const Linearisation linear(equilibrium, diaphragm.settled(equilibrium, 2500));
+    ASSERT_EQ(linear.rates_vary(), nominal);
+    Eigen::MatrixXd B(linear.stiffness().size, 3); // a port, nothing, a force on the plate
+    B.col(0) = linear.ports()[0].coupling;
+    B.col(1).setZero();
+    B.col(2) = Eigen::VectorXd::Unit(B.rows(), diaphragm.plate);
+    ResponseBasis basis(linear, B);
+    ComplexSolver solver(linear.stiffness());
+    const int count = 60;
+    for (int i = 0; i < count; ++i) {
+      const Complex s(0, i == 0 ? 0 : 0.5 * std::pow(2e3, (i * 17 % count) / (count - 1.0)));
+      const auto found = basis.solve(s);
+      ASSERT_TRUE(found);
+      std::vector<Complex> Z = linear.dynamic_stiffness(s);
+      ASSERT_TRUE(solver.factor(Z));
+      const Eigen::MatrixXcd X = solver.solve(B.cast<Complex>());
+      EXPECT_EQ(found->col(1).norm(), 0);
+      for (const int c : {0, 2}) {
+        EXPECT_LT((found->col(c) - X.col(c)).norm(), 1e-9 * X.col(c).norm()) << s;
+        for (const int o : {0, 2}) {
+          const Complex y = B.col(o).cast<Complex>().dot(X.col(c));
+          EXPECT_LT(std::abs(B.col(o).cast<Complex>().dot(found->col(c)) - y), 1e-10 * std::abs(y)) << s;
+        }
+      }
+    }
+    EXPECT_GT(basis.factorisations(), 2);
+    EXPECT_LT(basis.factorisations(), 20);
+  }
 }
 
 TEST(ComplexSolver, solves_and_tells_singular_matrices) {
