@@ -53,6 +53,17 @@ constexpr int patience(const NewtonOptions& options) { return std::max(10, optio
 constexpr int most_indefinite =
     6; ///< tangents in a row: by then the iteration wanders between unstable states
 
+/// Where what slides is given a firmness (see Slider), Newton's steps shrink by a constant part each, the
+/// less the shorter the way of the increment. How much longer one is to be that follows `before`, which was
+/// `taken` times as long as it had been (Aitken).
+double longer(const Eigen::VectorXd& step, const Eigen::VectorXd& before, double taken) {
+  constexpr double longest = 50;
+  const Eigen::VectorXd change = step - before;
+  const double longer = -taken * before.dot(change) / change.squaredNorm();
+  return std::isfinite(longer) ? std::clamp(longer, 1.0, longest) : 1.0;
+}
+constexpr double slow = 0.5; ///< residual over that before, from which on steps are made longer
+
 /// Error of a step in the norm of the tangent, over the step. Where another step follows, less saves no
 /// iteration; the last one is to leave the digits that it would without an error. `residual`: relative.
 double tolerance_of_step(double residual, double tolerance) {
@@ -293,7 +304,8 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double previous_norm = infinity;
   double stale_tangent = infinity; // residual at which the last tangent was taken
-  double step_length = 0;
+  double step_length = 0, taken = 1;
+  Eigen::VectorXd before; // where something slides the last step as it was found, in lengths
   int indefinite = 0;
   for (result.iterations = 0;; ++result.iterations) {
     if (!current.feasible) return end(Outcome::infeasible);
@@ -309,6 +321,7 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
         (result.iterations >= patience(options) && current.norm > first_norm) ||
         indefinite >= most_indefinite)
       return end(Outcome::not_converged);
+    const bool shrinks_slowly = step_length == 1 && current.norm > slow * previous_norm;
     previous_norm = current.norm;
     stale_tangent = result.residual;
     ++timings_.iterations;
@@ -332,6 +345,12 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
         !find_step(state, tells && result.residual <= near) || step_size(step) > farthest_step;
     if (stiffened && !find_widened_step()) return end(Outcome::singular);
     if (stiffened) stale_tangent = infinity;
+    if (has_friction(model_) && !model_.closed_chamber(state)) {
+      const Eigen::VectorXd found = step.cwiseQuotient(weight_.head(step.size()));
+      taken = shrinks_slowly && !stiffened ? longer(found, before, taken) : 1;
+      before = found;
+      step *= taken;
+    }
     indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
     step_length =
         backtrack(state, current, step, stiffened || options.wrinkles ? 2 * most_halvings : most_halvings);

@@ -103,6 +103,24 @@ TEST_F(Contacts, friction_of_a_table_holds_a_slab) {
   EXPECT_LT(much.at("length"), 0.8 * little.at("length"));
 }
 
+/// Increments in which nodes slide by little are as good as others: the fewer slide far, and the many get as
+/// far.
+TEST_F(Contacts, friction_does_not_ask_how_many_increments_there_are) {
+  for (const std::string friction : {"0.1", "0.3"}) {
+    std::vector<double> lengths;
+    for (const char* increments : {"20", "160"}) {
+      std::string text = slab("[[step]]\nkind = \"weight\"\nincrements = 10\n[[step]]\nkind = \"voltage\"\n"
+                              "increments = " +
+                                  std::string(increments) + "\n",
+                              friction);
+      text.replace(text.find("10 m/s^2"), 8, "1000 m/s^2");
+      lengths.push_back(values(text).at("length"));
+    }
+    EXPECT_GT(lengths[0], 1e-3);
+    EXPECT_NEAR(lengths[1], lengths[0], 0.02 * lengths[0]) << friction;
+  }
+}
+
 TEST_F(Contacts, refuse_walls_that_touch_as_drawn) {
   EXPECT_THROW(build_device(read(honeycomb(63, contact))), meshing::MeshError);
 }
