@@ -63,6 +63,29 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+/// Units that exist and that hardly anybody means.
+struct Misread {
+  std::string_view unit, is, meant;
+};
+constexpr std::array misread{Misread{"gr", "a grain", "g"}, Misread{"mgr", "a thousandth of a grain", "mg"},
+                             Misread{"kgr", "a thousand grains", "kg"},
+                             Misread{"ct", "a hundredth of a tonne", "carat"},
+                             Misread{"mPa", "a thousandth of a pascal", "MPa"}};
+
+/// Throws UnitError where one of them stands in `unit`; "mPa" alone, as viscosities have it.
+void require_meant(const std::string& unit) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  for (std::size_t begin = unit.find_first_of(letters); begin != std::string::npos;) {
+    const std::size_t end = std::min(unit.find_first_not_of(letters, begin), unit.size());
+    const std::string_view name = std::string_view(unit).substr(begin, end - begin);
+    const auto found = std::ranges::find(misread, name, &Misread::unit);
+    if (found != misread.end() && (name != "mPa" || name == unit))
+      throw UnitError(fmt::format("with the unit \"{}\", which is {} (did you mean \"{}\"?)", name, found->is,
+                                  found->meant));
+    begin = unit.find_first_of(letters, end);
+  }
+}
+
 /// To udunits a radian is 1: the factor that it leaves out where an angle per time (rad/s, rpm) stands for a
 /// frequency, or the other way round. "1/s" is taken for either.
 double factor_left_out(const std::string& unit, std::string_view wanted) {
@@ -77,6 +100,7 @@ double factor_left_out(const std::string& unit, std::string_view wanted) {
 /// Factor from `unit` to `si_unit`. Reciprocals, offsets (celsius), logarithms and dates also "convert" in
 /// udunits: only a linear map is a unit of the same dimension.
 double factor_to_si(const std::string& unit, std::string_view si_unit) {
+  require_meant(unit);
   const double left_out = factor_left_out(unit, si_unit);
   const std::lock_guard lock(parser_mutex);
   const DecimalPoint decimal_point;
