@@ -73,11 +73,41 @@ std::string item_expectation(const Key& key, std::string_view unit) {
   return "";
 }
 
+/// The least and the largest value that a wave can have.
+std::array<double, 2> extremes(const Waveform& wave) {
+  std::array<double, 2> ends{wave.from, wave.to};
+  switch (wave.kind) {
+  case Waveform::Kind::constant:
+    ends = {wave.to, wave.to};
+    break;
+  case Waveform::Kind::sine:
+  case Waveform::Kind::sweep:
+    ends = {wave.mean - wave.amplitude, wave.mean + wave.amplitude};
+    break;
+  case Waveform::Kind::unipolar_sine:
+    ends = {wave.from, wave.from + wave.amplitude};
+    break;
+  case Waveform::Kind::file:
+    ends = {wave.samples.front()[1], wave.samples.front()[1]};
+    for (const auto& sample : wave.samples)
+      ends = {std::min(ends[0], sample[1]), std::max(ends[1], sample[1])};
+    break;
+  case Waveform::Kind::ramp:
+  case Waveform::Kind::step:
+  case Waveform::Kind::trapezoid:
+  case Waveform::Kind::square:
+    break;
+  }
+  return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+}
+
+bool is_inside(const Range& range, double value) {
+  return (range.low_open ? value > range.low : value >= range.low) &&
+         (range.high_open ? value < range.high : value <= range.high);
+}
+
 void require_range(const Key& key, const Node& node, double value, const std::string& shown, bool bare) {
-  const Range& range = key.range;
-  const bool inside = (range.low_open ? value > range.low : value >= range.low) &&
-                      (range.high_open ? value < range.high : value <= range.high);
-  if (inside) return;
+  if (is_inside(key.range, value)) return;
   std::string allowed = range_text(key, shown);
   if (!key.hint.empty()) allowed += ": " + key.hint;
   const bool has_unit = bare && key.unit != "1" && is_measure(key);
@@ -226,6 +256,15 @@ std::string expectation(const Key& key, std::string_view unit) {
   const std::string count =
       key.least == key.most ? fmt::format("{}", key.most) : fmt::format("{} to {}", key.least, key.most);
   return fmt::format("{}a list of {}, each {}", key.spreads ? item + " or " : "", count, item);
+}
+
+void require_range(const Key& key, const Waveform& wave, const Node& table) {
+  const std::string shown(dimension(key.unit).shown);
+  for (const double extreme : extremes(wave))
+    if (!is_inside(key.range, extreme))
+      mismatch(table,
+               fmt::format(", which goes to {}", in_unit(extreme, shown == "1" ? "" : shown, key.unit)),
+               range_text(key, shown));
 }
 
 std::string range_text(const Key& key, const std::string& shown) {

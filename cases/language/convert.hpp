@@ -22,6 +22,9 @@ using WaveReader = std::function<Waveform(const Node& table)>;
 /// check. Throws Mismatch.
 Value convert(const Key& key, const Node& node, std::string_view unit, const WaveReader& read_wave = {});
 
+/// Throws Mismatch where a wave has values that the key does not allow.
+void require_range(const Key& key, const Waveform& wave, const Node& table);
+
 /// Whether a text is a name: at most longest_name letters, digits, _ and -.
 bool is_name(std::string_view text);
 

@@ -192,6 +192,7 @@ Waveform SectionReader::read_wave(const Key& key, const Node& table, const std::
   read_table(wave_section(key.unit), table, &wave, path);
   if (wave.kind == Waveform::Kind::file && diagnostics_.size() == errors_before)
     load_samples(wave, key.unit, surroundings_.folder, table, path, diagnostics_);
+  if (!wave.constant() && diagnostics_.size() == errors_before) require_range(key, wave, table);
   if (!wave.constant()) waves_.push_back({wave, path, table.source});
   return wave;
 }
