@@ -15,8 +15,11 @@ namespace dielast::cases {
 
 std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mesh) {
   constexpr double largest = 1; // m, of the templates' dimensions
-  if (!one.geometry<MeshFile>()) return {};
   std::vector<std::string> warnings;
+  if (one.dimension == fem::Dimension::spatial && one.any_geometry<HollowSphere>())
+    warnings.push_back("hollow_sphere: in space its eighth at x, y, z >= 0 is computed; volumes, charges, "
+                       "capacitances, energies and masses are those of the eighth");
+  if (!one.geometry<MeshFile>()) return warnings;
   if (const int cut = one.parts.size() == 1 ? meshing::nodes_on_others(mesh) : 0)
     warnings.push_back(fmt::format(
         "the film is cut: {} of its nodes lie on others; let gmsh fragment the drawing to join its parts",

@@ -254,7 +254,8 @@ Section hollow_sphere_section() {
   Section section;
   section.name = "hollow_sphere";
   section.meaning = "sphere of solid about a hollow, of revolution about z; in space (model = \"3d\") its "
-                    "eighth at x, y, z >= 0";
+                    "eighth at x, y, z >= 0, to which volumes, charges, capacitances, energies and masses "
+                    "belong then";
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<HollowSphere>();
   section.keys = {
