@@ -46,6 +46,17 @@ bool has_branches(const Case& one) {
       [](const Film& film) { return !film.material.branches.empty() || film.material.viscosity > 0; });
 }
 
+} // namespace
+
+bool adapts(const Case& one, const Step& step) {
+  return step.inertia || !one.circuits.empty() || has_branches(one) ||
+         std::ranges::any_of(one.electrodes, [](const Electrode& electrode) {
+           return electrode.sheet_resistance.has_value();
+         });
+}
+
+namespace {
+
 bool is_timed(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });
 }
@@ -168,11 +179,8 @@ Condition limits_matter() {
 Condition time_steps_matter() {
   return on_case("a step with a duration in which branches, a circuit or a sheet_resistance flow, or inertia",
                  [](const Case& one) {
-                   const bool sheets = std::ranges::any_of(one.electrodes, [](const Electrode& electrode) {
-                     return electrode.sheet_resistance.has_value();
-                   });
-                   const bool flows = has_branches(one) || !one.circuits.empty() || sheets;
-                   return is_timed(one) && (flows || has_inertia(one));
+                   return std::ranges::any_of(
+                       one.steps, [&](const Step& step) { return step.duration && adapts(one, step); });
                  });
 }
 

@@ -51,6 +51,8 @@ bool has_mass(const Case& one);
 /// Whether a step may jump to another state, or follow an unstable path. The rules refuse what may not.
 bool may_jump(const Case& one);
 bool may_follow(const Case& one, const Step& step);
+/// Whether a step's time steps are as short as the error of something that flows or has inertia wants them.
+bool adapts(const Case& one, const Step& step);
 bool is_linearised(const Case& one); ///< by a harmonic response or a linear model
 
 } // namespace dielast::cases

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace dielast::cases {
 namespace {
@@ -18,17 +17,6 @@ void report_at(SectionReader& reader, const Node& tree, const std::string& secti
                const std::string& message) {
   const Node* node = tree.find(section);
   reader.report(node ? node->source : tree.source, section, message);
-}
-
-/// How messages name a step, and where it stands.
-struct Place {
-  std::string key;
-  Source source;
-};
-
-Place place_of_step(const Node& tree, std::size_t number) {
-  const Node& item = tree.find("step")->items.at(number);
-  return {item.source.line > 0 ? fmt::format("step[{}]", number + 1) : "step", item.source};
 }
 
 void check_loads(SectionReader& reader, const Node& tree, const Case& one) {
@@ -81,60 +69,6 @@ void check_drives(SectionReader& reader, const Node& tree, const Case& one) {
     report_at(reader, tree, "drive", "no step applies its charge; add a [[step]] with kind = \"charge\"");
 }
 
-bool drives_charge(const WrittenWave& written) {
-  return written.key.starts_with("drive") && written.key.ends_with(".charge");
-}
-
-/// Whether the step is a transient that follows the wave: of voltage and charge only the one that it
-/// controls.
-bool follows(const Step& step, const WrittenWave& written) {
-  if (step.kind != StepKind::transient) return false;
-  return !written.key.starts_with("drive") || drives_charge(written) == (step.control == Control::charge);
-}
-
-/// Longest time that a step follows the wave, s.
-double followed_time(const Case& one, const WrittenWave& written) {
-  double longest = 0;
-  for (const Step& step : one.steps)
-    if (follows(step, written)) longest = std::max(longest, *step.duration);
-  return longest;
-}
-
-void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
-  for (const WrittenWave& written : reader.waves()) {
-    using enum Waveform::Kind;
-    const Waveform& wave = written.wave;
-    const bool starts = wave.kind == ramp || wave.kind == step || wave.kind == trapezoid;
-    if (const double end = followed_time(one, written); end > 0 && starts && wave.start >= end)
-      reader.warn(written.source, written.key,
-                  fmt::format("has no effect here: it begins at {:.6g} s, and the step that follows it ends "
-                              "at {:.6g} s",
-                              wave.start, end));
-  }
-  for (const WrittenWave& written : reader.waves())
-    if (std::ranges::none_of(one.steps, [&](const Step& step) { return follows(step, written); }))
-      reader.report(
-          written.source, written.key,
-          fmt::format("no step follows this wave; add a [[step]] with kind = \"transient\"{} and its "
-                      "duration",
-                      drives_charge(written) ? ", control = \"charge\"" : ""));
-  for (std::size_t s = 0; s < one.steps.size(); ++s) {
-    const Step& step = one.steps[s];
-    for (const WrittenWave& written : reader.waves()) {
-      if (!follows(step, written)) continue;
-      const double longest = written.wave.period() / 4, dt = *step.duration / step.increments;
-      if (dt <= longest * (1 + 1e-9)) continue;
-      const Place at = place_of_step(tree, s);
-      reader.report(
-          at.source, at.key + ".increments",
-          fmt::format("time steps of {:.6g} s are longer than a quarter of the period {:.6g} s of {}; "
-                      "allowed at least {:.0f} increments",
-                      dt, written.wave.period(), written.key,
-                      std::ceil(*step.duration / longest * (1 - 1e-9))));
-    }
-  }
-}
-
 /// Every row of the history is kept until the run ends.
 void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
   constexpr double most_rows = 100000;
@@ -144,7 +78,7 @@ void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
     const double before = rows;
     rows += step.record ? *step.duration / *step.record : step.increments;
     if (rows <= most_rows || before > most_rows) continue;
-    const Place at = place_of_step(tree, s);
+    const StepPlace at = place_of_step(tree, s);
     reader.report(
         at.source, at.key + (step.record ? ".record" : ".increments"),
         fmt::format(
@@ -156,7 +90,7 @@ void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
 void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
   for (std::size_t s = 0; s < one.steps.size(); ++s) {
     const Step& step = one.steps[s];
-    const Place at = place_of_step(tree, s);
+    const StepPlace at = place_of_step(tree, s);
     if (step.kind == StepKind::modes && !has_mass(one))
       reader.report(at.source, at.key,
                     "nothing vibrates: film, plate and point masses have no mass; give plate.mass or "
@@ -216,7 +150,7 @@ void check_leaks(SectionReader& reader, const Node& tree, const Case& one) {
     const bool isolated = step.control == Control::charge;
     const bool given = (step.kind == StepKind::charge && step.duration && (step.to || any_given)) ||
                        (step.kind == StepKind::transient && isolated && any_given);
-    const Place at = place_of_step(tree, s);
+    const StepPlace at = place_of_step(tree, s);
     if (given)
       reader.warn(at.source, at.key,
                   "charges that are given here stay what they are, in spite of leakage_resistance");
@@ -290,7 +224,8 @@ void check_supports(SectionReader& reader, const Node& tree, const Case& one) {
 void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   const auto need = [&](StepKind kind, const char* word, bool given) {
     for (std::size_t s = 0; s < one.steps.size(); ++s)
-      if (const Place at = place_of_step(tree, s); one.steps[s].kind == kind && !given && !one.steps[s].to)
+      if (const StepPlace at = place_of_step(tree, s);
+          one.steps[s].kind == kind && !given && !one.steps[s].to)
         reader.report(at.source, at.key, fmt::format("has nothing to reach; give [chamber] a {}", word));
   };
   need(StepKind::pressure, "pressure", one.chamber && one.chamber->pressure);
@@ -366,6 +301,11 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
 }
 
 } // namespace
+
+StepPlace place_of_step(const Node& tree, std::size_t number) {
+  const Node& item = tree.find("step")->items.at(number);
+  return {item.source.line > 0 ? fmt::format("step[{}]", number + 1) : "step", item.source};
+}
 
 void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   if (!reader.diagnostics().empty()) return; // these would complain of what is only misspelt

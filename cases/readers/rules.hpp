@@ -5,9 +5,19 @@
 
 namespace dielast::cases {
 
+/// How messages name a step, and where it stands.
+struct StepPlace {
+  std::string key;
+  Source source;
+};
+StepPlace place_of_step(const Node& tree, std::size_t number);
+
 /// Rules between sections: every load, drive, motion and wave has a step that applies it, every step has
-/// something to apply, time steps resolve the waves, a patch can do what it is asked.
+/// something to apply, a patch can do what it is asked.
 void check_rules(SectionReader& reader, const Node& tree, const Case& one);
+
+/// Every wave has a step that follows it, in time steps that resolve it. Of the rules above, too.
+void check_waves(SectionReader& reader, const Node& tree, const Case& one);
 
 /// What a part must have, and what goes with what in it. Of the rules above, too.
 void check_parts(SectionReader& reader, const Node& tree, const Case& one);

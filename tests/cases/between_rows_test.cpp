@@ -74,6 +74,23 @@ TEST_F(BetweenRows, EventsAndPeaksAreThoseOfAllTimeSteps) {
   }
 }
 
+// Nothing makes steps shorter where nothing flows: what a sine does between them nobody sees.
+TEST_F(BetweenRows, WavesThatStepsResolvePoorlyAreWarnedOf) {
+  const auto warnings = [](const Case& one) {
+    return std::ranges::count_if(one.warnings, [](const Diagnostic& warning) {
+      return warning.text().find("peaks and events between them may be missed") != std::string::npos;
+    });
+  };
+  const Case fine = wave("");
+  EXPECT_EQ(warnings(fine), 0);
+  EXPECT_EQ(warnings(read_case(directory / "case.toml", {"step[1].increments=21"})), 1);
+  EXPECT_EQ(warnings(read_case(directory / "case.toml", {"step[1].increments=42"})), 0);
+  EXPECT_EQ(warnings(read_case(directory / "case.toml",
+                               {"step[1].increments=21", "film.material.branch=[{shear_modulus='10 kPa', "
+                                                         "relaxation_time='1 s'}]"})),
+            0);
+}
+
 // Stopped behind what is told in the row to come.
 TEST_F(BetweenRows, AResumedRunTellsWhatWasBeforeIt) {
   const Case one = wave("2.1 s");

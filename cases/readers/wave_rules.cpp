@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What follows a wave, and how finely.
+#include "cases/readers/rules.hpp"
+
+#include "cases/language/conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dielast::cases {
+namespace {
+
+bool drives_charge(const WrittenWave& written) {
+  return written.key.starts_with("drive") && written.key.ends_with(".charge");
+}
+
+/// Whether the step is a transient that follows the wave: of voltage and charge only the one that it
+/// controls.
+bool follows(const Step& step, const WrittenWave& written) {
+  if (step.kind != StepKind::transient) return false;
+  return !written.key.starts_with("drive") || drives_charge(written) == (step.control == Control::charge);
+}
+
+/// Longest time that a step follows the wave, s.
+double followed_time(const Case& one, const WrittenWave& written) {
+  double longest = 0;
+  for (const Step& step : one.steps)
+    if (follows(step, written)) longest = std::max(longest, *step.duration);
+  return longest;
+}
+
+constexpr double fewest_steps = 4, telling_steps = 20; ///< of a period
+
+/// A wave whose peaks are no kinks, at which time steps end.
+bool is_smooth(const Waveform& wave) {
+  using enum Waveform::Kind;
+  return wave.kind == sine || wave.kind == unipolar_sine || wave.kind == sweep;
+}
+
+/// How far below its amplitude a sine is, %, half a time step beside its peak.
+double missed(double steps) { return 100 * (1 - std::cos(std::numbers::pi / steps)); }
+
+} // namespace
+
+void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
+  for (const WrittenWave& written : reader.waves()) {
+    using enum Waveform::Kind;
+    const Waveform& wave = written.wave;
+    const bool starts = wave.kind == ramp || wave.kind == step || wave.kind == trapezoid;
+    if (const double end = followed_time(one, written); end > 0 && starts && wave.start >= end)
+      reader.warn(written.source, written.key,
+                  fmt::format("has no effect here: it begins at {:.6g} s, and the step that follows it ends "
+                              "at {:.6g} s",
+                              wave.start, end));
+  }
+  for (const WrittenWave& written : reader.waves())
+    if (std::ranges::none_of(one.steps, [&](const Step& step) { return follows(step, written); }))
+      reader.report(
+          written.source, written.key,
+          fmt::format("no step follows this wave; add a [[step]] with kind = \"transient\"{} and its "
+                      "duration",
+                      drives_charge(written) ? ", control = \"charge\"" : ""));
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    for (const WrittenWave& written : reader.waves()) {
+      if (!follows(step, written)) continue;
+      const double period = written.wave.period(), dt = *step.duration / step.increments;
+      const StepPlace at = place_of_step(tree, s);
+      const auto at_least = [&](double parts) {
+        return std::ceil(*step.duration / period * parts * (1 - 1e-9));
+      };
+      if (dt > period / fewest_steps * (1 + 1e-9))
+        reader.report(
+            at.source, at.key + ".increments",
+            fmt::format("time steps of {:.6g} s are longer than a quarter of the period {:.6g} s of {}; "
+                        "allowed at least {:.0f} increments",
+                        dt, period, written.key, at_least(fewest_steps)));
+      else if (is_smooth(written.wave) && !adapts(one, step) && dt > period / telling_steps * (1 + 1e-9))
+        reader.warn(
+            at.source, at.key + ".increments",
+            fmt::format("time steps of {:.6g} s are up to 1/{:.3g} of the period {:.6g} s of {}: peaks and "
+                        "events between them may be missed, by up to {:.2g} % of its amplitude; "
+                        "{:.0f} increments make it {:.2g} %",
+                        dt, period / dt, period, written.key, missed(period / dt), at_least(telling_steps),
+                        missed(telling_steps)));
+    }
+  }
+}
+
+} // namespace dielast::cases
