@@ -112,6 +112,20 @@ TEST(Reductions, NothingWithoutPoints) {
 TEST(Reductions, UnknownNamesAreRefused) {
   EXPECT_THROW(Extremes(fem::Samples{}).find("cauchy_stress", Extreme::minimum), std::invalid_argument);
   EXPECT_THROW(average(fem::Samples{}, "thicknes", 1), std::invalid_argument);
+  EXPECT_THROW(WantedScalars({"cauchy_stress"}), std::invalid_argument);
+}
+
+TEST(Reductions, ExtremesAreThoseOfTheScalarsThatAreWanted) {
+  const fem::Samples samples = two_points_in_cell_one();
+  const WantedScalars wanted({"axial_force", "cauchy_stress.yy", "electric_field", "cauchy_stress.xx"});
+  const Extremes some(samples, wanted), all(samples);
+  for (const char* scalar : {"electric_field", "cauchy_stress.xx", "cauchy_stress.yy"})
+    for (const Extreme end : {Extreme::minimum, Extreme::maximum}) {
+      EXPECT_EQ(some.find(scalar, end)->value, all.find(scalar, end)->value) << scalar;
+      EXPECT_EQ(some.find(scalar, end)->cell, all.find(scalar, end)->cell) << scalar;
+    }
+  EXPECT_EQ(some.find("axial_force", Extreme::minimum).has_value(), !samples.walls.empty());
+  EXPECT_THROW(some.find("thickness", Extreme::minimum), std::invalid_argument);
 }
 
 TEST(Reductions, EveryScalarHasOneNameThatWorks) {
