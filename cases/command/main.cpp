@@ -172,8 +172,6 @@ int main(int argc, char** argv) {
   // tenth of a run.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
-  // Loops of VTK's are small here: its threads would spend their time looking for what there is to do.
-  setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);
   cases::open_standard_streams();
   cases::catch_signals();
 

@@ -8,6 +8,7 @@
 #include "post/reductions.hpp"
 #include "post/revolution.hpp"
 
+#include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h is not C++20
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
@@ -51,6 +52,18 @@ int vtk_type(meshing::CellType type) {
     break; // drawn as solids, and as a surface
   }
   return VTK_EMPTY_CELL;
+}
+
+/// VTK's loops run on the thread that calls them: they are small here, and its own threads would spend their
+/// time looking for what there is to do. However that is, VTK asks for every array how many threads the C++
+/// library would have, which counts the processors in a file of the system, but where it was told a number.
+void use_one_thread() {
+  [[maybe_unused]] static const bool done = [] {
+    auto& threads = vtk::detail::smp::vtkSMPToolsAPI::GetInstance();
+    threads.SetBackend("STDThread");
+    threads.Initialize(1);
+    return threads.SetBackend("Sequential");
+  }();
 }
 
 Part part_of(meshing::CellType type) { return meshing::is_line(type) ? Part::walls : Part::film; }
@@ -284,6 +297,7 @@ VtkSeries::VtkSeries(VtkSeries&&) noexcept = default;
 VtkSeries::VtkSeries(ResultsFolder& folder, std::string name, const SeriesModel& model,
                      std::vector<std::string> entries)
     : folder_(folder), name_(std::move(name)), entries_(std::move(entries)) {
+  use_one_thread();
   for (const Part part : {Part::film, Part::walls})
     for (const meshing::CellBlock& block : model.mesh.blocks)
       if (part_of(block.type) == part && block.size() > 0)

@@ -28,7 +28,7 @@ const std::map<std::string, std::vector<std::string>> libraries{
     {"TBB", {"tbb/", "TBB::"}},
     {"OpenMP", {"omp.h", "gomp"}},
     {"LAPACK", {"LAPACK::"}},
-    {"VTK", {"vtk", "VTK::"}},
+    {"VTK", {"vtk", "SMP/", "VTK::"}},
     {"Cairo", {"cairo", "PkgConfig::cairo"}},
     {"libdeflate", {"libdeflate.h", "PkgConfig::libdeflate"}},
     {"toml++", {"toml++/", "PkgConfig::tomlplusplus"}},
