@@ -160,6 +160,32 @@ int parts_of_sides(const meshing::Mesh& mesh, const Panel& panel, const Placemen
 
 } // namespace
 
+bool is_framed(const meshing::Mesh& mesh) {
+  using Side = std::array<int, 2>; // by its ends, ascending
+  std::vector<Side> sides, lines;
+  const auto add = [](std::vector<Side>& to, int a, int b) {
+    to.push_back({std::min(a, b), std::max(a, b)});
+  };
+  for (const CellBlock& block : mesh.blocks) {
+    if (!is_line(block.type) && !is_triangle(block.type)) return false;
+    for (int cell = 0; cell < block.size(); ++cell) {
+      const std::span<const int> nodes = block.cell(cell);
+      if (is_line(block.type))
+        add(lines, nodes[0], nodes[1]);
+      else
+        for (std::size_t i = 0; i < 3; ++i) add(sides, nodes[i], nodes[(i + 1) % 3]);
+    }
+  }
+  std::ranges::sort(sides);
+  std::ranges::sort(lines);
+  for (auto side = sides.begin(); side != sides.end();) {
+    const auto next = std::find_if(side, sides.end(), [&](const Side& other) { return other != *side; });
+    if (next - side == 1 && !std::ranges::binary_search(lines, *side)) return false;
+    side = next;
+  }
+  return true;
+}
+
 View view_of(std::span<const Panel> panels) {
   constexpr double flat = 0.04, even = 1e-6; ///< height over width
   constexpr double turned = 0.45, raised = 0.5, shown = 0.1;

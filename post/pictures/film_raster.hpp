@@ -24,6 +24,9 @@ struct View {
 
 View view_of(std::span<const Panel> panels);
 
+/// Whether lines of the mesh run along all edges of its film, which is of triangles.
+bool is_framed(const meshing::Mesh& mesh);
+
 /// From a state's positions to px of a canvas, y downwards, z towards the viewer.
 struct Placement {
   double scale;

@@ -86,6 +86,20 @@ Box extent(const meshing::Mesh& mesh, const Picture& picture, const Panel& panel
 
 /// How the film's edges are drawn: slides are many.
 enum class Edges { smooth, hard };
+
+/// Whether walls are drawn over all edges at which the colour of the film jumps.
+bool hides_edges(const meshing::Mesh& mesh, const Picture& picture, double scale) {
+  constexpr double wide = 3; // px: an edge that is not smooth stays within one of where it should be
+  return scale * picture.wall_width >= wide && is_framed(mesh) &&
+         std::ranges::all_of(picture.panels, [](const Panel& panel) {
+           const auto is_first = [&](int region) { return region == panel.regions.front(); };
+           const auto is_level = [&](const Eigen::Vector3d& x) { return x.z() == panel.positions[0].z(); };
+           return std::ranges::all_of(panel.regions, is_first) &&
+                  std::ranges::all_of(panel.positions, is_level) &&
+                  std::ranges::all_of(panel.values, [](double value) { return std::isfinite(value); });
+         });
+}
+
 /// Drawn width of a rod, over the diagonal of all that is drawn: its section is not in the mesh.
 constexpr double rod_width = 0.01;
 
@@ -264,10 +278,12 @@ class Drawing {
     panel_title_ = picture.title.empty() ? margin : margin + 54; // baseline
     panel_top_ = titled ? panel_title_ + 22 : panel_title_;
     legend_top_ = panel_top_ + panel_height_ + 64;
+    edges_ = hides_edges(mesh, picture, scale_) ? Edges::hard : Edges::smooth;
     coloured_ = std::ranges::any_of(picture.panels, [](const Panel& panel) { return !panel.values.empty(); });
   }
 
   /// The films of panels, each as large as a panel's rectangle.
+  std::vector<Raster> films(std::span<const Panel> panels) const { return films(panels, edges_); }
   std::vector<Raster> films(std::span<const Panel> panels, Edges edges) const {
     const int finer = edges == Edges::smooth ? 2 : 1;
     const Eigen::Vector2d size(std::ceil(panel_width_), std::ceil(panel_height_));
@@ -336,6 +352,7 @@ class Drawing {
   std::pair<double, double> range_;
   View view_;
   double scale_ = 1, panel_width_ = 0, panel_height_ = 0, panel_title_ = 0, panel_top_ = 0, legend_top_ = 0;
+  Edges edges_ = Edges::smooth;
   bool coloured_ = false;
 };
 
@@ -343,13 +360,13 @@ class Drawing {
 
 std::string render_png(const meshing::Mesh& mesh, Picture picture) {
   const Drawing drawing(mesh, picture, picture.panels.size());
-  std::vector<Raster> films = drawing.films(picture.panels, Edges::smooth);
+  std::vector<Raster> films = drawing.films(picture.panels);
   return drawing.png(picture.panels, films);
 }
 
 Image draw(const meshing::Mesh& mesh, Picture picture, const std::string& name) {
   const Drawing drawing(mesh, picture, picture.panels.size());
-  std::vector<Raster> films = drawing.films(picture.panels, Edges::smooth);
+  std::vector<Raster> films = drawing.films(picture.panels);
   return {.data = drawing.png(picture.panels, films),
           .name = name,
           .drawing = name.empty() ? "" : drawing.svg(picture.panels, films),

@@ -2,11 +2,13 @@
 #include "post/pictures/picture.hpp"
 
 #include "meshing/meridian.hpp"
+#include "post/pictures/film_raster.hpp"
 #include "post/pictures/legend.hpp"
 #include "post/pictures/png.hpp"
 #include "post/pictures/raster.hpp"
 #include "tests/post/samples.hpp"
 
+#include <Eigen/Geometry>
 #include <cairo.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -338,6 +340,22 @@ TEST(Picture, SlidesHaveOneScale) {
   EXPECT_EQ(large.height, small.height);
   EXPECT_NEAR(static_cast<double>(large.count(lowest)) / static_cast<double>(small.count(highest)), 4, 0.1);
   EXPECT_LT(large.count(highest), 200); // in the bar of the colours
+}
+
+// Edges of film are drawn finer than pixels but where walls lie over all of them.
+TEST(Picture, FilmInAFrameLooksAsIfItsEdgesWereSmooth) {
+  meshing::Mesh mesh = square_mesh();
+  for (Eigen::Vector3d& x : mesh.nodes) x = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) * x;
+  EXPECT_FALSE(is_framed(mesh));
+  std::vector<int>& lines = mesh.blocks[0].nodes;
+  lines.insert(lines.end(), {1, 2, 5, 2, 3, 6, 3, 4, 8, 4, 1, 9});
+  EXPECT_TRUE(is_framed(mesh));
+  const auto drawn = [&](const std::vector<int>& regions) {
+    return Pixels(render_png(
+        mesh, {.wall_width = 0.05, .panels = {{"", mesh.nodes, {1.0, 1.0}, regions}}, .width = 400}));
+  };
+  const Pixels framed = drawn({}), smooth = drawn({0, 1}); // as colours may jump between regions
+  EXPECT_TRUE(std::ranges::equal(framed.colours, smooth.colours, alike));
 }
 
 } // namespace
