@@ -102,7 +102,7 @@ Shape swelling(const Probing& probing) {
 Shape angle(const Probing& probing) {
   const auto master = static_cast<std::size_t>(probing.device.mesh.node_sets.at(probing.quantity.of).front());
   return [master, along = *probing.quantity.along](const fem::State& state) {
-    return fem::spin_of(state.rotation[master])[along];
+    return state.angle[master][along];
   };
 }
 
@@ -143,7 +143,7 @@ Eigen::VectorXd angle_gradient(const Probing& probing, const fem::State& state) 
   const fem::DofMap& dofs = probing.device.model.dofs;
   Eigen::VectorXd row = Eigen::VectorXd::Zero(dofs.count());
   const int master = probing.device.mesh.node_sets.at(probing.quantity.of).front();
-  const Eigen::Matrix3d turns = spin_per_turn(fem::spin_of(state.rotation[static_cast<std::size_t>(master)]));
+  const Eigen::Matrix3d turns = spin_per_turn(state.angle[static_cast<std::size_t>(master)]);
   for (int c = 0; c < 3; ++c)
     if (const int e = dofs.equation(master, 3 + c); e != fem::DofMap::absent)
       row[e] = turns(*probing.quantity.along, c);
@@ -248,7 +248,8 @@ std::vector<QuantityKind> shape_kinds() {
        .gradient = displacement_gradient,
        .directed = true},
       {.word = "angle",
-       .meaning = "rotation of a body about an axis (rad)",
+       .meaning = "rotation of a body about an axis: the part of its rotation vector, beyond a full turn the "
+                  "turns are counted (rad)",
        .unit = "rad",
        .keys =
            [] {

@@ -189,7 +189,11 @@ void Simulation::resume(const SimulationProgress& progress) {
 void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {
   if (increment.turns) energy_.corner();
   fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length);
-  if (!energy_.empty()) point.flow = fem::flow_heat(*equilibrium_, accounted_, state);
+  if (!energy_.empty()) {
+    point.flow = fem::flow_heat(*equilibrium_, accounted_, state);
+    fem::follow_spins(device_.model.dofs, accounted_, state,
+                      energy_.record().points.back().mechanical.coordinate, point.mechanical.coordinate);
+  }
   const fem::State before = std::exchange(accounted_, state);
   time_error_ += increment.time_error;
   std::optional<fem::EnergyBalance::JumpRelease> release;

@@ -179,9 +179,13 @@ void DofMap::advance(State& state, const Eigen::VectorXd& increment, double scal
       }
     }
     if (turns) state.rotation[n] = rotation_of(spin) * state.rotation[n];
-    if (const int e = equation[tilt]; is_free(e))
-      state.rotation[n] = state.rotation[n] *
-                          rotation_of(scale * (axes_of(n) * Eigen::Vector2d(increment[e], increment[e + 1])));
+    if (const int e = equation[tilt]; is_free(e)) {
+      const Eigen::Vector3d turn = scale * (axes_of(n) * Eigen::Vector2d(increment[e], increment[e + 1]));
+      spin = state.rotation[n] * turn;
+      state.rotation[n] = state.rotation[n] * rotation_of(turn);
+      turns = true;
+    }
+    if (turns) state.angle[n] = angle_near(state.rotation[n], state.angle[n] + spin);
   }
   for (std::size_t s = 0; s < scalars_.size(); ++s)
     state.scalar[s] += scale * scalars_[s].unit * increment[scalars_[s].equation];
@@ -193,6 +197,7 @@ void DofMap::carry(State& state) const {
     const auto m = static_cast<std::size_t>(master), n = static_cast<std::size_t>(node);
     state.displacement[n] = state.displacement[m] + (state.rotation[m] * arm - arm);
     state.rotation[n] = state.rotation[m];
+    state.angle[n] = state.angle[m];
   }
 }
 

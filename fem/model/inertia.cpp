@@ -56,20 +56,36 @@ Eigen::VectorXd position(const State& state, const DofMap& dofs) {
     const auto i = static_cast<std::size_t>(n);
     for (int c = 0; c < 3; ++c)
       if (const int e = dofs.equation(n, c); e != DofMap::absent) position[e] = state.displacement[i][c];
-    Eigen::Vector3d spin = Eigen::Vector3d::Zero();
     for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(n, 3 + c); e != DofMap::absent) {
-        if (spin.isZero()) spin = spin_of(state.rotation[i]);
-        position[e] = spin[c];
-      }
+      if (const int e = dofs.equation(n, 3 + c); e != DofMap::absent) position[e] = state.angle[i][c];
     if (dofs.tilts(n)) {
-      const Eigen::Vector2d along = dofs.tilt_axes()->at(i).transpose() * spin_of(state.rotation[i]);
+      const Eigen::Vector2d along = dofs.tilt_axes()->at(i).transpose() * state.angle[i];
       for (int k = 0; k < 2; ++k) position[dofs.equation(n, DofMap::tilt + k)] = along[k];
     }
   }
   for (int s = 0; s < dofs.scalar_count(); ++s)
     position[dofs.scalar_equation(s)] = state.scalar[static_cast<std::size_t>(s)] / dofs.scalar_unit(s);
   return position;
+}
+
+void follow_spins(const DofMap& dofs, const State& from, const State& to, const Eigen::VectorXd& before,
+                  Eigen::VectorXd& coordinate) {
+  for (int n = 0; n < dofs.node_count(); ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    const auto go_on = [&](int e, double by) { coordinate[e] = before[e] + by; };
+    if (dofs.tilts(n)) {
+      const Eigen::Vector2d turn =
+          dofs.tilt_axes()->at(i).transpose() * spin_of(from.rotation[i].conjugate() * to.rotation[i]);
+      for (int k = 0; k < 2; ++k) go_on(dofs.equation(n, DofMap::tilt + k), turn[k]);
+      continue;
+    }
+    Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(n, 3 + c); e != DofMap::absent) {
+        if (spin.isZero()) spin = spin_of(to.rotation[i] * from.rotation[i].conjugate());
+        go_on(e, spin[c]);
+      }
+  }
 }
 
 InertialForce::InertialForce(const Inertia& inertia, const DofMap& dofs, const State& state)

@@ -24,8 +24,13 @@ struct Inertia {
   }
 };
 
-/// Displacements of a state per equation, m, and of rotations their vectors, rad.
+/// Displacements of a state per equation, m, and of rotations their vectors, rad, full turns counted.
 Eigen::VectorXd position(const State& state, const DofMap& dofs);
+
+/// What moments do work on: lets the coordinates of spins go on from those `before`, at the state `from`, by
+/// the spins to the state `to`, rad. About one axis that is position(); about several no function of a state.
+void follow_spins(const DofMap& dofs, const State& from, const State& to, const Eigen::VectorXd& before,
+                  Eigen::VectorXd& coordinate);
 
 /// The forces of inertia, damping and drag in a trial state as a function of the displacement since the last
 /// accepted time (see GeneralisedAlpha): the gradient of an energy, quadratic but for the drag's share.

@@ -49,6 +49,7 @@ State Model::initial_state() const {
   State state;
   state.displacement.assign(nodes, Eigen::Vector3d::Zero());
   state.rotation.assign(nodes, Eigen::Quaterniond::Identity());
+  state.angle.assign(nodes, Eigen::Vector3d::Zero());
   state.scalar.assign(static_cast<std::size_t>(dofs.scalar_count()), 0.0);
   state.voltage.assign(port_count(), 0.0);
   state.dead_force = Eigen::VectorXd::Zero(dofs.count());

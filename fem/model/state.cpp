@@ -2,6 +2,8 @@
 #include "fem/model/state.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace dielast::fem {
 
@@ -16,8 +18,26 @@ Eigen::Quaterniond rotation_of(const Eigen::Vector3d& spin) {
 
 Eigen::Vector3d spin_of(const Eigen::Quaterniond& rotation) {
   const double sine = rotation.vec().norm();
-  const double factor = sine < 1e-8 ? 2 / rotation.w() : 2 * std::atan2(sine, rotation.w()) / sine;
+  const bool is_small = sine == 0 || (sine < 1e-8 && rotation.w() > 0);
+  const double factor = is_small ? 2 / rotation.w() : 2 * std::atan2(sine, rotation.w()) / sine;
   return factor * rotation.vec();
+}
+
+Eigen::Vector3d angle_near(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& expected) {
+  constexpr double turn = 2 * std::numbers::pi, period = 2 * turn; // of the quaternion
+  constexpr double close = 0.5; // to a whole turn: within a third of a half one
+  const double sine = rotation.vec().norm();
+  if (sine < close) {
+    const Eigen::Vector3d rest = spin_of(Eigen::Quaterniond(rotation.coeffs() * (rotation.w() < 0 ? -1 : 1)));
+    const Eigen::Vector3d whole = expected - rest;
+    if (const double turns = std::round(whole.norm() / turn); turns > 0)
+      return turns * turn * whole.normalized() + rest;
+  }
+  if (sine == 0) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d spin = spin_of(rotation), axis = rotation.vec() / sine;
+  const double angle = spin.norm(), periods = std::round((expected.dot(axis) - angle) / period);
+  const Eigen::Vector3d near = periods == 0 ? spin : Eigen::Vector3d((angle + periods * period) * axis);
+  return (near - expected).norm() <= turn / 2 ? near : expected;
 }
 
 State extrapolate(std::span<const PathPoint> points, double parameter) {
@@ -41,6 +61,7 @@ State extrapolate(std::span<const PathPoint> points, double parameter) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       spin += weight[i] * spin_of(points[i].state.rotation[n] * last.rotation[n].conjugate());
     result.rotation[n] = rotation_of(spin) * last.rotation[n];
+    result.angle[n] = angle_near(result.rotation[n], last.angle[n] + spin);
   }
   for (std::size_t s = 0; s < last.scalar.size(); ++s) {
     result.scalar[s] = 0;

@@ -48,12 +48,13 @@ constexpr bool flows(Supply supply) { return supply == Supply::circuit || supply
 struct State {
   std::vector<Eigen::Vector3d> displacement; ///< per node, m, from the mesh as drawn
   std::vector<Eigen::Quaterniond> rotation; ///< per node, from the mesh as drawn; the sign is kept continuous
-  std::vector<double> scalar;  ///< pressures (Pa) and potentials (V) of solids: see DofMap::add_scalar
-  std::vector<double> voltage; ///< per electrode, V; then per chamber, its pressure, Pa
-  Eigen::VectorXd dead_force;  ///< per equation (see DofMap): N, or N m for rotations
-  std::vector<Supply> supply;  ///< likewise: what is given
-  std::vector<double> charge;  ///< likewise: the given charge, C, or pumped volume, m^3
-  std::vector<double> source;  ///< likewise: voltage of the source, before its circuit, V
+  std::vector<Eigen::Vector3d> angle; ///< per node, rad: the rotation vector, full turns counted (angle_near)
+  std::vector<double> scalar;         ///< pressures (Pa) and potentials (V) of solids: see DofMap::add_scalar
+  std::vector<double> voltage;        ///< per electrode, V; then per chamber, its pressure, Pa
+  Eigen::VectorXd dead_force;         ///< per equation (see DofMap): N, or N m for rotations
+  std::vector<Supply> supply;         ///< likewise: what is given
+  std::vector<double> charge;         ///< likewise: the given charge, C, or pumped volume, m^3
+  std::vector<double> source;         ///< likewise: voltage of the source, before its circuit, V
   Eigen::VectorXd sheet_drop; ///< per Model::sheet_points, the electrode's voltage less the sheet's there, V;
                               ///< empty: none
   double time = 0;            ///< s
@@ -66,8 +67,13 @@ struct State {
 /// Rotation by the vector `spin` (rad).
 Eigen::Quaterniond rotation_of(const Eigen::Vector3d& spin);
 
-/// Rotation vector (rad) of a unit quaternion near the identity's side (scalar part > 0).
+/// Rotation vector (rad) of a unit quaternion, up to a full turn (0 where one is complete).
 Eigen::Vector3d spin_of(const Eigen::Quaterniond& rotation);
+
+/// The rotation vector (rad) of a unit quaternion that goes on from `expected`, full turns counted: of all
+/// such vectors, which differ by two full turns each, the nearest one. About full turns, where these turn
+/// over with the least wobble of the axis, full turns about the axis that `expected` tells, and what is left.
+Eigen::Vector3d angle_near(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& expected);
 
 /// A state that an extrapolation passes through, and its place on the load path.
 struct PathPoint {

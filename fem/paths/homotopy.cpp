@@ -49,6 +49,7 @@ bool is_reached_continuously(Equilibrium& equilibrium, const State& from, const 
   State state = to;
   state.displacement = from.displacement;
   state.rotation = from.rotation;
+  state.angle = from.angle;
   state.scalar = from.scalar;
   Loads::of(to, model.dofs).apply(state, model.dofs);
   const LoadPath path = fading_imbalance(equilibrium, state);

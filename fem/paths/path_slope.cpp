@@ -49,6 +49,7 @@ WorkOfLoads work_of_loads(Equilibrium& equilibrium, const LoadPath& path, const 
   const double of_reactions = balance.force.segment(dofs.free_count(), moved.size()).dot(moved);
   there.displacement = here.displacement;
   there.rotation = here.rotation;
+  there.angle = here.angle;
   double change = -own;
   if (const auto chamber = equilibrium.model().closed_chamber(here)) {
     const auto at_fixed_pressure = [&](State open) {

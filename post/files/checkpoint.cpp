@@ -59,6 +59,7 @@ json archive(const fem::State& state) {
   const auto& scheme = state.scheme;
   return {{"displacement", post::pack({state.displacement.front().data(), 3 * state.displacement.size()})},
           {"rotation", post::pack(rotations)},
+          {"angle", post::pack({state.angle.front().data(), 3 * state.angle.size()})},
           {"scalar", post::pack(state.scalar)},
           {"voltage", post::pack(state.voltage)},
           {"supply", state.supply},
@@ -100,9 +101,11 @@ fem::State restore_state(const json& archived, const StateSizes& sizes) {
   const std::size_t ports = sizes.electrodes + sizes.chambers;
   const std::vector<double> displacement = unpack(archived.at("displacement"), 3 * sizes.nodes);
   const std::vector<double> rotation = unpack(archived.at("rotation"), 4 * sizes.nodes);
+  const std::vector<double> angle = unpack(archived.at("angle"), 3 * sizes.nodes);
   for (std::size_t n = 0; n < sizes.nodes; ++n) {
     state.displacement.emplace_back(&displacement[3 * n]);
     state.rotation.emplace_back(&rotation[4 * n]);
+    state.angle.emplace_back(&angle[3 * n]);
   }
   state.scalar = unpack(archived.at("scalar"), sizes.scalars);
   state.voltage = unpack(archived.at("voltage"), ports);

@@ -65,8 +65,11 @@ TEST(DofMap, advance_adds_displacements_and_turns_in_space) {
   dofs.hold(1, 2);
   dofs.number();
   const Eigen::Quaterniond before = rotation_of({0.3, -0.2, 1});
-  State state{
-      .displacement = {{1, 2, 3}, {4, 5, 6}}, .rotation = {before, before}, .voltage = {}, .dead_force = {}};
+  State state{.displacement = {{1, 2, 3}, {4, 5, 6}},
+              .rotation = {before, before},
+              .angle = {2, spin_of(before)},
+              .voltage = {},
+              .dead_force = {}};
   const Eigen::VectorXd increment = (Eigen::VectorXd(5) << 1, -1, 0.4, 0.6, -0.8).finished();
   dofs.advance(state, increment, 0.5);
   EXPECT_EQ(state.displacement[0], Eigen::Vector3d(1, 2, 3));
@@ -87,9 +90,11 @@ TEST(DofMap, a_held_spin_keeps_its_component_of_the_increment_zero) {
   dofs.number();
   State state{.displacement = {Eigen::Vector3d::Zero()},
               .rotation = {Eigen::Quaterniond::Identity()},
+              .angle = {Eigen::Vector3d::Zero()},
               .voltage = {},
               .dead_force = {}};
   for (int step = 0; step < 100; ++step) dofs.advance(state, Eigen::VectorXd::Constant(1, 0.1), 1);
+  EXPECT_LT((state.angle[0] - Eigen::Vector3d(0, 0, 10)).norm(), 1e-13);
   const Eigen::Matrix3d expected = Eigen::AngleAxisd(10.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   EXPECT_LT((state.rotation[0].toRotationMatrix() - expected).norm(), 1e-13);
 }
@@ -155,7 +160,11 @@ TEST(DofMap, tilts_turn_with_the_node_and_never_about_the_director) {
   dofs.number();
   ASSERT_EQ(dofs.free_count(), 2);
   const Eigen::Quaterniond R = rotation_of({0.3, -0.2, 1});
-  State state{.displacement = {Eigen::Vector3d::Zero()}, .rotation = {R}, .voltage = {}, .dead_force = {}};
+  State state{.displacement = {Eigen::Vector3d::Zero()},
+              .rotation = {R},
+              .angle = {spin_of(R)},
+              .voltage = {},
+              .dead_force = {}};
   const Eigen::Vector2d a(0.4, -0.9);
   const Eigen::Vector3d spin = dofs.spin(state, 0, a);
   EXPECT_LT((spin - R * (dofs.tilt_axes()->front() * a)).norm(), 1e-15);

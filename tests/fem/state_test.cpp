@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace dielast::fem {
 namespace {
 
@@ -21,6 +24,43 @@ TEST(Rotation, beyond_half_a_turn_the_sign_stays_continuous) {
   EXPECT_GT(rotation_of({0, 0, 3.5}).dot(rotation_of({0, 0, 3.0})), 0);
 }
 
+TEST(Rotation, its_angle_counts_the_turns_one_way_and_back) {
+  const Eigen::Vector3d axis(0.48, -0.6, 0.64);
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d angle = Eigen::Vector3d::Zero();
+  double turned = 0;
+  for (int step = 0; step < 400; ++step) { // whole turns are hit, too
+    const double by = (step < 150 ? 1 : -1) * std::numbers::pi / 8;
+    rotation = rotation_of(by * axis) * rotation;
+    angle = angle_near(rotation, angle + by * axis);
+    turned += by;
+    EXPECT_LT((angle - turned * axis).norm(), 1e-12) << step;
+  }
+  EXPECT_LT((angle_near(Eigen::Quaterniond(-1, 0, 0, 0), 6.2 * axis) - 2 * std::numbers::pi * axis).norm(),
+            1e-14);
+  EXPECT_EQ(angle_near(Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()), Eigen::Vector3d::Zero());
+}
+
+// At whole turns the rotation vector turns over with the axis' least wobble.
+TEST(Rotation, its_angle_counts_the_turns_of_what_wobbles) {
+  for (const double wobble : {1e-12, 1e-3, 0.02})
+    for (const double by : {0.7, std::numbers::pi / 100, 1e-3}) {
+      Eigen::Quaterniond rotation = rotation_of({wobble, 0, 0});
+      Eigen::Vector3d angle(wobble, 0, 0);
+      double turned = 0;
+      while (turned < 20) {
+        const Eigen::Vector3d spin(0, 0, by);
+        rotation = rotation_of(spin) * rotation;
+        angle = angle_near(rotation, angle + spin);
+        turned += by;
+        const double from_whole = std::abs(std::remainder(turned, 2 * std::numbers::pi));
+        if (from_whole > 20 * wobble) {
+          EXPECT_NEAR(angle.z(), turned, 0.02) << wobble << " " << by;
+        }
+      }
+    }
+}
+
 /// A path that is a polynomial of this degree in the parameter, rotations about one axis.
 State on_path(double t, int degree) {
   const Eigen::Vector3d a(0.3, -0.1, 0.2), b(0.05, 0.1, -0.07), axis(0.6, 0, 0.8);
@@ -29,6 +69,7 @@ State on_path(double t, int degree) {
   State state;
   state.displacement = {value * a, value * b};
   state.rotation = {rotation_of(value * axis), rotation_of(-0.3 * value * axis)};
+  state.angle = {value * axis, -0.3 * value * axis};
   state.voltage = {t};
   state.dead_force = Eigen::VectorXd::Constant(3, t);
   return state;

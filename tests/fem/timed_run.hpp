@@ -22,6 +22,8 @@ inline void account(EnergyBalance& balance, Equilibrium& equilibrium, const Stat
   if (increment.turns) balance.corner();
   EnergyPoint point = energy_point(equilibrium, to, increment.length);
   point.flow = flow_heat(equilibrium, from, to);
+  follow_spins(equilibrium.model().dofs, from, to, balance.record().points.back().mechanical.coordinate,
+               point.mechanical.coordinate);
   balance.add(std::move(point));
 }
 

@@ -38,6 +38,7 @@ fem::RampProgress sample_progress(int points = 3) {
     for (std::size_t n = 0; n < nodes; ++n) {
       state.displacement.emplace_back(uniform(random), -0.0, std::numeric_limits<double>::denorm_min());
       state.rotation.emplace_back(uniform(random), uniform(random), uniform(random), uniform(random));
+      state.angle.emplace_back(uniform(random), uniform(random), 40 * uniform(random));
     }
     state.voltage = {uniform(random), 7500};
     state.supply = {fem::Supply::voltage, fem::Supply::charge};
@@ -112,6 +113,7 @@ void expect_same(const fem::RampProgress& one, const fem::RampProgress& other) {
     ASSERT_EQ(a.displacement.size(), b.displacement.size());
     for (std::size_t n = 0; n < nodes; ++n) {
       for (int c = 0; c < 3; ++c) EXPECT_EQ(bits(a.displacement[n][c]), bits(b.displacement[n][c]));
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(bits(a.angle[n][c]), bits(b.angle[n][c]));
       for (int c = 0; c < 4; ++c) EXPECT_EQ(bits(a.rotation[n].coeffs()[c]), bits(b.rotation[n].coeffs()[c]));
     }
   }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "materials/beam_section.hpp"
+#include "tests/cases/film_cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+// Bodies that turn more than once.
+
+namespace dielast::cases {
+namespace {
+
+constexpr double pi = std::numbers::pi, length = 50e-3;
+
+/// A rod that nothing moves, as a case needs a film, beside a bar 50 mm long along x from the origin.
+std::string bar(const std::string& elements, const std::string& rest, double width = 2e-3,
+                double height = 1e-3) {
+  return "model = \"3d\"\n[part.r.film]\nthickness = \"1 mm\"\n[part.r.film.material]\nshear_modulus = \"1 "
+         "kPa\"\n"
+         "permittivity = \"1e-12 F/m\"\ndensity = 0\n[part.r.rod]\nwidth = \"1 mm\"\n[part.r.line]\n"
+         "from = [0, \"1 m\", 0]\nto = [\"50 mm\", \"1 m\", 0]\n"
+         "[[support]]\nplace = \"r.film\"\nfix = [\"x\", \"y\", \"z\"]\n" +
+         fmt::format("[part.b.beam]\nwidth = {}\nheight = {}\n", width, height) +
+         "[part.b.beam.material]\nyoungs_modulus = \"78 MPa\"\npoisson_ratio = 0.36\n"
+         "density = \"1200 kg/m^3\"\n[part.b.line]\nto = [\"50 mm\", 0, 0]\n" +
+         elements + "[output]\nfields = false\nerror_estimate = false\n" + rest;
+}
+
+const std::string clamped = "[[support]]\nplace = \"b.start\"\n"
+                            "fix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n";
+
+materials::BeamSection bar_section(double width = 2e-3, double height = 1e-3) {
+  return materials::rectangular_section({.youngs_modulus = 78e6, .poisson_ratio = 0.36, .density = 1200},
+                                        width, height);
+}
+
+std::string angle(const std::string& along) {
+  return "[[quantity]]\nname = \"angle_" + along + "\"\nkind = \"angle\"\nof = \"d\"\nalong = \"" + along +
+         "\"\n";
+}
+
+class Turns : public FilmCases {};
+
+std::string elements(int count, int order) {
+  return fmt::format("[part.b.mesh]\nwall_elements = {}\norder = {}\n", count, order);
+}
+
+// T L/(G J), of a square bar up to 14.5 rad, where it buckles (Greenhill). The work is half of moment times
+// angle.
+TEST_F(Turns, of_a_twisted_bar_are_counted_one_way_and_back) {
+  const double width = 1e-3, height = 1e-3, whole = -4.25 * pi;
+  const double moment = whole * bar_section(width, height).GJ / length;
+  const std::string load =
+      fmt::format("[[load]]\nplace = \"d\"\nmoment = [{{ wave = \"trapezoid\", to = {}, rise = 1, "
+                  "hold = 1, fall = 1 }}, 0, 0]\n",
+                  moment);
+  const Ran ran = run(bar(
+      elements(40, 2),
+      clamped +
+          "[[body]]\nname = \"d\"\nplaces = [\"b.end\"]\nfix = [\"y\", \"z\", \"turn_y\", \"turn_z\"]\n" +
+          load + "[[step]]\nkind = \"transient\"\nduration = 3\nincrements = 24\n" + angle("x") + angle("y") +
+          "[[quantity]]\nname = \"most\"\nkind = \"peak\"\nof = \"angle_x\"\n"
+          "extreme = \"minimum\"\n",
+      width, height));
+  const std::vector<double>& angles = ran.values.at("angle_x");
+  for (std::size_t k = 0; k < ran.time.size(); ++k) {
+    const double t = ran.time[k], exact = whole * (t < 1 ? t : t < 2 ? 1 : 3 - t);
+    EXPECT_NEAR(angles[k], exact, 1e-4 * std::abs(whole)) << t;
+    EXPECT_NEAR(ran.values.at("mechanical_work")[k], moment * exact * exact / whole / 2,
+                1e-4 * moment * whole);
+  }
+  EXPECT_NEAR(ran.last("most"), whole, 1e-4 * std::abs(whole));
+  EXPECT_NEAR(ran.last("angle_y"), 0, 1e-6);
+  EXPECT_LT(std::abs(ran.last("energy_error")), 1e-4 * moment * whole);
+}
+
+/// A body on a pivot, which turns freely: only a massless film that does not move is beside it.
+std::string spinner(const std::string& moment, const std::string& steps) {
+  return bar("", "[[body]]\nname = \"d\"\nplaces = [\"b.line\"]\nmass = \"1 g\"\n"
+                 "inertia = \"0.1 g.mm^2\"\ncentre = [0, 0, 0]\n"
+                 "pivot = [0, 0, 0]\n[[load]]\nplace = \"d\"\nmoment = " +
+                     moment + "\n" + steps);
+}
+
+/// With the bar's mass at the distance of its nodes.
+double inertia_about_z() {
+  const double m = 1200 * 2e-6 * length;
+  return 1e-10 + m * length * length / 3;
+}
+
+// M t^2/(2 I), and on at the speed that was reached.
+TEST_F(Turns, of_a_free_body_follow_a_constant_moment_and_go_on_without) {
+  const double moment = 2e-5, t = 0.5, I = inertia_about_z();
+  const Ran ran = run(spinner("[0, 0, { wave = \"trapezoid\", to = \"2e-5 N m\", hold = \"0.5 s\" }]",
+                              "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = 400\n" +
+                                  angle("z") + angle("x")));
+  ASSERT_GT(moment * t * t / (2 * I), 4 * pi);
+  for (std::size_t k = 0; k < ran.time.size(); ++k) {
+    const double now = ran.time[k];
+    const double exact = moment / I * (now < t ? now * now / 2 : t * t / 2 + t * (now - t));
+    EXPECT_NEAR(ran.values.at("angle_z")[k], exact, 1e-3 * exact + 1e-6) << now;
+  }
+  EXPECT_NEAR(ran.last("angle_x"), 0, 1e-6);
+  EXPECT_NEAR(ran.last("mechanical_work"), moment * moment * t * t / (2 * I),
+              1e-3 * moment * moment * t * t / I);
+  EXPECT_LT(std::abs(ran.last("energy_error")), 1e-3 * ran.last("mechanical_work"));
+}
+
+TEST_F(Turns, are_kept_by_what_goes_on) {
+  write("film.toml", spinner("[0, 0, \"2e-5 N m\"]", "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\n"
+                                                     "increments = 100\n" +
+                                                         angle("z")));
+  const Case one = read_case(directory / "film.toml");
+  const auto take = [&](Simulation& simulation, int rows) {
+    std::vector<double> angles;
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      for (std::size_t q = 0; q < one.quantities.size(); ++q)
+        if (one.quantities[q].name == "angle_z") angles.push_back(frame.values[q]);
+      return std::ssize(angles) != rows;
+    };
+    simulation.run(observer);
+    return angles;
+  };
+  Simulation whole(one, 1), first(one, 1), second(one, 1);
+  const std::vector<double> all = take(whole, -1);
+  take(first, 80);
+  second.resume(first.progress());
+  const std::vector<double> rest = take(second, -1);
+  ASSERT_EQ(rest.size() + 80, all.size());
+  EXPECT_GT(all[80], 2 * pi);
+  for (std::size_t k = 0; k < rest.size(); ++k) EXPECT_EQ(rest[k], all[80 + k]);
+}
+
+} // namespace
+} // namespace dielast::cases
