@@ -13,6 +13,7 @@
 #include "cases/readers/reader.hpp"
 #include "cases/readers/study_reader.hpp"
 #include "cases/runs/linearise.hpp"
+#include "cases/runs/phases.hpp"
 #include "cases/runs/recorder.hpp"
 #include "cases/runs/run.hpp"
 #include "cases/studies/study.hpp"
@@ -41,6 +42,7 @@ ExitCode run(const Arguments& arguments) {
 ExitCode check(const Arguments& arguments) {
   const cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
   const cases::Device device = cases::build_device(one);
+  cases::require_one_motion(one, device.mesh, device.model.dofs);
   const cases::Measurement measurable(one, device); // or says what is not
   const auto quality = meshing::quality(device.mesh);
   for (const cases::Diagnostic& warning : one.warnings) cases::say(stderr, "{}\n", warning.text());

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/phases.hpp"
 
+#include "cases/text/diagnostics.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -28,6 +33,61 @@ Case with_supports(Case one, const std::vector<char>& holding) {
     else if (all[i].holds_some_rotations())
       one.places_of_spins.push_back(all[i].place);
   return one;
+}
+
+namespace {
+
+/// Whether both supports, which move along the axis, do so alike in that step.
+bool move_alike(const Case& one, const Support& a, const Support& b, int axis, const Step& step) {
+  const auto &wave = a.motion[static_cast<std::size_t>(axis)],
+             &other = b.motion[static_cast<std::size_t>(axis)];
+  if (step.kind == StepKind::move) return !wave || !other || wave->before(0) == other->before(0);
+  const auto driven = [&](const Support& support) {
+    return std::ranges::any_of(one.controllers, [&](const Controller& own) {
+      return own.drives == DrivenLoad{Driven::displacement, support.place, axis};
+    });
+  };
+  const bool first = driven(a), second = driven(b);
+  if (first || second) return a.place == b.place || !(first || wave) || !(second || other);
+  return !wave || !other || *wave == *other;
+}
+
+} // namespace
+
+void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs) {
+  const auto meet = [&](const Support& a, const Support& b, int axis) {
+    std::vector<int> moved;
+    for (const int node : mesh.node_sets.at(a.place)) moved.push_back(dofs.equation(node, axis));
+    std::ranges::sort(moved);
+    return std::ranges::any_of(mesh.node_sets.at(b.place), [&](int node) {
+      const int e = dofs.equation(node, axis);
+      return e != fem::DofMap::absent && std::ranges::binary_search(moved, e);
+    });
+  };
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    if (step.kind != StepKind::move && step.kind != StepKind::transient) continue;
+    const std::vector<char> holding = holding_in(one, one.steps, static_cast<int>(s));
+    for (std::size_t b = 1; b < one.supports.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a)
+        for (int axis = 0; axis < 3 && holding[a] && holding[b]; ++axis) {
+          const Support &first = one.supports[a], &second = one.supports[b];
+          const auto fixed = static_cast<std::size_t>(axis);
+          if (!first.fixed[fixed] || !second.fixed[fixed] || move_alike(one, first, second, axis, step) ||
+              !meet(first, second, axis))
+            continue;
+          const auto key = [&](std::size_t support) {
+            return fmt::format("support[{}].displacement.{}", support + 1, "xyz"[axis]);
+          };
+          const Source other = one.where(key(a));
+          throw CaseError(
+              {{one.where(key(b)), key(b),
+                fmt::format("in step \"{}\" it moves nodes of \"{}\" that {}{} moves elsewhere, as a part of "
+                            "\"{}\"; let both say the same, or let them hold in different steps",
+                            step.name, second.place, key(a),
+                            other.line > 0 ? fmt::format(" (line {})", other.line) : "", first.place)}});
+        }
+  }
 }
 
 Renumbering::Renumbering(const fem::DofMap& from, const fem::DofMap& to)

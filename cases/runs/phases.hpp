@@ -3,6 +3,7 @@
 
 #include "cases/case/case.hpp"
 #include "fem/model/dofs.hpp"
+#include "meshing/mesh.hpp"
 
 namespace dielast::cases {
 
@@ -12,6 +13,10 @@ std::vector<char> holding_in(const Case& one, const std::vector<Step>& steps, in
 
 /// The case with these supports alone.
 Case with_supports(Case one, const std::vector<char>& holding);
+
+/// Throws CaseError where in one step two supports move the same unknown to different places. What a support
+/// merely holds another one may move. `dofs` numbered.
+void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs);
 
 /// What goes from one numbering of the unknowns of a model to another, which holds others of them.
 class Renumbering {

@@ -54,6 +54,7 @@ Simulation::Simulation(const Case& one, int threads)
       now_(with_supports(one, holding_)), device_(build_device(now_)), measurement_(one, device_),
       signals_(signals_of(one)), watch_(device_), scalars_(wanted(measurement_)), steps_(one.steps),
       results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
+  require_one_motion(one, device_.mesh, device_.model.dofs);
   equilibrium_.emplace(device_.model, threads);
   frame_ = frame_force();
   double film_force = 0;

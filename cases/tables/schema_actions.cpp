@@ -81,7 +81,11 @@ Section displacement_section() {
 }
 
 Section support_section() {
-  Section section = list_section("support", "a place that is held or moved", each(&Case::supports));
+  Section section =
+      list_section("support",
+                   "a place that is held or moved. Nodes that one support merely holds (fix) another may "
+                   "move; two that move the same nodes must say the same, a displacement of 0 too",
+                   each(&Case::supports));
   section.keys = {
       text("place", to(&Support::place), "the place that is held").refers_to(Reference::place),
       word("fix", motions, flags(&Support::fixed),

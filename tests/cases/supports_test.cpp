@@ -251,5 +251,52 @@ TEST_F(Supports, CarryAMomentOnWalls) {
   EXPECT_LT(std::abs(ran.last("energy_error")), 1e-6 * ran.last("mechanical_work"));
 }
 
+std::string moved(const std::string& place, const std::string& x, const std::string& when = "") {
+  return fmt::format("[[support]]\nplace = \"{}\"\nfix = [\"x\", \"y\"]\n{}\ndisplacement = {{ x = {} }}\n",
+                     place, when, x);
+}
+
+// A film whose frame and left side, a part of it, are held or moved as written.
+TEST_F(Supports, ThatMoveTheSameNodesMustAgree) {
+  const auto film = [](const std::string& supports, const std::string& steps) {
+    return "[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+           "permittivity = \"4e-11 F/m\"\n[rectangle]\nlength = \"60 mm\"\nwidth = \"40 mm\"\n"
+           "electrode_length = \"30 mm\"\nelectrode_width = \"20 mm\"\n[mesh]\nacross = 2\n"
+           "[output]\nerror_estimate = false\nfields = false\n" +
+           supports +
+           "[[quantity]]\nname = \"left\"\nkind = \"displacement\"\nof = \"left\"\nalong = \"x\"\n" + steps;
+  };
+  const std::string move = "[[step]]\nkind = \"move\"\n",
+                    again = "[[step]]\nkind = \"move\"\nname = \"again\"\n",
+                    in_time = "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = 4\n";
+  const std::string sine = "{ wave = \"sine\", amplitude = \"1 mm\", frequency = \"0.25 Hz\" }";
+  const auto refusal = [&](const std::string& supports, const std::string& steps) -> std::string {
+    write("film.toml", film(supports, steps));
+    try {
+      Simulation(read_case(directory / "film.toml"), 1);
+    } catch (const CaseError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string told = refusal(moved("frame", "1e-3") + moved("left", "-1e-3"), move);
+  EXPECT_NE(told.find("film.toml:26:22:"), std::string::npos) << told;
+  EXPECT_NE(told.find("support[2].displacement.x: in step \"move\" it moves nodes of \"left\" that "
+                      "support[1].displacement.x (line 21) moves elsewhere, as a part of \"frame\""),
+            std::string::npos)
+      << told;
+  EXPECT_NE(refusal(moved("left", "-1e-3") + moved("frame", "1e-3"), move), "");
+  EXPECT_NE(refusal(moved("frame", "0") + moved("left", "1e-3"), move), "");
+  EXPECT_NE(refusal(moved("frame", "0") + moved("left", sine), in_time), "");
+  EXPECT_EQ(refusal(moved("frame", sine) + moved("left", sine), in_time), "");
+  EXPECT_EQ(refusal(moved("right", "1e-3") + moved("left", "-1e-3"), move), "");
+  const std::string first = "until = \"move\"", later = "from = \"again\"";
+  EXPECT_EQ(refusal(moved("frame", "1e-3", first) + moved("left", "-1e-3", later), move + again), "");
+  EXPECT_NE(refusal(moved("frame", "1e-3") + moved("left", "-1e-3", later), move + again), "");
+  const std::string held = "[[support]]\nplace = \"frame\"\nfix = [\"x\", \"y\"]\n";
+  for (const std::string& both : {held + moved("left", "1e-3"), moved("left", "1e-3") + held})
+    EXPECT_NEAR(run(film(both, move)).last("left"), 1e-3, 1e-15);
+}
+
 } // namespace
 } // namespace dielast::cases
