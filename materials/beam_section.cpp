@@ -26,14 +26,18 @@ BeamSection rectangular_section(const ElasticSolid& solid, double width, double 
           .half_width = width / 2,
           .half_height = height / 2,
           .yield_strain = solid.yield_strain,
-          .line_density = solid.density * area};
+          .line_density = solid.density * area,
+          .rotary2 = solid.density * width * std::pow(height, 3) / 12,
+          .rotary3 = solid.density * height * std::pow(width, 3) / 12};
 }
 
 BeamSection two_faced_section(const ElasticSolid& solid, double width, double height, double gap) {
   BeamSection section = rectangular_section(solid, width, height);
   const double E = solid.youngs_modulus;
   section.GJ = 2 * rectangular_section(solid, width, height / 2).GJ;
-  section.EI2 = E * width * (std::pow(height + gap, 3) - std::pow(gap, 3)) / 12;
+  const double second_moment = width * (std::pow(height + gap, 3) - std::pow(gap, 3)) / 12;
+  section.EI2 = E * second_moment;
+  section.rotary2 = solid.density * second_moment;
   section.half_height = (height + gap) / 2;
   return section;
 }

@@ -43,6 +43,8 @@ struct BeamSection {
   double half_height = 0;  ///< distance of the outermost fibre along 3, m
   double yield_strain = 0;
   double line_density = 0; ///< mass per length, kg/m
+  double rotary2 = 0,
+         rotary3 = 0; ///< moments of inertia per length about axes 2 and 3, kg m; about 1: the sum
 };
 
 /// Rectangular section, `width` along axis 2 and `height` along axis 3 (m): shear factor 5/6, Saint-Venant

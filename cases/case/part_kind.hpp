@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/case/part.hpp"
+#include "fem/elements/beam_block.hpp"
 
 #include <Eigen/Core>
 
@@ -37,6 +38,8 @@ struct AlikeBars {
   /// Their elements, of lines of the mesh by their numbers. Throws std::invalid_argument.
   std::function<std::unique_ptr<fem::ElementBlock>(const meshing::Mesh&, const std::vector<int>& lines)>
       block;
+  /// Adds their rotary inertia at the nodes of these lines; null: they have none.
+  std::function<void(const meshing::Mesh&, const std::vector<int>& lines, fem::RotaryInertia&)> rotary{};
 };
 
 /// All that is known of what a part can be (in mechanics: of a section), once. It is film, or it is bars;

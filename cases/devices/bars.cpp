@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/parts/part_kinds.hpp"
 #include "meshing/mesh_error.hpp"
 
@@ -24,6 +25,7 @@ std::array<materials::BeamSection, 2> leaves(const Part& part) {
   if (std::get<AntagonisticRolls>(part.geometry).ribbons == RibbonBending::with_hinge) {
     hinge.EI3 += 2 * ribbon.EI3 * part.hinge->length / part.ribbon->length;
     for (double* stiffness : {&ribbon.EI2, &ribbon.EI3, &ribbon.GJ}) *stiffness *= trace;
+    ribbon.rotary2 = ribbon.rotary3 = 0; // what turns against a trace of stiffness would swing slowly
   }
   return {hinge, ribbon};
 }
@@ -106,6 +108,28 @@ void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   for_each_set_of_bars(one, mesh, [&](const AlikeBars& bars, const std::vector<int>& lines, std::size_t) {
     model.blocks.push_back(bars.block(mesh, lines));
   });
+}
+
+std::vector<fem::RelativeMass> add_rotary_nodes(const Case& one, meshing::Mesh& mesh) {
+  std::vector<fem::RelativeMass> masses;
+  if (!masses_accelerate(one)) return masses;
+  fem::RotaryInertia inertia;
+  for_each_set_of_bars(one, mesh, [&](const AlikeBars& bars, const std::vector<int>& lines, std::size_t) {
+    if (bars.rotary) bars.rotary(mesh, lines, inertia);
+  });
+  for (const auto& [node, arms] : inertia)
+    for (const auto& [arm, mass] : arms) {
+      if (one.dimension == fem::Dimension::planar && arm.head<2>().isZero(0)) continue; // turns about itself
+      mesh.nodes.emplace_back(mesh.nodes[static_cast<std::size_t>(node)] + arm);
+      masses.push_back({mesh.node_count() - 1, node, mass});
+    }
+  return masses;
+}
+
+void tie_rotary_nodes(const std::vector<fem::RelativeMass>& masses, const meshing::Mesh& mesh,
+                      fem::DofMap& dofs) {
+  const auto drawn = [&mesh](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+  for (const auto& [node, beside, mass] : masses) dofs.tie({node, beside, drawn(node) - drawn(beside)});
 }
 
 Bars bars(const Case& one, const meshing::Mesh& mesh) {

@@ -112,22 +112,21 @@ void tie_bodies(const Case& one, const std::vector<BodyNodes>& nodes, const mesh
   }
 }
 
-void pin(const meshing::Mesh& mesh, fem::Dimension dimension, fem::DofMap& dofs) {
+void pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::DofMap& dofs) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const auto& x : mesh.nodes) middle += x / static_cast<double>(mesh.nodes.size());
-  std::vector<char> tied(mesh.nodes.size());
+  for (const auto& x : nodes) middle += x / static_cast<double>(nodes.size());
+  std::vector<char> tied(static_cast<std::size_t>(dofs.node_count()));
   for (const fem::Tie& tie : dofs.ties()) tied[static_cast<std::size_t>(tie.node)] = 1;
+  const auto drawn = [&nodes](int n) { return nodes[static_cast<std::size_t>(n)]; };
   const auto best = [&](auto&& cost) {
     int found = static_cast<int>(std::ranges::find(tied, 0) - tied.begin());
-    for (int n = found + 1; n < mesh.node_count(); ++n)
-      if (!tied[static_cast<std::size_t>(n)] &&
-          cost(mesh.nodes[static_cast<std::size_t>(n)]) < cost(mesh.nodes[static_cast<std::size_t>(found)]))
-        found = n;
+    for (int n = found + 1; n < std::ssize(nodes); ++n)
+      if (!tied[static_cast<std::size_t>(n)] && cost(drawn(n)) < cost(drawn(found))) found = n;
     return found;
   };
   const int first = best([&](const Eigen::Vector3d& x) { return (x - middle).norm(); });
   if (dimension == fem::Dimension::axisymmetric) return dofs.hold(first, 2); // it moves along the axis alone
-  const Eigen::Vector3d anchor = mesh.nodes[static_cast<std::size_t>(first)];
+  const Eigen::Vector3d anchor = drawn(first);
   const int along_x =
       best([&](const Eigen::Vector3d& x) { return x.x() - anchor.x() + 2 * std::abs(x.y() - anchor.y()); });
   const int along_y =

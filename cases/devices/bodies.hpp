@@ -7,6 +7,7 @@
 #include "meshing/mesh.hpp"
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,8 @@ void tie_bodies(const Case& one, const std::vector<BodyNodes>& nodes, const mesh
                 fem::DofMap& dofs);
 
 /// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
-/// the node next to the middle, one far from it along x and, in space, one far along y.
-void pin(const meshing::Mesh& mesh, fem::Dimension dimension, fem::DofMap& dofs);
+/// of these nodes, the first ones, that next to the middle, one far from it along x and, in space, one far
+/// along y.
+void pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::DofMap& dofs);
 
 } // namespace dielast::cases

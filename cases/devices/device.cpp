@@ -240,6 +240,8 @@ Device build_device(const Case& one) {
       meshing::shares(mesh, dimension == fem::Dimension::axisymmetric);
   std::ranges::move(share_warnings(one, shares), std::back_inserter(warnings));
   const std::vector<fem::Tie> links = set_off_bars(one, mesh);
+  const int without_arms = mesh.node_count();
+  const std::vector<fem::RelativeMass> rotary = add_rotary_nodes(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
   model.extent = size.norm();
@@ -263,6 +265,7 @@ Device build_device(const Case& one) {
   }
   const auto films = static_cast<int>(model.blocks.size());
   add_bars(one, mesh, model);
+  if (!rotary.empty()) model.blocks.push_back(fem::make_relative_mass_block(rotary));
   add_contact(one, mesh, model);
 
   add_springs(one, mesh, shares, model);
@@ -280,10 +283,12 @@ Device build_device(const Case& one) {
   clamp_under_walls(one, mesh, model.dofs);
   hold_radii(one, mesh, model.dofs);
   link_bars(links, dimension, model.dofs);
+  tie_rotary_nodes(rotary, mesh, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   keep_spins(one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty() && !one.table;
-  if (free_body) pin(mesh, dimension, model.dofs);
+  if (free_body)
+    pin(std::span(mesh.nodes).first(static_cast<std::size_t>(without_arms)), dimension, model.dofs);
   if (dimension == fem::Dimension::axisymmetric)
     for (int n = 0; n < mesh.node_count(); ++n)
       if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);

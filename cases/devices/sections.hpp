@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/devices/device.hpp"
+#include "fem/elements/point_mass_block.hpp"
 
 #include <vector>
 
@@ -41,6 +42,14 @@ void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
 /// Holds what a roll's core keeps at its radius, whether pressed or pulled. To be called behind the ties.
 void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs);
+
+/// Adds nodes to the mesh, on the arms of the bars' rotary inertia; none where nothing accelerates. Returns
+/// their masses. To be called behind set_off_bars(). Throws MeshError as add_bars().
+std::vector<fem::RelativeMass> add_rotary_nodes(const Case& one, meshing::Mesh& mesh);
+
+/// Ties these nodes to the bars'.
+void tie_rotary_nodes(const std::vector<fem::RelativeMass>& masses, const meshing::Mesh& mesh,
+                      fem::DofMap& dofs);
 
 /// The bar along each line of the mesh.
 Bars bars(const Case& one, const meshing::Mesh& mesh);

@@ -15,14 +15,37 @@ bool has_step(const Case& one, std::initializer_list<StepKind> kinds) {
       one.steps, [&](const Step& step) { return std::ranges::find(kinds, step.kind) != kinds.end(); });
 }
 
+namespace {
+
+bool has_heavy_bars(const Part& part) {
+  const auto heavy = [](const Beam& beam) { return beam.material.density > 0; };
+  const auto* lattice = std::get_if<Honeycomb>(&part.geometry);
+  return (part.beam && heavy(*part.beam)) || (part.cable && part.cable->density > 0) ||
+         (part.hinge && heavy(part.hinge->beam)) || (part.ribbon && heavy(part.ribbon->beam)) ||
+         (lattice && heavy(lattice->wall));
+}
+
+bool has_inertia(const Case& one) {
+  return std::ranges::any_of(one.steps, [](const Step& step) { return step.inertia; });
+}
+
+} // namespace
+
 bool has_mass(const Case& one) {
   const auto heavy = [](const auto& body) { return body.mass > 0; };
   return one.any_film([](const Film& film) { return film.material.density > 0; }) ||
          (one.plate && heavy(*one.plate)) || std::ranges::any_of(one.point_masses, heavy) ||
-         std::ranges::any_of(one.bodies, heavy) || !one.fins.empty();
+         std::ranges::any_of(one.bodies, heavy) || !one.fins.empty() ||
+         std::ranges::any_of(one.parts, [](const Part& part) { return has_heavy_bars(part); });
 }
 
 bool is_linearised(const Case& one) { return one.linearise || has_step(one, {StepKind::harmonic}); }
+
+bool masses_accelerate(const Case& one) {
+  const auto vibrates = [](const Quantity& quantity) { return quantity.kind->vibrates; };
+  return std::ranges::any_of(one.quantities, vibrates) || has_inertia(one) || is_linearised(one) ||
+         has_step(one, {StepKind::modes});
+}
 
 namespace {
 
@@ -59,10 +82,6 @@ namespace {
 
 bool is_timed(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });
-}
-
-bool has_inertia(const Case& one) {
-  return std::ranges::any_of(one.steps, [](const Step& step) { return step.inertia; });
 }
 
 bool has_instantaneous_step(const Case& one) {
@@ -122,10 +141,7 @@ Condition weight() {
 
 Condition masses_matter() {
   return on_case("inertia, a step of kind \"modes\" or \"harmonic\", or a weight", [](const Case& one) {
-    const bool vibrates =
-        std::ranges::any_of(one.quantities, [](const Quantity& quantity) { return quantity.kind->vibrates; });
-    return vibrates || has_inertia(one) || is_linearised(one) || has_step(one, {StepKind::modes}) ||
-           (one.gravity.film && has_step(one, {StepKind::weight}));
+    return masses_accelerate(one) || (one.gravity.film && has_step(one, {StepKind::weight}));
   });
 }
 
@@ -144,7 +160,7 @@ Condition dampers_matter() {
 }
 
 Condition has_mass() {
-  return on_case("a mass: of the film (its density), a [plate], a [[point_mass]] or a [[body]]",
+  return on_case("a mass: of film or bars (their density), a [plate], a [[point_mass]] or a [[body]]",
                  [](const Case& one) { return cases::has_mass(one); });
 }
 

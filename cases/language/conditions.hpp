@@ -46,9 +46,11 @@ Condition plane_strain();    ///< the section is a solid, of a planar model
 /// Whether a step is of one of these kinds.
 bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
 
-/// Whether the film, the plate, a point mass, a body or what is around a fin has a mass.
+/// Whether film, bars, the plate, a point mass, a body or what is around a fin has a mass.
 bool has_mass(const Case& one);
 /// Whether a step may jump to another state, or follow an unstable path. The rules refuse what may not.
+/// Whether a step or a quantity knows what masses do as they accelerate.
+bool masses_accelerate(const Case& one);
 bool may_jump(const Case& one);
 bool may_follow(const Case& one, const Step& step);
 /// Whether a step's time steps are as short as the error of something that flows or has inertia wants them.

@@ -11,6 +11,10 @@ AlikeBars beams_of(const materials::BeamSection& section, double offset) {
           [section](const meshing::Mesh& mesh, const std::vector<int>& lines) {
             return fem::make_beam_block(mesh, meshing::subset(*mesh.walls(), lines), section,
                                         Eigen::Vector3d::UnitZ(), lines);
+          },
+          [section](const meshing::Mesh& mesh, const std::vector<int>& lines, fem::RotaryInertia& inertia) {
+            fem::add_rotary_inertia(mesh, meshing::subset(*mesh.walls(), lines), section,
+                                    Eigen::Vector3d::UnitZ(), inertia);
           }};
 }
 

@@ -93,7 +93,7 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
     const StepPlace at = place_of_step(tree, s);
     if (step.kind == StepKind::modes && !has_mass(one))
       reader.report(at.source, at.key,
-                    "nothing vibrates: film, plate and point masses have no mass; give plate.mass or "
+                    "nothing vibrates: film, bars, plate and point masses have no mass; give plate.mass or "
                     "film.material.density");
     if (step.kind == StepKind::weight && !one.plate && one.point_masses.empty() && one.bodies.empty() &&
         !one.gravity.film)

@@ -117,7 +117,9 @@ Section rod_section() {
 Section beam_section() {
   Section section;
   section.name = "beam";
-  section.meaning = "bars of rectangular section along the lines of the part's place";
+  section.meaning =
+      "bars of rectangular section along the lines of the part's place; with a mass, their sections' turning "
+      "has inertia, too";
   section.presence = Section::Presence::optional;
   section.access = present(&Part::beam);
   section.keys = {

@@ -4,6 +4,7 @@
 #include "fem/elements/beam_kinematics.hpp"
 #include "fem/elements/lower_triangle.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -57,6 +58,22 @@ Eigen::Vector3d nodal_tangent(const std::array<Eigen::Vector3d, Nodes>& X, int a
     const double xi = a == 0 ? -1 : a == 1 ? 1 : 0;
     return (xi - 0.5) * X[0] + (xi + 0.5) * X[1] - 2 * xi * X[2];
   }
+}
+
+/// The section's axes at node a, as drawn. Throws std::invalid_argument for line `number`.
+template<int Nodes>
+Eigen::Matrix3d drawn_axes(const std::array<Eigen::Vector3d, Nodes>& X, int a, const Eigen::Vector3d& normal,
+                           int number) {
+  const Eigen::Vector3d tangent = nodal_tangent<Nodes>(X, a).normalized();
+  const Eigen::Vector3d second = normal.cross(tangent);
+  if (!(tangent.norm() > 0.5) || second.norm() < 1e-6 * normal.norm())
+    throw std::invalid_argument("line " + std::to_string(number) +
+                                " has no length or runs along the section's normal");
+  Eigen::Matrix3d axes;
+  axes.col(0) = tangent;
+  axes.col(1) = second.normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
 }
 
 template<int Nodes>
@@ -122,16 +139,7 @@ BeamBlock<Nodes>::BeamBlock(const meshing::Mesh& mesh, const meshing::CellBlock&
       element.X[a] = drawn.x[a] = mesh.nodes[static_cast<std::size_t>(element.node[a])];
     }
     for (int a = 0; a < Nodes; ++a) {
-      const Eigen::Vector3d tangent = nodal_tangent<Nodes>(element.X, a).normalized();
-      const Eigen::Vector3d second = normal.cross(tangent);
-      if (!(tangent.norm() > 0.5) || second.norm() < 1e-6 * normal.norm())
-        throw std::invalid_argument("line " + std::to_string(e) +
-                                    " has no length or runs along the section's normal");
-      Eigen::Matrix3d axes;
-      axes.col(0) = tangent;
-      axes.col(1) = second.normalized();
-      axes.col(2) = axes.col(0).cross(axes.col(1));
-      element.triad[a] = Eigen::Quaterniond(axes);
+      element.triad[a] = Eigen::Quaterniond(drawn_axes<Nodes>(element.X, a, normal, e));
       if (element.triad[a].dot(element.triad[0]) < 0) element.triad[a].coeffs() *= -1;
       drawn.q[a] = coefficients(element.triad[a]);
     }
@@ -317,7 +325,47 @@ void BeamBlock<Nodes>::sample(const State& state, Samples& samples) const {
   }
 }
 
+template<int Nodes>
+void add_rotary(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
+                const materials::BeamSection& section, const Eigen::Vector3d& normal,
+                RotaryInertia& inertia) {
+  const std::array<double, 3> shares =
+      Nodes == 2 ? std::array{0.5, 0.5, 0.0} : std::array{1.0 / 6, 1.0 / 6, 2.0 / 3};
+  for (int e = 0; e < lines.size(); ++e) {
+    std::array<Eigen::Vector3d, Nodes> X;
+    for (int a = 0; a < Nodes; ++a)
+      X[a] = mesh.nodes[static_cast<std::size_t>(lines.cell(e)[static_cast<std::size_t>(a)])];
+    for (int a = 0; a < Nodes; ++a) {
+      const Eigen::Matrix3d axes = drawn_axes<Nodes>(X, a, normal, e);
+      const double length = 2 * nodal_tangent<Nodes>(X, a).norm() / (Nodes == 2 ? 2 : 1);
+      auto& arms = inertia[lines.cell(e)[static_cast<std::size_t>(a)]];
+      for (const auto& [axis, moment] : {std::pair{1, section.rotary3}, {2, section.rotary2}}) {
+        if (moment == 0) continue;
+        const Eigen::Vector3d arm = std::sqrt(moment / section.line_density) * axes.col(axis);
+        const double mass = shares[static_cast<std::size_t>(a)] * length * section.line_density;
+        const auto alike = std::ranges::find_if(arms, [&](const auto& other) {
+          return std::min((other.first - arm).norm(), (other.first + arm).norm()) <= 1e-9 * arm.norm();
+        });
+        if (alike == arms.end())
+          arms.emplace_back(arm, mass);
+        else
+          alike->second += mass;
+      }
+    }
+  }
+}
+
 } // namespace
+
+void add_rotary_inertia(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
+                        const materials::BeamSection& section, const Eigen::Vector3d& normal,
+                        RotaryInertia& inertia) {
+  if (section.line_density == 0) return;
+  if (lines.type == meshing::CellType::line3)
+    add_rotary<3>(mesh, lines, section, normal, inertia);
+  else
+    add_rotary<2>(mesh, lines, section, normal, inertia);
+}
 
 std::unique_ptr<ElementBlock> make_beam_block(const meshing::Mesh& mesh, const meshing::CellBlock& lines,
                                               const materials::BeamSection& section,

@@ -30,10 +30,50 @@ class PointMassBlock final : public ElementBlock {
   PointMass point_;
 };
 
+/// One element per mass and axis.
+class RelativeMassBlock final : public ElementBlock {
+ public:
+  explicit RelativeMassBlock(std::vector<RelativeMass> masses) : masses_(std::move(masses)) {}
+
+  int element_count() const override { return axes * static_cast<int>(masses_.size()); }
+  int dofs_per_element() const override { return 2; }
+  void claim_dofs(DofMap& dofs, Dimension dimension) override {
+    for (const RelativeMass& mass : masses_)
+      for (int c = 0; c < axes; ++c)
+        if (moves(dimension, c))
+          for (const int node : {mass.beside, mass.node}) dofs.add(node, c);
+  }
+  void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
+    equations[0] = dofs.equation(of(element).beside, element % axes);
+    equations[1] = dofs.equation(of(element).node, element % axes);
+  }
+  Evaluation evaluate(const State& /*state*/, int /*first*/, int /*last*/,
+                      const Scatter& /*scatter*/) const override {
+    return {};
+  }
+  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
+  void add_mass(int element, std::span<double> packed) const override {
+    const double mass = of(element).mass;
+    packed[0] += mass;
+    packed[1] -= mass;
+    packed[2] += mass;
+  }
+
+ private:
+  static constexpr int axes = 3;
+  const RelativeMass& of(int element) const { return masses_[static_cast<std::size_t>(element / axes)]; }
+
+  std::vector<RelativeMass> masses_;
+};
+
 } // namespace
 
 std::unique_ptr<ElementBlock> make_point_mass_block(const PointMass& point) {
   return std::make_unique<PointMassBlock>(point);
+}
+
+std::unique_ptr<ElementBlock> make_relative_mass_block(std::vector<RelativeMass> masses) {
+  return std::make_unique<RelativeMassBlock>(std::move(masses));
 }
 
 } // namespace dielast::fem

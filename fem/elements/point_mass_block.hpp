@@ -4,6 +4,7 @@
 #include "fem/model/element_block.hpp"
 
 #include <memory>
+#include <vector>
 
 namespace dielast::fem {
 
@@ -18,5 +19,13 @@ struct PointMass {
 };
 
 std::unique_ptr<ElementBlock> make_point_mass_block(const PointMass& point);
+
+/// A mass at a node that resists its motion beside another node, not with it: 1/2 m |v - v_beside|^2.
+struct RelativeMass {
+  int node = 0, beside = 0;
+  double mass = 0; ///< kg
+};
+
+std::unique_ptr<ElementBlock> make_relative_mass_block(std::vector<RelativeMass> masses);
 
 } // namespace dielast::fem

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <tuple>
 
-// Bodies that turn more than once.
+// Bodies that turn more than once, and bars whose sections turn.
 
 namespace dielast::cases {
 namespace {
@@ -84,10 +84,10 @@ std::string spinner(const std::string& moment, const std::string& steps) {
                      moment + "\n" + steps);
 }
 
-/// With the bar's mass at the distance of its nodes.
+/// With the bar's mass at the distance of its nodes, and what it has about its own axes.
 double inertia_about_z() {
   const double m = 1200 * 2e-6 * length;
-  return 1e-10 + m * length * length / 3;
+  return 1e-10 + m * length * length / 3 + bar_section().rotary3 * length;
 }
 
 // M t^2/(2 I), and on at the speed that was reached.
@@ -132,6 +132,106 @@ TEST_F(Turns, are_kept_by_what_goes_on) {
   ASSERT_EQ(rest.size() + 80, all.size());
   EXPECT_GT(all[80], 2 * pi);
   for (std::size_t k = 0; k < rest.size(); ++k) EXPECT_EQ(rest[k], all[80 + k]);
+}
+
+// All of what resists is the body's, and that of the bar's sections about its axis.
+TEST_F(Turns, of_a_bar_about_its_axis_meet_the_inertia_of_its_sections) {
+  const double moment = 1e-8, I = 1e-10 + (bar_section().rotary2 + bar_section().rotary3) * length;
+  const Ran ran = run(spinner("[\"1e-8 N m\", 0, 0]", "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\n"
+                                                      "increments = 800\n" +
+                                                          angle("x")));
+  ASSERT_GT(moment / (2 * I), 6 * pi);
+  EXPECT_NEAR(ran.last("angle_x"), moment / (2 * I), 1e-3 * moment / (2 * I));
+  EXPECT_LT(std::abs(ran.last("energy_error")), 1e-3 * ran.last("mechanical_work"));
+}
+
+/// Natural frequencies, Hz, of a bar without a [[body]] or with one at its end.
+class BarModes : public Turns {
+ protected:
+  std::vector<double> frequencies(const std::string& elements, const std::string& held) {
+    write("film.toml", bar(elements, held + "[[step]]\nkind = \"modes\"\ncount = 24\n"));
+    const Case one = read_case(directory / "film.toml");
+    Simulation simulation(one, 1);
+    std::vector<double> found;
+    SimulationObserver observer;
+    observer.on_analysis = [&](const Analysis& analysis, const fem::State&) {
+      for (const auto& row : analysis.rows) found.push_back(row[1]);
+    };
+    EXPECT_EQ(simulation.run(observer).ending, Ending::complete);
+    return found;
+  }
+  /// By how much the nearest is off, in parts.
+  static double off(const std::vector<double>& found, double frequency) {
+    double least = 1;
+    for (const double f : found) least = std::min(least, std::abs(f / frequency - 1));
+    return least;
+  }
+};
+
+// (2 n - 1)/(4 L) sqrt(G J/(rho I_p)), of second and fourth order.
+TEST_F(BarModes, of_torsion_are_those_of_a_clamped_bar) {
+  const materials::BeamSection s = bar_section();
+  const double first = std::sqrt(s.GJ / (s.rotary2 + s.rotary3)) / (4 * length);
+  EXPECT_NEAR(first, 573, 1);
+  double before = 0;
+  for (const int count : {8, 16}) {
+    const double error = off(frequencies(elements(count, 1), clamped), 3 * first);
+    if (count == 16) {
+      EXPECT_NEAR(std::log2(before / error), 2, 0.2);
+    }
+    before = error;
+  }
+  const std::vector<double> fine = frequencies(elements(16, 2), clamped);
+  EXPECT_LT(off(fine, first), 1e-5);
+  EXPECT_LT(off(fine, 3 * first), 1e-4);
+}
+
+// b tan b = I_bar/I_disc, f = b/(2 pi L) sqrt(G J/(rho I_p)).
+TEST_F(BarModes, of_torsion_know_the_disc_at_the_end) {
+  const materials::BeamSection s = bar_section();
+  const double rotary = s.rotary2 + s.rotary3;
+  for (const double disc : {1e-8, 1e-10}) { // kg m^2
+    double b = 0, high = pi / 2;
+    for (int halving = 0; halving < 60; ++halving)
+      ((b + high) / 2 * std::tan((b + high) / 2) < rotary * length / disc ? b : high) = (b + high) / 2;
+    const std::vector<double> found = frequencies(
+        elements(16, 2),
+        clamped + fmt::format("[[body]]\nname = \"d\"\nplaces = [\"b.end\"]\nmass = \"1 g\"\ninertia = [{0}, "
+                              "{0}, {0}]\nfix = [\"y\", \"z\"]\n",
+                              disc));
+    EXPECT_LT(off(found, b / (2 * pi * length) * std::sqrt(s.GJ / rotary)), 1e-5) << disc;
+  }
+}
+
+// E I k^4 - (rho A + (rho I + E I rho/(kappa G)) k^2) w^2 + rho^2 I/(kappa G) w^4 = 0 of a bar on two pivots.
+TEST_F(BarModes, of_bending_are_those_of_timoshenko) {
+  const materials::BeamSection s = bar_section();
+  const std::vector<double> found = frequencies(
+      elements(32, 2), "[[support]]\nplace = \"b.start\"\nfix = [\"x\", \"y\", \"z\", \"turn_x\"]\n"
+                       "[[support]]\nplace = \"b.end\"\nfix = [\"y\", \"z\"]\n");
+  for (const auto& [EI, GA, rotary] : {std::tuple{s.EI3, s.GA2, s.rotary3}, {s.EI2, s.GA3, s.rotary2}})
+    for (int n = 1; n < 4; ++n) {
+      const double k = n * pi / length, m = s.line_density;
+      const double a = rotary * m / GA, b = m + (rotary + EI * m / GA) * k * k, c = EI * std::pow(k, 4);
+      const double square = 2 * c / (b + std::sqrt(b * b - 4 * a * c));
+      EXPECT_LT(off(found, std::sqrt(square) / (2 * pi)), 2e-5) << n;
+    }
+}
+
+// What a bar that is let go keeps swinging with is what it was wound up with.
+TEST_F(Turns, of_a_bar_that_winds_and_unwinds_keep_their_energy) {
+  const Ran ran = run(bar(elements(8, 2), clamped +
+                                              "[[body]]\nname = \"d\"\nplaces = [\"b.end\"]\n"
+                                              "fix = [\"y\", \"z\", \"turn_y\", \"turn_z\"]\n"
+                                              "[[load]]\nplace = \"d\"\nmoment = [\"2e-3 N m\", 0, 0]\n"
+                                              "[[step]]\nkind = \"transient\"\ninertia = true\n"
+                                              "duration = \"4 ms\"\nincrements = 400\n" +
+                                              angle("x")));
+  const double at_rest = 2e-3 * length / bar_section().GJ;
+  const std::vector<double>& angles = ran.values.at("angle_x");
+  EXPECT_NEAR(*std::ranges::max_element(angles), 2 * at_rest, 0.05 * at_rest); // a wave that comes back
+  EXPECT_GT(2 * at_rest, 4 * pi);
+  EXPECT_LT(std::abs(ran.last("energy_error")), 1e-2 * 2e-3 * 2 * at_rest);
 }
 
 } // namespace
