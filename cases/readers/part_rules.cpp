@@ -212,6 +212,12 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
   if (one.unnamed() && one.unnamed()->film && !one.unnamed()->has_mesh())
     reader.report(tree.find("film")->key_source, "film",
                   "a film without geometry; add one, or give each [part.NAME] its own [part.NAME.film]");
+  if (reader.diagnostics().empty() && !one.any_film([](const Film&) { return true; })) {
+    const Node* parts = tree.find("part");
+    reader.report(parts ? parts->key_source : tree.source, "part",
+                  "no part is a film, and a case has one at least; bars lie beside it: give it a [film], or "
+                  "a [part.NAME.film] that is held beside them");
+  }
 }
 
 } // namespace dielast::cases

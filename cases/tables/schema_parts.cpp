@@ -61,7 +61,9 @@ std::vector<Section> unnamed_part_sections() {
 std::vector<Section> part_sections() {
   Section part;
   part.name = "part";
-  part.meaning = "one of several films or sets of bars, with a geometry of its own or in a place of the mesh";
+  part.meaning =
+      "one of several films, or bars beside them, with a geometry of its own or in a place of the mesh; "
+      "a case has one film at least";
   part.shape = Section::Shape::named;
   part.presence = Section::Presence::optional;
   part.access = {[](void* parent, const std::string& name) -> void* {
