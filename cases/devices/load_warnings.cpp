@@ -22,7 +22,71 @@ bool holds_against_loads(const Case& one, const Support& support) {
          (support.until.empty() || named(support.until) + 1 >= steps.end());
 }
 
+/// Places that nothing moves in any step.
+class HeldPlaces {
+ public:
+  HeldPlaces(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs)
+      : one_(one), mesh_(mesh), dofs_(dofs) {}
+
+  /// Whether no node of the place ever moves along the axis.
+  bool rests(const std::string& place, int axis) const {
+    return std::ranges::all_of(mesh_.node_sets.at(place), [&](int node) {
+      const int e = dofs_.equation(node, axis);
+      return e == fem::DofMap::absent || (dofs_.is_held(e) && !is_moved_or_let_go(node, axis));
+    });
+  }
+
+ private:
+  bool is_moved_or_let_go(int node, int axis) const {
+    return std::ranges::any_of(one_.supports, [&](const Support& support) {
+      const auto driven = [&](const Controller& own) {
+        return own.drives == DrivenLoad{Driven::displacement, support.place, axis};
+      };
+      const bool moves = support.motion[static_cast<std::size_t>(axis)] || !support.until.empty() ||
+                         std::ranges::any_of(one_.controllers, driven);
+      return support.fixed[static_cast<std::size_t>(axis)] && moves &&
+             std::ranges::count(mesh_.node_sets.at(support.place), node) > 0;
+    });
+  }
+
+  const Case& one_;
+  const meshing::Mesh& mesh_;
+  const fem::DofMap& dofs_;
+};
+
 } // namespace
+
+std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& mesh,
+                                          const fem::DofMap& dofs) {
+  const HeldPlaces held(one, mesh, dofs);
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& section, std::size_t number, const char* key,
+                        const std::string& why) {
+    const std::string path = fmt::format("{}[{}].{}", section, number + 1, key);
+    warnings.push_back(
+        Diagnostic{one.where(path), path, "has no effect here: " + why, Severity::warning}.text());
+  };
+  const bool weighs =
+      std::ranges::any_of(one.steps, [](const Step& step) { return step.kind == StepKind::weight; });
+  for (std::size_t m = 0; m < one.point_masses.size() && !weighs; ++m) { // the support feels a weight
+    const std::string& place = one.point_masses[m].place;
+    if (held.rests(place, 0) && held.rests(place, 1) && held.rests(place, 2))
+      warn("point_mass", m, "place", fmt::format("\"{}\" is held where it is", place));
+  }
+  const auto check = [&](const char* section, const auto& objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      const auto& [first, second] = objects[i].between;
+      if (first == second)
+        warn(section, i, "between", fmt::format("both places are \"{}\"", first));
+      else if (held.rests(first, objects[i].along) && held.rests(second, objects[i].along))
+        warn(section, i, "between",
+             fmt::format("\"{}\" and \"{}\" are held along {}", first, second, "xyz"[objects[i].along]));
+    }
+  };
+  check("spring", one.springs);
+  check("linkage", one.linkages);
+  return warnings;
+}
 
 std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs) {
   const auto lets_go = [&](int node, int c) {

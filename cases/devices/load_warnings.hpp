@@ -14,4 +14,9 @@ namespace dielast::cases {
 /// place are held in every step in which it acts. `dofs` numbered, with the supports of `one`.
 std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs);
 
+/// A sentence for every [[point_mass]], [[spring]] and [[linkage]] that has no effect, as nothing moves its
+/// places in any step, or both are one. `dofs` as above.
+std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& mesh,
+                                          const fem::DofMap& dofs);
+
 } // namespace dielast::cases

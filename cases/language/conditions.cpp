@@ -145,6 +145,11 @@ Condition masses_matter() {
   });
 }
 
+Condition point_masses_matter() {
+  return on_case("inertia, or a step of kind \"weight\", \"modes\" or \"harmonic\"",
+                 [](const Case& one) { return masses_accelerate(one) || has_step(one, {StepKind::weight}); });
+}
+
 Condition turns_matter() {
   const Condition mass = masses_matter();
   return {mass.needs + ", of what is not of revolution", [mass](const Case& one, const void* object) {

@@ -8,21 +8,22 @@ namespace dielast::cases {
 /// Conditions under which keys act. Each asks the whole case, and says in words what it needs.
 namespace when {
 
-Condition electrodes();        ///< there is an electrode
-Condition branches();          ///< the film has branches
-Condition time_passes();       ///< a step has a duration
-Condition without_duration();  ///< the key's own step has none
-Condition weight();            ///< gravity acts in a step
-Condition masses_matter();     ///< something has inertia, vibrates, or weighs
-Condition turns_matter();      ///< likewise, and bodies turn
-Condition inertia();           ///< something moves with inertia
-Condition dampers_matter();    ///< something moves with inertia, or is linearised
-Condition has_mass();          ///< something has one
-Condition film_flows();        ///< a dashpot beside the law is felt
-Condition branches_flow();     ///< some of the branch's springs are felt
-Condition circuits_matter();   ///< time passes, something is linearised, or the circuit leaks
-Condition limits_matter();     ///< time passes, or the circuit leaks
-Condition time_steps_matter(); ///< in a step with a duration something flows or has inertia
+Condition electrodes();          ///< there is an electrode
+Condition branches();            ///< the film has branches
+Condition time_passes();         ///< a step has a duration
+Condition without_duration();    ///< the key's own step has none
+Condition weight();              ///< gravity acts in a step
+Condition masses_matter();       ///< something has inertia, vibrates, or weighs
+Condition turns_matter();        ///< likewise, and bodies turn
+Condition inertia();             ///< something moves with inertia
+Condition dampers_matter();      ///< something moves with inertia, or is linearised
+Condition point_masses_matter(); ///< masses that weigh without gravity.film
+Condition has_mass();            ///< something has one
+Condition film_flows();          ///< a dashpot beside the law is felt
+Condition branches_flow();       ///< some of the branch's springs are felt
+Condition circuits_matter();     ///< time passes, something is linearised, or the circuit leaks
+Condition limits_matter();       ///< time passes, or the circuit leaks
+Condition time_steps_matter();   ///< in a step with a duration something flows or has inertia
 Condition voltage_applies();
 Condition chamber_is_open(); ///< a step reaches or follows its pressure
 Condition chamber_is_closed();
@@ -48,9 +49,9 @@ bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
 
 /// Whether film, bars, the plate, a point mass, a body or what is around a fin has a mass.
 bool has_mass(const Case& one);
-/// Whether a step may jump to another state, or follow an unstable path. The rules refuse what may not.
 /// Whether a step or a quantity knows what masses do as they accelerate.
 bool masses_accelerate(const Case& one);
+/// Whether a step may jump to another state, or follow an unstable path. The rules refuse what may not.
 bool may_jump(const Case& one);
 bool may_follow(const Case& one, const Step& step);
 /// Whether a step's time steps are as short as the error of something that flows or has inertia wants them.

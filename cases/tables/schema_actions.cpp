@@ -238,6 +238,7 @@ Section plate_section() {
 
 Section point_mass_section() {
   Section section = list_section("point_mass", "a mass on the film", each(&Case::point_masses));
+  section.acts = when::point_masses_matter();
   section.keys = mass_keys<PointMass>();
   section.keys.push_back(text("place", to(&PointMass::place),
                               "the place over whose volume, area or length as drawn it is spread evenly")

@@ -54,6 +54,7 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
   const std::string instantaneous = "[[step]]\nkind = \"voltage\"\nresponse = \"instantaneous\"\n";
   const std::string drive = "[drive]\nvoltage = \"1 kV\"\n";
   const std::string weight = "[[step]]\nkind = \"weight\"\n";
+  const std::string point_mass = "[[point_mass]]\nplace = \"electrode\"\nmass = \"1 g\"\n";
   const std::string inflate = "[[step]]\nkind = \"inflate\"\n";
   const std::string charged_hold = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\ncontrol = \"charge\"\n";
   const auto slab = [](const std::string& keys, const std::string& law) {
@@ -74,6 +75,9 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       {"film.material.branch[1]", film + branch + disc, film + branch + disc + instantaneous},
       {"film.material.branch[1]", film + branch + disc + ramp, film + branch + disc + transient},
       {"step[1].response", film + disc + instantaneous, film + branch + disc + instantaneous},
+      {"point_mass[1]", film + disc + point_mass, film + disc + point_mass + "[[step]]\nkind = \"modes\"\n"},
+      {"point_mass[1]", film + disc + point_mass + transient + "inertia = false\n",
+       film + disc + point_mass + transient},
       {"film.material.density", film + "density = \"1000 kg/m^3\"\n" + disc,
        film + "density = \"1000 kg/m^3\"\n" + disc + transient + "inertia = true\n"},
       {"film.material.electrostriction",

@@ -298,5 +298,44 @@ TEST_F(Supports, ThatMoveTheSameNodesMustAgree) {
     EXPECT_NEAR(run(film(both, move)).last("left"), 1e-3, 1e-15);
 }
 
+TEST_F(Supports, LeaveNothingToMassesAndSpringsOnWhatTheyHold) {
+  const auto warnings = [&](const std::string& rest, const std::string& steps = "kind = \"modes\"\n") {
+    write("film.toml",
+          "[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+          "permittivity = \"4e-11 F/m\"\n[rectangle]\nlength = \"60 mm\"\nwidth = \"40 mm\"\n"
+          "electrode_length = \"30 mm\"\nelectrode_width = \"20 mm\"\n[mesh]\nacross = 2\n" +
+              rest + "[[step]]\n" + steps);
+    std::string all;
+    for (const std::string& one : build_device(read_case(directory / "film.toml")).warnings)
+      all += one + "\n";
+    return all;
+  };
+  const auto mass = [](const std::string& place) {
+    return "[[point_mass]]\nmass = \"1 g\"\nplace = \"" + place + "\"\n";
+  };
+  const auto spring = [](const std::string& first, const std::string& second) {
+    return "[[spring]]\nbetween = [\"" + first + "\", \"" + second +
+           "\"]\nalong = \"x\"\nstiffness = \"1 N/m\"\nfree_length = \"1 mm\"\n";
+  };
+  const std::string held = side("left", "x\", \"y", "") + side("right", "x", "");
+  const std::string told = warnings(held + mass("left"));
+  EXPECT_NE(told.find("warning: point_mass[1].place: has no effect here: \"left\" is held where it is"),
+            std::string::npos)
+      << told;
+  EXPECT_EQ(warnings(held + mass("right")), ""); // it slides
+  EXPECT_EQ(warnings(held + mass("electrode")), "");
+  const std::string between = warnings(held + spring("left", "right"));
+  EXPECT_NE(
+      between.find("warning: spring[1].between: has no effect here: \"left\" and \"right\" are held along x"),
+      std::string::npos)
+      << between;
+  const std::string one = warnings(held + spring("electrode", "electrode"));
+  EXPECT_NE(one.find("has no effect here: both places are \"electrode\""), std::string::npos) << one;
+  EXPECT_EQ(warnings(held + spring("left", "electrode")), "");
+  const std::string moves = "kind = \"move\"\n";
+  const std::string shifted = side("left", "x\", \"y", "") + moved("right", "1e-3");
+  EXPECT_EQ(warnings(shifted + spring("left", "right"), moves), "");
+}
+
 } // namespace
 } // namespace dielast::cases
