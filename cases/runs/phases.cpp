@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -37,56 +37,71 @@ Case with_supports(Case one, const std::vector<char>& holding) {
 
 namespace {
 
-/// Whether both supports, which move along the axis, do so alike in that step.
-bool move_alike(const Case& one, const Support& a, const Support& b, int axis, const Step& step) {
-  const auto &wave = a.motion[static_cast<std::size_t>(axis)],
-             &other = b.motion[static_cast<std::size_t>(axis)];
-  if (step.kind == StepKind::move) return !wave || !other || wave->before(0) == other->before(0);
-  const auto driven = [&](const Support& support) {
+/// What a support moves along an axis.
+struct Move {
+  const Case& one;
+  std::size_t number; ///< of the support
+  int axis;
+
+  const Support& support() const { return one.supports[number]; }
+  const std::optional<Waveform>& wave() const { return support().motion[static_cast<std::size_t>(axis)]; }
+  /// In a transient by a controller.
+  bool is_controlled() const {
     return std::ranges::any_of(one.controllers, [&](const Controller& own) {
-      return own.drives == DrivenLoad{Driven::displacement, support.place, axis};
+      return own.drives == DrivenLoad{Driven::displacement, support().place, axis};
     });
-  };
-  const bool first = driven(a), second = driven(b);
-  if (first || second) return a.place == b.place || !(first || wave) || !(second || other);
-  return !wave || !other || *wave == *other;
-}
+  }
+  bool moves_in(const Step& step) const {
+    return support().fixed[static_cast<std::size_t>(axis)] &&
+           (wave() || (step.kind == StepKind::transient && is_controlled()));
+  }
+  /// Precondition: both move in that step.
+  bool is_like(const Move& other, const Step& step) const {
+    if (step.kind == StepKind::move) return wave()->before(0) == other.wave()->before(0);
+    if (is_controlled() || other.is_controlled())
+      return support().place == other.support().place && axis == other.axis;
+    return *wave() == *other.wave();
+  }
+  bool meets(const Move& other, const meshing::Mesh& mesh, const fem::DofMap& dofs) const {
+    std::vector<int> moved;
+    for (const int node : mesh.node_sets.at(support().place)) moved.push_back(dofs.equation(node, axis));
+    std::ranges::sort(moved);
+    return std::ranges::any_of(mesh.node_sets.at(other.support().place), [&](int node) {
+      const int e = dofs.equation(node, other.axis);
+      return e != fem::DofMap::absent && std::ranges::binary_search(moved, e);
+    });
+  }
+  std::string key() const { return fmt::format("support[{}].displacement.{}", number + 1, "xyz"[axis]); }
+  /// Where it is written, or what has brought it.
+  std::string origin() const {
+    if (support().standard) return one.pivot && one.pivot->body == support().place ? "[pivot]" : "[patch]";
+    const int line = one.where(key()).line;
+    return key() + (line > 0 ? fmt::format(" (line {})", line) : "");
+  }
+};
 
 } // namespace
 
 void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs) {
-  const auto meet = [&](const Support& a, const Support& b, int axis) {
-    std::vector<int> moved;
-    for (const int node : mesh.node_sets.at(a.place)) moved.push_back(dofs.equation(node, axis));
-    std::ranges::sort(moved);
-    return std::ranges::any_of(mesh.node_sets.at(b.place), [&](int node) {
-      const int e = dofs.equation(node, axis);
-      return e != fem::DofMap::absent && std::ranges::binary_search(moved, e);
-    });
-  };
   for (std::size_t s = 0; s < one.steps.size(); ++s) {
     const Step& step = one.steps[s];
     if (step.kind != StepKind::move && step.kind != StepKind::transient) continue;
     const std::vector<char> holding = holding_in(one, one.steps, static_cast<int>(s));
-    for (std::size_t b = 1; b < one.supports.size(); ++b)
-      for (std::size_t a = 0; a < b; ++a)
-        for (int axis = 0; axis < 3 && holding[a] && holding[b]; ++axis) {
-          const Support &first = one.supports[a], &second = one.supports[b];
-          const auto fixed = static_cast<std::size_t>(axis);
-          if (!first.fixed[fixed] || !second.fixed[fixed] || move_alike(one, first, second, axis, step) ||
-              !meet(first, second, axis))
-            continue;
-          const auto key = [&](std::size_t support) {
-            return fmt::format("support[{}].displacement.{}", support + 1, "xyz"[axis]);
-          };
-          const Source other = one.where(key(a));
-          throw CaseError(
-              {{one.where(key(b)), key(b),
-                fmt::format("in step \"{}\" it moves nodes of \"{}\" that {}{} moves elsewhere, as a part of "
-                            "\"{}\"; let both say the same, or let them hold in different steps",
-                            step.name, second.place, key(a),
-                            other.line > 0 ? fmt::format(" (line {})", other.line) : "", first.place)}});
-        }
+    std::vector<Move> moves;
+    for (std::size_t i = 0; i < one.supports.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        if (const Move move{one, i, axis}; holding[i] && move.moves_in(step)) moves.push_back(move);
+    for (std::size_t b = 1; b < moves.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a) {
+        if (moves[a].is_like(moves[b], step) || !moves[a].meets(moves[b], mesh, dofs)) continue;
+        const bool swapped = moves[b].support().standard; // it is not written
+        const Move &told = moves[swapped ? a : b], &other = moves[swapped ? b : a];
+        throw CaseError(
+            {{one.where(told.key()), told.key(),
+              fmt::format("in step \"{}\" it moves nodes of \"{}\" that {} moves elsewhere, as a part of "
+                          "\"{}\"; let both say the same, or let them hold in different steps",
+                          step.name, told.support().place, other.origin(), other.support().place)}});
+      }
   }
 }
 

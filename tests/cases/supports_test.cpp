@@ -293,6 +293,29 @@ TEST_F(Supports, ThatMoveTheSameNodesMustAgree) {
   const std::string first = "until = \"move\"", later = "from = \"again\"";
   EXPECT_EQ(refusal(moved("frame", "1e-3", first) + moved("left", "-1e-3", later), move + again), "");
   EXPECT_NE(refusal(moved("frame", "1e-3") + moved("left", "-1e-3", later), move + again), "");
+  const auto of_patch = [&](const std::string& keys, const std::string& supports) -> std::string {
+    write("film.toml", "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+                       "permittivity = \"4e-11 F/m\"\n[patch]\nlength = \"10 mm\"\n" +
+                           keys + supports + move);
+    try {
+      Simulation(read_case(directory / "film.toml"), 1);
+    } catch (const CaseError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto side_moved = [](const char* place, const char* axis, const char* by) {
+    return fmt::format("[[support]]\nplace = \"{}\"\ndisplacement = {{ {} = {} }}\n", place, axis, by);
+  };
+  const std::string stretched = of_patch("stretch_x = 1.5\n", side_moved("right", "x", "1e-3"));
+  EXPECT_NE(
+      stretched.find("support[1].displacement.x: in step \"move\" it moves nodes of \"right\" that [patch] "
+                     "moves elsewhere"),
+      std::string::npos)
+      << stretched;
+  const std::string biaxial = "mode = \"equal-biaxial\"\n"; // both sides move alike
+  EXPECT_NE(of_patch(biaxial, side_moved("right", "x", "1e-3") + side_moved("top", "y", "2e-3")), "");
+  EXPECT_EQ(of_patch(biaxial, side_moved("right", "x", "1e-3") + side_moved("top", "y", "1e-3")), "");
   const std::string held = "[[support]]\nplace = \"frame\"\nfix = [\"x\", \"y\"]\n";
   for (const std::string& both : {held + moved("left", "1e-3"), moved("left", "1e-3") + held})
     EXPECT_NEAR(run(film(both, move)).last("left"), 1e-3, 1e-15);
