@@ -25,15 +25,14 @@ Eigen::Vector3d spin_of(const Eigen::Quaterniond& rotation) {
 
 Eigen::Vector3d angle_near(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& expected) {
   constexpr double turn = 2 * std::numbers::pi, period = 2 * turn; // of the quaternion
-  constexpr double close = 0.5; // to a whole turn: within a third of a half one
+  constexpr double close = 0.5; // sine of half the angle: within 60 deg of a whole turn
   const double sine = rotation.vec().norm();
   if (sine < close) {
     const Eigen::Vector3d rest = spin_of(Eigen::Quaterniond(rotation.coeffs() * (rotation.w() < 0 ? -1 : 1)));
     const Eigen::Vector3d whole = expected - rest;
-    if (const double turns = std::round(whole.norm() / turn); turns > 0)
-      return turns * turn * whole.normalized() + rest;
+    const double turns = std::round(whole.norm() / turn);
+    return turns > 0 ? Eigen::Vector3d(turns * turn * whole.normalized() + rest) : rest;
   }
-  if (sine == 0) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d spin = spin_of(rotation), axis = rotation.vec() / sine;
   const double angle = spin.norm(), periods = std::round((expected.dot(axis) - angle) / period);
   const Eigen::Vector3d near = periods == 0 ? spin : Eigen::Vector3d((angle + periods * period) * axis);

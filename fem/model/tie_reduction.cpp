@@ -96,6 +96,7 @@ void TieReduction::add_geometric(const State& state, const Eigen::VectorXd& forc
     Eigen::Vector3d f = Eigen::Vector3d::Zero();
     for (int c = 0; c < 3; ++c)
       if (const int e = dofs_.equation(tie.node, c); e != DofMap::absent) f[c] = force[e];
+    if (f.isZero(0)) continue;
     const Eigen::Vector3d arm = state.rotation[static_cast<std::size_t>(tie.master)] * tie.arm;
     // d2(exp(theta) arm)/dtheta_k dtheta_l = (e_k arm_l + e_l arm_k)/2 - delta_kl arm
     const Eigen::Matrix3d G =
