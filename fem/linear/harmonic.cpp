@@ -61,7 +61,11 @@ std::vector<HarmonicResponse> harmonic_response(const Linearisation& at, const H
   for (Eigen::Index p = 0; p < count; ++p) columns.col(p) = ports[static_cast<std::size_t>(p)].coupling;
   columns.col(count) = drive.force;
 
-  ResponseBasis basis(at, columns);
+  Eigen::MatrixXd moving = columns; // a voltage that is given and does not swing moves nothing
+  for (Eigen::Index p = 0; p < count; ++p)
+    if (ports[static_cast<std::size_t>(p)].supply == Supply::voltage && drive.source[p] == 0)
+      moving.col(p).setZero();
+  ResponseBasis basis(at, std::move(moving));
   std::vector<HarmonicResponse> responses(frequencies.size());
   for (const std::size_t place : halving_order(frequencies.size())) {
     const double omega = frequencies[place];

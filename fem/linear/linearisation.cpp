@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace dielast::fem {
 
@@ -10,6 +12,8 @@ namespace {
 
 constexpr std::size_t most_rates = 16; ///< that are worth a matrix each
 constexpr double same_rate = 1e-6;     ///< relative
+constexpr int most_nodes = 32;         ///< between which rates that vary are interpolated
+constexpr double interpolation_error = 1e-15;
 
 State relaxed(State state) {
   state.scheme = materials::TimeScheme::relaxed();
@@ -37,16 +41,47 @@ Linearisation::Linearisation(Equilibrium& equilibrium, const State& state)
 void Linearisation::find_rates() {
   const auto same = [](double a, double b) { return std::abs(a - b) <= same_rate * b; };
   const Assembler& assembler = equilibrium_.assembler();
+  double low = std::numeric_limits<double>::infinity(), high = 0;
   assembler.relaxation(state_, [&](double rate) {
+    low = std::min(low, rate);
+    high = std::max(high, rate);
     if (!rates_vary_ && std::ranges::none_of(rates_, [&](double known) { return same(rate, known); }))
       rates_.push_back(rate);
     rates_vary_ = rates_.size() > most_rates;
     return 0.0;
   });
-  if (rates_vary_) rates_.clear();
+  if (rates_vary_) {
+    rates_.clear();
+    interpolate_rates(low, high);
+  }
   std::ranges::sort(rates_);
   for (const double known : rates_)
     relaxing_.push_back(assembler.relaxation(state_, [&](double rate) { return same(rate, known); }));
+}
+
+/// Between Chebyshev's points of the rates' logarithms. The pole of s/(s + rate), s = i omega, lies pi/2
+/// beside them, so that the error falls with the power of the ellipse through it (Bernstein).
+void Linearisation::interpolate_rates(double low, double high) {
+  const double middle = std::log(low * high) / 2, half = std::log(high / low) / 2 * (1 + same_rate);
+  const double pole = std::numbers::pi / 2 / half, ellipse = pole + std::hypot(1.0, pole);
+  const double count = std::ceil(std::log(interpolation_error) / -std::log(ellipse));
+  if (!(low > 0) || !(count <= most_nodes)) return;
+  const int size = static_cast<int>(count);
+  std::vector<double> logarithms;
+  for (int j = 0; j < size; ++j) {
+    logarithms.push_back(middle + half * std::cos(std::numbers::pi * (j + 0.5) / size));
+    nodes_.push_back(std::exp(logarithms.back()));
+  }
+  for (int j = 0; j < size; ++j)
+    of_nodes_.push_back(equilibrium_.assembler().relaxation(state_, [&](double rate) {
+      const double at = std::log(rate);
+      double share = 1;
+      for (int other = 0; other < size; ++other)
+        if (other != j)
+          share *= (at - logarithms[static_cast<std::size_t>(other)]) /
+                   (logarithms[static_cast<std::size_t>(j)] - logarithms[static_cast<std::size_t>(other)]);
+      return share;
+    }));
 }
 
 void Linearisation::add_ports() {
@@ -69,31 +104,31 @@ void Linearisation::add_ports() {
 
 std::vector<const std::vector<double>*> Linearisation::terms() const {
   std::vector<const std::vector<double>*> all{&stiffness_.values, &damping_, &mass_};
-  for (const auto& each : relaxing_) all.push_back(&each);
+  if (rates_vary_ && nodes_.empty()) return {};
+  for (const auto& each : rates_vary_ ? of_nodes_ : relaxing_) all.push_back(&each);
   return all;
 }
 
 std::vector<Linearisation::Complex> Linearisation::weights(Complex s) const {
   std::vector<Complex> all{1, s, s * s};
-  for (const double rate : rates_) all.push_back(s / (s + rate));
+  for (const double rate : rates_vary_ ? nodes_ : rates_) all.push_back(s / (s + rate));
   return all;
 }
 
-std::array<std::vector<double>, 2> Linearisation::varying(Complex s) const {
-  if (!rates_vary_) return {};
-  const Assembler& assembler = equilibrium_.assembler();
-  return {assembler.relaxation(state_, [s](double rate) { return (s / (s + rate)).real(); }),
-          assembler.relaxation(state_, [s](double rate) { return (s / (s + rate)).imag(); })};
-}
-
 std::vector<Linearisation::Complex> Linearisation::dynamic_stiffness(Complex s) const {
-  std::vector<Complex> Z(stiffness_.values.size());
-  const auto matrices = terms();
-  const auto factors = weights(s);
-  for (std::size_t k = 0; k < matrices.size(); ++k)
-    for (std::size_t i = 0; i < Z.size(); ++i) Z[i] += factors[k] * (*matrices[k])[i];
-  const auto [storage, loss] = varying(s);
-  for (std::size_t i = 0; i < storage.size(); ++i) Z[i] += Complex(storage[i], loss[i]);
+  const std::size_t size = stiffness_.values.size();
+  std::vector<Complex> Z(size);
+  if (const auto matrices = terms(); !matrices.empty()) {
+    const auto factors = weights(s);
+    for (std::size_t k = 0; k < matrices.size(); ++k)
+      for (std::size_t i = 0; i < size; ++i) Z[i] += factors[k] * (*matrices[k])[i];
+    return Z;
+  }
+  const Assembler& assembler = equilibrium_.assembler();
+  const auto storage = assembler.relaxation(state_, [s](double rate) { return (s / (s + rate)).real(); });
+  const auto loss = assembler.relaxation(state_, [s](double rate) { return (s / (s + rate)).imag(); });
+  for (std::size_t i = 0; i < size; ++i)
+    Z[i] = stiffness_.values[i] + s * damping_[i] + s * s * mass_[i] + Complex(storage[i], loss[i]);
   return Z;
 }
 

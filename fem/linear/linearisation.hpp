@@ -4,7 +4,6 @@
 #include "fem/algebra/complex_solver.hpp"
 #include "fem/equilibrium/equilibrium.hpp"
 
-#include <array>
 #include <complex>
 
 namespace dielast::fem {
@@ -34,11 +33,10 @@ class Linearisation {
   bool rates_vary() const { return rates_vary_; }
   /// Z(s), N/m.
   std::vector<Complex> dynamic_stiffness(Complex s) const;
-  /// Real matrices and the functions of s of which Z(s) is the sum, and what varying(s) adds: K first.
+  /// Real matrices T_k and functions of s of which Z(s) is the sum, K first. Where rates vary, s/(s + rate)
+  /// is interpolated between some of them, to 1e-14; empty where they are too far apart for that.
   std::vector<const std::vector<double>*> terms() const;
   std::vector<Complex> weights(Complex s) const;
-  /// Real and imaginary part of what branches add whose rates vary; empty where none does.
-  std::array<std::vector<double>, 2> varying(Complex s) const;
 
   /// Per port: what is given, dQ/du (C/m, of the free equations), capacitance (F), 1/R (0 where the source is
   /// at its current limit, or not connected) and G (S). Of a chamber likewise with pressure and volume.
@@ -51,6 +49,7 @@ class Linearisation {
 
  private:
   void find_rates();
+  void interpolate_rates(double low, double high);
   void add_ports();
 
   Equilibrium& equilibrium_;
@@ -59,6 +58,8 @@ class Linearisation {
   std::vector<double> mass_, damping_, rates_;
   std::vector<std::vector<double>> relaxing_;
   bool rates_vary_ = false;
+  std::vector<double> nodes_; ///< where rates vary, those between which they are interpolated
+  std::vector<std::vector<double>> of_nodes_;
   std::vector<Port> ports_;
 };
 

@@ -3,6 +3,8 @@
 
 #include "fem/algebra/dense_algebra.hpp"
 
+#include <Eigen/SparseCore>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,7 +14,14 @@ namespace {
 
 constexpr double negligible_residual = 1e-11; ///< residual, over the right side
 constexpr double part_spanned = 1e-12;        ///< part of a vector that is round-off
-constexpr Eigen::Index widest = 240;          ///< basis
+
+/// Columns of a basis: so many that a problem of theirs is small beside one of all equations, and that what
+/// is kept of them fits into half a gigabyte.
+Eigen::Index widest_of(Eigen::Index equations, std::size_t terms) {
+  constexpr double bytes = 5e8, most = 240;
+  const double per_column = sizeof(double) * static_cast<double>(terms + 2) * static_cast<double>(equations);
+  return static_cast<Eigen::Index>(std::min(most, bytes / std::max(per_column, 1.0)));
+}
 
 void widen(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
   matrix.conservativeResize(Eigen::NoChange, matrix.cols() + columns.cols());
@@ -42,19 +51,11 @@ Eigen::VectorXd scale_of(const SparseSymmetric& K) {
 
 ResponseBasis::ResponseBasis(const Linearisation& at, Eigen::MatrixXd B)
     : at_(at), columns_(B.cols()), scale_(scale_of(at.stiffness())), solver_(at.stiffness()),
-      scaled_(B.rows(), 0), V_(scaled_), TV_(at.terms().size(), V_), P_(at.terms().size()) {
+      scaled_(B.rows(), 0), V_(scaled_), widest_(widest_of(B.rows(), at.terms().size())),
+      TV_(at.terms().size(), V_), P_(at.terms().size()) {
   for (Eigen::Index c = 0; c < columns_; ++c)
     if (!B.col(c).isZero(0)) of_.push_back(c);
   B_ = B(Eigen::all, of_);
-}
-
-Eigen::MatrixXd ResponseBasis::times(const std::vector<double>& values,
-                                     const Eigen::MatrixXd& columns) const {
-  const SparseSymmetric& K = at_.stiffness();
-  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(
-      K.size, K.size, static_cast<Eigen::Index>(values.size()), K.column_start.data(), K.rows.data(),
-      values.data());
-  return lower.selfadjointView<Eigen::Lower>() * columns;
 }
 
 std::optional<Eigen::MatrixXcd> ResponseBasis::interpolated(Complex s) const {
@@ -62,43 +63,28 @@ std::optional<Eigen::MatrixXcd> ResponseBasis::interpolated(Complex s) const {
   const std::vector<Complex> weights = at_.weights(s);
   Eigen::MatrixXcd Z = Eigen::MatrixXcd::Zero(V_.cols(), V_.cols());
   for (std::size_t k = 0; k < weights.size(); ++k) Z += weights[k] * P_[k];
-  const auto [storage, loss] = at_.varying(s);
-  std::array<Eigen::MatrixXd, 2> varying;
-  if (!storage.empty()) {
-    varying = {times(storage, V_), times(loss, V_)};
-    Z += V_.transpose() * varying[0] + Complex(0, 1) * (V_.transpose() * varying[1]);
-  }
-  const Eigen::Index size = V_.cols(), right = B_.cols();
   const Eigen::MatrixXcd y = solve_dense(Z, (V_.transpose() * B_).cast<Complex>());
   if (!y.allFinite()) return std::nullopt;
-  Eigen::MatrixXd parts(size, 2 * right), residual(B_.rows(), 2 * right); // real, then imaginary
-  residual.leftCols(right) = B_;
-  residual.rightCols(right).setZero();
-  const auto subtract = [&](const Eigen::MatrixXd& T, Complex weight) {
-    parts.leftCols(right) = (weight * y).real();
-    parts.rightCols(right) = (weight * y).imag();
-    residual.noalias() -= T * parts;
-  };
-  for (std::size_t k = 0; k < weights.size(); ++k)
-    if (TV_[k].size() > 0) subtract(TV_[k], weights[k]);
-  if (!storage.empty()) {
-    subtract(varying[0], 1);
-    subtract(varying[1], {0, 1});
+  Eigen::MatrixXcd X(B_.rows(), B_.cols());
+  for (Eigen::Index c = 0; c < X.cols(); ++c) { // a product of two matrices would copy the first
+    Eigen::VectorXd real = B_.col(c), imaginary = Eigen::VectorXd::Zero(B_.rows());
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const Eigen::VectorXcd part = weights[k] * y.col(c);
+      real.noalias() -= TV_[k] * part.real();
+      imaginary.noalias() -= TV_[k] * part.imag();
+    }
+    const double residual =
+        std::hypot(real.cwiseQuotient(scale_).norm(), imaginary.cwiseQuotient(scale_).norm());
+    if (!(residual <= negligible_residual * B_.col(c).cwiseQuotient(scale_).norm())) return std::nullopt;
+    X.col(c).real() = V_ * y.col(c).real();
+    X.col(c).imag() = V_ * y.col(c).imag();
   }
-  const auto size_of = [this](const auto& column) { return column.cwiseQuotient(scale_).norm(); };
-  for (Eigen::Index c = 0; c < right; ++c)
-    if (!(std::hypot(size_of(residual.col(c)), size_of(residual.col(right + c))) <=
-          negligible_residual * size_of(B_.col(c))))
-      return std::nullopt;
-  Eigen::MatrixXcd X(B_.rows(), right);
-  X.real() = V_ * y.real();
-  X.imag() = V_ * y.imag();
   return X;
 }
 
 void ResponseBasis::add(const Eigen::MatrixXcd& X) {
   const Eigen::Index before = V_.cols();
-  for (Eigen::Index i = 0; i < 2 * X.cols() && scaled_.cols() < widest; ++i) {
+  for (Eigen::Index i = 0; i < 2 * X.cols() && scaled_.cols() < widest_; ++i) {
     Eigen::VectorXd x = X.col(i / 2).real();
     if (i % 2 == 1) x = X.col(i / 2).imag();
     x = x.cwiseProduct(scale_);
@@ -107,16 +93,20 @@ void ResponseBasis::add(const Eigen::MatrixXcd& X) {
     const double left = x.norm();
     if (left > part_spanned * whole) widen(scaled_, x / left);
   }
-  const Eigen::Index now = scaled_.cols();
-  if (now == before) return;
-  const Eigen::MatrixXd fresh = scale_.cwiseInverse().asDiagonal() * scaled_.rightCols(now - before);
+  const Eigen::Index now = scaled_.cols(), more = now - before;
+  if (more == 0) return;
+  const Eigen::MatrixXd fresh = scale_.cwiseInverse().asDiagonal() * scaled_.rightCols(more);
   widen(V_, fresh);
+  const SparseSymmetric& K = at_.stiffness();
   const auto terms = at_.terms();
   for (std::size_t k = 0; k < terms.size(); ++k) {
-    widen(TV_[k], times(*terms[k], fresh));
+    const Eigen::Map<const Eigen::SparseMatrix<double>> lower(
+        K.size, K.size, static_cast<Eigen::Index>(terms[k]->size()), K.column_start.data(), K.rows.data(),
+        terms[k]->data());
+    widen(TV_[k], lower.selfadjointView<Eigen::Lower>() * fresh);
     P_[k].conservativeResize(now, now);
-    P_[k].rightCols(fresh.cols()) = V_.transpose() * TV_[k].rightCols(fresh.cols());
-    P_[k].bottomLeftCorner(fresh.cols(), before) = P_[k].topRightCorner(before, fresh.cols()).transpose();
+    P_[k].rightCols(more) = V_.transpose() * TV_[k].rightCols(more);
+    P_[k].bottomLeftCorner(more, before) = P_[k].topRightCorner(before, more).transpose();
   }
 }
 
@@ -130,7 +120,7 @@ std::optional<Eigen::MatrixXcd> ResponseBasis::solve(Complex s) {
   if (!solver_.factor(Z)) return std::nullopt;
   ++factorisations_;
   const Eigen::MatrixXcd X = solver_.solve(B_.cast<Complex>());
-  add(X);
+  if (!TV_.empty()) add(X);
   all(Eigen::all, of_) = X;
   return all;
 }

@@ -26,7 +26,6 @@ class ResponseBasis {
  private:
   std::optional<Eigen::MatrixXcd> interpolated(Complex s) const;
   void add(const Eigen::MatrixXcd& X);
-  Eigen::MatrixXd times(const std::vector<double>& values, const Eigen::MatrixXd& columns) const;
 
   const Linearisation& at_;
   Eigen::MatrixXd B_;            ///< columns that are not zero
@@ -35,6 +34,7 @@ class ResponseBasis {
   Eigen::VectorXd scale_; ///< per equation, roots of K's diagonal
   ComplexSolver solver_;
   Eigen::MatrixXd scaled_, V_;          ///< scale V, which is orthonormal, and V
+  Eigen::Index widest_;                 ///< columns of V
   std::vector<Eigen::MatrixXd> TV_, P_; ///< per term T of Z: T V and V^T T V
   int factorisations_ = 0;
 };

@@ -222,17 +222,19 @@ TEST(Harmonic, at_frequency_zero_is_the_slope_of_the_static_curve) {
 // what they give is the solution with the matrix itself.
 TEST(ResponseBasis, gives_what_factoring_gives) {
   for (const bool nominal : {false, true}) {
-    const test::DiaphragmData data{
+    test::DiaphragmData data{
         .damping = 1.6,
-        .branches = {{materials::NeoHookean{15e3}, materials::Dashpot::log, 15e3 * 0.05},
-                     {materials::NeoHookean{5e3},
+        .branches = {{materials::NeoHookean{5e3},
                       nominal ? materials::Dashpot::nominal : materials::Dashpot::log, 15e3}},
         .circuits = {{.electrode = 0, .resistance = 1.87e6, .leakage = 1e-9}},
         .rings = 4};
+    if (!nominal)
+      data.branches.push_back({materials::NeoHookean{15e3}, materials::Dashpot::log, 15e3 * 0.05});
     const test::Diaphragm diaphragm(data);
     Equilibrium equilibrium(diaphragm.model, 1);
     const Linearisation linear(equilibrium, diaphragm.settled(equilibrium, 2500));
     ASSERT_EQ(linear.rates_vary(), nominal);
+    ASSERT_FALSE(linear.terms().empty());
     Eigen::MatrixXd B(linear.stiffness().size, 3); // a port, nothing, a force on the plate
     B.col(0) = linear.ports()[0].coupling;
     B.col(1).setZero();
