@@ -271,59 +271,6 @@ step = [{ kind = "weight" }, { kind = "transient", duration = 1, increments = 20
   EXPECT_GT(last("natural_frequency"), 0);
 }
 
-// What was kinetic, and what the forces that accelerated it had stretched, is released, and told.
-TEST_F(Drives, AStepWithoutInertiaGoesOnFromWhereWhatMovedComesToRest) {
-  const std::string swings = R"(
-model = "axisymmetric"
-annulus = { inner_radius = "12.7 mm", outer_radius = "68.58 mm" }
-mesh = { rings = 8 }
-plate = { mass = "100 g" }
-drive.voltage = "5 kV"
-film = { thickness = "1 mm", prestretch = 2, material = { shear_modulus = "40 kPa", permittivity = "4e-11 F/m" } }
-quantity = [{ name = "released", kind = "energy", of = "released" }]
-)";
-  const auto ends = [&](const std::string& steps) {
-    const Outcome outcome = run(swings, {"step=[{kind='weight'}, " + steps + "]"});
-    EXPECT_EQ(outcome.ending, Ending::complete) << outcome.message;
-  };
-  ends("{kind='voltage', to='5.5 kV'}");
-  const auto works = [&] { return last("electrical_work") + last("mechanical_work"); };
-  const double drop = last("drop"), stored = last("stored_energy"), slow_works = works();
-  const std::string moved = "{kind='transient', duration=0.09}, ";
-  for (const char* step : {"{kind='voltage', to='5.5 kV', increments=40}", "{kind='voltage', to='5.5 kV'}",
-                           "{kind='hold', inertia=false, duration=1}, {kind='voltage', to='5.5 kV'}"}) {
-    ends(moved + step);
-    EXPECT_NEAR(last("drop"), drop, 1e-6 * drop) << step;
-    EXPECT_NEAR(last("stored_energy"), stored, 1e-8 * stored) << step;
-    EXPECT_GT(last("released"), 1e-5) << step; // 5 kV at once do more work than the film takes
-    EXPECT_NEAR(last("released"), works() - slow_works, 1e-3 * last("released")) << step;
-    EXPECT_LT(last("energy_error"), 1e-3 * last("released")) << step;
-  }
-}
-
-// Steps that are not about loads leave them where a wave has led them.
-TEST_F(Drives, AStepOfAnotherKindLeavesLoadsWhereTheyAre) {
-  const std::string pulled = R"(
-model = "axisymmetric"
-annulus = { inner_radius = "12.7 mm", outer_radius = "68.58 mm" }
-mesh = { rings = 8 }
-support = [{ place = "outer", fix = ["x", "y", "z"] }]
-body = [{ name = "plate", places = ["inner"] }]
-film = { thickness = "1 mm", prestretch = 2, material = { shear_modulus = "40 kPa", permittivity = "4e-11 F/m" } }
-quantity = [{ name = "sinks", kind = "displacement", of = "inner", along = "z" }]
-load = [{ place = "plate", force = [0, 0, { wave = "ramp", from = "-0.1 N", to = "-0.5 N", duration = "1 s" }] }]
-)";
-  const std::string transient = "{kind='transient', duration=1, inertia=false, increments=4}";
-  const auto sinks = [&](const std::string& steps) {
-    EXPECT_EQ(run(pulled, {"step=[" + steps + "]"}).ending, Ending::complete);
-    return last("sinks");
-  };
-  const double pulled_down = sinks(transient);
-  for (const char* step : {"{kind='release'}", "{kind='weight'}", "{kind='hold', duration=1}"})
-    EXPECT_NEAR(sinks(transient + ", " + step), pulled_down, 1e-9 * std::abs(pulled_down)) << step;
-  EXPECT_LT(std::abs(sinks(transient + ", {kind='force'}")), 0.5 * std::abs(pulled_down));
-}
-
 // 2 ms after the voltage the middle of the electrode has hardly any, after 10 s all of it.
 TEST_F(Drives, WhileCurrentFlowsAlongAnElectrodeThereAreNoModes) {
   const std::string resists = R"(

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/cases/film_cases.hpp"
+
+// What a step leaves to the one that follows it.
+
+namespace dielast::cases {
+namespace {
+
+using StepOrder = FilmCases;
+
+const std::string annulus = R"(
+model = "axisymmetric"
+annulus = { inner_radius = "12.7 mm", outer_radius = "68.58 mm" }
+mesh = { rings = 8 }
+film = { thickness = "1 mm", prestretch = 2, material = { shear_modulus = "40 kPa", permittivity = "4e-11 F/m" } }
+)";
+
+// What was kinetic, and what the forces that accelerated it had stretched, is released, and told.
+TEST_F(StepOrder, AStepWithoutInertiaGoesOnFromWhereWhatMovedComesToRest) {
+  const auto ends = [&](const std::string& steps) {
+    return run(
+        annulus +
+        "plate = { mass = \"100 g\" }\ndrive.voltage = \"5 kV\"\nquantity = [{ name = \"released\", kind = "
+        "\"energy\", of = \"released\" }]\nstep = [{ kind = \"weight\" }, " +
+        steps + "]\n");
+  };
+  const auto works = [](const Ran& ran) { return ran.last("electrical_work") + ran.last("mechanical_work"); };
+  const std::string rise = "{ kind = \"voltage\", to = \"5.5 kV\" }";
+  const Ran slow = ends(rise);
+  for (const std::string between : {"", "{ kind = \"hold\", inertia = false, duration = 1 }, "}) {
+    const Ran stopped = ends("{ kind = \"transient\", duration = 0.09 }, " + between + rise);
+    EXPECT_TRUE(stopped.events.contains("came to rest")) << between;
+    EXPECT_NEAR(stopped.last("drop") / slow.last("drop"), 1, 1e-6) << between;
+    EXPECT_NEAR(stopped.last("stored_energy") / slow.last("stored_energy"), 1, 1e-8) << between;
+    const double released = stopped.last("released");
+    EXPECT_GT(released, 1e-5) << between; // 5 kV at once do more work than the film takes
+    EXPECT_NEAR(released, works(stopped) - works(slow), 1e-3 * released) << between;
+    EXPECT_LT(stopped.last("energy_error"), 1e-3 * released) << between;
+  }
+}
+
+// Steps that are not about loads leave them where a wave has led them.
+TEST_F(StepOrder, AStepOfAnotherKindLeavesLoadsWhereTheyAre) {
+  const auto sinks = [&](const std::string& step) {
+    return run(annulus +
+               "support = [{ place = \"outer\", fix = [\"x\", \"y\", \"z\"] }]\nbody = [{ name = \"plate\", "
+               "places = "
+               "[\"inner\"] }]\nquantity = [{ name = \"sinks\", kind = \"displacement\", of = \"inner\", "
+               "along = "
+               "\"z\" }]\nload = [{ place = \"plate\", force = [0, 0, { wave = \"ramp\", from = \"-0.1 N\", "
+               "to = "
+               "\"-0.5 N\", duration = \"1 s\" }] }]\nstep = [{ kind = \"transient\", duration = 1, inertia "
+               "= false, "
+               "increments = 4 }" +
+               step + "]\n")
+        .last("sinks");
+  };
+  const double down = sinks("");
+  for (const char* step :
+       {", { kind = \"release\" }", ", { kind = \"weight\" }", ", { kind = \"hold\", duration = 1 }"})
+    EXPECT_NEAR(sinks(step) / down, 1, 1e-9) << step;
+  EXPECT_LT(sinks(", { kind = \"force\" }") / down, 0.5);
+}
+
+} // namespace
+} // namespace dielast::cases
