@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/tables/templates.hpp"
 
-#include "cases/geometries/turned_quantities.hpp"
 #include "cases/language/convert.hpp"
 #include "cases/language/schema.hpp"
+#include "cases/language/turned_quantities.hpp"
 #include "cases/text/units.hpp"
 
 #include <fmt/format.h>

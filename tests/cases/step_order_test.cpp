@@ -8,7 +8,7 @@ namespace {
 
 using StepOrder = FilmCases;
 
-const std::string annulus = R"(
+const std::string plate_in_film = R"(
 model = "axisymmetric"
 annulus = { inner_radius = "12.7 mm", outer_radius = "68.58 mm" }
 mesh = { rings = 8 }
@@ -19,7 +19,7 @@ film = { thickness = "1 mm", prestretch = 2, material = { shear_modulus = "40 kP
 TEST_F(StepOrder, AStepWithoutInertiaGoesOnFromWhereWhatMovedComesToRest) {
   const auto ends = [&](const std::string& steps) {
     return run(
-        annulus +
+        plate_in_film +
         "plate = { mass = \"100 g\" }\ndrive.voltage = \"5 kV\"\nquantity = [{ name = \"released\", kind = "
         "\"energy\", of = \"released\" }]\nstep = [{ kind = \"weight\" }, " +
         steps + "]\n");
@@ -42,7 +42,7 @@ TEST_F(StepOrder, AStepWithoutInertiaGoesOnFromWhereWhatMovedComesToRest) {
 // Steps that are not about loads leave them where a wave has led them.
 TEST_F(StepOrder, AStepOfAnotherKindLeavesLoadsWhereTheyAre) {
   const auto sinks = [&](const std::string& step) {
-    return run(annulus +
+    return run(plate_in_film +
                "support = [{ place = \"outer\", fix = [\"x\", \"y\", \"z\"] }]\nbody = [{ name = \"plate\", "
                "places = "
                "[\"inner\"] }]\nquantity = [{ name = \"sinks\", kind = \"displacement\", of = \"inner\", "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/geometries/turned_quantities.hpp"
+#include "cases/language/turned_quantities.hpp"
 
 #include "cases/text/units.hpp"
 
