@@ -86,6 +86,7 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
        {"admittance[S]", "admittance_phase[deg]", "impedance[Ohm]", "impedance_phase[deg]"})
     analysis.columns.emplace_back(of_all);
   const fem::State at_rest = operating_point(device, state);
+  require_rest(equilibrium, at_rest);
   const double bias = common_bias(device, at_rest, driven);
   if (bias != 0)
     analysis.columns.push_back(
@@ -184,8 +185,7 @@ fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
 fem::State operating_point(const Device& device, fem::State state) {
   for (const fem::Circuit& circuit : device.model.circuits) {
     const auto e = static_cast<std::size_t>(circuit.electrode);
-    if (state.supply[e] != fem::Supply::circuit)
-      state.source[e] = circuit.holding_source(state.source[e], state.voltage[e]);
+    if (fem::is_isolated(state.supply[e])) state.source[e] = circuit.holding_source(state.voltage[e]);
     state.supply[e] = fem::Supply::circuit;
   }
   return state;

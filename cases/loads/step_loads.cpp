@@ -98,8 +98,10 @@ void StepLoads::begin(int number, fem::State& state) const {
     const fem::Supply next = stays ? isolated(step, e) : supply(step, e);
     if (next == state.supply[e]) continue;
     state.charge[e] = held.charge[e];
-    if (next == fem::Supply::circuit)
-      state.source[e] = device_.model.circuit_of(e)->holding_source(state.source[e], state.voltage[e]);
+    // A source that was connected stands where it stood, whatever the electrode has come to.
+    const fem::Circuit* circuit = device_.model.circuit_of(e);
+    if (circuit && fem::is_isolated(state.supply[e]) && !fem::is_isolated(next))
+      state.source[e] = circuit->holding_source(state.voltage[e]);
     connects = connects || fem::flows(next);
     state.supply[e] = next;
   }

@@ -23,8 +23,7 @@ bool flows(const Model& model, const State& state) {
 
 bool conducts(Equilibrium& equilibrium, const State& state) {
   if (state.sheet_drop.size() == 0) return false;
-  State rest = state;
-  rest.scheme = materials::TimeScheme::relaxed();
+  State rest = fem::relaxed(state);
   equilibrium.conduct(rest);
   double largest = 0;
   for (std::size_t e = 0; e < equilibrium.model().electrodes.size(); ++e)

@@ -32,12 +32,8 @@ struct Circuit {
     const double most = current_limit / leakage; // infinite where nothing leaks
     return std::clamp(source * steady_share(), -most, most);
   }
-  /// U that keeps Phi for ever: what it is where it does, otherwise one below the limit.
-  double holding_source(double source, double voltage) const {
-    constexpr double rounding = 1e-9;
-    const bool holds = std::abs(steady_voltage(source) - voltage) <= rounding * std::abs(voltage);
-    return holds ? source : voltage / steady_share();
-  }
+  /// U that keeps Phi for ever, below the limit.
+  double holding_source(double voltage) const { return voltage / steady_share(); }
 
   struct Drawn {
     double charge = 0;      ///< C

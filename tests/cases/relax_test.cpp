@@ -133,6 +133,58 @@ TEST_F(RelaxTest, NoSourceGivesMoreThanItsLimit) {
     }
 }
 
+// Film that cannot move: 80 pF. Behind 2 GOhm it charges in 160 ms.
+const std::string held = "model = \"planar\"\n[film]\nthickness = \"0.4 mm\"\nprestretch = 2\n"
+                         "[film.material]\nshear_modulus = \"500 kPa\"\npermittivity = \"4e-11 F/m\"\n"
+                         "[rectangle]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[mesh]\nacross = 4\n";
+const std::string electrode = "[[electrode]]\nname = \"film\"\nplace = \"electrode\"\n"
+                              "stray_capacitance = \"0 F\"\n";
+const std::string behind = "[circuit]\nresistance = \"2 GOhm\"\n";
+const std::string still = "[[load]]\nplace = \"electrode\"\nforce = [0, 0, 0]\n";
+
+/// 2 kV at once where the steps take time, with a load that does nothing.
+std::string driven(const std::string& steps) {
+  const bool in_time = steps.find("\"transient\"") != std::string::npos;
+  return in_time ? still + "[drive]\nvoltage = { wave = \"step\", to = \"2 kV\" }\n" + steps
+                 : "[drive]\nvoltage = \"2 kV\"\n" + steps;
+}
+
+std::string step(const std::string& kind, const std::string& more = "") {
+  return "[[step]]\nkind = \"" + kind + "\"\n" + more;
+}
+
+// A source stands where the last step has left it that was about it, whether time passed in it or not; one
+// that takes up an isolated electrode stands at what keeps its voltage.
+TEST_F(RelaxTest, SourcesStandWhereTheyWereLed) {
+  const auto named = [](const std::string& name, const std::string& more = "") {
+    return "name = \"" + name + "\"\n" + more;
+  };
+  const std::string started = step("transient", "duration = \"0.1 s\"\n"), rests = step("force"),
+                    hold = step("hold", named("last", "duration = \"5 s\"\n")), relaxes = step("relax");
+  const std::string kept = step("force", named("kept", "control = \"charge\"\n"));
+  const double begun = 2000 * (1 - std::exp(-0.1 / 0.16)); // V
+  struct Sequence {
+    std::string steps;
+    double voltage; ///< in the end, V
+  };
+  for (const Sequence& at :
+       {Sequence{step("voltage") + relaxes, 2000},
+        {step("voltage", "to = 1000\n") + hold + step("voltage", named("up", "to = 3000\n")) + relaxes, 3000},
+        {started, begun},
+        {started + rests, begun},
+        {started + rests + hold, 2000},
+        {started + rests + relaxes, 2000},
+        {started + kept + rests + hold, begun},
+        {started + kept + hold, begun},
+        {started + kept + relaxes, begun}}) {
+    const Case one = read(held + electrode + behind + driven(at.steps));
+    Simulation simulation(one, 1);
+    const Outcome outcome = simulation.run({});
+    ASSERT_EQ(outcome.ending, Ending::complete) << outcome.message << at.steps;
+    EXPECT_NEAR(simulation.state().voltage[0], at.voltage, 1e-4 * at.voltage) << at.steps;
+  }
+}
+
 TEST_F(RelaxTest, WithoutAnythingThatFlowsItHasNoEffect) {
   const Case one = read(film + patch + loaded + "[[step]]\nkind = \"relax\"\n");
   ASSERT_FALSE(one.warnings.empty());
