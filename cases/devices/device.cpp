@@ -8,6 +8,7 @@
 #include "cases/devices/sections.hpp"
 #include "cases/readers/reader.hpp"
 #include "fem/elements/chamber_block.hpp"
+#include "fem/equilibrium/sheet_conduction.hpp"
 #include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>
@@ -191,6 +192,21 @@ void scale_charges(fem::Model& model) {
     circuit.charge_scale = typical_voltage * capacitance[static_cast<std::size_t>(circuit.electrode)];
 }
 
+/// What leaks under sheets in the long run, as drawn.
+void share_leaks(fem::Model& model) {
+  const auto under_sheet = [&model](const fem::Circuit& circuit) {
+    return circuit.leakage > 0 && std::ranges::count(model.sheets, circuit.electrode, &fem::Sheet::electrode);
+  };
+  if (std::ranges::none_of(model.circuits, under_sheet)) return;
+  fem::State rest = model.initial_state();
+  rest.scheme = materials::TimeScheme::relaxed();
+  std::ranges::fill(rest.voltage, 1.0);
+  fem::SheetConduction(model).solve(rest);
+  for (fem::Circuit& circuit : model.circuits)
+    if (under_sheet(circuit))
+      circuit.sheet_share = model.leak(rest, static_cast<std::size_t>(circuit.electrode)) / circuit.leakage;
+}
+
 void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   for (std::size_t e = 0; e < one.electrodes.size(); ++e)
     if (const Electrode& electrode = one.electrodes[e]; electrode.sheet_resistance)
@@ -312,6 +328,7 @@ Device build_device(const Case& one) {
   add_sheets(one, mesh, model);
   try {
     model.place_histories();
+    share_leaks(model);
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }

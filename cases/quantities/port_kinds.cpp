@@ -16,11 +16,11 @@ std::string without_chamber(const Case& one, const Quantity&) {
 Probe current(const Probing& probing) {
   const std::size_t e = probing.electrode();
   const fem::Circuit* circuit = probing.device.model.circuit_of(e);
-  return [e, circuit](const Measured& measured) {
+  return [e, circuit, &model = probing.device.model](const Measured& measured) {
     const fem::State& state = measured.state;
     if (!circuit || fem::is_isolated(state.supply[e])) return no_value;
     if (state.supply[e] == fem::Supply::circuit) return circuit->current(state.source[e], state.voltage[e]);
-    return circuit->leakage * state.voltage[e]; // without time what leaks
+    return model.leak(state, e); // without time
   };
 }
 

@@ -15,9 +15,24 @@ namespace {
 /// Beyond this the fluid's force on a fin is more than 2 % off, rad.
 constexpr double largest_turn = 0.2;
 
+constexpr double largest_leak = 0.01; ///< that steady voltages leave out, relative
+
 /// Of a lattice, also of one that is a part with a name.
 bool is_cell(const std::string& place) {
   return place.starts_with("cell[") || place.find(".cell[") != std::string::npos;
+}
+
+/// What leaks through sheets as they lie, without time, less what the steady voltage takes: relative.
+double leak_beyond_drawn(const fem::Model& model, const fem::State& state) {
+  double largest = 0;
+  for (const fem::Circuit& circuit : model.circuits) {
+    const auto e = static_cast<std::size_t>(circuit.electrode);
+    const double taken = circuit.steady_leakage() * state.voltage[e];
+    if (circuit.sheet_share == 1 || state.supply[e] != fem::Supply::voltage || taken == 0) continue;
+    const double beyond = model.leak(state, e) / taken - 1;
+    if (std::abs(beyond) > std::abs(largest)) largest = beyond;
+  }
+  return largest;
 }
 
 } // namespace
@@ -102,6 +117,13 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
                        post::engineering(width, "m"))});
     }
   }
+  const double leak = leak_beyond_drawn(device_.model, state);
+  if (begins(std::abs(leak) > largest_leak, "leak as drawn"))
+    events.push_back({"leak as drawn", "",
+                      fmt::format("without time the voltage behind a circuit takes what leaks under a "
+                                  "sheet_resistance as it was drawn, which is {:.2g} % off here; a step "
+                                  "\"hold\" takes it as it is",
+                                  100 * std::abs(leak))});
   if (begins(unstable_modes > 0, "instability"))
     events.push_back(
         {"instability", "",

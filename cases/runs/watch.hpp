@@ -18,8 +18,8 @@ namespace dielast::cases {
 constexpr double smallest_stress = 1e-3;
 
 /// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
-/// that touch, fins that turn far, unstable equilibrium. An event is told when its condition begins, not
-/// again while it lasts.
+/// that touch, fins that turn far, leaks that steady voltages leave out, unstable equilibrium. An event is
+/// told when its condition begins, not again while it lasts.
 class Watch {
  public:
   /// Those of which extremes are needed.

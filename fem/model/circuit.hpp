@@ -20,16 +20,18 @@ struct Circuit {
   double leakage = 0;                                             ///< G, S, of the whole electrode
   double current_limit = std::numeric_limits<double>::infinity(); ///< A
   double charge_scale = 1; ///< C: internal variables are charges over this, to be of order one
+  double sheet_share = 1;  ///< of `leakage`, felt at the terminal once nothing changes: a sheet drops voltage
 
   /// i, A, from the source's voltage U and the electrode's Phi (V).
   double current(double source, double voltage) const {
     return std::clamp((source - voltage) / resistance, -current_limit, current_limit);
   }
   /// Part of U that reaches the electrode once nothing changes any more, where the source is below its limit.
-  double steady_share() const { return 1 / (1 + resistance * leakage); }
+  double steady_share() const { return 1 / (1 + resistance * steady_leakage()); }
+  double steady_leakage() const { return leakage * sheet_share; } ///< S
   /// Phi once nothing changes any more, V: what leaks is what the source gives, at most its limit.
   double steady_voltage(double source) const {
-    const double most = current_limit / leakage; // infinite where nothing leaks
+    const double most = current_limit / steady_leakage(); // infinite where nothing leaks
     return std::clamp(source * steady_share(), -most, most);
   }
   /// U that keeps Phi for ever, below the limit.

@@ -93,6 +93,17 @@ Circuit::Drawn Model::taken(const State& state, std::size_t electrode) const {
              : circuit.drawn(state.source[electrode], voltage, state.scheme);
 }
 
+double Model::leak(const State& state, std::size_t electrode) const {
+  const Circuit* circuit = circuit_of(electrode);
+  if (!circuit) return 0;
+  double current = circuit->leakage * state.voltage[electrode];
+  for (Eigen::Index a = 0; a < state.sheet_drop.size(); ++a)
+    if (const SheetPoint& point = sheet_points[static_cast<std::size_t>(a)];
+        static_cast<std::size_t>(point.electrode) == electrode)
+      current -= point.leakage * state.sheet_drop[a];
+  return current;
+}
+
 double Model::given_charge(const State& state, std::size_t port) const {
   if (const Chamber* chamber = chamber_of(port))
     return chamber->filled(state.charge[port], state.voltage[port]);

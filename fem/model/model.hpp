@@ -54,6 +54,8 @@ struct Model {
   const Circuit* circuit_of(std::size_t electrode) const;
   /// What the circuit of an electrode whose supply `flows` takes over the time step that the state ends.
   Circuit::Drawn taken(const State& state, std::size_t electrode) const;
+  /// What leaks of an electrode, A: under a sheet by the voltages there.
+  double leak(const State& state, std::size_t electrode) const;
   SheetMatrices sheet_matrices(const State& state) const;
   /// (h1 q_n + h2 q_{n-1})/a0 of the charges at the points of the sheets, C.
   Eigen::VectorXd past_sheet_charges(const State& state) const;

@@ -185,6 +185,55 @@ TEST_F(RelaxTest, SourcesStandWhereTheyWereLed) {
   }
 }
 
+// A sheet of Rs = 1 or 10 GOhm per square, 20 mm from its terminal to its end and 10 mm wide: with
+// m^2 = 2 Rs / Rl the terminal has V = I 2 Rs / (m tanh m).
+TEST_F(RelaxTest, WithoutTimeSheetsLeakByTheVoltageThatReachesThem) {
+  std::string finer = held;
+  finer.replace(finer.find("across = 4"), 10, "across = 8");
+  for (const double sheet : {1e9, 1e10}) {
+    const std::string leaking = finer + electrode + "sheet_resistance = " + std::to_string(sheet) +
+                                "\nterminal = \"left\"\n" +
+                                "[circuit]\nresistance = \"100 MOhm\"\nleakage_resistance = \"2 GOhm\"\n"
+                                "[[quantity]]\nname = \"i\"\nkind = \"current\"\nof = \"film\"\n";
+    const double m = std::sqrt(2 * sheet / 2e9), resistance = 2 * sheet / (m * std::tanh(m));
+    const double current = 2000 / (1e8 + resistance);
+    for (const std::string& steps :
+         {step("voltage"), step("transient", "duration = \"1 ms\"\n") + step("relax"),
+          step("voltage") + step("hold", "duration = \"2 s\"\n")}) {
+      const Case one = read(leaking + driven(steps));
+      Simulation simulation(one, 1);
+      const Outcome outcome = simulation.run({});
+      ASSERT_EQ(outcome.ending, Ending::complete) << outcome.message << steps;
+      EXPECT_NEAR(simulation.state().voltage[0], 2000 - 1e8 * current, 0.2) << steps;
+      EXPECT_NEAR(last(one, simulation, "i"), current, 6e-3 * current) << steps;
+    }
+  }
+}
+
+// What deforms leaks through a sheet of other squares: the state without time says how far off that is.
+TEST_F(RelaxTest, ALeakUnderADeformedSheetIsTold) {
+  const std::string strip = "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+                            "relative_permittivity = 4\n[strip]\nlength = \"40 mm\"\nwidth = \"20 mm\"\n"
+                            "[mesh]\nacross = 4\n" +
+                            electrode +
+                            "sheet_resistance = \"10 GOhm\"\nterminal = \"upper_end\"\n"
+                            "[circuit]\nresistance = \"100 MOhm\"\nleakage_resistance = \"2 GOhm\"\n"
+                            "[drive]\nvoltage = \"100 V\"\n" +
+                            step("weight") + step("voltage");
+  for (const std::string mass : {"1 mg", "40 g"}) {
+    const Case one = read(strip + "[weight]\nmass = \"" + mass + "\"\n");
+    Simulation simulation(one, 1);
+    bool told = false;
+    SimulationObserver observer;
+    observer.on_accept = [&told](const Frame& frame) {
+      for (const post::Event& event : frame.record.events) told = told || event.kind == "leak as drawn";
+      return true;
+    };
+    ASSERT_EQ(simulation.run(observer).ending, Ending::complete);
+    EXPECT_EQ(told, mass == "40 g");
+  }
+}
+
 TEST_F(RelaxTest, WithoutAnythingThatFlowsItHasNoEffect) {
   const Case one = read(film + patch + loaded + "[[step]]\nkind = \"relax\"\n");
   ASSERT_FALSE(one.warnings.empty());
