@@ -269,16 +269,16 @@ bool Ramp::pass_break() {
   return true;
 }
 
-/// Lets dashpots that have been frozen flow, with the loads as they are: what they lose of the forces is
-/// taken away in parts. False where that leads to no equilibrium.
+/// Lets dashpots that have been frozen flow, and charge spread along sheets, with the loads as they are: what
+/// that changes of the forces is taken away in parts. False where that leads to no equilibrium.
 bool Ramp::flow() {
   State state = last();
   if (timed() || options_.instantaneous || !state.history || state.scheme.is_relaxed()) return true;
   state.scheme = scheme(0);
+  equilibrium_.conduct(state);
   Balance relaxed;
   equilibrium_.balance(state, relaxed);
   if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
-    equilibrium_.conduct(state);
     State flown = equilibrium_.model().settled(std::move(state));
     const auto alike = [](double a, double b) {
       return std::abs(a - b) <= round_off * std::max(1.0, std::abs(b));

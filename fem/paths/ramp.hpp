@@ -101,7 +101,8 @@ struct RampResult {
 /// that jump at a break act at once, with the dashpots as they are, and, with inertia, the masses held: in
 /// parts, so that their work can be told. An increment that is as small as may be, and still too long for
 /// what flows in it, is accepted where is_reached_continuously(). Where no time passes and dashpots flow that
-/// have not flowed before, they do so first, at the loads that the step starts from.
+/// have not flowed before, or charge that has not spread along its sheet, they do so first, at the loads that
+/// the step starts from.
 ///
 /// `progress.points.back().state` is the last accepted state.
 RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,

@@ -234,6 +234,32 @@ TEST_F(RelaxTest, ALeakUnderADeformedSheetIsTold) {
   }
 }
 
+// Charge that has not spread along its sheet yet does so first, whether anything moves by it or not.
+TEST_F(RelaxTest, ChargeSpreadsAlongSheetsBeforeStepsWithoutTime) {
+  const std::string sheet = electrode + "sheet_resistance = \"100 MOhm\"\nterminal = ";
+  const std::string disc = film + branch +
+                           "[disc]\nradius = \"90 mm\"\nelectrode_radius = \"30 mm\"\n"
+                           "[mesh]\nrings = 8\n" +
+                           sheet + "\"electrode_edge\"\n[drive]\nvoltage = \"3 kV\"\n";
+  const std::string name = "name = \"then\"\n";
+  for (const std::string& body :
+       {"model = \"axisymmetric\"\n" + disc, held + sheet + "\"left\"\n[drive]\nvoltage = \"3 kV\"\n"})
+    for (const std::string& then : {step("relax"), step("voltage", name + "to = 2000\n")}) {
+      const Case one = read(body + step("voltage", "duration = \"0.5 ms\"\n") + then);
+      Simulation simulation(one, 1);
+      const Outcome outcome = simulation.run({});
+      ASSERT_EQ(outcome.ending, Ending::complete) << outcome.message << then;
+      EXPECT_LT(simulation.state().sheet_drop.cwiseAbs().maxCoeff(), 1e-6);
+      const Case at_once = read(body + step("voltage") + then);
+      Simulation expected(at_once, 1);
+      ASSERT_EQ(expected.run({}).ending, Ending::complete);
+      const double size = simulation.device().model.extent;
+      for (std::size_t n = 0; n < expected.state().displacement.size(); ++n)
+        EXPECT_LE((simulation.state().displacement[n] - expected.state().displacement[n]).norm(),
+                  1e-9 * size);
+    }
+}
+
 TEST_F(RelaxTest, WithoutAnythingThatFlowsItHasNoEffect) {
   const Case one = read(film + patch + loaded + "[[step]]\nkind = \"relax\"\n");
   ASSERT_FALSE(one.warnings.empty());
