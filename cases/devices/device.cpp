@@ -172,7 +172,26 @@ void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) 
                             port));
 }
 
-constexpr double typical_voltage = 1000; ///< V, that makes charges of order one
+/// V, that makes charges of order one: what the sources of the electrode reach, where that is known.
+double typical_voltage(const Case& one, const std::string& electrode) {
+  constexpr double most = 1000;
+  double largest = 0;
+  const auto reach = [&largest](double voltage) { largest = std::max(largest, std::abs(voltage)); };
+  if (const auto drive = one.drives.find(electrode); drive != one.drives.end()) {
+    if (drive->second.charge) return most;
+    if (const auto& voltage = drive->second.voltage)
+      for (const double extreme : voltage->extremes()) reach(extreme);
+  }
+  for (const Step& step : one.steps)
+    if (step.kind == StepKind::voltage && step.to && (step.electrode.empty() || step.electrode == electrode))
+      reach(*step.to);
+  for (const Controller& controller : one.controllers)
+    if (controller.drives.what == Driven::voltage && controller.drives.of == electrode) {
+      reach(controller.lowest);
+      reach(controller.highest);
+    }
+  return largest > 0 ? std::min(largest, most) : most;
+}
 
 void add_circuits(const Case& one, fem::Model& model) {
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
@@ -186,10 +205,12 @@ void add_circuits(const Case& one, fem::Model& model) {
 }
 
 /// The charges as drawn are known only when the model's histories are placed.
-void scale_charges(fem::Model& model) {
+void scale_charges(const Case& one, fem::Model& model) {
   const std::vector<double> capacitance = model.charges(model.initial_state(), false).capacitance;
-  for (fem::Circuit& circuit : model.circuits)
-    circuit.charge_scale = typical_voltage * capacitance[static_cast<std::size_t>(circuit.electrode)];
+  for (fem::Circuit& circuit : model.circuits) {
+    const auto electrode = static_cast<std::size_t>(circuit.electrode);
+    circuit.charge_scale = typical_voltage(one, model.electrodes[electrode]) * capacitance[electrode];
+  }
 }
 
 /// What leaks under sheets in the long run, as drawn.
@@ -211,7 +232,7 @@ void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   for (std::size_t e = 0; e < one.electrodes.size(); ++e)
     if (const Electrode& electrode = one.electrodes[e]; electrode.sheet_resistance)
       model.sheets.push_back({static_cast<int>(e), *electrode.sheet_resistance,
-                              mesh.node_sets.at(electrode.terminal), typical_voltage});
+                              mesh.node_sets.at(electrode.terminal), typical_voltage(one, electrode.name)});
 }
 
 } // namespace
@@ -332,7 +353,7 @@ Device build_device(const Case& one) {
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
-  scale_charges(model);
+  scale_charges(one, model);
 
   for (const Part& part : one.parts)
     if (part.film && part.film->section == FilmSection::membrane && !part.film->tension_field &&

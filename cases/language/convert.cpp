@@ -73,34 +73,6 @@ std::string item_expectation(const Key& key, std::string_view unit) {
   return "";
 }
 
-/// The least and the largest value that a wave can have.
-std::array<double, 2> extremes(const Waveform& wave) {
-  std::array<double, 2> ends{wave.from, wave.to};
-  switch (wave.kind) {
-  case Waveform::Kind::constant:
-    ends = {wave.to, wave.to};
-    break;
-  case Waveform::Kind::sine:
-  case Waveform::Kind::sweep:
-    ends = {wave.mean - wave.amplitude, wave.mean + wave.amplitude};
-    break;
-  case Waveform::Kind::unipolar_sine:
-    ends = {wave.from, wave.from + wave.amplitude};
-    break;
-  case Waveform::Kind::file:
-    ends = {wave.samples.front()[1], wave.samples.front()[1]};
-    for (const auto& sample : wave.samples)
-      ends = {std::min(ends[0], sample[1]), std::max(ends[1], sample[1])};
-    break;
-  case Waveform::Kind::ramp:
-  case Waveform::Kind::step:
-  case Waveform::Kind::trapezoid:
-  case Waveform::Kind::square:
-    break;
-  }
-  return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
-}
-
 bool is_inside(const Range& range, double value) {
   return (range.low_open ? value > range.low : value >= range.low) &&
          (range.high_open ? value < range.high : value <= range.high);
@@ -260,7 +232,7 @@ std::string expectation(const Key& key, std::string_view unit) {
 
 void require_range(const Key& key, const Waveform& wave, const Node& table) {
   const std::string shown(dimension(key.unit).shown);
-  for (const double extreme : extremes(wave))
+  for (const double extreme : wave.extremes())
     if (!is_inside(key.range, extreme))
       mismatch(table,
                fmt::format(", which goes to {}", in_unit(extreme, shown == "1" ? "" : shown, key.unit)),

@@ -34,6 +34,32 @@ Waveform Waveform::constant_at(double value) {
   return wave;
 }
 
+std::array<double, 2> Waveform::extremes() const {
+  std::array<double, 2> ends{from, to};
+  switch (kind) {
+  case Kind::constant:
+    ends = {to, to};
+    break;
+  case Kind::sine:
+  case Kind::sweep:
+    ends = {mean - amplitude, mean + amplitude};
+    break;
+  case Kind::unipolar_sine:
+    ends = {from, from + amplitude};
+    break;
+  case Kind::file:
+    ends = {samples.front()[1], samples.front()[1]};
+    for (const auto& sample : samples) ends = {std::min(ends[0], sample[1]), std::max(ends[1], sample[1])};
+    break;
+  case Kind::ramp:
+  case Kind::step:
+  case Kind::trapezoid:
+  case Kind::square:
+    break;
+  }
+  return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+}
+
 double Waveform::at(double t) const { return value(t, same_time); }
 double Waveform::before(double t) const { return value(t, -same_time); }
 

@@ -45,6 +45,8 @@ struct Waveform {
   std::vector<double> kinks(double t0, double t1) const;
   /// The shortest period in it, s; infinite for a wave that does not repeat.
   double period() const;
+  /// The least and the largest value that it can have.
+  std::array<double, 2> extremes() const;
   bool constant() const { return kind == Kind::constant; }
 
   /// factor * this + offset.

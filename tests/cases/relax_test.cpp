@@ -260,6 +260,25 @@ TEST_F(RelaxTest, ChargeSpreadsAlongSheetsBeforeStepsWithoutTime) {
     }
 }
 
+// A volt is resolved as a thousand are: charges flow alike.
+TEST_F(RelaxTest, SmallVoltagesAreResolvedAsLargeOnesAre) {
+  const auto heat = [this](const std::string& volts) {
+    const Case one =
+        read(held + electrode + "sheet_resistance = \"10 MOhm\"\nterminal = \"left\"\n" +
+             "[circuit]\nresistance = \"100 MOhm\"\n[drive]\nvoltage = { wave = \"sine\", mean = " + volts +
+             ", amplitude = " + volts + ", frequency = \"20 Hz\", phase = \"-90 deg\" }\n" +
+             step("transient", "duration = \"0.06 s\"\nincrements = 40\n") +
+             "[[quantity]]\nname = \"rh\"\nkind = \"energy\"\nof = \"resistance_heat\"\n");
+    Simulation simulation(one, 1);
+    EXPECT_EQ(simulation.run({}).ending, Ending::complete);
+    const double volt = std::stod(volts);
+    return last(one, simulation, "rh") / (volt * volt);
+  };
+  const double large = heat("500");
+  EXPECT_GT(large, 0);
+  EXPECT_NEAR(heat("1"), large, 1e-6 * large);
+}
+
 TEST_F(RelaxTest, WithoutAnythingThatFlowsItHasNoEffect) {
   const Case one = read(film + patch + loaded + "[[step]]\nkind = \"relax\"\n");
   ASSERT_FALSE(one.warnings.empty());
