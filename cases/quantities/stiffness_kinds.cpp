@@ -15,13 +15,14 @@ bool at_rest(const Measured& measured) {
   return measured.may_rest && fem::unrest(measured.equilibrium, measured.state).empty();
 }
 
-/// What a unit force along an axis, spread evenly over a place, moves: per free unknown, and its mean over
-/// the place, m/N; NaN where the state is not at rest.
+/// What a unit force along an axis, spread evenly over a place, moves at a relaxed state: per free unknown,
+/// and its mean over the place, m/N; NaN where what is measured is not at rest.
 struct Flexibility {
   Eigen::VectorXd displacement;
   double own;
 };
-Flexibility flexibility(const Probing& probing, const std::string& place, const Measured& measured) {
+Flexibility flexibility(const Probing& probing, const std::string& place, const Measured& measured,
+                        const fem::State& state) {
   const int along = *probing.quantity.along;
   const Eigen::Vector3d axis =
       along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(along);
@@ -32,10 +33,9 @@ Flexibility flexibility(const Probing& probing, const std::string& place, const 
   for (std::size_t n = 0; n < nodes.size(); ++n)
     for (int c = 0; c < 3; ++c)
       if (const int e = dofs.equation(nodes[n], c); e != fem::DofMap::absent) unit[e] += shares[n] * axis[c];
-  unit = (dofs.jacobian(measured.state).transpose() * unit).eval();
+  unit = (dofs.jacobian(state).transpose() * unit).eval();
   Flexibility found{{}, no_value};
-  if (unit.isZero() || !at_rest(measured) || !measured.equilibrium.factor(fem::relaxed(measured.state)))
-    return found;
+  if (unit.isZero() || !at_rest(measured) || !measured.equilibrium.factor(state)) return found;
   measured.equilibrium.tangent().solve(unit, found.displacement);
   found.own = unit.dot(found.displacement);
   return found;
@@ -45,10 +45,12 @@ Flexibility flexibility(const Probing& probing, const std::string& place, const 
 /// the flexibility's product with dC/du, and the force that takes it back is that over its own. Capacitance
 /// and length are those as drawn: a strip free across itself has 1/2, one of held width 1.
 double coupling(const Probing& probing, const Measured& measured) {
-  const Flexibility give = flexibility(probing, probing.quantity.place, measured);
-  if (std::isnan(give.own)) return no_value;
   const fem::Model& model = probing.device.model;
   const std::size_t e = probing.electrode();
+  fem::State connected = fem::relaxed(measured.state);
+  connected.supply[e] = fem::Supply::voltage; // which the force is per square of, whoever has charged it
+  const Flexibility give = flexibility(probing, probing.quantity.place, measured, connected);
+  if (std::isnan(give.own)) return no_value;
   fem::State one_volt = measured.state;
   one_volt.voltage[e] = 1;
   one_volt.sheet_drop.setZero();
@@ -107,7 +109,7 @@ std::vector<QuantityKind> stiffness_kinds() {
            },
        .probe = [](const Probing& probing) -> Probe {
          return [probing](const Measured& measured) {
-           return 1 / flexibility(probing, probing.quantity.of, measured).own;
+           return 1 / flexibility(probing, probing.quantity.of, measured, fem::relaxed(measured.state)).own;
          };
        }},
       {.word = "coupling",

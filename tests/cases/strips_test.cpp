@@ -51,6 +51,16 @@ TEST_F(Strips, CoversCarryWithoutAField) {
   EXPECT_NEAR(covered.at("coupling"), bare.at("coupling"), 1e-9);
 }
 
+// The force per squared voltage is a property of the state, not of who keeps the charge.
+TEST_F(Strips, CouplingIsThatOfTheStateHoweverItWasCharged) {
+  const auto connected = values(stack);
+  const auto charged = values(stack, {fmt::format("drive={{charge={}}}", 1e3 * connected.at("capacitance")),
+                                      "step=[{kind='weight'}, {kind='charge'}]"});
+  EXPECT_NEAR(charged.at("extension"), connected.at("extension"), 1e-9 * connected.at("extension"));
+  EXPECT_NEAR(charged.at("coupling"), connected.at("coupling"), 1e-7);
+  EXPECT_GT(charged.at("stiffness"), 1.01 * connected.at("stiffness")); // as its charge stays
+}
+
 TEST_F(Strips, AnElectrodeInTheClampsHasACapacitanceOnly) {
   const auto even = values(stack, {"strip.electrode_width=10 mm"});
   const auto longer = values(stack, {"strip.electrode_width=10 mm", "strip.electrode_length=16 mm"});
