@@ -85,7 +85,7 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   for (const char* of_all :
        {"admittance[S]", "admittance_phase[deg]", "impedance[Ohm]", "impedance_phase[deg]"})
     analysis.columns.emplace_back(of_all);
-  const fem::State at_rest = operating_point(device, state);
+  const fem::State at_rest = operating_point(device, state, driven);
   require_rest(equilibrium, at_rest);
   const double bias = common_bias(device, at_rest, driven);
   if (bias != 0)
@@ -182,10 +182,13 @@ fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
   return drive;
 }
 
-fem::State operating_point(const Device& device, fem::State state) {
+fem::State operating_point(const Device& device, fem::State state, const std::vector<std::size_t>& driven) {
   for (const fem::Circuit& circuit : device.model.circuits) {
     const auto e = static_cast<std::size_t>(circuit.electrode);
-    if (fem::is_isolated(state.supply[e])) state.source[e] = circuit.holding_source(state.voltage[e]);
+    if (fem::is_isolated(state.supply[e])) {
+      if (std::ranges::find(driven, e) == driven.end()) continue;
+      state.source[e] = circuit.holding_source(state.voltage[e]);
+    }
     state.supply[e] = fem::Supply::circuit;
   }
   return state;

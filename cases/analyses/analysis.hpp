@@ -39,8 +39,9 @@ inline constexpr std::string_view no_response = "nothing moves: a film feels the
 /// Equal ratios from the lowest to the highest frequency, Hz.
 std::vector<double> frequencies(const Sweep& sweep);
 
-/// The state that small vibrations go about: sources behind their circuits, branches relaxed.
-fem::State operating_point(const Device& device, fem::State state);
+/// The state that small vibrations go about: sources behind their circuits. Electrodes that are isolated stay
+/// so, but for those whose sources are `driven`: these take up at the electrode's voltage.
+fem::State operating_point(const Device& device, fem::State state, const std::vector<std::size_t>& driven);
 
 /// Throws AnalysisError where the state is not at rest.
 void require_rest(fem::Equilibrium& equilibrium, const fem::State& state);

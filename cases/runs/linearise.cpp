@@ -49,9 +49,9 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   const Device& device = simulation.device();
   require_rest(simulation.equilibrium(), simulation.state());
   const Quantity& output = *response_quantity(one, one.linearise->output);
-  const fem::State state = operating_point(device, simulation.state());
-  require_rest(simulation.equilibrium(), state);
   const std::vector<std::size_t> driven = driven_ports(one, one.linearise->driven);
+  const fem::State state = operating_point(device, simulation.state(), driven);
+  require_rest(simulation.equilibrium(), state);
   const fem::HarmonicDrive drive = common_drive(device, state, driven);
   const fem::Channels channels{driven, response_row(one, device, state, output).transpose(), {}};
   Linearised result{.output = output.name,

@@ -7,7 +7,8 @@ namespace dielast::cases {
 
 inline constexpr const char* driven_meaning = "electrodes whose sources swing together, by 1 V each; without "
                                               "it all that [drive] gives a voltage, or all "
-                                              "when it gives none";
+                                              "when it gives none. Others that are isolated keep their "
+                                              "charges";
 
 /// Keys of a sweep over frequencies; `purpose` ends their meanings, `from` and `to` are defaults.
 template<class T>

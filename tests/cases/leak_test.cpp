@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <tuple>
 
 // Electrodes that are isolated and leak.
 
@@ -156,6 +157,44 @@ TEST_F(Leak, NoVibrationGoesAboutAStateWhoseChargeChanges) {
       EXPECT_EQ(outcome.ending, before.refusal.empty() ? Ending::complete : Ending::gave_up) << before.steps;
       EXPECT_NE(outcome.message.find(before.refusal), std::string::npos) << outcome.message;
     }
+}
+
+// Rod b is isolated beside rod a, which swings: behind a circuit or not, it keeps its charge.
+TEST_F(Leak, SmallSinesLeaveIsolatedElectrodesThatTheyDoNotDriveWithTheirCharges) {
+  std::string rods = "[[tie]]\nbetween = [\"a.end\", \"b.start\"]\n[[support]]\nplace = \"a.start\"\n"
+                     "fix = [\"x\", \"y\"]\n[[support]]\nplace = \"a.end\"\nfix = [\"y\"]\n[[support]]\n"
+                     "place = \"b.end\"\nfix = [\"x\", \"y\"]\n[drive.a]\nvoltage = \"2 kV\"\n[drive.b]\n"
+                     "charge = \"3 uC\"\n[[quantity]]\nname = \"ux\"\nkind = \"displacement\"\n"
+                     "of = \"a.end\"\nalong = \"x\"\n";
+  for (const auto& [name, from, to] : {std::tuple("a", 0, 40), std::tuple("b", 40, 70)})
+    rods +=
+        fmt::format("[part.{0}.film]\nthickness = \"0.1 mm\"\nprestretch = 1.5\n[part.{0}.film.material]\n"
+                    "shear_modulus = \"50 kPa\"\npermittivity = \"3e-11 F/m\"\n[part.{0}.line]\n"
+                    "from = [\"{1} mm\", 0, 0]\nto = [\"{2} mm\", 0, 0]\n[part.{0}.rod]\n"
+                    "width = \"10 mm\"\nlayers = 10\n[[electrode]]\nname = \"{0}\"\nplace = \"{0}.film\"\n",
+                    name, from, to);
+  const auto per_volt = [&](const std::string& more) {
+    write("rods.toml", rods +
+                           "[[step]]\nkind = \"voltage\"\nelectrode = \"a\"\n[[step]]\nkind = \"charge\"\n"
+                           "electrode = \"b\"\n" +
+                           more + "[[step]]\nkind = \"harmonic\"\npoints = 2\ndriven = [\"a\"]\n");
+    const Case one = read_case(directory / "rods.toml");
+    Simulation simulation(one, 1);
+    double response = 0; // m/V
+    SimulationObserver observer;
+    observer.on_analysis = [&response](const Analysis& analysis, const fem::State&) {
+      response = analysis.rows.at(0).at(1);
+    };
+    const Outcome outcome = simulation.run(observer);
+    EXPECT_EQ(outcome.ending, Ending::complete) << outcome.message;
+    return response;
+  };
+  const std::string circuit = "[circuit.b]\nresistance = \"1 MOhm\"\n";
+  const double alone = per_volt("");
+  EXPECT_GT(alone, 0);
+  EXPECT_NEAR(per_volt(circuit), alone, 1e-12 * alone);
+  EXPECT_GT(std::abs(per_volt(circuit + "[[step]]\nkind = \"hold\"\nduration = \"1 ms\"\n") - alone),
+            0.01 * alone);
 }
 
 } // namespace
