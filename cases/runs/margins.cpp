@@ -70,56 +70,98 @@ std::vector<Passed> way_of(const Case& one, const Journal& journal) {
   return way;
 }
 
-/// What comes after the end of the run when all of its voltages go on to `factor` times what they are there.
-std::vector<Passed> way_on(const Case& one, const Simulation& own, const post::StepRecord& end, double factor,
-                           int threads, std::string& stopped) {
-  constexpr int increments_per_voltage = 20;
-  Case further = one;
-  further.steps = own.steps();
-  Step step{.kind = StepKind::voltage, .name = "margins"};
-  for (const Step& before : further.steps)
-    if (!before.is_analysis()) step.response = before.response;
-  step.increments = std::max(1, static_cast<int>(std::ceil(increments_per_voltage * std::abs(factor - 1))));
-  further.steps.push_back(step);
-  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
-    further.drives[one.electrodes[e].name].voltage = Waveform::constant_at(factor * end.voltages[e]);
-  std::vector<Passed> way;
-  try {
-    Simulation simulation(further, threads);
-    SimulationProgress progress = own.progress();
-    progress.step = static_cast<int>(one.steps.size()) - 1;
-    simulation.enter(progress.step);
-    simulation.resume(progress);
-    SimulationObserver observer;
-    observer.on_accept = [&](const Frame& frame) {
-      const auto value = [&](const char* field, post::Extreme which) {
-        const auto found = frame.measured.extremes.find(field, which);
-        return found ? found->value : unknown;
-      };
-      Passed& passed =
-          way.emplace_back(Passed{.factor = factor_of(frame.record, end).value_or(unknown),
-                                  .breakdown = value("breakdown_ratio", post::Extreme::maximum),
-                                  .least_stress = value("min_principal_stress", post::Extreme::minimum),
-                                  .yield = value("yield_ratio", post::Extreme::maximum),
-                                  .slack = value("tension_state", post::Extreme::maximum)});
-      for (const post::Event& event : frame.record.events) passed.kinds.push_back(event.kind);
-      return true;
-    };
-    std::vector<std::string> located; // at the state that comes next, or after the last
-    observer.on_critical = [&](const fem::CriticalPoint&, const post::Event& event) {
-      located.push_back(event.kind);
-    };
-    const Outcome outcome = simulation.run(observer);
-    if (outcome.ending == Ending::gave_up) stopped = outcome.kind;
-    if (!way.empty() && !located.empty()) {
-      way.back().kinds.push_back(located.back());
-      stopped = located.back();
-    }
-  } catch (const std::exception& error) {
-    stopped = error.what();
+/// Where the voltages of the end of a run can be changed in proportion, everything else staying as it is.
+struct Place {
+  double factor = 1;
+  SimulationProgress progress;
+};
+
+/// Takes the device from its state at the end of a run, or from a place that was reached from there, to other
+/// factors on its voltages.
+class FurtherWay {
+ public:
+  FurtherWay(const Case& one, const Simulation& own, const post::StepRecord& end, int threads)
+      : further_(one), end_(end), threads_(threads), places_{{1, own.progress()}} {
+    SimulationProgress& progress = places_.front().progress;
+    further_.steps = own.steps();
+    progress.step = std::min(progress.step, static_cast<int>(further_.steps.size()) - 1);
+    further_.steps.resize(static_cast<std::size_t>(progress.step) + 1);
+    progress.in_step.followed.reset();
+    progress.in_step.ramp.load_factor = 1; // the way goes on from its state, wherever the step has ended
+    Step step{.kind = StepKind::voltage, .name = "margins"};
+    for (const Step& before : further_.steps)
+      if (!before.is_analysis()) step.response = before.response;
+    further_.steps.push_back(step);
   }
-  return way;
-}
+
+  /// The states up to those with `factor` times the voltages of the end; `stopped` says why it ends earlier.
+  std::vector<Passed> to(double factor, std::string& stopped) {
+    constexpr int increments_per_voltage = 20;
+    const Place& from =
+        *std::ranges::min_element(places_, {}, [&](const Place& p) { return std::abs(p.factor - factor); });
+    further_.steps.back().increments =
+        std::max(1, static_cast<int>(std::ceil(increments_per_voltage * std::abs(factor - from.factor))));
+    for (std::size_t e = 0; e < further_.electrodes.size(); ++e)
+      further_.drives[further_.electrodes[e].name].voltage = Waveform::constant_at(factor * end_.voltages[e]);
+    std::vector<Passed> way;
+    try {
+      Simulation simulation(further_, threads_);
+      simulation.enter(from.progress.step);
+      simulation.resume(from.progress);
+      SimulationObserver observer;
+      observer.on_accept = [&](const Frame& frame) {
+        way.push_back(state_of(frame));
+        return true;
+      };
+      std::vector<std::string> located; // at the state that comes next, or after the last
+      observer.on_critical = [&](const fem::CriticalPoint&, const post::Event& event) {
+        located.push_back(event.kind);
+      };
+      const Outcome outcome = simulation.run(observer);
+      if (outcome.ending == Ending::gave_up) stopped = outcome.kind;
+      if (!way.empty() && !located.empty()) {
+        way.back().kinds.push_back(located.back());
+        stopped = located.back();
+      }
+      if (outcome.ending == Ending::complete && !way.empty() && stopped.empty()) {
+        SimulationProgress progress = simulation.progress();
+        progress.step = places_.front().progress.step; // the same step leads on
+        places_.push_back({way.back().factor, std::move(progress)});
+      }
+    } catch (const std::exception& error) {
+      stopped = error.what();
+    }
+    return way;
+  }
+
+  /// That state alone; nothing where it is not reached.
+  std::optional<Passed> at(double factor) {
+    std::string stopped;
+    std::vector<Passed> way = to(factor, stopped);
+    if (way.empty() || !stopped.empty() || std::abs(way.back().factor - factor) > 1e-9) return std::nullopt;
+    return way.back();
+  }
+
+ private:
+  Passed state_of(const Frame& frame) const {
+    const auto value = [&](const char* field, post::Extreme which) {
+      const auto found = frame.measured.extremes.find(field, which);
+      return found ? found->value : unknown;
+    };
+    Passed passed{.factor = factor_of(frame.record, end_).value_or(unknown),
+                  .breakdown = value("breakdown_ratio", post::Extreme::maximum),
+                  .least_stress = value("min_principal_stress", post::Extreme::minimum),
+                  .yield = value("yield_ratio", post::Extreme::maximum),
+                  .slack = value("tension_state", post::Extreme::maximum)};
+    for (const post::Event& event : frame.record.events) passed.kinds.push_back(event.kind);
+    return passed;
+  }
+
+  Case further_;
+  const post::StepRecord& end_;
+  int threads_;
+  std::vector<Place> places_; ///< the end of the run first
+};
 
 /// Whether limits that states tell are behind it.
 bool is_beyond(const Passed& passed, bool wrinkles) {
@@ -127,8 +169,47 @@ bool is_beyond(const Passed& passed, bool wrinkles) {
          (wrinkles ? passed.slack > 0 : passed.least_stress <= -smallest_stress);
 }
 
-/// Where a value, linear between the states, passes zero from below.
-Margin crossing(const std::vector<Passed>& way, const std::function<double(const Passed&)>& value) {
+using Value = std::function<double(const Passed&)>;
+
+/// Where a value passes zero between two states of a way, by states that are solved between them; nothing
+/// where these are not on that way.
+std::optional<double> root_between(const Passed& before, const Passed& after, const Value& value,
+                                   FurtherWay& further) {
+  constexpr double accuracy = 1e-5; // of the factor
+  constexpr int most_states = 30;
+  double a = before.factor, b = after.factor, at_a = value(before), at_b = value(after);
+  const double same = 1e-4 * (at_b - at_a);
+  const auto is_on_the_way = [&](const Passed& known) {
+    const std::optional<Passed> again = further.at(known.factor);
+    return again && std::abs(value(*again) - value(known)) <= same;
+  };
+  if (!is_on_the_way(after)) return std::nullopt;
+  // Regula falsi, with half the value at an end that stays (Illinois).
+  double root = b;
+  int kept = 0; // the end: -1 is a, 1 is b
+  for (int i = 0; i < most_states && b - a > accuracy * b; ++i) {
+    const double next = std::lerp(a, b, at_a / (at_a - at_b));
+    const bool settled = std::abs(next - root) <= accuracy / 10 * b;
+    root = next;
+    if (settled) break;
+    const std::optional<Passed> state = further.at(root);
+    if (!state || std::isnan(value(*state))) return std::nullopt;
+    const double now = value(*state);
+    if (now == 0) break;
+    if (now > 0) {
+      if (kept == -1) at_a /= 2;
+      b = root, at_b = now, kept = -1;
+    } else {
+      if (kept == 1) at_b /= 2;
+      a = root, at_a = now, kept = 1;
+    }
+  }
+  if (!is_on_the_way(before)) return std::nullopt;
+  return root;
+}
+
+/// Where a value passes zero from below.
+Margin crossing(const std::vector<Passed>& way, const Value& value, FurtherWay& further) {
   if (std::ranges::all_of(way, [&](const Passed& passed) { return std::isnan(value(passed)); }))
     return {.remark = "not known: the case has no quantity of kind \"extreme\" that tells"};
   for (std::size_t i = 0; i < way.size(); ++i) {
@@ -141,11 +222,15 @@ Margin crossing(const std::vector<Passed>& way, const std::function<double(const
                               fmt::format("not known: passed already at {:.4g} times the voltage of the end, "
                                           "the least of which the run tells",
                                           way[i].factor)};
+    const std::string remark =
+        way[i].on_the_way_back ? "on the way back to 0 V, with all other loads of the end" : "";
+    if (const auto root = root_between(way[i - 1], way[i], value, further))
+      return {.factor = *root, .remark = remark};
     const double before = value(way[i - 1]);
-    const double t = before / (before - now);
-    return {.factor = std::lerp(way[i - 1].factor, way[i].factor, t),
-            .remark =
-                way[i].on_the_way_back ? "on the way back to 0 V, with all other loads of the end" : ""};
+    return {.factor = std::lerp(way[i - 1].factor, way[i].factor, before / (before - now)),
+            .remark = fmt::format("{}{}on a straight line between the states at {:.4g} and {:.4g}: more "
+                                  "increments tell it better",
+                                  remark, remark.empty() ? "" : "; ", way[i - 1].factor, way[i].factor)};
   }
   return {};
 }
@@ -180,16 +265,18 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   else if (std::ranges::any_of(state.supply, [](fem::Supply supply) { return fem::is_isolated(supply); }))
     unknown_because = "an electrode is isolated: its voltage follows";
   std::vector<Passed> way;
+  std::optional<FurtherWay> further;
   std::string stopped = outcome.kind;
   double up_to = 1;
   if (unknown_because.empty()) {
+    further.emplace(one, simulation, journal.records.back(), threads);
     way = way_of(one, journal);
     const bool complete = outcome.ending == Ending::complete;
     // Something else than the voltages has led there, or they were not in proportion.
     if (complete && way.front().factor > 0 && is_beyond(way.front(), simulation.device().tension_field)) {
       std::string unused;
       const double least = way.front().factor;
-      for (Passed& passed : way_on(one, simulation, journal.records.back(), 0, threads, unused))
+      for (Passed& passed : further->to(0, unused))
         if (passed.factor < least) {
           passed.kinds.clear(); // of a path that the run did not take
           way.insert(way.begin(), std::move(passed));
@@ -198,9 +285,7 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
         }
     }
     if (one.margins_up_to > 1 && complete) {
-      for (Passed& passed :
-           way_on(one, simulation, journal.records.back(), one.margins_up_to, threads, stopped))
-        way.push_back(std::move(passed));
+      for (Passed& passed : further->to(one.margins_up_to, stopped)) way.push_back(std::move(passed));
       up_to = way.back().factor;
     }
   }
@@ -224,11 +309,16 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     margin.up_to = up_to;
     margins.push_back(std::move(margin));
   };
-  add("breakdown", [&] { return crossing(way, [](const Passed& p) { return p.breakdown - 1; }); });
+  add("breakdown", [&] {
+    return crossing(
+        way, [](const Passed& p) { return p.breakdown - 1; }, *further);
+  });
   add("loss of tension", [&] {
     if (simulation.device().tension_field)
-      return crossing(way, [](const Passed& p) { return p.slack > 0 ? 1.0 : -1e-9; });
-    return crossing(way, [](const Passed& p) { return -smallest_stress - p.least_stress; });
+      return crossing(
+          way, [](const Passed& p) { return p.slack > 0 ? 1.0 : -1.0; }, *further);
+    return crossing(
+        way, [](const Passed& p) { return -smallest_stress - p.least_stress; }, *further);
   });
   const auto critical = [&](const char* kind) {
     Margin found = event(way, kind);
@@ -238,7 +328,10 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   };
   add("pull-in", [&] { return critical("limit point"); });
   add("buckling", [&] { return critical("bifurcation"); });
-  add("wall yield", [&] { return crossing(way, [](const Passed& p) { return p.yield - 1; }); });
+  add("wall yield", [&] {
+    return crossing(
+        way, [](const Passed& p) { return p.yield - 1; }, *further);
+  });
   return margins;
 }
 

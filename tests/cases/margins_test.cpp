@@ -53,7 +53,23 @@ TEST_F(Margins, BreakdownThatWasPassedIsWhereTheFieldWasReached) {
   const double end = 0.98 * pull_in;
   const Margin found = margins(patch(end, field)).at("breakdown");
   ASSERT_TRUE(found.factor);
-  EXPECT_NEAR(*found.factor, voltage_at(stretch) / end, 2e-3);
+  EXPECT_NEAR(*found.factor, voltage_at(stretch) / end, 1e-5);
+}
+
+// The rows of few increments are far apart where the path turns; what was passed is solved for between them.
+TEST_F(Margins, DoNotDependOnTheIncrements) {
+  const double stretch = 1.15, field = stretch * stretch * voltage_at(stretch) / thickness;
+  for (const char* increments : {"step.voltage.increments=3", "step.voltage.increments=10"}) {
+    const double end = 0.999 * pull_in;
+    const Margin found = margins(patch(end, field), {increments}).at("breakdown");
+    ASSERT_TRUE(found.factor);
+    EXPECT_NEAR(*found.factor, voltage_at(stretch) / end, 1e-5) << increments;
+    EXPECT_EQ(found.remark, "");
+    const Margin stopped = margins(patch(1.1 * pull_in, field), {increments}).at("breakdown");
+    ASSERT_TRUE(stopped.factor);
+    EXPECT_NEAR(*stopped.factor, voltage_at(stretch) / pull_in, 2e-5) << increments;
+    EXPECT_EQ(stopped.remark, "");
+  }
 }
 
 TEST_F(Margins, WhatWasNotReachedIsNotGuessed) {
@@ -72,7 +88,7 @@ TEST_F(Margins, LookingFurtherFindsPullInAndBreakdown) {
   const double end = 0.6 * pull_in;
   const auto found = margins(patch(end, field), {"output.margins_up_to=3"});
   ASSERT_TRUE(found.at("breakdown").factor);
-  EXPECT_NEAR(*found.at("breakdown").factor, voltage_at(stretch) / end, 2e-3);
+  EXPECT_NEAR(*found.at("breakdown").factor, voltage_at(stretch) / end, 1e-5);
   ASSERT_TRUE(found.at("pull-in").factor);
   EXPECT_NEAR(*found.at("pull-in").factor, pull_in / end, 1e-3);
 }
@@ -95,10 +111,10 @@ TEST_F(Margins, HeldFilmLosesItsTensionWhereTheFieldBalancesIt) {
                            "\"voltage\"\nincrements = 20\n";
   const auto passed = margins(held, {fmt::format("drive.voltage={} V", 1.2 * lost)});
   ASSERT_TRUE(passed.at("loss of tension").factor);
-  EXPECT_NEAR(*passed.at("loss of tension").factor, 1 / 1.2, 2e-3);
+  EXPECT_NEAR(*passed.at("loss of tension").factor, 1 / 1.2, 1e-4);
   const auto ahead = margins(held, {fmt::format("drive.voltage={} V", 0.5 * lost), "output.margins_up_to=3"});
   ASSERT_TRUE(ahead.at("loss of tension").factor);
-  EXPECT_NEAR(*ahead.at("loss of tension").factor, 2, 5e-3);
+  EXPECT_NEAR(*ahead.at("loss of tension").factor, 2, 1e-4);
 }
 
 // A force that comes last stretches the film l times under 3 kV and the stress 60 kPa: at the factor f on the
@@ -117,7 +133,7 @@ TEST_F(Margins, WhatAForcePassesIsTheFactorOnTheVoltage) {
   const double factor = 5e6 * 1e-3 / (low * low) / 3e3;
   const Margin found = margins(pulled).at("breakdown");
   ASSERT_TRUE(found.factor) << found.remark;
-  EXPECT_NEAR(*found.factor, factor, 2e-3);
+  EXPECT_NEAR(*found.factor, factor, 1e-5);
   EXPECT_NEAR(factor, 0.850, 5e-4);
   EXPECT_EQ(found.remark, "on the way back to 0 V, with all other loads of the end");
   // the other way round the run itself tells
@@ -125,7 +141,7 @@ TEST_F(Margins, WhatAForcePassesIsTheFactorOnTheVoltage) {
                               "[[step]]\nkind = \"force\"\n[[step]]\nkind = \"voltage\"\nto = \"3 kV\"\n")
                           .at("breakdown");
   ASSERT_TRUE(told.factor);
-  EXPECT_NEAR(*told.factor, factor, 2e-3);
+  EXPECT_NEAR(*told.factor, factor, 1e-5);
   EXPECT_EQ(told.remark, "");
   // pressed together, with a voltage or without
   const auto held =
