@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/quantities/film_values.hpp"
 
+#include "fem/films/film_points.hpp"
 #include "fem/films/meridian.hpp"
 #include "fem/films/triangle.hpp"
 #include "fem/solids/tetrahedron.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace dielast::cases {
 namespace {
@@ -19,7 +21,7 @@ using meshing::CellType;
 constexpr double close_by = 1e-3; ///< of an element's size
 
 /// Values of the shape functions at a place in an element and their derivatives there.
-struct Shape {
+struct LocalShape {
   Eigen::VectorXd value;
   Eigen::MatrixXd slope; ///< one column per local coordinate
 };
@@ -28,7 +30,7 @@ int local_dimension(CellType type) {
   return meshing::is_tetrahedron(type) ? 3 : meshing::is_triangle(type) ? 2 : 1;
 }
 
-Shape shape(CellType type, const Eigen::VectorXd& local) {
+LocalShape shape(CellType type, const Eigen::VectorXd& local) {
   switch (type) {
   case CellType::triangle3:
     return {fem::shape_values<3>(local[0], local[1]), fem::shape_gradients<3>(local[0], local[1])};
@@ -104,6 +106,16 @@ bool is_inside(CellType type, const Eigen::VectorXd& local) {
   return std::min(local.minCoeff(), 1 - local.sum()) >= -close_by;
 }
 
+/// The part whose mesh has a place, by its name; null: a body, or no part.
+const Part* part_with(const std::string& place, const Case& one) {
+  if (std::ranges::find(one.bodies, place, &Body::name) != one.bodies.end()) return nullptr;
+  const auto found = std::ranges::find_if(one.parts, [&](const Part& part) {
+    return part.has_mesh() && !part.name.empty() &&
+           (place == part.name || place.starts_with(part.name + "."));
+  });
+  return found != one.parts.end() ? &*found : one.unnamed();
+}
+
 } // namespace
 
 std::vector<FilmReading> readings_at(const std::string& place, const meshing::Mesh& mesh,
@@ -147,7 +159,7 @@ std::vector<ElementPoint> elements_at(const Eigen::Vector3d& point, const meshin
     Eigen::Vector3d away;
     constexpr int iterations = 20; // sides are straight or nearly so: a few are enough
     for (int i = 0; i < iterations; ++i) {
-      const Shape at = shape(film.type, local);
+      const LocalShape at = shape(film.type, local);
       const Eigen::MatrixXd tangent = x * at.slope;
       away = wanted - x * at.value;
       local += (tangent.transpose() * tangent).inverse() * (tangent.transpose() * away);
@@ -188,7 +200,8 @@ std::vector<FilmReading> readings_in(const std::string& place, const meshing::Me
   return readings;
 }
 
-std::vector<char> film_at(const std::string& place, const meshing::Mesh& mesh) {
+std::vector<char> film_at(const std::string& place, const Case& one, const Device& device) {
+  const meshing::Mesh& mesh = device.mesh;
   const meshing::CellBlock& film = *mesh.film();
   std::vector<char> near(static_cast<std::size_t>(film.size()), 0);
   if (const std::vector<int>* cells = mesh.cells_of(place, &film)) {
@@ -199,7 +212,36 @@ std::vector<char> film_at(const std::string& place, const meshing::Mesh& mesh) {
   for (int cell = 0; cell < film.size(); ++cell)
     near[static_cast<std::size_t>(cell)] = std::ranges::any_of(
         film.cell(cell), [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); });
-  return near;
+  const Part* part = part_with(place, one);
+  const std::vector<int>* own = part && part->film ? mesh.cells_of(part->called("film"), &film) : nullptr;
+  if (!own) return near;
+  std::vector<char> both(near.size(), 0);
+  for (const int cell : *own) both[static_cast<std::size_t>(cell)] = near[static_cast<std::size_t>(cell)];
+  return both;
+}
+
+fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state) {
+  fem::Samples points;
+  if (const auto* membrane = dynamic_cast<const fem::FilmPoints*>(&film))
+    membrane->sample_points(state, points);
+  else
+    film.sample(state, points);
+  return points;
+}
+
+std::vector<char> films_of(const std::string& place, const Case& one, const Device& device) {
+  const std::vector<char> near = film_at(place, one, device);
+  const auto part_of = [&](int cell) { return device.film_parts[static_cast<std::size_t>(cell)]; };
+  std::set<int> parts;
+  for (int cell = 0; cell < std::ssize(near); ++cell)
+    if (near[static_cast<std::size_t>(cell)]) parts.insert(part_of(cell));
+  std::vector<char> counted;
+  for (int b = 0; b < device.films; ++b) {
+    const fem::Samples points =
+        points_of(*device.model.blocks[static_cast<std::size_t>(b)], device.model.initial_state());
+    counted.push_back(parts.contains(part_of(points.film.front().cell)));
+  }
+  return counted;
 }
 
 } // namespace dielast::cases

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/model/samples.hpp"
-#include "meshing/mesh.hpp"
+#include "cases/devices/device.hpp"
 
 #include <string>
 #include <vector>
@@ -43,8 +42,15 @@ std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing
 std::vector<FilmReading> readings_in(const std::string& place, const meshing::Mesh& mesh,
                                      const fem::Samples& samples);
 
-/// Which triangles belong to a place: its own, or those with a node there.
-std::vector<char> film_at(const std::string& place, const meshing::Mesh& mesh);
+/// Which elements of the film belong to a place: its own, or those with a node there; of a place of a part's
+/// mesh only those of that mesh, whatever it is tied to.
+std::vector<char> film_at(const std::string& place, const Case& one, const Device& device);
+
+/// The points of a block of film, also where it speaks for nobody in the model's samples.
+fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state);
+
+/// Which of a device's blocks of film have elements at a place, or beside them in the same part.
+std::vector<char> films_of(const std::string& place, const Case& one, const Device& device);
 
 /// Mean of `value(sample, reading)`; NaN without readings.
 template<class Value>

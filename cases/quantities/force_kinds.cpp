@@ -19,10 +19,12 @@ Probe force(const Probing& probing) {
 }
 
 Probe pull_of_film(const Probing& probing) {
-  if (!std::ranges::count(film_at(probing.quantity.of, probing.device.mesh), 1))
-    probing.refuse("of", "no film meets this place, so none pulls on it");
-  return [&device = probing.device, &quantity = probing.quantity](const Measured& measured) {
-    return component(film_force(device, quantity.of, measured.equilibrium, measured.state), quantity.along);
+  std::vector<char> counted = films_of(probing.quantity.of, probing.one, probing.device);
+  if (!std::ranges::count(counted, 1)) probing.refuse("of", "no film meets this place, so none pulls on it");
+  return [&device = probing.device, &quantity = probing.quantity,
+          counted = std::move(counted)](const Measured& measured) {
+    return component(film_force(device, quantity.of, counted, measured.equilibrium, measured.state),
+                     quantity.along);
   };
 }
 
@@ -60,16 +62,44 @@ std::string touches_not(const Case& one, const Quantity& quantity) {
                      quantity.of);
 }
 
+/// Rods that lie across the axis pull nowhere along it.
+void refuse_across(const Probing& probing, const std::vector<char>& near, int along) {
+  const meshing::Mesh& mesh = probing.device.mesh;
+  const meshing::CellBlock& rods = *mesh.film();
+  for (int cell = 0; cell < rods.size(); ++cell) {
+    if (!near[static_cast<std::size_t>(cell)]) continue;
+    const auto node = [&](int a) {
+      return mesh.nodes[static_cast<std::size_t>(rods.cell(cell)[static_cast<std::size_t>(a)])];
+    };
+    const Eigen::Vector3d drawn = (node(1) - node(0)).normalized();
+    if (std::abs(drawn[along]) < 1e-6)
+      probing.refuse("along", fmt::format("found \"{}\": a rod pulls along itself, and one here lies across "
+                                          "this axis",
+                                          "xyz"[along]));
+  }
+}
+
+/// Of all film that lies there side by side and one on another, with a voltage or without.
 Probe nominal_stress(const Probing& probing) {
-  return [near = film_at(probing.quantity.of, probing.device.mesh), along = *probing.quantity.along,
-          of_revolution = probing.one.dimension == fem::Dimension::axisymmetric](const Measured& measured) {
+  const Device& device = probing.device;
+  const int along = *probing.quantity.along;
+  const std::vector<char> near = film_at(probing.quantity.of, probing.one, device);
+  const bool of_rods = device.mesh.film()->type == meshing::CellType::rod2;
+  if (of_rods) refuse_across(probing, near, along);
+  const std::vector<char> counted = films_of(probing.quantity.of, probing.one, device);
+  // Film of revolution and rods turn their own axis with them, whichever way that was drawn.
+  const bool own_axes = of_rods || probing.one.dimension == fem::Dimension::axisymmetric;
+  const int axis = of_rods ? 0 : along;
+  return [&device, near, counted, own_axes, axis](const Measured& measured) {
     double sum = 0, volume = 0;
-    for (const fem::MembraneSample& s : measured.samples.film) {
-      if (!near[static_cast<std::size_t>(s.cell)]) continue;
-      // A film of revolution turns its meridian with it, whichever way that was drawn.
-      sum += s.volume *
-             (of_revolution ? s.F.col(along).norm() * s.S(along, along) : s.F.row(along).dot(s.S.col(along)));
-      volume += s.volume;
+    for (std::size_t b = 0; b < counted.size(); ++b) {
+      if (!counted[b]) continue;
+      for (const fem::MembraneSample& s : points_of(*device.model.blocks[b], measured.state).film) {
+        if (!near[static_cast<std::size_t>(s.cell)]) continue;
+        sum +=
+            s.volume * (own_axes ? s.F.col(axis).norm() * s.S(axis, axis) : s.F.row(axis).dot(s.S.col(axis)));
+        volume += s.volume;
+      }
     }
     return volume > 0 ? sum / volume : no_value;
   };
@@ -97,8 +127,9 @@ std::vector<QuantityKind> force_kinds() {
            },
        .probe = force},
       {.word = "film force",
-       .meaning = "with which the film pulls on a place; in a model of revolution the radial pulls all "
-                  "around are summed as if they were along x (N)",
+       .meaning =
+           "with which the film pulls on a place; that of the place's own part, whatever it is tied to; "
+           "in a model of revolution the radial pulls all around are summed as if they were along x (N)",
        .unit = "N",
        .keys =
            [] {
@@ -153,8 +184,9 @@ std::vector<QuantityKind> force_kinds() {
            }},
       {.word = "nominal stress",
        .meaning =
-           "force over undeformed section, mean over the film at a place; in a model of revolution x is "
-           "along the meridian, y around the axis (Pa)",
+           "force over undeformed section, mean over the film at a place, with what of it no electrode "
+           "covers; "
+           "in a model of revolution x is along the meridian, y around the axis; of a rod along itself (Pa)",
        .unit = "Pa",
        .keys =
            [] {

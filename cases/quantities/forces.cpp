@@ -31,12 +31,13 @@ Eigen::Vector3d support_force(const Device& device, const std::string& place,
   return sum_at(device, place, reaction, [&](int e) { return device.model.dofs.is_held(e); });
 }
 
-Eigen::Vector3d film_force(const Device& device, const std::string& place, fem::Equilibrium& equilibrium,
-                           const fem::State& state) {
+Eigen::Vector3d film_force(const Device& device, const std::string& place, const std::vector<char>& counted,
+                           fem::Equilibrium& equilibrium, const fem::State& state) {
   fem::Assembler& assembler = equilibrium.assembler();
   Eigen::VectorXd of_all, of_films = Eigen::VectorXd::Zero(device.model.dofs.count());
   assembler.residual(state, of_all);
-  for (int b = 0; b < device.films; ++b) of_films += assembler.block_residuals()[static_cast<std::size_t>(b)];
+  for (std::size_t b = 0; b < counted.size(); ++b)
+    if (counted[b]) of_films += assembler.block_residuals()[b];
   return -sum_at(device, place, of_films, [](int) { return true; });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem/films/film_kinematics.hpp"
+#include "fem/films/film_points.hpp"
 #include "fem/films/film_response.hpp"
 #include "fem/films/film_sheets.hpp"
 #include "fem/model/element_block.hpp"
@@ -18,7 +19,7 @@ namespace dielast::fem {
 /// that is a sheet by the voltages of its corners: k = eps sum_a N_a (V_a/H)^2 with N_a linear (see
 /// SheetPoint). A point's volume is that of the film, of a full turn where it is a film of revolution.
 template<class Kinematics, class Law>
-class MembraneBlock final : public ElementBlock {
+class MembraneBlock final : public ElementBlock, public FilmPoints {
  public:
   MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells, const MembraneSection& section,
                 Law law, std::vector<int> electrodes, int integration_points, std::vector<int> numbers);
@@ -29,7 +30,10 @@ class MembraneBlock final : public ElementBlock {
   void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
-  void sample(const State& state, Samples& samples) const override;
+  void sample(const State& state, Samples& samples) const override {
+    if (section_.sampled) sample_points(state, samples);
+  }
+  void sample_points(const State& state, Samples& samples) const override;
   void add_mass(int element, std::span<double> packed) const override;
   void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
   void place_sheets(SheetMap& sheets) override {
@@ -309,8 +313,7 @@ void MembraneBlock<Kinematics, Law>::add_relaxation(const State& state, const Ra
 }
 
 template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::sample(const State& state, Samples& samples) const {
-  if (!section_.sampled) return;
+void MembraneBlock<Kinematics, Law>::sample_points(const State& state, Samples& samples) const {
   samples.film.reserve(samples.film.size() + static_cast<std::size_t>(count_ * points_));
   for_each_point(state, [&](const Visit& at) {
     const materials::TensionField field = film_.resolve(state, at.point, at.C, at.k);

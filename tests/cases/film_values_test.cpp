@@ -171,6 +171,76 @@ TEST_F(FilmValues, NominalStressIsAlongTheMeridian) {
   EXPECT_NEAR(run(roll + stress("upper_end")).last("along"), 40e3 * (2 - std::pow(2, -3)), 1e-6);
 }
 
+// A weight hangs on it: whatever the voltage does to the charged part, the section carries the weight.
+TEST_F(FilmValues, NominalStressIsForceOverTheWholeSection) {
+  const std::string material = "[film.material]\nshear_modulus = \"40 kPa\"\nrelative_permittivity = 3\n"
+                               "density = 0\n";
+  const std::string stack =
+      "[film]\nthickness = \"0.1 mm\"\n" + material +
+      "[strip]\nlength = \"20 mm\"\nwidth = \"10 mm\"\nlayers = 4\ncover_thickness = "
+      "\"80 um\"\n[weight]\nmass = \"10 g\"\n[drive]\nvoltage = \"2 kV\"\n"
+      "[output]\nfields = false\n"
+      "[[quantity]]\nname = \"stress\"\nkind = \"nominal stress\"\nof = \"film\"\nalong = "
+      "\"y\"\n";
+  const double hung = 0.01 * 9.81 / (10e-3 * 0.56e-3);
+  EXPECT_NEAR(run(stack).last("stress"), hung, 1e-6 * hung);
+  const auto rod = [&](const std::string& to, const std::string& along, const std::string& force) {
+    return "model = \"planar\"\n[film]\nthickness = \"0.1 mm\"\nprestretch = 1.2\n" + material +
+           "[line]\nto = " + to +
+           "\n[rod]\nwidth = \"100 mm\"\nlayers = 2\nelectrode_width = \"60 mm\"\n[[support]]\nplace = "
+           "\"start\"\nfix = [\"x\", \"y\"]\n[[support]]\nplace = \"end\"\nfix = [\"" +
+           (along == "x" ? "y" : "x") + "\"]\n[[load]]\nplace = \"end\"\nforce = " + force +
+           "\n[drive]\nvoltage = \"1 kV\"\n[[step]]\nkind = \"force\"\n[[step]]\nkind = \"voltage\"\n"
+           "[[quantity]]\nname = \"stress\"\nkind = \"nominal stress\"\nof = \"film\"\nalong = \"" +
+           along + "\"\n";
+  };
+  const double pulled = 0.3 / (0.1e-3 * 100e-3 * 2);
+  EXPECT_NEAR(run(rod("[\"24 mm\", 0, 0]", "x", "[\"0.3 N\", 0, 0]")).last("stress"), pulled, 1e-6 * pulled);
+  EXPECT_NEAR(run(rod("[\"-24 mm\", 0, 0]", "x", "[\"-0.3 N\", 0, 0]")).last("stress"), pulled,
+              1e-6 * pulled);
+  const std::string upright = rod("[0, \"24 mm\", 0]", "y", "[0, \"0.3 N\", 0]");
+  EXPECT_NEAR(run(upright).last("stress"), pulled, 1e-6 * pulled);
+  std::string across = upright;
+  across.replace(across.rfind("\"y\""), 3, "\"x\"");
+  EXPECT_NE(refusal(across).find("found \"x\": a rod pulls along itself"), std::string::npos)
+      << refusal(across);
+}
+
+// Two rods in series, tied: each end tells of the rod that it is named after.
+TEST_F(FilmValues, AtATieCountTheFilmThatThePlaceIsNamedAfter) {
+  std::string text = "model = \"planar\"\n[[tie]]\nbetween = [\"a.end\", \"b.start\"]\n";
+  const auto part = [](const char* name, int from, int to, int modulus) {
+    return fmt::format("[part.{0}.film]\nthickness = \"0.1 mm\"\nprestretch = 1.5\n[part.{0}.film.material]\n"
+                       "shear_modulus = \"{3} kPa\"\nrelative_permittivity = 3\n[part.{0}.line]\nfrom = "
+                       "[\"{1} mm\", 0, 0]\nto = [\"{2} mm\", 0, 0]\n[part.{0}.rod]\nwidth = \"10 mm\"\n",
+                       name, from, to, modulus);
+  };
+  text += part("a", 0, 40, 50) + part("b", 40, 70, 30);
+  for (const char* place : {"a.start", "b.end"})
+    text += fmt::format("[[support]]\nplace = \"{}\"\nfix = [\"x\", \"y\"]\n", place);
+  text +=
+      "[[support]]\nplace = \"a.end\"\nfix = [\"y\"]\n[[load]]\nplace = \"a.end\"\nforce = [\"1 mN\", 0, 0]\n"
+      "[[electrode]]\nname = \"b\"\nplace = \"b.film\"\n[drive.b]\nvoltage = \"1 kV\"\n[[step]]\nkind = "
+      "\"voltage\"\n[[step]]\nkind = \"force\"\n";
+  for (const std::string part_name : {"a", "b"})
+    for (const std::string end : {"start", "end"})
+      text += fmt::format(
+          "[[quantity]]\nname = \"force_{0}_{1}\"\nkind = \"film force\"\nof = \"{0}.{1}\"\n"
+          "along = \"x\"\n[[quantity]]\nname = \"stress_{0}_{1}\"\nkind = \"nominal stress\"\nof = "
+          "\"{0}.{1}\"\nalong = \"x\"\n",
+          part_name, end);
+  const Ran ran = run(text);
+  constexpr double section = 1e-6;
+  for (const std::string part_name : {"a", "b"}) {
+    const double force = ran.last("force_" + part_name + "_start");
+    EXPECT_GT(force, 0);
+    EXPECT_NEAR(ran.last("force_" + part_name + "_end"), -force, 1e-9 * force);
+    for (const char* end : {"_start", "_end"})
+      EXPECT_NEAR(ran.last("stress_" + part_name + end), force / section, 1e-6 * force / section);
+  }
+  EXPECT_NEAR(ran.last("force_a_start") - ran.last("force_b_start"), 1e-3, 1e-9); // the load between them
+}
+
 // Clamped film that is all under voltage has nowhere to go: its tension falls everywhere alike.
 TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
   for (const std::string model : {"axisymmetric", "planar", "3d"}) {
