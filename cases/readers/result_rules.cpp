@@ -4,6 +4,7 @@
 #include "cases/readers/rules.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -25,6 +26,27 @@ void check_step_with_end(SectionReader& reader, const Case& one, const Node* wri
                   fmt::format("found \"{}\": a step of this kind leaves the state as it is; name the step "
                               "before it",
                               step));
+}
+
+/// What counts from the end of the last step is 0, which is no surprise where no voltage came before.
+void check_beginnings(SectionReader& reader, const Node& tree, const Case& one) {
+  const auto last = std::ranges::find_if(one.steps.rbegin(), one.steps.rend(),
+                                         [](const Step& step) { return !step.is_analysis(); });
+  const bool driven = std::any_of(last, one.steps.rend(), [&](const Step& step) {
+    return &step != &*last && (step.kind == StepKind::voltage || step.kind == StepKind::charge ||
+                               step.kind == StepKind::transient);
+  });
+  if (!driven) return;
+  std::vector<std::string> names;
+  for (const Quantity& quantity : one.quantities)
+    if (quantity.kind->since && quantity.since == last->name) names.push_back(quantity.name);
+  if (names.empty()) return;
+  const auto number = static_cast<std::size_t>(one.steps.rend() - last) - 1;
+  reader.warn(tree.find("step")->items.at(number).source, fmt::format("step[{}]", number + 1),
+              fmt::format("{} from the end of step \"{}\", behind which nothing moves here: 0 at the end of the "
+                          "run; let the voltage follow it, or ask for a [[quantity]] without since",
+                          fmt::format("{} count{}", fmt::join(names, ", "), names.size() > 1 ? "" : "s"),
+                          last->name));
 }
 
 /// What is measured must be there.
@@ -131,6 +153,7 @@ void check_names(SectionReader& reader, const Node& tree, const Case& one) {
 
 void check_results(SectionReader& reader, const Node& tree, const Case& one) {
   check_quantities(reader, tree, one);
+  check_beginnings(reader, tree, one);
   check_names(reader, tree, one);
   check_controllers(reader, tree, one);
 }

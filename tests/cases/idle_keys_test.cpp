@@ -195,6 +195,17 @@ TEST_F(IdleKeys, OfAResolvedCaseAreThoseOfTheCase) {
   EXPECT_EQ(keys(resolved_text(read_case(directory / "case.toml"))), Keys{"solver.time_tolerance"});
 }
 
+// A standard stroke counts since the weight: with the weight behind the voltage it is 0 at the end.
+TEST_F(IdleKeys, QuantitiesThatCountFromTheLastStepAreTold) {
+  const std::string strip = film + "[strip]\nlength = \"60 mm\"\nwidth = \"60 mm\"\n[weight]\nmass = \"20 "
+                                   "g\"\n[drive]\nvoltage = \"2 kV\"\n";
+  const std::string weight = "[[step]]\nkind = \"weight\"\n", modes = "[[step]]\nkind = \"modes\"\n";
+  EXPECT_EQ(keys(strip + ramp + weight), Keys{"step[2]"});
+  EXPECT_EQ(keys(strip + ramp + weight + modes), Keys{"step[2]"});
+  EXPECT_EQ(keys(strip + weight + ramp), Keys{});
+  EXPECT_EQ(keys(strip + weight), Keys{"drive.voltage"});
+}
+
 TEST_F(IdleKeys, TheGalleryHasNone) {
   for (const char* folder : {"cases/gallery", "tests/cases/valid"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder / folder)) {
