@@ -353,7 +353,10 @@ TEST_F(Bodies, added_mass_lowers_the_natural_frequency_and_has_no_weight) {
 TEST_F(Bodies, a_fin_that_turns_far_is_told) {
   const std::string load = "[[load]]\nplace = \"hub\"\nmoment = [\"0 N m\", \"0 N m\", \"0.02 N "
                            "m\"]\n[[step]]\nkind = \"force\"\n";
-  EXPECT_TRUE(run(wet_hub(load)).events.contains("fin turns"));
+  EXPECT_EQ(run(wet_hub(load)).events.count("fin turns"), 1);
+  std::string more = load;
+  more.replace(more.find("0.02"), 4, "0.06");
+  EXPECT_EQ(run(wet_hub(more)).events.count("fin turns"), 3); // beyond 0.2, 0.4 and 0.8 rad
 }
 
 } // namespace

@@ -36,7 +36,7 @@ class FilmCases : public test::ScratchTest {
     std::vector<double> time;                          ///< s, per recorded state
     std::vector<std::vector<double>> voltages;         ///< V, likewise, per electrode
     std::map<std::string, std::vector<double>> values; ///< per quantity likewise
-    std::set<std::string> events;                      ///< kinds
+    std::multiset<std::string> events;                 ///< kinds
     double last(const std::string& name) const { return values.at(name).back(); }
   };
 
