@@ -95,6 +95,16 @@ TEST_F(Responses, ALinearModelThatIsNoneIsToldSo) {
                "linearise.to=2 kHz", "--set", "linearise.order=1"});
   EXPECT_EQ(rings.exit_code, 5) << rings.out;
   EXPECT_NE(rings.err.find("does not answer as the device does"), std::string::npos) << rings.err;
+  EXPECT_NE(rings.err.find("ask for a larger linearise.order"), std::string::npos) << rings.err;
+}
+
+// The first mode lies above the highest frequency: that it follows statically is 11 % off there.
+TEST_F(Responses, ALinearModelHasTheModesLittleAboveItsFrequencies) {
+  write("disc.toml", disc + "[linearise]\noutput = \"r\"\nfrom = \"0.1 Hz\"\nto = \"60 Hz\"\n");
+  const Ended made =
+      dielast({"linearise", "disc.toml", "-o", "model", "--set", "film.material.density=1000 kg/m^3"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_LT(json_of("model/linear_model.json")["largest_relative_error"], 0.01);
 }
 
 // A case without a section [linearise] gets the default one, and what this one asks of the case.
