@@ -19,7 +19,7 @@ namespace dielast::fem {
 /// that is a sheet by the voltages of its corners: k = eps sum_a N_a (V_a/H)^2 with N_a linear (see
 /// SheetPoint). A point's volume is that of the film, of a full turn where it is a film of revolution.
 template<class Kinematics, class Law>
-class MembraneBlock final : public ElementBlock, public FilmPoints {
+class MembraneBlock final : public FilmPoints {
  public:
   MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells, const MembraneSection& section,
                 Law law, std::vector<int> electrodes, int integration_points, std::vector<int> numbers);
@@ -30,9 +30,6 @@ class MembraneBlock final : public ElementBlock, public FilmPoints {
   void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
-  void sample(const State& state, Samples& samples) const override {
-    if (section_.sampled) sample_points(state, samples);
-  }
   void sample_points(const State& state, Samples& samples) const override;
   void add_mass(int element, std::span<double> packed) const override;
   void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
@@ -106,9 +103,9 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
                                               const MembraneSection& section, Law law,
                                               std::vector<int> electrodes, int integration_points,
                                               std::vector<int> numbers)
-    : film_(std::move(law), section), section_(section), count_(cells.size()), points_(integration_points),
-      nodes_(cells.nodes), electrodes_(std::move(electrodes)), numbers_(std::move(numbers)),
-      reference_(mesh.nodes), rule_(Kinematics::rule(integration_points)) {
+    : FilmPoints(section.sampled), film_(std::move(law), section), section_(section), count_(cells.size()),
+      points_(integration_points), nodes_(cells.nodes), electrodes_(std::move(electrodes)),
+      numbers_(std::move(numbers)), reference_(mesh.nodes), rule_(Kinematics::rule(integration_points)) {
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e) {
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
