@@ -3,6 +3,7 @@
 
 #include "cases/case/quantities.hpp"
 #include "cases/devices/discretisation.hpp"
+#include "cases/runs/results.hpp"
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
@@ -44,8 +45,11 @@ const Quantity& measured(const Quantity& quantity, const std::vector<Quantity>& 
   return quantity.kind->so_far ? *std::ranges::find(all, quantity.of, &Quantity::name) : quantity;
 }
 
-void add_results(Solution& solution, const Case& one, const Simulation& simulation) {
+void add_results(Solution& solution, const Case& one, const Simulation& simulation,
+                 const std::vector<Margin>& margins) {
   solution.values = simulation.results();
+  for (std::size_t q = 0; q < one.quantities.size(); ++q)
+    if (one.quantities[q].kind->of_run) solution.values[q] = factor_to(one.quantities[q].of, margins);
   const Device& device = simulation.device();
   const fem::Samples samples = device.model.sample(simulation.state());
   const post::Extremes extremes(samples);
@@ -62,14 +66,21 @@ Solution solve(const Discretisation& discretisation, int threads) {
   Solution solution{.size = discretisation.size};
   try {
     Simulation simulation(discretisation.one, threads);
+    Journal journal;
     SimulationObserver observer;
     observer.on_accept = [&](const Frame& frame) {
       note(solution, frame.record);
+      journal.records.push_back(frame.record);
+      journal.values.push_back(frame.values);
       return true;
     };
     const Outcome outcome = simulation.run(observer);
+    const bool wanted = std::ranges::any_of(discretisation.one.quantities,
+                                            [](const Quantity& own) { return own.kind->of_run; });
     if (outcome.ending == Ending::complete)
-      add_results(solution, discretisation.one, simulation);
+      add_results(solution, discretisation.one, simulation,
+                  wanted ? margins_of(discretisation.one, simulation, journal, outcome, threads)
+                         : std::vector<Margin>{});
     else
       solution.trouble = outcome.kind;
   } catch (const std::exception& error) { // no mesh, a place that it lacks, no memory: the run itself is done
@@ -129,6 +140,19 @@ constexpr std::array thresholds{
     Threshold{"breakdown", "breakdown_ratio", post::Extreme::maximum, 1},
     Threshold{"wall yield", "yield_ratio", post::Extreme::maximum, 1}};
 
+/// Whether the extreme that crosses this limit grows as the mesh is refined.
+bool is_singular_there(const Case& one, const std::string& limit,
+                       const std::vector<ErrorEstimate>& estimates) {
+  for (const Threshold& threshold : thresholds)
+    for (std::size_t q = 0; threshold.kind == limit && q < estimates.size(); ++q) {
+      const Quantity& quantity = one.quantities[q];
+      if (quantity.kind->extreme && quantity.of == threshold.field && quantity.extreme == threshold.extreme &&
+          estimates[q].singular)
+        return true;
+    }
+  return false;
+}
+
 /// Rises over one element within which a singular extreme reaches a limit on a finer mesh.
 constexpr double reach = 4;
 
@@ -178,7 +202,8 @@ std::vector<EventRemark> event_remarks(const Case& one, const Solution& own,
 } // namespace
 
 Estimates estimate_errors(const Case& one, const Simulation& own_run,
-                          std::span<const post::StepRecord> records, int threads) {
+                          std::span<const post::StepRecord> records, const std::vector<Margin>& margins,
+                          int threads) {
   const std::vector<Discretisation> discretisations = other_discretisations(one);
   Estimates estimates;
   if (discretisations.empty()) {
@@ -200,7 +225,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   }
   Solution own;
   for (const post::StepRecord& record : records) note(own, record);
-  add_results(own, one, own_run);
+  add_results(own, one, own_run, margins);
   std::vector<Solution> others;
   for (const Discretisation& discretisation : discretisations) {
     Solution other = solve(discretisation, threads);
@@ -236,6 +261,12 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
         estimate.error = std::max(*estimate.error, one.solver.time_tolerance * std::abs(own.values[q]));
     }
   }
+  for (std::size_t q = 0; q < one.quantities.size(); ++q)
+    if (one.quantities[q].kind->of_run &&
+        is_singular_there(one, one.quantities[q].of, estimates.quantities)) {
+      estimates.quantities[q].error.reset();
+      estimates.quantities[q].remark = "falls as the mesh is refined: no converged value";
+    }
   estimates.events = event_remarks(one, own, others, estimates.quantities);
   return estimates;
 }

@@ -10,6 +10,8 @@
 
 namespace dielast::cases {
 
+struct Margin;
+
 /// An event of film or walls that depends on the mesh, or that did not happen but may on another.
 struct EventRemark {
   std::string kind; ///< "loss of tension", "breakdown", "wall yield", "wall contact"
@@ -24,9 +26,9 @@ struct Estimates {
 };
 
 /// Solves the case once more with each of other_discretisations() and compares. `own` has run to its end,
-/// `records` are of all its states. A solution that took another way (critical points, jumps, unstable modes,
-/// or an early end) tells nothing.
+/// `records` are of all its states, `margins` its own. A solution that took another way (critical points,
+/// jumps, unstable modes, or an early end) tells nothing.
 Estimates estimate_errors(const Case& one, const Simulation& own, std::span<const post::StepRecord> records,
-                          int threads);
+                          const std::vector<Margin>& margins, int threads);
 
 } // namespace dielast::cases

@@ -335,4 +335,9 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   return margins;
 }
 
+double factor_to(const std::string& limit, const std::vector<Margin>& margins) {
+  const auto margin = std::ranges::find(margins, limit, &Margin::limit);
+  return margin != margins.end() ? margin->factor.value_or(unknown) : unknown;
+}
+
 } // namespace dielast::cases

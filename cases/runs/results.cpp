@@ -105,15 +105,14 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                           .ratio = ratio_of(quantity),
                           .meaning = meaning_of(quantity),
                           .peak = peak_of(one, q, simulation.peaks(), journal)};
-    if (quantity.kind->of_run) {
-      const auto margin = std::ranges::find(results.margins, quantity.of, &Margin::limit);
-      if (margin != results.margins.end()) {
-        row.value = margin->factor.value_or(std::numeric_limits<double>::quiet_NaN());
-        row.error_remark = margin->remark;
-      }
-    } else if (q < estimates.quantities.size()) {
+    if (q < estimates.quantities.size()) {
       row.error = estimates.quantities[q].error;
       row.error_remark = estimates.quantities[q].remark;
+    }
+    const auto margin = std::ranges::find(results.margins, quantity.of, &Margin::limit);
+    if (quantity.kind->of_run && margin != results.margins.end()) {
+      row.value = factor_to(quantity.of, results.margins);
+      if (!margin->remark.empty()) row.error_remark = margin->remark;
     }
     results.quantities.push_back(std::move(row));
   }

@@ -23,6 +23,9 @@ struct Margin {
 std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, const Journal& journal,
                                const Outcome& outcome, int threads);
 
+/// That of a quantity of kind "margin"; NaN: there is none.
+double factor_to(const std::string& limit, const std::vector<Margin>& margins);
+
 /// Everything that a finished run says of itself.
 struct Results {
   Outcome outcome;

@@ -165,16 +165,16 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     return ExitCode::interrupted;
   }
   recorder.write_waiting();
+  std::vector<Margin> margins = margins_of(one, simulation, recorder.journal(), outcome, settings.threads);
   Estimates estimates{.reason = "left out: output.error_estimate = false"};
   if (outcome.ending != Ending::complete)
     estimates.reason = "the run did not reach its end";
   else if (one.error_estimate) {
     log.info("error estimate: the case once more with other elements and time steps");
-    estimates = estimate_errors(one, simulation, recorder.journal().records, settings.threads);
+    estimates = estimate_errors(one, simulation, recorder.journal().records, margins, settings.threads);
   }
   Results results =
-      collect_results(one, simulation, outcome, recorder.journal(), estimates,
-                      margins_of(one, simulation, recorder.journal(), outcome, settings.threads));
+      collect_results(one, simulation, outcome, recorder.journal(), estimates, std::move(margins));
   results.profiles = profiles_of(one, device, outcome, recorder.journal());
 
   log.info("results");

@@ -4,6 +4,7 @@
 #include "cases/case/quantities.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/runs/error_estimate.hpp"
+#include "cases/runs/results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -155,7 +156,7 @@ void add_estimates(const EstimatedCase& from, EstimateCount& count) {
       count.without.push_back(fmt::format("{}: {}", label, run->outcome.message));
       return;
     }
-  const Estimates estimates = estimate_errors(one, own.simulation, own.records, 1);
+  const Estimates estimates = estimate_errors(one, own.simulation, own.records, {}, 1);
   if (!estimates.reason.empty()) count.without.push_back(fmt::format("{}: {}", label, estimates.reason));
   for (std::size_t q = 0; q < estimates.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
