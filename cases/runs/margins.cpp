@@ -21,6 +21,7 @@ struct Passed {
   double slack = unknown;         ///< of film that may wrinkle: its tension_state
   std::vector<std::string> kinds; ///< of its events
   bool on_the_way_back = false;   ///< to no voltage, from the end of the run
+  int record = -1;                ///< of the run; -1: none
 };
 
 /// The value of a standard or written quantity of that kind; NaN where the case has none.
@@ -60,7 +61,8 @@ std::vector<Passed> way_of(const Case& one, const Journal& journal) {
                .breakdown = extreme_of(one, values, "breakdown_ratio", post::Extreme::maximum),
                .least_stress = extreme_of(one, values, "min_principal_stress", post::Extreme::minimum),
                .yield = extreme_of(one, values, "yield_ratio", post::Extreme::maximum),
-               .slack = extreme_of(one, values, "tension_state", post::Extreme::maximum)});
+               .slack = extreme_of(one, values, "tension_state", post::Extreme::maximum),
+               .record = record.index});
     for (const post::Event& event : record.events) passed.kinds.push_back(event.kind);
     const auto step = std::ranges::find(one.steps, record.step, &Step::name);
     const bool voltage = step != one.steps.end() && step->kind == StepKind::voltage;
@@ -81,17 +83,20 @@ struct Place {
 class FurtherWay {
  public:
   FurtherWay(const Case& one, const Simulation& own, const post::StepRecord& end, int threads)
-      : further_(one), end_(end), threads_(threads), places_{{1, own.progress()}} {
-    SimulationProgress& progress = places_.front().progress;
-    further_.steps = own.steps();
-    progress.step = std::min(progress.step, static_cast<int>(further_.steps.size()) - 1);
-    further_.steps.resize(static_cast<std::size_t>(progress.step) + 1);
-    progress.in_step.followed.reset();
-    progress.in_step.ramp.load_factor = 1; // the way goes on from its state, wherever the step has ended
-    Step step{.kind = StepKind::voltage, .name = "margins"};
-    for (const Step& before : further_.steps)
-      if (!before.is_analysis()) step.response = before.response;
-    further_.steps.push_back(step);
+      : one_(one), further_(one), steps_(own.steps()), end_(end), threads_(threads) {
+    begin(own.progress(), 1);
+  }
+
+  /// Begins at a state of the run before its end, which is gone to once more: no way leads back to it, as
+  /// over a jump. False where it is not reached.
+  bool begin_at(const Passed& state) {
+    if (state.record < 0) return false;
+    Simulation simulation(one_, threads_);
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) { return frame.record.index < state.record; };
+    if (simulation.run(observer).ending != Ending::interrupted) return false;
+    begin(simulation.progress(), state.factor);
+    return true;
   }
 
   /// The states up to those with `factor` times the voltages of the end; `stopped` says why it ends earlier.
@@ -157,10 +162,25 @@ class FurtherWay {
     return passed;
   }
 
+  void begin(SimulationProgress progress, double factor) {
+    further_.steps = steps_;
+    progress.step = std::min(progress.step, static_cast<int>(steps_.size()) - 1);
+    further_.steps.resize(static_cast<std::size_t>(progress.step) + 1);
+    progress.in_step.followed.reset();
+    progress.in_step.ramp.load_factor = 1; // the way goes on from its state, wherever the step has ended
+    Step step{.kind = StepKind::voltage, .name = "margins"};
+    for (const Step& before : further_.steps)
+      if (!before.is_analysis()) step.response = before.response;
+    further_.steps.push_back(step);
+    places_ = {{factor, std::move(progress)}};
+  }
+
+  const Case& one_;
   Case further_;
+  std::vector<Step> steps_; ///< of the run
   const post::StepRecord& end_;
   int threads_;
-  std::vector<Place> places_; ///< the end of the run first
+  std::vector<Place> places_; ///< that where it begins first
 };
 
 /// Whether limits that states tell are behind it.
@@ -183,7 +203,7 @@ std::optional<double> root_between(const Passed& before, const Passed& after, co
     const std::optional<Passed> again = further.at(known.factor);
     return again && std::abs(value(*again) - value(known)) <= same;
   };
-  if (!is_on_the_way(after)) return std::nullopt;
+  if (!is_on_the_way(after) && !(further.begin_at(before) && is_on_the_way(after))) return std::nullopt;
   // Regula falsi, with half the value at an end that stays (Illinois).
   double root = b;
   int kept = 0; // the end: -1 is a, 1 is b

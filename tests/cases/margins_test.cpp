@@ -72,6 +72,19 @@ TEST_F(Margins, DoNotDependOnTheIncrements) {
   }
 }
 
+// A film that stiffens jumps at its limit point; from behind no way leads back to what was passed before.
+TEST_F(Margins, WhatWasPassedBeforeAJumpIsSolvedForThere) {
+  const auto gent = [this](const char* end) {
+    std::string text = patch(1, 20e6, "on_instability = \"jump\"\n");
+    text.replace(text.find("shear_modulus"), 0, "law = \"gent\"\nstretch_limit = 20\n");
+    return margins(text, {fmt::format("drive.voltage={}", end), "step.voltage.increments=10"});
+  };
+  const auto whole = gent("26 kV"), part = gent("20 kV");
+  ASSERT_TRUE(whole.at("breakdown").factor && part.at("breakdown").factor);
+  EXPECT_NEAR(*whole.at("breakdown").factor * 26, *part.at("breakdown").factor * 20, 1e-4);
+  EXPECT_EQ(whole.at("breakdown").remark, "");
+}
+
 TEST_F(Margins, WhatWasNotReachedIsNotGuessed) {
   const auto found = margins(patch(0.5 * pull_in, 1e9));
   for (const char* limit : {"breakdown", "pull-in"}) {
