@@ -42,11 +42,12 @@ void check_beginnings(SectionReader& reader, const Node& tree, const Case& one) 
     if (quantity.kind->since && quantity.since == last->name) names.push_back(quantity.name);
   if (names.empty()) return;
   const auto number = static_cast<std::size_t>(one.steps.rend() - last) - 1;
-  reader.warn(tree.find("step")->items.at(number).source, fmt::format("step[{}]", number + 1),
-              fmt::format("{} from the end of step \"{}\", behind which nothing moves here: 0 at the end of the "
-                          "run; let the voltage follow it, or ask for a [[quantity]] without since",
-                          fmt::format("{} count{}", fmt::join(names, ", "), names.size() > 1 ? "" : "s"),
-                          last->name));
+  reader.warn(
+      tree.find("step")->items.at(number).source, fmt::format("step[{}]", number + 1),
+      fmt::format("{} from the end of step \"{}\", behind which nothing moves here: 0 at the end of the "
+                  "run; let the voltage follow it, or ask for a [[quantity]] without since",
+                  fmt::format("{} count{}", fmt::join(names, ", "), names.size() > 1 ? "" : "s"),
+                  last->name));
 }
 
 /// What is measured must be there.
