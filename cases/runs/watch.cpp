@@ -141,8 +141,10 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
 post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step& step,
                         const std::string& sudden) {
   std::string text =
-      fmt::format("works and heat are known to {} only, of {} that were exchanged: ",
-                  post::engineering(energy.error, "J"), post::engineering(energy.exchanged, "J"));
+      fmt::format("works and heat are known to {} only, ", post::engineering(energy.error, "J"));
+  text += energy.exchanged > 0
+              ? fmt::format("of {} that were exchanged: ", post::engineering(energy.exchanged, "J"))
+              : "which is all that was exchanged: ";
   if (sudden.empty())
     text += fmt::format("give the step \"{}\" more increments{}", step.name,
                         step.duration ? " or [solver] a smaller time_tolerance" : "");

@@ -147,9 +147,10 @@ void EnergyBalance::arrive(EnergyPoint point) {
   if (points.size() == 2) points.erase(points.begin());
   points.push_back(std::move(point));
   const Work& work = record_.work;
+  const double unknown = error(); // what is known no better than to itself has not been exchanged for certain
   for (const double energy :
        {work.electrical, work.mechanical, work.dissipated, work.released, stored() - record_.stored_at_start})
-    record_.exchanged = std::max(record_.exchanged, std::abs(energy));
+    if (std::abs(energy) > 2 * unknown) record_.exchanged = std::max(record_.exchanged, std::abs(energy));
 }
 
 void EnergyBalance::add(EnergyPoint point) {

@@ -83,7 +83,8 @@ class EnergyBalance {
   /// An error beside the energies that it is compared with, J.
   struct Resolution {
     double error = 0;
-    double exchanged = 0; ///< largest energy so far that went in or out, was stored or turned into heat
+    double exchanged = 0; ///< largest energy so far that went in or out, was stored or turned into heat, and
+                          ///< was known to half of itself at least
     /// Beyond 1 % of what was exchanged.
     bool is_poor() const { return error > 0.01 * exchanged; }
   };
