@@ -47,6 +47,15 @@ void place(meshing::Mesh& mesh, const Part& part) {
     x = origin + Eigen::Vector3d(cosine * x.x() - sine * x.y(), sine * x.x() + cosine * x.y(), x.z());
 }
 
+/// The edge that a plate carries goes by its name, too.
+void name_plate(meshing::Mesh& mesh, const std::string& edge) {
+  const auto nodes = mesh.node_sets.find(edge);
+  if (nodes == mesh.node_sets.end()) return; // reported elsewhere
+  mesh.node_sets.try_emplace("plate", nodes->second);
+  if (const auto cells = mesh.cell_sets.find(edge); cells != mesh.cell_sets.end())
+    mesh.cell_sets.try_emplace("plate", cells->second);
+}
+
 } // namespace
 
 meshing::Mesh build_mesh(const Case& one) {
@@ -77,6 +86,7 @@ meshing::Mesh build_mesh(const Case& one) {
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
+  if (one.plate) name_plate(whole, one.plate->place);
   return whole;
 }
 

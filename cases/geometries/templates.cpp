@@ -204,7 +204,10 @@ std::vector<Template> disc_templates() {
 std::vector<Template> annulus_templates() {
   return {{"annulus",
            "a diaphragm: a ring of film that carries a plate in its hole",
-           {{"film", "the film"}, {"inner", "the plate's edge"}, {"outer", "the clamped edge"}},
+           {{"film", "the film"},
+            {"inner", "the plate's edge"},
+            {"plate", "the plate, by its edge"},
+            {"outer", "the clamped edge"}},
            diaphragm_defaults,
            diaphragm_quantities,
            "plate"},

@@ -82,6 +82,26 @@ void hang_weight(SectionReader& reader, const Node& tree, Case& one) {
     bar->mass = one.weight->mass;
 }
 
+/// A quantity of the user's that has the name and the kind of a standard one takes its place. Returns how
+/// many standard ones are left, in front of the user's.
+int give_way(Node& tree, int standard) {
+  Node* list = tree.find("quantity");
+  if (!list || !list->is(Node::Kind::list)) return standard;
+  const auto text = [](const Node& item, const char* key) {
+    const Node* node = item.find(key);
+    return node && node->is(Node::Kind::text) ? node->text : "";
+  };
+  const std::vector<Node> users(list->items.begin() + standard, list->items.end());
+  const auto replaced = [&](const Node& own) {
+    return std::ranges::any_of(users, [&](const Node& written) {
+      return text(written, "name") == text(own, "name") && text(written, "kind") == text(own, "kind");
+    });
+  };
+  const auto left = std::remove_if(list->items.begin(), list->items.begin() + standard, replaced);
+  list->items.erase(left, list->items.begin() + standard);
+  return static_cast<int>(list->items.size() - users.size());
+}
+
 } // namespace
 
 Case interpret(Node tree, const std::filesystem::path& path) {
@@ -93,7 +113,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   one.source = path;
   one.title = path.stem().string();
   add_defaults(tree);
-  const int standard = add_standard_quantities(tree);
+  const int standard = give_way(tree, add_standard_quantities(tree));
 
   if (const std::string name = path.stem().string(); name.size() > longest_name)
     throw CaseError(

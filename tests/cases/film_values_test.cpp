@@ -150,6 +150,18 @@ TEST_F(FilmValues, FilmPullsWhereItEnds) {
             at(18, 6) + "quantity[1].of: no film meets this place, so none pulls on it");
 }
 
+// A diaphragm brings a quantity "drop"; who writes the same has it once, and may call the edge by its plate.
+TEST_F(FilmValues, AStandardQuantityGivesWayToTheUsersOfItsNameAndKind) {
+  const auto drop = [](const std::string& kind) {
+    return "[[quantity]]\nname = \"drop\"\nkind = \"" + kind + "\"\nof = \"plate\"\n";
+  };
+  const Ran own = run(diaphragm("axisymmetric") + drop("displacement") + "along = \"gravity\"\n");
+  const Ran standard = run(diaphragm("axisymmetric"));
+  EXPECT_EQ(own.last("drop"), standard.last("drop"));
+  EXPECT_EQ(own.values.at("drop").size(), own.time.size());
+  EXPECT_NE(refusal(diaphragm("axisymmetric") + drop("radius")).find("\"drop\" is taken"), std::string::npos);
+}
+
 // A meridian may be drawn from outside to inside, or upright.
 TEST_F(FilmValues, NominalStressIsAlongTheMeridian) {
   const auto stress = [](const std::string& place) {
