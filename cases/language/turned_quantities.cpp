@@ -12,14 +12,10 @@ namespace dielast::cases {
 namespace {
 
 /// rad; 0 for what is no angle, which the reader reports.
-double angle_of(const Node& part) {
-  const Node* turned = part.find("turned");
-  if (!turned || !turned->is(Node::Kind::text)) return 0;
-  try {
-    return parse_measure(turned->text, "rad").value;
-  } catch (const UnitError&) {
-    return 0;
-  }
+double angle_of(const Node& part) try {
+  return parse_measure(text_at(part, "turned"), "rad").value;
+} catch (const UnitError&) {
+  return 0;
 }
 
 bool is_one_of(const std::string& word, std::initializer_list<std::string_view> words) {
@@ -34,7 +30,7 @@ void turn_standard_quantities(std::vector<Node>& quantities, const Node& part) {
   const bool along_axes = std::abs(quarters - whole) < 1e-12;
   if (along_axes && std::fmod(whole, 2) == 0) return;
   std::erase_if(quantities, [&](Node& quantity) {
-    const std::string kind = quantity.find("kind")->text;
+    const std::string kind = text_at(quantity, "kind");
     Node* const along = quantity.find("along");
     const bool straight = is_one_of(kind, {"distance", "elongation"});
     if (!along || !is_one_of(along->text, {"x", "y"}) ||

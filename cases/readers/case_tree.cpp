@@ -87,14 +87,11 @@ void hang_weight(SectionReader& reader, const Node& tree, Case& one) {
 int give_way(Node& tree, int standard) {
   Node* list = tree.find("quantity");
   if (!list || !list->is(Node::Kind::list)) return standard;
-  const auto text = [](const Node& item, const char* key) {
-    const Node* node = item.find(key);
-    return node && node->is(Node::Kind::text) ? node->text : "";
-  };
   const std::vector<Node> users(list->items.begin() + standard, list->items.end());
   const auto replaced = [&](const Node& own) {
     return std::ranges::any_of(users, [&](const Node& written) {
-      return text(written, "name") == text(own, "name") && text(written, "kind") == text(own, "kind");
+      return text_at(written, "name") == text_at(own, "name") &&
+             text_at(written, "kind") == text_at(own, "kind");
     });
   };
   const auto left = std::remove_if(list->items.begin(), list->items.begin() + standard, replaced);

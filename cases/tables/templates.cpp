@@ -70,11 +70,6 @@ Node parse_default(std::string_view toml, const Node& tree) {
   return parsed;
 }
 
-std::string text_at(const Node& table, std::string_view key) {
-  const Node* node = table.find(key);
-  return node && node->is(Node::Kind::text) ? node->text : "";
-}
-
 Node text_node(std::string text, const Source& source) {
   Node node;
   node.kind = Node::Kind::text;

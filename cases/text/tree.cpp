@@ -121,6 +121,11 @@ const Node* Node::find(std::string_view key) const {
 
 Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
 
+std::string text_at(const Node& table, std::string_view key) {
+  const Node* node = table.find(key);
+  return node && node->is(Node::Kind::text) ? node->text : "";
+}
+
 Node& Node::add(std::string key, Node value) {
   keys.push_back(std::move(key));
   return items.emplace_back(std::move(value));

@@ -37,6 +37,9 @@ struct Node {
   void remove(std::string_view key);
 };
 
+/// The text of an entry of a table; empty where there is none, or none that is a text.
+std::string text_at(const Node& table, std::string_view key);
+
 /// Reads a TOML file. Throws FileError (missing, no file, larger than 4 MB, not readable) or CaseError
 /// (syntax, encoding, keys with more than 20 dots).
 Node read_tree(const std::filesystem::path& path);
