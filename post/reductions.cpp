@@ -16,6 +16,8 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 double weight(const fem::MembraneSample& sample) { return sample.volume; }
 double weight(const fem::BeamSample& sample) { return sample.length; }
+int layer_of(const fem::MembraneSample& sample) { return sample.layer; }
+int layer_of(const fem::BeamSample&) { return 0; }
 
 template<class Sample, class Point>
 std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::span<const Field<Point>> fields,
@@ -30,12 +32,12 @@ std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::sp
   for (const Sample& sample : samples) {
     const Point point(sample);
     const auto cell = static_cast<std::size_t>(sample.cell);
-    weights[cell] += weight(sample);
+    const double counts = layer_of(sample) == 0 ? weight(sample) : 0;
+    weights[cell] += counts;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const auto width = static_cast<std::size_t>(fields[i].width());
       fields[i].evaluate(point, values.data());
-      for (std::size_t c = 0; c < width; ++c)
-        result[i].average[cell * width + c] += weight(sample) * values[c];
+      for (std::size_t c = 0; c < width; ++c) result[i].average[cell * width + c] += counts * values[c];
       if (!fields[i].worst) continue;
       double& known = result[i].worst[cell];
       known =
@@ -97,7 +99,7 @@ std::vector<char> neighbourhood(const meshing::CellBlock& block, int cell) {
 }
 
 bool same_kind(const fem::MembraneSample& a, const fem::MembraneSample& b) {
-  return a.electrode == b.electrode;
+  return a.electrode == b.electrode && a.layer == b.layer;
 }
 bool same_kind(const fem::BeamSample&, const fem::BeamSample&) { return true; }
 
@@ -110,7 +112,9 @@ double rise_at(const Extremum& extremum, const fem::Samples& samples, const mesh
   return with_scalar(samples, scalar,
                      [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field,
                                                     int component, Part) {
-                       const auto own = std::ranges::find(points, extremum.cell, &Sample::cell);
+                       const auto own = std::ranges::find_if(points, [&](const Sample& sample) {
+                         return sample.cell == extremum.cell && layer_of(sample) == extremum.layer;
+                       });
                        std::array<double, widest_field> values;
                        double rise = 0;
                        for (const Sample& sample : points) {
@@ -172,21 +176,21 @@ const WantedScalars& WantedScalars::all() {
 Extremes::Extremes(const fem::Samples& samples, const WantedScalars& wanted)
     : wanted_(wanted), ends_(wanted.names_.size()) {
   std::array<double, widest_field> values;
-  const auto look = [&](const auto& point, const auto& rows, int cell, Part part) {
+  const auto look = [&](const auto& point, const auto& rows, const auto& sample, Part part) {
     const void* evaluated = nullptr; // components of a field follow one another
     for (const auto& row : rows) {
       if (row.field != evaluated) row.field->evaluate(point, values.data());
       evaluated = row.field;
       auto& [low, high] = ends_[row.number];
       const double value = values[row.component];
-      if (!low || value < low->value) low = Extremum{value, cell, part};
-      if (!high || value > high->value) high = Extremum{value, cell, part};
+      if (!low || value < low->value) low = Extremum{value, sample.cell, part, layer_of(sample)};
+      if (!high || value > high->value) high = Extremum{value, sample.cell, part, layer_of(sample)};
     }
   };
   if (!wanted.film_.empty())
-    for (const auto& sample : samples.film) look(FilmPoint(sample), wanted.film_, sample.cell, Part::film);
+    for (const auto& sample : samples.film) look(FilmPoint(sample), wanted.film_, sample, Part::film);
   if (!wanted.walls_.empty())
-    for (const auto& sample : samples.walls) look(sample, wanted.walls_, sample.cell, Part::walls);
+    for (const auto& sample : samples.walls) look(sample, wanted.walls_, sample, Part::walls);
 }
 
 double film_value(const fem::MembraneSample& sample, std::string_view scalar) {

@@ -16,8 +16,10 @@ namespace dielast::post {
 /// A field in the cells; NaN in a cell without integration points.
 struct CellValues {
   /// Weighted by undeformed volume (film) or length (walls): the components of cell 0, then of cell 1, ...
+  /// Of a shell with several layers that of the film itself.
   std::vector<double> average;
-  std::vector<double> worst; ///< at the cell's integration points; empty for a field without a worst end
+  /// At the cell's integration points, of all layers; empty for a field without a worst end.
+  std::vector<double> worst;
 };
 
 /// One per field in their order. Precondition: every sample's cell < cell_count.
@@ -47,6 +49,7 @@ struct Extremum {
   double value = 0;
   int cell = 0;
   Part part{};
+  int layer = 0; ///< of a shell's film, see MembraneSample
 };
 
 /// Scalars of which the extremes are wanted.
@@ -88,7 +91,7 @@ class Extremes {
 
 /// How steep a scalar is where it is extreme: the largest difference between the extremum and the values at
 /// the integration points of its cell and of the cells next to it, in the scalar's unit. Cells next to it are
-/// film cells of the same electrode that share a side, walls that alone share an end. Throws
+/// film cells of the same electrode and layer that share a side, walls that alone share an end. Throws
 /// std::invalid_argument for an unknown name.
 double rise_at(const Extremum& extremum, const fem::Samples& samples, const meshing::Mesh& mesh,
                std::string_view scalar);

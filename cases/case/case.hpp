@@ -30,6 +30,7 @@ struct TiedPlaces {
 struct Electrode {
   std::string name;
   std::string place;
+  std::string layer{};                    ///< the [[film.layer]] that it charges; empty: the film
   std::optional<double> sheet_resistance; ///< of both faces together, Ohm per square
   std::string terminal;                   ///< where a resistive one is connected
   double stray_capacitance = 0;           ///< beside the film's, of what leads to it, F
@@ -319,6 +320,16 @@ struct Case {
   template<class Rule>
   bool any_film(const Rule& rule) const {
     return std::ranges::any_of(parts, [&](const Part& part) { return part.film && rule(*part.film); });
+  }
+  /// Of all films and the layers on them.
+  std::vector<const materials::Material*> film_materials() const {
+    std::vector<const materials::Material*> all;
+    for (const Part& part : parts) {
+      if (!part.film) continue;
+      all.push_back(&part.film->material);
+      for (const Layer& layer : part.film->further_layers) all.push_back(&layer.material);
+    }
+    return all;
   }
   /// Whether a part's geometry is of that kind.
   template<class T>

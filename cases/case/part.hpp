@@ -26,6 +26,16 @@ enum class FilmSection {
   solid,    ///< it is meshed
 };
 
+/// [[film.layer]]: film that lies on that of a shell, each farther from it than those before
+struct Layer {
+  std::string name; ///< for electrodes; empty: it has none
+  std::string material_name;
+  materials::Material material;
+  double thickness = 0;               ///< undeformed H, m
+  std::array<double, 2> prestretch{}; ///< lambda_p along x and y, in which it is bonded
+  bool below = false;                 ///< on the side that the drawing's normal points away from
+};
+
 /// [film]
 struct Film {
   std::string material_name;
@@ -34,6 +44,9 @@ struct Film {
   std::array<double, 2> prestretch{}; ///< lambda_p along x and y
   bool tension_field = false;         ///< it wrinkles where it would be compressed, and carries tension only
   FilmSection section{};
+  std::vector<Layer> further_layers{}; ///< of a shell
+  double offset =
+      0; ///< of a shell: from the drawn surface to the film's middle as drawn, along its normal, m
   bool potential = false; ///< of a solid: the field follows from the electric potential; otherwise it is
                           ///< that of layers of `thickness`, stacked along the height
   double width = 0;       ///< of a solid in plane strain, across the plane, m

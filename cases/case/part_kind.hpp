@@ -27,8 +27,9 @@ struct WrittenPart;
 /// The film of one part, of which its kind makes blocks.
 struct PartFilm {
   const Part* part;
-  std::vector<int> cells;      ///< of the mesh's film
-  std::vector<int> electrodes; ///< over each of them, or fem::passive
+  std::vector<int> cells;                  ///< of the mesh's film
+  std::vector<int> electrodes;             ///< over each of them, or fem::passive
+  std::vector<std::vector<int>> of_layers; ///< the electrodes of each of Film::further_layers
 };
 
 /// Bars along lines of the mesh that are alike.

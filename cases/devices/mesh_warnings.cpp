@@ -52,8 +52,12 @@ std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh
       continue;
     Eigen::Vector3d size = bounds[p].sizes();
     std::ranges::sort(size, std::greater<>());
-    const double width = meridian ? size[0] : size[1],
-                 thickness = film->thickness / (film->prestretch[0] * film->prestretch[1]);
+    const auto drawn = [](const auto& layer) {
+      return layer.thickness / (layer.prestretch[0] * layer.prestretch[1]);
+    };
+    const double width = meridian ? size[0] : size[1];
+    double thickness = drawn(*film);
+    for (const Layer& layer : film->further_layers) thickness += drawn(layer);
     if (width < thin * thickness)
       warnings.push_back(
           fmt::format("{}film.thickness: the film is {} thick and {} wide; membranes and shells are "

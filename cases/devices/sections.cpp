@@ -18,11 +18,13 @@
 namespace dielast::cases {
 namespace {
 
-/// Electrode over each triangle.
-std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film) {
+/// Electrode over each triangle of the film itself, or of the layer of that name.
+std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& film,
+                               const std::string& layer) {
   std::vector<int> map(static_cast<std::size_t>(film.size()), fem::passive);
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     if (!one.electrodes[e].ground.empty()) continue; // a surface
+    if (one.electrodes[e].layer != layer) continue;
     const std::vector<int>* cells = mesh.cells_of(one.electrodes[e].place, &film);
     if (!cells)
       throw meshing::MeshError("electrode \"" + one.electrodes[e].name + "\": the place \"" +
@@ -36,6 +38,21 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
     }
   }
   return map;
+}
+
+/// Film under the electrode of a layer must have that layer.
+void require_layers(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts) {
+  for (const Electrode& electrode : one.electrodes) {
+    if (electrode.layer.empty()) continue;
+    const std::vector<int>* cells = mesh.cells_of(electrode.place, mesh.film());
+    for (std::size_t i = 0; cells && i < cells->size(); ++i) {
+      const int part = parts[static_cast<std::size_t>((*cells)[i])];
+      const std::vector<Layer>& layers = one.parts[static_cast<std::size_t>(part)].film->further_layers;
+      if (std::ranges::count(layers, electrode.layer, &Layer::name) == 0)
+        throw meshing::MeshError(fmt::format("electrode \"{}\": some film of \"{}\" has no layer \"{}\"",
+                                             electrode.name, electrode.place, electrode.layer));
+    }
+  }
 }
 
 } // namespace
@@ -71,18 +88,26 @@ std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh) {
 
 void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model) {
   const meshing::CellBlock& film = *mesh.film();
-  const std::vector<int> electrodes = electrode_map(one, mesh, film);
+  const std::vector<int> electrodes = electrode_map(one, mesh, film, "");
+  require_layers(one, mesh, parts);
   for (const PartKind& kind : part_kinds()) {
     std::vector<PartFilm> films;
     for (std::size_t p = 0; p < one.parts.size(); ++p) {
       if (kind_of(one.parts[p]) != &kind) continue;
-      PartFilm own{&one.parts[p], {}, {}};
-      for (int cell = 0; cell < film.size(); ++cell) {
-        if (parts[static_cast<std::size_t>(cell)] != static_cast<int>(p)) continue;
-        own.cells.push_back(cell);
-        own.electrodes.push_back(electrodes[static_cast<std::size_t>(cell)]);
-      }
-      if (!own.cells.empty()) films.push_back(std::move(own));
+      PartFilm own{&one.parts[p], {}, {}, {}};
+      for (int cell = 0; cell < film.size(); ++cell)
+        if (parts[static_cast<std::size_t>(cell)] == static_cast<int>(p)) own.cells.push_back(cell);
+      if (own.cells.empty()) continue;
+      const auto over_cells = [&](const std::vector<int>& all) {
+        std::vector<int> over;
+        for (const int cell : own.cells) over.push_back(all[static_cast<std::size_t>(cell)]);
+        return over;
+      };
+      own.electrodes = over_cells(electrodes);
+      for (const Layer& layer : one.parts[p].film->further_layers)
+        own.of_layers.push_back(layer.name.empty() ? std::vector<int>(own.cells.size(), fem::passive)
+                                                   : over_cells(electrode_map(one, mesh, film, layer.name)));
+      films.push_back(std::move(own));
     }
     if (!films.empty()) kind.add(one, mesh, films, model);
   }

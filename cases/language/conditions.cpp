@@ -33,7 +33,8 @@ bool has_inertia(const Case& one) {
 
 bool has_mass(const Case& one) {
   const auto heavy = [](const auto& body) { return body.mass > 0; };
-  return one.any_film([](const Film& film) { return film.material.density > 0; }) ||
+  return std::ranges::any_of(one.film_materials(),
+                             [](const auto* material) { return material->density > 0; }) ||
          (one.plate && heavy(*one.plate)) || std::ranges::any_of(one.point_masses, heavy) ||
          std::ranges::any_of(one.bodies, heavy) || !one.fins.empty() ||
          std::ranges::any_of(one.parts, [](const Part& part) { return has_heavy_bars(part); });
@@ -65,8 +66,9 @@ bool may_follow(const Case& one, const Step& step) { return !step.duration && !s
 namespace {
 
 bool has_branches(const Case& one) {
-  return one.any_film(
-      [](const Film& film) { return !film.material.branches.empty() || film.material.viscosity > 0; });
+  return std::ranges::any_of(one.film_materials(), [](const auto* material) {
+    return !material->branches.empty() || material->viscosity > 0;
+  });
 }
 
 } // namespace
@@ -257,6 +259,11 @@ Condition an_electrode_keeps_off_walls() {
     return std::ranges::any_of(one.electrodes,
                                [](const Electrode& e) { return e.place.ends_with("electrode"); });
   });
+}
+
+Condition shell() {
+  return on<Film>("section = \"shell\"",
+                  [](const Case&, const Film& film) { return film.section == FilmSection::shell; });
 }
 
 Condition solid() {

@@ -34,6 +34,7 @@ Condition surfaces_touch();   ///< of solids: [contact] between
 Condition curved_triangles(); ///< the film is of 6-node triangles
 Condition moves_along_it();   ///< of a quantity's direction
 Condition an_electrode_keeps_off_walls();
+Condition shell();
 Condition solid();              ///< the film's own section is one
 Condition layers();             ///< it is a solid whose field is that of layers
 Condition law_without_volume(); ///< it is a solid whose law leaves the energy of volume open

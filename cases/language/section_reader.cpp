@@ -69,6 +69,7 @@ Node SectionReader::table_of_file(const Node& name, const std::string& path) con
                     outer = last == std::string::npos ? last : path.rfind('.', last - 1);
   const Node* around =
       last == std::string::npos ? &tree : tree.find(path.substr(outer + 1, last - outer - 1));
+  if (!around) around = tree.find("film"); // of one of its layers
   const Node* inner = around && around->is(Node::Kind::table) ? around->find(path.substr(last + 1)) : nullptr;
   return inner && inner->is(Node::Kind::table) ? *inner : tree;
 }

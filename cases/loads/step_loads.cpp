@@ -278,8 +278,8 @@ fem::RampOptions StepLoads::options(int number) const {
   if (step.record) options.landing = *step.record / *step.duration;
   // One backward Euler step of h errs by (h / tau)^2 / 2 of what is left to relax.
   double shortest = std::numeric_limits<double>::infinity();
-  for (const Part& part : case_.parts)
-    if (part.film) shortest = std::min(shortest, shortest_relaxation(part.film->material, device_.model));
+  for (const materials::Material* material : case_.film_materials())
+    shortest = std::min(shortest, shortest_relaxation(*material, device_.model));
   if (std::isfinite(shortest)) options.first_time_step = std::sqrt(2 * options.time_tolerance) * shortest;
   return options;
 }

@@ -48,9 +48,13 @@ void WrittenPart::report_film(const char* key, const std::string& message) const
 const Part* WrittenPart::meshed() const { return part.has_mesh() ? &part : one.unnamed(); }
 
 bool has_axes(const Part& part) {
-  return std::ranges::any_of(part.film->material.branches, [](const materials::Branch& branch) {
+  const auto flows_along_axes = [](const materials::Branch& branch) {
     return branch.dashpot == materials::Dashpot::nominal;
-  });
+  };
+  const auto in = [&](const auto& film) {
+    return std::ranges::any_of(film.material.branches, flows_along_axes);
+  };
+  return in(*part.film) || std::ranges::any_of(part.film->further_layers, in);
 }
 
 double cover_of(const Part& part) {

@@ -15,18 +15,28 @@ void add_shells(const Case&, const meshing::Mesh& mesh, std::span<const PartFilm
   for (const PartFilm& film : films) {
     const Part& part = *film.part;
     const std::vector<int> none(film.cells.size(), fem::passive);
-    fem::ShellSection layers{.prestretch = part.film->prestretch};
-    std::vector<std::vector<int>> electrodes_of;
-    const auto stack = [&](double thickness, const std::vector<int>& under) {
-      if (!(thickness > 0)) return;
-      layers.layers.push_back({part.film->material, thickness});
-      electrodes_of.push_back(under);
+    const auto [along_x, along_y] = part.film->prestretch;
+    fem::ShellSection section{.prestretch = part.film->prestretch,
+                              .offset = part.film->offset * along_x * along_y};
+    std::vector<std::vector<int>> electrodes;
+    const auto add = [&](fem::ShellLayer layer, const std::vector<int>& under, bool below) {
+      if (!(layer.thickness > 0)) return;
+      section.layers.insert(below ? section.layers.begin() : section.layers.end(), layer);
+      electrodes.insert(below ? electrodes.begin() : electrodes.end(), under);
     };
-    stack(cover_of(part), none);
-    for (int layer = 0; layer < part.layers(); ++layer) stack(part.film->thickness, film.electrodes);
-    stack(cover_of(part), none);
-    model.blocks.push_back(fem::make_shell_block(mesh, meshing::subset(*mesh.film(), film.cells), layers,
-                                                 std::move(electrodes_of), film.cells));
+    for (int layer = 0; layer < part.layers(); ++layer)
+      add({part.film->material, part.film->thickness}, film.electrodes, false);
+    for (const bool below : {true, false})
+      add({.material = part.film->material, .thickness = cover_of(part), .number = 1}, none, below);
+    for (std::size_t l = 0; l < part.film->further_layers.size(); ++l) {
+      const Layer& layer = part.film->further_layers[l];
+      add({layer.material, layer.thickness, layer.prestretch, static_cast<int>(l) + 1}, film.of_layers[l],
+          layer.below);
+      section.offset += (layer.below ? -0.5 : 0.5) *
+                        section.depth_of(section.layers[layer.below ? 0 : section.layers.size() - 1]);
+    }
+    model.blocks.push_back(fem::make_shell_block(mesh, meshing::subset(*mesh.film(), film.cells), section,
+                                                 std::move(electrodes), film.cells));
   }
 }
 
@@ -34,6 +44,16 @@ void add_shells(const Case&, const meshing::Mesh& mesh, std::span<const PartFilm
 void check_shell(const WrittenPart& written) {
   const Part& part = written.part;
   const Case& one = written.one;
+  if (part.film && !part.film->further_layers.empty()) {
+    const auto blame = [&](const std::string& message) {
+      written.reader.report(written.top().find("film")->find("layer")->source, written.path("film.layer"),
+                            message);
+    };
+    if (part.film->section != FilmSection::shell)
+      blame("layers lie on film that resists bending: section = \"shell\"");
+    else if (part.layers() > 1 || cover_of(part) > 0)
+      blame("a stack has its layers and covers by [strip]");
+  }
   if (!is_film_of<FilmSection::shell>(part)) return;
   const auto report = [&](const std::string& message) { written.report_film("section", message); };
   if (one.dimension != fem::Dimension::spatial) report("it bends in space: model = \"3d\"");

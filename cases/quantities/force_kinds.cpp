@@ -84,6 +84,10 @@ Probe nominal_stress(const Probing& probing) {
   const Device& device = probing.device;
   const int along = *probing.quantity.along;
   const std::vector<char> near = film_at(probing.quantity.of, probing.one, device);
+  for (std::size_t cell = 0; cell < near.size(); ++cell)
+    if (const int part = device.film_parts[cell];
+        near[cell] && !probing.one.parts[static_cast<std::size_t>(part)].film->further_layers.empty())
+      probing.refuse("of", "the film there has layers of different undeformed sections");
   const bool of_rods = device.mesh.film()->type == meshing::CellType::rod2;
   if (of_rods) refuse_across(probing, near, along);
   const std::vector<char> counted = films_of(probing.quantity.of, probing.one, device);

@@ -63,6 +63,24 @@ void check_prestretch(const WrittenPart& written) {
                           "a stretch is a length over a length, without %; 3 is three times as long");
 }
 
+/// Electrodes of layers that there are.
+void check_layers(SectionReader& reader, const Node& tree, const Case& one) {
+  std::vector<std::string> names;
+  for (const Part& part : one.parts)
+    for (std::size_t l = 0; part.film && l < part.film->further_layers.size(); ++l)
+      if (const std::string& name = part.film->further_layers[l].name; !name.empty()) names.push_back(name);
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    const std::string& layer = one.electrodes[e].layer;
+    if (layer.empty() || std::ranges::count(names, layer) > 0) continue;
+    reader.report(tree.find("electrode")->items.at(e).find("layer")->source,
+                  fmt::format("electrode[{}].layer", e + 1),
+                  fmt::format("found \"{}\": {}{}", layer,
+                              names.empty() ? "there is no [[film.layer]] with a name"
+                                            : "no such layer, allowed " + listed(names),
+                              did_you_mean(layer, names)));
+  }
+}
+
 /// What lies in a strip's clamps is a capacitance of its electrode.
 void check_strip(const WrittenPart& written) {
   const Case& one = written.one;
@@ -143,7 +161,8 @@ void check_resistive_electrodes(SectionReader& reader, const Node& tree, const C
 bool knows_x_from_y(const Part& part) {
   if (std::holds_alternative<Line>(part.geometry)) return false; // it knows its own way
   if (!part.film || std::holds_alternative<Patch>(part.geometry)) return true;
-  return part.film->prestretch[0] != part.film->prestretch[1] || has_axes(part);
+  const auto unlike = [](const auto& film) { return film.prestretch[0] != film.prestretch[1]; };
+  return unlike(*part.film) || std::ranges::any_of(part.film->further_layers, unlike) || has_axes(part);
 }
 
 } // namespace
@@ -204,6 +223,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
       report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
   }
   check_surfaces(reader, tree, one);
+  check_layers(reader, tree, one);
   check_resistive_electrodes(reader, tree, one);
   const auto wrinkles = [](const Film& film) { return film.tension_field; };
   if (one.any_film(wrinkles) && one.any_film(std::not_fn(wrinkles)))

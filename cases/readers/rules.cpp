@@ -126,11 +126,11 @@ void check_own_weight(SectionReader& reader, const Node& tree, const Case& one) 
   const Node* gravity = tree.find("gravity");
   const bool falls = std::ranges::count(one.steps, StepKind::weight, &Step::kind) > 0;
   if (!gravity || gravity->find("film") || one.gravity.film || !falls) return;
-  const bool heavy = std::ranges::any_of(one.parts, [](const Part& part) {
-    return (part.film && part.film->material.density > 0) || (part.beam && part.beam->material.density > 0) ||
-           (part.cable && part.cable->density > 0);
+  const bool heavy_bars = std::ranges::any_of(one.parts, [](const Part& part) {
+    return (part.beam && part.beam->material.density > 0) || (part.cable && part.cable->density > 0);
   });
-  if (heavy)
+  const auto weighs = [](const materials::Material* material) { return material->density > 0; };
+  if (heavy_bars || std::ranges::any_of(one.film_materials(), weighs))
     reader.warn(gravity->source, "gravity",
                 "the own weight of film and bars is left out here, though they have a density: film = true "
                 "counts it, film = false says that it shall be so");

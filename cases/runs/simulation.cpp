@@ -219,14 +219,17 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
 /// it is not.
 bool Simulation::admits(const Step& step, double load_factor, const fem::State& state) {
   refusal_.reset();
-  if (!case_.any_film([](const Film& film) { return film.material.dielectric.electrostriction != 0; }))
+  if (std::ranges::none_of(case_.film_materials(),
+                           [](const auto* material) { return material->dielectric.electrostriction != 0; }))
     return true;
   double smallest = std::numeric_limits<double>::infinity(), electrostriction = 0;
   for (const fem::MembraneSample& at : device_.model.sample(state).film) {
     if (at.electrode < 0) continue;
     const int part = device_.film_parts[static_cast<std::size_t>(at.cell)];
+    const Film& film = *case_.parts[static_cast<std::size_t>(part)].film;
     const materials::Dielectric& dielectric =
-        case_.parts[static_cast<std::size_t>(part)].film->material.dielectric;
+        at.layer == 0 ? film.material.dielectric
+                      : film.further_layers[static_cast<std::size_t>(at.layer) - 1].material.dielectric;
     const Eigen::Matrix2d C = at.F.transpose() * at.F;
     const double det = C.determinant() * at.widening * at.widening;
     const double left = dielectric.permittivity_at(C.trace(), det) / dielectric.permittivity;

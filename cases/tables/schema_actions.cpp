@@ -19,6 +19,8 @@ Section electrode_section() {
   section.keys = {
       text("name", to(&Electrode::name), "its name, for [drive.<name>]").distinct(),
       text("place", to(&Electrode::place), "the part of the film that it covers").refers_to(Reference::place),
+      text("layer", to(&Electrode::layer), "the [[film.layer]] that it charges; without it the film itself")
+          .optional(),
       text("ground", to(&Electrode::ground),
            "of a solid with field = \"potential\": the surface without voltage; `place` is the one that is "
            "charged")

@@ -23,21 +23,22 @@ std::optional<Conflict> law_conflict(const materials::ElasticLaw& law) {
                                      modulus, smallest_modulus)};
 }
 
-/// [[film.material.branch]]
+/// [[film.material.branch]], of what has a material
+template<class Owner>
 Section branch_section() {
   using materials::Branch;
   Section section = list_section(
       "branch", "a Maxwell branch beside the equilibrium law: a spring in series with a dashpot", {});
   section.access = {[](void* parent, const std::string&) -> void* {
-                      return &static_cast<Film*>(parent)->material.branches.emplace_back();
+                      return &static_cast<Owner*>(parent)->material.branches.emplace_back();
                     },
                     [](const void* parent) {
                       std::vector<Access::Entry> entries;
-                      for (const Branch& branch : static_cast<const Film*>(parent)->material.branches)
+                      for (const Branch& branch : static_cast<const Owner*>(parent)->material.branches)
                         entries.push_back({"", &branch});
                       return entries;
                     },
-                    [](void* parent) { static_cast<Film*>(parent)->material.branches.clear(); }};
+                    [](void* parent) { static_cast<Owner*>(parent)->material.branches.clear(); }};
   section.selector = "law";
   section.acts = when::branches_flow();
   add_law_keys<Branch>(
@@ -94,6 +95,8 @@ Section branch_section() {
   return section;
 }
 
+/// [film.material], of what has one
+template<class Owner>
 Section material_section() {
   Section section;
   section.name = "material";
@@ -111,22 +114,25 @@ Section material_section() {
   section.start = [](void* object, const std::string& name) {
     for (const auto& named : materials::named_films())
       if (named.name == name) {
-        static_cast<Film*>(object)->material = named.material;
+        static_cast<Owner*>(object)->material = named.material;
         return true;
       }
     return false;
   };
   section.keys.push_back(
-      text("name", to(&Film::material_name), "a named material to start from, or a label").optional());
-  add_law_keys<Film>(
+      text("name", to(&Owner::material_name), "a named material to start from, or a label").optional());
+  add_law_keys<Owner>(
       section.keys, [](auto& film) -> auto& { return film.material.law; },
       "equilibrium law (energy per undeformed volume)");
-  add_parameter_keys<Film, materials::Dielectric>(section.keys,
-                                                  [](auto& film) { return &film.material.dielectric; });
+  add_parameter_keys<Owner, materials::Dielectric>(section.keys,
+                                                   [](auto& film) { return &film.material.dielectric; });
+  if constexpr (std::is_same_v<Owner, Layer>) // passive ones do not say it
+    for (Key& key : section.keys)
+      if (key.name == "permittivity") key = std::move(key).optional();
   for (Key& key : section.keys)
     if (key.name == "electrostriction" || key.name.starts_with("breakdown")) key.acts = when::electrodes();
   const Binding relative{[](void* object, const Value& value) {
-                           static_cast<Film*>(object)->material.dielectric.permittivity =
+                           static_cast<Owner*>(object)->material.dielectric.permittivity =
                                value.at(0).number * vacuum_permittivity;
                          },
                          [](const void*) { return std::optional<Value>(); }};
@@ -135,21 +141,22 @@ Section material_section() {
                              .at_most(1e5)
                              .replacing("permittivity"));
   section.keys.push_back(measure("density", "kg/m^3",
-                                 to_part<Film>([](auto& film) -> auto& { return film.material.density; }),
+                                 to_part<Owner>([](auto& film) -> auto& { return film.material.density; }),
                                  "mass per volume")
                              .at_least(0)
                              .otherwise("960 kg/m^3")
                              .only_with(when::masses_matter()));
   section.keys.push_back(
-      measure("viscosity", "Pa s", to_part<Film>([](auto& film) -> auto& { return film.material.viscosity; }),
+      measure("viscosity", "Pa s",
+              to_part<Owner>([](auto& film) -> auto& { return film.material.viscosity; }),
               "of a dashpot beside the law (Kelvin & Voigt), per rate of the strain's deviator; "
               "above 1e4 times the law's modulus over it the film is stiff")
           .at_least(0)
           .otherwise("0 Pa.s")
           .only_with(when::film_flows()));
-  section.sections.push_back(branch_section());
+  section.sections.push_back(branch_section<Owner>());
   section.check = [](const void* object) {
-    return law_conflict(static_cast<const Film*>(object)->material.law);
+    return law_conflict(static_cast<const Owner*>(object)->material.law);
   };
   return section;
 }
@@ -162,8 +169,9 @@ double relaxed_invariant(const materials::Branch& branch, const std::array<doubl
 }
 
 /// The prestretched film must be within the limits of its laws.
+template<class Owner>
 std::optional<Conflict> prestretch_conflict(const void* object) {
-  const auto& film = *static_cast<const Film*>(object);
+  const auto& film = *static_cast<const Owner*>(object);
   const double x = film.prestretch[0], y = film.prestretch[1];
   const double c = film.material.dielectric.electrostriction;
   if (const double share = 1 + c * (x + y - 2); !(share > 0))
@@ -190,6 +198,50 @@ std::optional<Conflict> prestretch_conflict(const void* object) {
   return std::nullopt;
 }
 
+Key thickness_key(Binding binding, std::string meaning) {
+  return measure("thickness", "m", std::move(binding), std::move(meaning)).above(0).at_most(0.1);
+}
+
+Key prestretch_key(Binding binding, std::string meaning) {
+  return number("prestretch", std::move(binding), std::move(meaning))
+      .values(2, 2)
+      .or_one_for_all()
+      .above(0)
+      .at_most(100)
+      .otherwise("1");
+}
+
+/// [[film.layer]]
+Section layer_section() {
+  Section section = list_section(
+      "layer",
+      "film that lies on that of a shell, bonded to it as both are drawn; one after another, each farther "
+      "from it",
+      each(&Film::further_layers));
+  section.keys = {
+      text("name", to(&Layer::name), "its name, for the electrodes on its faces").optional().distinct(),
+      word("side",
+           {{"above",
+             "where z is larger than in the film as drawn; of a curved shell where its normal points", false},
+            {"below", "on the other side", true}},
+           to(&Layer::below), "the side of the film on which it lies")
+          .otherwise("above"),
+      thickness_key(to(&Layer::thickness), "thickness of the unstretched layer"),
+      prestretch_key(
+          to(&Layer::prestretch),
+          "stretch along x and y in which it is bonded to the film, or one for both; with 1 it is free "
+          "of stress where the film is drawn"),
+  };
+  section.sections.push_back(material_section<Layer>());
+  section.check = [](const void* object) -> std::optional<Conflict> {
+    const auto& layer = *static_cast<const Layer*>(object);
+    if (!layer.name.empty() && layer.material.dielectric.permittivity == 0)
+      return Conflict{"name", "a layer with a name may be charged, and its material has no permittivity"};
+    return prestretch_conflict<Layer>(object);
+  };
+  return section;
+}
+
 /// What film may be by its section alone.
 std::vector<Choice> sections() {
   std::vector<Choice> words;
@@ -207,19 +259,11 @@ Section film_section() {
   section.presence = Section::Presence::required;
   section.access = present(&Part::film);
   section.keys = {
-      measure(
-          "thickness", "m", to(&Film::thickness),
+      thickness_key(
+          to(&Film::thickness),
           "thickness of the unstretched film; of a solid that of one of its layers, or the distance of its "
-          "electrodes")
-          .above(0)
-          .at_most(0.1),
-      number("prestretch", to(&Film::prestretch),
-             "stretch along x and y before anything else, or one for both")
-          .values(2, 2)
-          .or_one_for_all()
-          .above(0)
-          .at_most(100)
-          .otherwise("1"),
+          "electrodes"),
+      prestretch_key(to(&Film::prestretch), "stretch along x and y before anything else, or one for both"),
       word("wrinkling",
            {{"compression", "it carries the compression", false},
             {"tension field", "it wrinkles and carries tension only", true}},
@@ -251,9 +295,15 @@ Section film_section() {
           .above(0)
           .optional()
           .only_with(when::law_without_volume()),
+      measure("offset", "m", to(&Film::offset),
+              "of a shell: from the surface on which it is drawn, and held, up to the film's middle as drawn")
+          .at_least(-0.1)
+          .at_most(0.1)
+          .otherwise("0 m")
+          .only_with(when::shell()),
   };
-  section.sections.push_back(material_section());
-  section.check = prestretch_conflict;
+  section.sections = {material_section<Film>(), layer_section()};
+  section.check = prestretch_conflict<Film>;
   return section;
 }
 

@@ -31,6 +31,7 @@ struct MembraneSample {
   double thickness = 0;         ///< undeformed thickness H, m
   double voltage = 0;           ///< Phi across the film here, V; 0 outside every electrode
   int electrode = -1;           ///< number of the electrode that covers it; -1: none
+  int layer = 0;                ///< of a shell with several: 0 is the film itself, others lie on it
   double breakdown_field = 0;   ///< true field at which this film breaks down, V/m
   std::optional<SolidSample> solid{}; ///< of a solid: F and S above are NaN
 };

@@ -41,13 +41,15 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e)
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
-  for (const ShellLayer& layer : section.layers) height_ += layer.thickness;
+  for (const ShellLayer& layer : section.layers) height_ += section.depth_of(layer);
   double bottom = section.offset - height_ / 2;
   for (std::size_t l = 0; l < section.layers.size(); ++l) {
     const ShellLayer& layer = section.layers[l];
-    const double H = layer.thickness, middle = bottom + H / 2;
+    const double H = section.depth_of(layer), middle = bottom + H / 2;
     electrodes[l].resize(static_cast<std::size_t>(packs * lanes), electrodes[l].back());
-    layers_.push_back({make_film_layer(layer), H, middle, std::move(electrodes[l])});
+    layers_.push_back({make_film_layer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
+                       layer.number, std::move(electrodes[l])});
+    drawn_flat_ = drawn_flat_ || layers_.back().stretched();
     shear_stiffness_ += shear_correction * H * materials::initial_shear_modulus(layer.material.law);
     surface_density_ += layer.material.density * H;
     bottom += H;
@@ -81,7 +83,7 @@ void ShellBlock::place_element(int element) {
     if (!(det > 0)) fail(" is inverted or degenerate as drawn");
     const bool flat = std::abs(T(2, 0)) + std::abs(T(2, 1)) < 1e-9;
     if (flat && T(1, 1) < 0) fail(" is inverted as drawn");
-    if (!flat && (prestretch_[0] != 1 || prestretch_[1] != 1))
+    if (!flat && (prestretch_[0] != 1 || prestretch_[1] != 1 || drawn_flat_))
       fail(": a prestretched shell must be drawn parallel to the xy plane");
     const Eigen::Matrix2d G =
         jacobian.inverse() * Eigen::Vector2d(prestretch_[0], prestretch_[1]).asDiagonal(); // r, s per metre
@@ -266,8 +268,9 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
         const Lanes within = place.C.det();
         for (int l = 0; l < lanes; ++l)
           if (!(within[l] > 0)) feasible = false;
-        section.add(place.Z, Lanes{} + place.weight,
-                    layer.film->potential(state, place.point, lanes_of(pack), place.C, place.k));
+        section.add(
+            place.Z, Lanes{} + place.weight,
+            layer.in_section(layer.film->potential(state, place.point, lanes_of(pack), place.C, place.k)));
       });
     for (int l = 0; l < lanes; ++l)
       if (!(f.normal[l] > 0 && det[l] > 0)) feasible = false;

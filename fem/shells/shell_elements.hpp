@@ -63,16 +63,41 @@ class ShellBlock final : public ElementBlock {
 
   struct Layer {
     std::unique_ptr<FilmLayer> film;
-    double thickness, middle;    ///< m, m above the drawn surface
+    double thickness;                    ///< H, m
+    double depth, middle;                ///< see ShellSection::depth_of(); above the drawn surface, m
+    std::array<double, 2> extra_stretch; ///< see ShellSection
+    int number;
     std::vector<int> electrodes; ///< padded like nodes_
+
+    bool stretched() const { return extra_stretch != std::array{1.0, 1.0}; }
+    /// By which C of the section, components 11, 22, 12, becomes the layer's.
+    std::array<double, 3> factors() const {
+      const auto [x, y] = extra_stretch;
+      return {x * x, y * y, x * y};
+    }
+    materials::InPlaneC<Lanes> own(const materials::InPlaneC<Lanes>& C) const {
+      if (!stretched()) return C;
+      const auto f = factors();
+      return {f[0] * C.C11, f[1] * C.C22, f[2] * C.C12};
+    }
+    /// Of a potential in the layer's C, that in the section's.
+    materials::MembranePotential<Lanes> in_section(materials::MembranePotential<Lanes> psi) const {
+      if (!stretched()) return psi;
+      const auto f = factors();
+      const auto of = [&](int component) { return f[static_cast<std::size_t>(component)]; };
+      for (std::size_t i = 0; i < 3; ++i) psi.first[i] *= f[i];
+      for (std::size_t p = 0; p < 6; ++p)
+        psi.second[p] *= of(materials::component_pairs[p][0]) * of(materials::component_pairs[p][1]);
+      return psi;
+    }
   };
   /// One point across the thickness at an integration point of a pack.
   struct Place {
     const Layer& layer;
     double Z, weight;             ///< m
     std::array<int, lanes> point; ///< numbers in the layer
-    materials::InPlaneC<Lanes> C;
-    Lanes k; ///< Pa
+    materials::InPlaneC<Lanes> C; ///< of the layer
+    Lanes k;                      ///< Pa
   };
 
   int node(int element, int a) const { return nodes_[static_cast<std::size_t>(element * Nodes + a)]; }
@@ -120,7 +145,8 @@ class ShellBlock final : public ElementBlock {
 
   std::vector<Layer> layers_;
   std::array<double, 2> prestretch_;
-  double height_ = 0;          ///< sum H, m
+  bool drawn_flat_ = false;    ///< as a prestretch of layers asks for
+  double height_ = 0;          ///< of the layers before the prestretch, m
   double shear_stiffness_ = 0; ///< k_s sum mu H, N/m
   double surface_density_ = 0; ///< sum rho H, kg/m^2
   double drilling_;            ///< see ShellSection
@@ -142,8 +168,8 @@ void ShellBlock::across(const State& state, const Layer& layer, int pack, int p,
     std::array<int, lanes> numbers;
     for (int l = 0; l < lanes; ++l)
       numbers[static_cast<std::size_t>(l)] = ((pack * lanes + l) * points + p) * depths + q;
-    const double Z = layer.middle + depth.place * layer.thickness / 2;
-    visit(Place{layer, Z, depth.weight * layer.thickness, numbers, strain.at(thinning, Z), k});
+    const double Z = layer.middle + depth.place * layer.depth / 2;
+    visit(Place{layer, Z, depth.weight * layer.depth, numbers, layer.own(strain.at(thinning, Z)), k});
   }
 }
 

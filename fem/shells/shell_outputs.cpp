@@ -21,12 +21,14 @@ void ShellBlock::sample(const State& state, Samples& samples) const {
       for (int c = 0; c < 3; ++c)
         moved(c, i) = at.f.x[i][c][at.lane] + at.place.Z * at.thinning * at.f.d[i][c][at.lane];
     s.F = moved * (axes(t).transpose() * t).inverse() *
-          Eigen::Vector2d(prestretch_[0], prestretch_[1]).asDiagonal();
+          Eigen::Vector2d(prestretch_[0] * layer.extra_stretch[0], prestretch_[1] * layer.extra_stretch[1])
+              .asDiagonal();
     s.S = materials::tension_field::stress(field.potential);
     s.tension = field.tension;
     s.thickness = layer.thickness;
     s.voltage = electrode == passive ? 0 : state.voltage[static_cast<std::size_t>(electrode)];
     s.electrode = electrode;
+    s.layer = layer.number;
     s.breakdown_field = layer.film->dielectric().breakdown_field_at(C.det());
     samples.film.push_back(s);
   });
@@ -48,7 +50,7 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
         across(state, layer, pack, p, at, [&](const Place& place) {
           materials::MembranePotential<Lanes> q{};
           for (int l = 0; l < lanes; ++l) set_lane(q, l, layer.film->charge_density(lane_of(place.C, l)));
-          section.add(place.Z, Lanes{} + place.weight, q);
+          section.add(place.Z, Lanes{} + place.weight, layer.in_section(q));
         });
         density += here.area * section.value();
         sum.add(table, f, ShellStress::of<false>(here, section.derivatives<false>()));
@@ -112,7 +114,7 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
             set_lane(psi, l,
                      layer.film->relaxation(state, place.point[static_cast<std::size_t>(l)],
                                             lane_of(place.C, l), place.k[l], weight));
-          section.add(place.Z, Lanes{} + place.weight, psi);
+          section.add(place.Z, Lanes{} + place.weight, layer.in_section(psi));
         });
       sum.add(table, f, ShellStress::of<true>(here, section.derivatives<true>()));
     }

@@ -4,6 +4,7 @@
 #include "materials/material.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace dielast::fem {
@@ -11,16 +12,31 @@ namespace dielast::fem {
 /// A film in a shell, with its own electrode pair, if any.
 struct ShellLayer {
   materials::Material material;
-  double thickness = 0; ///< undeformed H, m
+  double thickness = 0;                              ///< undeformed H, m
+  std::optional<std::array<double, 2>> prestretch{}; ///< of its own, see ShellSection
+  int number = 0;                                    ///< in its samples, see MembraneSample::layer
 };
 
 /// The layers of a shell, one on the other along its normal. As for a membrane (see MembraneSection) the mesh
-/// is drawn in the prestretched plane; a shell that is not drawn flat, parallel to the xy plane, has none.
+/// is drawn in the prestretched plane, in which the layers are bonded; a shell that is not drawn flat,
+/// parallel to the xy plane, has no prestretch.
 struct ShellSection {
   std::vector<ShellLayer> layers;
-  std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing
-  double offset = 0;      ///< from the drawn surface to the middle of the undeformed layers, m
+  std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing, where a layer has
+                                              ///< none of its own
+  double offset = 0;      ///< from the drawn surface to the middle of the layers before `prestretch`, m
   double drilling = 1e-3; ///< holds spins about directors, where there are any, over the shear's stiffness
+
+  /// Stretches of a layer along x and y over those that it would have with `prestretch`.
+  std::array<double, 2> extra_stretch(const ShellLayer& layer) const {
+    if (!layer.prestretch) return {1.0, 1.0};
+    return {(*layer.prestretch)[0] / prestretch[0], (*layer.prestretch)[1] / prestretch[1]};
+  }
+  /// What a layer fills of the thickness before `prestretch`, m: it keeps its volume.
+  double depth_of(const ShellLayer& layer) const {
+    const auto [x, y] = extra_stretch(layer);
+    return layer.thickness / (x * y);
+  }
 };
 
 } // namespace dielast::fem

@@ -7,11 +7,20 @@
 
 namespace dielast::fem::test {
 
-/// Two layers of different film, the first one charged on some elements, the second one viscoelastic.
+/// Two layers of different film, the first one charged on some elements and with a prestretch of its own, the
+/// second one viscoelastic.
 inline ShellSection two_layers() {
-  return {.layers = {{vhb().material, 0.05}, {viscoelastic_vhb().material, 0.1}},
+  return {.layers = {{vhb().material, 0.05, std::array{1.5, 1.1}}, {viscoelastic_vhb().material, 0.1}},
           .prestretch = {1.2, 0.9},
           .offset = 0.02};
+}
+
+/// As they may be curved as drawn.
+inline ShellSection two_unstretched_layers() {
+  ShellSection section = two_layers();
+  section.prestretch = {1, 1};
+  section.layers[0].prestretch.reset();
+  return section;
 }
 
 /// Unit square of eight curved triangles in the xy plane.

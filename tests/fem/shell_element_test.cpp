@@ -20,13 +20,13 @@ using test::keep_spins;
 using test::random_state;
 using test::shell_model;
 using test::two_layers;
+using test::two_unstretched_layers;
 
 TEST(Shell, residual_and_tangent_are_the_derivatives_of_the_energy) {
-  ShellSection curved = two_layers();
-  curved.prestretch = {1, 1};
   for (const bool with_spins : {false, true}) {
     std::mt19937 random(21);
-    for (const auto& [mesh, section] : {std::pair{flat_mesh(), two_layers()}, {dome(), curved}}) {
+    for (const auto& [mesh, section] :
+         {std::pair{flat_mesh(), two_layers()}, {dome(), two_unstretched_layers()}}) {
       const auto model = shell_model(mesh, section, with_spins);
       test::expect_consistent_derivatives(*model, random_state(*model, mesh, random), 0.1);
     }
@@ -145,9 +145,9 @@ TEST(Shell, has_the_mass_of_its_layers_and_turns_without) {
       for (int c = 0; c < 3; ++c)
         sum[static_cast<std::size_t>(c)] +=
             mass.coeff(model->dofs.equation(a, c), model->dofs.equation(b, c));
-  const double area = 1 / (1.2 * 0.9), density = 960; // undeformed
-  for (const double along : sum) EXPECT_NEAR(along, density * 0.15 * area, 1e-9);
-  EXPECT_NEAR(mass.sum(), 3 * density * 0.15 * area, 1e-9);
+  const double own = 960 * (0.05 / (1.5 * 1.1) + 0.1 / (1.2 * 0.9)); // density, thickness, undeformed area
+  for (const double along : sum) EXPECT_NEAR(along, own, 1e-9);
+  EXPECT_NEAR(mass.sum(), 3 * own, 1e-9);
   for (int a = 0; a < mesh.node_count(); ++a)
     for (int c = 6; c < 8; ++c) EXPECT_EQ(mass.col(model->dofs.equation(a, c)).nonZeros(), 0);
 }
@@ -160,7 +160,12 @@ TEST(Shell, refuses_what_it_cannot_be) {
   EXPECT_NO_THROW(make(flat_mesh(), two_layers()));
   EXPECT_THROW(make(test::distorted_square(2, 1), two_layers()), std::invalid_argument); // 3 nodes
   EXPECT_THROW(make(flat_mesh(), two_layers(), 1), std::invalid_argument);
-  EXPECT_THROW(make(dome(), two_layers()), std::invalid_argument); // prestretched, and not flat
+  EXPECT_NO_THROW(make(dome(), two_unstretched_layers()));
+  for (const bool of_a_layer : {false, true}) { // prestretched, and not flat
+    ShellSection stretched = two_unstretched_layers();
+    (of_a_layer ? stretched.layers[1].prestretch.emplace() : stretched.prestretch) = {1.1, 1};
+    EXPECT_THROW(make(dome(), stretched), std::invalid_argument);
+  }
   meshing::Mesh turned = flat_mesh();
   for (auto& x : turned.nodes) x.x() *= -1;
   EXPECT_THROW(make(turned, two_layers()), std::invalid_argument);
@@ -168,8 +173,7 @@ TEST(Shell, refuses_what_it_cannot_be) {
 
 TEST(Shell, rigid_motion_makes_no_stress_and_keeps_the_energy_of_a_deformed_one) {
   const meshing::Mesh mesh = dome();
-  ShellSection section = two_layers();
-  section.prestretch = {1, 1};
+  const ShellSection section = two_unstretched_layers();
   for (const bool with_spins : {false, true}) {
     const auto model = shell_model(mesh, section, with_spins);
     Assembler assembler(*model, 1);

@@ -37,6 +37,16 @@ TEST(Reductions, AverageIsWeightedByVolumeAndLength) {
   EXPECT_DOUBLE_EQ(average(samples, "bending_moment.3", 3)[2], 6);
 }
 
+TEST(Reductions, AveragesAreTheFilmsAndExtremesThoseOfAllLayers) {
+  fem::Samples samples = two_points_in_cell_one();
+  samples.film[1].layer = 1;
+  EXPECT_DOUBLE_EQ(average(samples, "voltage", 2)[1], 1000);
+  const auto field = Extremes(samples).find("electric_field", Extreme::maximum);
+  ASSERT_TRUE(field);
+  EXPECT_DOUBLE_EQ(field->value, 4e6);
+  EXPECT_EQ(field->layer, 1);
+}
+
 TEST(Reductions, AveragesOfAllFieldsLieCellByCell) {
   const auto arrays = cell_values(two_points_in_cell_one().walls, wall_fields(), 3);
   ASSERT_EQ(arrays.size(), wall_fields().size());

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shells of several layers as a user writes them: [[film.layer]].
+#include "cases/devices/device.hpp"
+#include "meshing/mesh_error.hpp"
+#include "tests/cases/path_cases.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dielast::cases {
+namespace {
+
+/// A strip along x that is clamped at its left end, in plane strain; `film` and `layers` as they are written.
+std::string strip(const std::string& film, const std::string& layers, const std::string& rest,
+                  bool sides_are_free = false) {
+  return "model = \"3d\"\n[film]\nsection = \"shell\"\n" + film + layers +
+         "[rectangle]\nlength = \"10 mm\"\nwidth = \"2 mm\"\n[mesh]\nacross = 2\n"
+         "[[support]]\nplace = \"left\"\nfix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n" +
+         (sides_are_free ? "" : "[[support]]\nplace = \"film\"\nfix = [\"y\", \"turn_x\", \"turn_z\"]\n") +
+         "[output]\nerror_estimate = false\n" + rest;
+}
+
+std::string tip(const char* along) {
+  return fmt::format(
+      "[[quantity]]\nname = \"tip\"\nkind = \"displacement\"\nof = \"right\"\nalong = \"{}\"\n", along);
+}
+
+constexpr const char* silicone = "shear_modulus = \"100 kPa\"\nrelative_permittivity = 2.8\n";
+
+// Own minimisation of the energy of the exact flexure (incompressible, plane strain) over curvature and
+// radius: prestretched film that is bonded to a sheet which is stiffer, free of stress as drawn.
+TEST_F(Paths, prestretched_film_bends_a_sheet_as_the_exact_flexure) {
+  const std::string device =
+      strip(fmt::format("thickness = \"100 um\"\nprestretch = [1.2, 1.1]\n[film.material]\n{}", silicone),
+            "[[film.layer]]\nside = \"below\"\nthickness = \"150 um\"\n[film.layer.material]\nshear_modulus "
+            "= \"5 MPa\"\n",
+            "[drive]\nvoltage = \"3 kV\"\n[[step]]\nkind = \"release\"\n[[step]]\nkind = \"voltage\"\n");
+  const Run across = run(device + tip("z"), "tip"), along = run(device + tip("x"), "tip");
+  ASSERT_EQ(across.outcome.ending, Ending::complete) << across.outcome.message;
+  EXPECT_NEAR(across.rows.back().value, 3.27365e-3, 2e-3 * 3.27e-3);
+  EXPECT_NEAR(along.rows.back().value, 9.14886e-3 - 10e-3, 4e-3 * 0.85e-3);
+}
+
+// But for twice as many points across, which see what is not linear in Z.
+TEST_F(Paths, a_film_and_the_same_on_it_are_a_film_as_thick_as_both) {
+  const auto rise = [this](const std::string& thickness, const std::string& offset,
+                           const std::string& layers) {
+    const Run one =
+        run(strip(fmt::format("thickness = \"{}\"\nprestretch = 1.1\noffset = \"{}\"\n[film.material]\n{}",
+                              thickness, offset, silicone),
+                  layers,
+                  "[[load]]\nplace = \"right\"\nforce = [0, 0, \"20 uN\"]\n[[step]]\nkind = \"release\"\n"
+                  "[[step]]\nkind = \"force\"\n" +
+                      tip("z")),
+            "tip");
+    EXPECT_EQ(one.outcome.ending, Ending::complete) << one.outcome.message;
+    return one.rows.back().value;
+  };
+  const std::string half = fmt::format("[[film.layer]]\nthickness = \"100 um\"\nprestretch = 1.1\n"
+                                       "[film.layer.material]\n{}",
+                                       silicone);
+  const double whole = rise("200 um", "0 m", "");
+  // drawn 1.1^2 times thinner: its middle lies half of a film's drawn thickness below that of both
+  EXPECT_NEAR(rise("100 um", "-41.3223140495868 um", half), whole, 1e-6 * whole);
+}
+
+// Mirrored at the surface where it is drawn.
+TEST_F(Paths, a_bimorph_bends_to_either_side_alike) {
+  const std::string layer = fmt::format("[[film.layer]]\nname = \"upper\"\nthickness = \"50 um\"\n"
+                                        "[film.layer.material]\n{}",
+                                        silicone);
+  const auto tip_under = [&](const char* electrode) {
+    const Run one = run(
+        strip(fmt::format("thickness = \"50 um\"\noffset = \"-25 um\"\n[film.material]\n{}", silicone), layer,
+              "[[electrode]]\nname = \"lower\"\nplace = \"film\"\n[[electrode]]\nname = \"upper\"\n"
+              "place = \"film\"\nlayer = \"upper\"\n[drive.lower]\nvoltage = \"0.4 kV\"\n"
+              "[drive.upper]\nvoltage = \"0.4 kV\"\n"
+              "[[step]]\nkind = \"voltage\"\nelectrode = \"" +
+                  std::string(electrode) + "\"\n" + tip("z"),
+              true),
+        "tip");
+    EXPECT_EQ(one.outcome.ending, Ending::complete) << one.outcome.message;
+    return one.rows.back().value;
+  };
+  const double up = tip_under("lower"), down = tip_under("upper");
+  EXPECT_GT(up, 1e-3);
+  EXPECT_NEAR(down, -up, 1e-9 * up);
+}
+
+// The film beside the frame has no such layer.
+TEST_F(Paths, an_electrode_charges_a_layer_only_where_it_lies) {
+  const std::string frame =
+      fmt::format("[part.frame]\nplace = \"passive\"\n[part.frame.film]\n"
+                  "thickness = \"50 um\"\nsection = \"shell\"\n[part.frame.film.material]\n{0}"
+                  "[[part.frame.film.layer]]\nname = \"upper\"\nthickness = \"50 um\"\n"
+                  "[part.frame.film.layer.material]\n{0}",
+                  silicone);
+  const auto device = [&](const char* place) {
+    return build_device(
+        read("model = \"3d\"\n[film]\nsection = \"shell\"\nthickness = \"50 um\"\n[film.material]\n" +
+             std::string(silicone) +
+             "[rectangle]\nlength = \"10 mm\"\nelectrode_length = \"5 mm\"\n[mesh]\nacross = 4\n"
+             "[[electrode]]\nname = \"a\"\nplace = \"" +
+             place + "\"\nlayer = \"upper\"\n[drive]\nvoltage = \"1 V\"\n" + frame));
+  };
+  EXPECT_NO_THROW(device("passive"));
+  EXPECT_THROW(device("electrode"), meshing::MeshError);
+}
+
+} // namespace
+} // namespace dielast::cases
