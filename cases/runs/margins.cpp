@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/runs/phases.hpp"
 #include "cases/runs/results.hpp"
 
 #include <fmt/format.h>
@@ -86,6 +87,7 @@ class FurtherWay {
       : one_(one), further_(one), steps_(own.steps()), end_(end), threads_(threads) {
     begin(own.progress(), 1);
   }
+  FurtherWay(const FurtherWay&) = delete; // what it simulates is of its own case
 
   /// Begins at a state of the run before its end, which is gone to once more: no way leads back to it, as
   /// over a jump. False where it is not reached.
@@ -93,8 +95,13 @@ class FurtherWay {
     if (state.record < 0) return false;
     Simulation simulation(one_, threads_);
     SimulationObserver observer;
-    observer.on_accept = [&](const Frame& frame) { return frame.record.index < state.record; };
-    if (simulation.run(observer).ending != Ending::interrupted) return false;
+    bool reached = false;
+    observer.on_accept = [&](const Frame& frame) {
+      reached = frame.record.index >= state.record;
+      return !reached;
+    };
+    simulation.run(observer);
+    if (!reached) return false;
     begin(simulation.progress(), state.factor);
     return true;
   }
@@ -104,15 +111,18 @@ class FurtherWay {
     constexpr int increments_per_voltage = 20;
     const Place& from =
         *std::ranges::min_element(places_, {}, [&](const Place& p) { return std::abs(p.factor - factor); });
-    further_.steps.back().increments =
-        std::max(1, static_cast<int>(std::ceil(increments_per_voltage * std::abs(factor - from.factor))));
-    for (std::size_t e = 0; e < further_.electrodes.size(); ++e)
-      further_.drives[further_.electrodes[e].name].voltage = Waveform::constant_at(factor * end_.voltages[e]);
+    std::vector<double> voltages = end_.voltages;
+    for (double& voltage : voltages) voltage *= factor;
     std::vector<Passed> way;
     try {
-      Simulation simulation(further_, threads_);
-      simulation.enter(from.progress.step);
+      if (!simulation_) {
+        simulation_.emplace(further_, threads_);
+        simulation_->enter(from.progress.step);
+      }
+      Simulation& simulation = *simulation_;
       simulation.resume(from.progress);
+      simulation.lead_to(voltages, std::max(1, static_cast<int>(std::ceil(increments_per_voltage *
+                                                                          std::abs(factor - from.factor)))));
       SimulationObserver observer;
       observer.on_accept = [&](const Frame& frame) {
         way.push_back(state_of(frame));
@@ -165,6 +175,9 @@ class FurtherWay {
   void begin(SimulationProgress progress, double factor) {
     further_.steps = steps_;
     progress.step = std::min(progress.step, static_cast<int>(steps_.size()) - 1);
+    const std::vector<char> holding = holding_in(one_, steps_, progress.step);
+    for (std::size_t i = 0; i < holding.size(); ++i) // goes on holding
+      further_.supports[i].until = holding[i] ? "" : one_.supports[i].until;
     further_.steps.resize(static_cast<std::size_t>(progress.step) + 1);
     progress.in_step.followed.reset();
     progress.in_step.ramp.load_factor = 1; // the way goes on from its state, wherever the step has ended
@@ -173,6 +186,7 @@ class FurtherWay {
       if (!before.is_analysis()) step.response = before.response;
     further_.steps.push_back(step);
     places_ = {{factor, std::move(progress)}};
+    simulation_.reset();
   }
 
   const Case& one_;
@@ -180,7 +194,8 @@ class FurtherWay {
   std::vector<Step> steps_; ///< of the run
   const post::StepRecord& end_;
   int threads_;
-  std::vector<Place> places_; ///< that where it begins first
+  std::vector<Place> places_;            ///< that where it begins first
+  std::optional<Simulation> simulation_; ///< of further_, for all that is solved from these places
 };
 
 /// Whether limits that states tell are behind it.

@@ -178,6 +178,8 @@ void Simulation::resume(const SimulationProgress& progress) {
   if (progress.peaks.size() != measurement_.peaks.size()) throw post::CheckpointError("damaged");
   measurement_.peaks = progress.peaks;
   news_ = progress.news;
+  unrecorded_.reset();
+  refusal_.reset();
   loads_->let_go = progress.let_go;
   if (progress.signals.size() != signals_.size()) throw post::CheckpointError("damaged");
   auto kept = progress.signals.begin();
@@ -185,6 +187,12 @@ void Simulation::resume(const SimulationProgress& progress) {
     if (kept->size() != signal->memory().size()) throw post::CheckpointError("damaged");
     signal->recall(*kept++);
   }
+}
+
+void Simulation::lead_to(const std::vector<double>& voltages, int increments) {
+  steps_.back().increments = increments;
+  for (std::size_t e = 0; e < voltages.size(); ++e)
+    now_.drives[case_.electrodes[e].name].voltage = Waveform::constant_at(voltages[e]);
 }
 
 void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {

@@ -69,8 +69,11 @@ class Simulation {
   SimulationProgress progress() const;
   /// Makes the device that it is in a step (by its number), with the supports that hold then.
   void enter(int step);
-  /// The device must be that of the step.
+  /// The device must be that of the step. Whatever this has done before, it goes on from there.
   void resume(const SimulationProgress& progress);
+  /// Lets the last step, one of kind "voltage", lead to other voltages (of every electrode), in so many
+  /// increments. The device is the one that it will be in that step.
+  void lead_to(const std::vector<double>& voltages, int increments);
   /// What the user should know before looking at results, one sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The steps that are taken, one that nobody wrote included.

@@ -166,6 +166,21 @@ TEST_F(Margins, WhatAForcePassesIsTheFactorOnTheVoltage) {
   EXPECT_EQ(held.at("loss of tension").remark, "passed without voltage");
 }
 
+// A support that holds until the end of the run held no longer behind it.
+TEST_F(Margins, WhatHoldsAtTheEndGoesOnHolding) {
+  const double lost = thickness / 4 * std::sqrt(modulus / permittivity * (4 - 1.0 / 16));
+  const std::string held =
+      "model = \"planar\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = "
+      "\"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[disc]\nradius = \"20 mm\"\nelectrode_radius = \"8 mm\"\n"
+      "[mesh]\nrings = 5\n[[support]]\nplace = \"rim\"\nfix = [\"x\", \"y\"]\n[[support]]\nplace = "
+      "\"electrode_edge\"\nfix = [\"x\", \"y\"]\nuntil = \"charge\"\n[[step]]\nkind = \"voltage\"\nname = "
+      "\"charge\"\n";
+  const Margin found = margins(held, {fmt::format("drive.voltage={} V", lost / 2), "output.margins_up_to=3"})
+                           .at("loss of tension");
+  ASSERT_TRUE(found.factor) << found.remark;
+  EXPECT_NEAR(*found.factor, 2, 1e-4);
+}
+
 TEST_F(Margins, WithoutAVoltageOrInTimeNothingIsKnown) {
   EXPECT_EQ(margins(patch(0, 1e9)).at("pull-in").remark, "not known: no voltage is applied at the end");
   const auto timed = margins(patch(500, 1e9, "duration = \"1 s\"\n"));
