@@ -2,6 +2,7 @@
 #include "cases/runs/error_estimate.hpp"
 
 #include "cases/case/quantities.hpp"
+#include "cases/console/terminal.hpp"
 #include "cases/devices/discretisation.hpp"
 #include "cases/runs/results.hpp"
 #include "post/engineering.hpp"
@@ -72,8 +73,9 @@ Solution solve(const Discretisation& discretisation, int threads) {
       note(solution, frame.record);
       journal.records.push_back(frame.record);
       journal.values.push_back(frame.values);
-      return true;
+      return !interrupted();
     };
+    observer.on_pass = [] { return !interrupted(); };
     const Outcome outcome = simulation.run(observer);
     const bool wanted = std::ranges::any_of(discretisation.one.quantities,
                                             [](const Quantity& own) { return own.kind->of_run; });
@@ -229,6 +231,10 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   std::vector<Solution> others;
   for (const Discretisation& discretisation : discretisations) {
     Solution other = solve(discretisation, threads);
+    if (interrupted()) {
+      estimates.reason = "interrupted";
+      break;
+    }
     if (const std::string reason = why_not(own, other); reason.empty()) {
       others.push_back(std::move(other));
     } else {

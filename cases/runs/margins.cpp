@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/console/terminal.hpp"
 #include "cases/runs/phases.hpp"
 #include "cases/runs/results.hpp"
 
@@ -98,8 +99,9 @@ class FurtherWay {
     bool reached = false;
     observer.on_accept = [&](const Frame& frame) {
       reached = frame.record.index >= state.record;
-      return !reached;
+      return !reached && !interrupted();
     };
+    observer.on_pass = [] { return !interrupted(); };
     simulation.run(observer);
     if (!reached) return false;
     begin(simulation.progress(), state.factor);
@@ -126,14 +128,16 @@ class FurtherWay {
       SimulationObserver observer;
       observer.on_accept = [&](const Frame& frame) {
         way.push_back(state_of(frame));
-        return true;
+        return !interrupted();
       };
       std::vector<std::string> located; // at the state that comes next, or after the last
+      observer.on_pass = [] { return !interrupted(); };
       observer.on_critical = [&](const fem::CriticalPoint&, const post::Event& event) {
         located.push_back(event.kind);
       };
       const Outcome outcome = simulation.run(observer);
       if (outcome.ending == Ending::gave_up) stopped = outcome.kind;
+      if (outcome.ending == Ending::interrupted) stopped = "interrupted";
       if (!way.empty() && !located.empty()) {
         way.back().kinds.push_back(located.back());
         stopped = located.back();
@@ -330,6 +334,7 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     Margin margin;
     if (why_not.empty()) {
       margin = find();
+      if (interrupted()) margin = {.remark = "not known: interrupted before it was solved for"};
       if (!margin.factor && margin.remark.empty())
         margin.remark =
             fmt::format("not reached up to {:.6g} times the voltage of the end{}", up_to,

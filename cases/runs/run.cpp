@@ -165,14 +165,20 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     return ExitCode::interrupted;
   }
   recorder.write_waiting();
+  if (one.margins_up_to > 1 && outcome.ending == Ending::complete)
+    log.info("margins: up to {:.6g} times the voltages of the end", one.margins_up_to);
   std::vector<Margin> margins = margins_of(one, simulation, recorder.journal(), outcome, settings.threads);
   Estimates estimates{.reason = "left out: output.error_estimate = false"};
   if (outcome.ending != Ending::complete)
     estimates.reason = "the run did not reach its end";
+  else if (one.error_estimate && interrupted())
+    estimates.reason = "interrupted";
   else if (one.error_estimate) {
     log.info("error estimate: the case once more with other elements and time steps");
     estimates = estimate_errors(one, simulation, recorder.journal().records, margins, settings.threads);
   }
+  const bool left_out = interrupted() && outcome.ending == Ending::complete;
+  if (left_out) recorder.save_checkpoint();
   Results results =
       collect_results(one, simulation, outcome, recorder.journal(), estimates, std::move(margins));
   results.profiles = profiles_of(one, device, outcome, recorder.journal());
@@ -199,11 +205,14 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
            t.iterations, static_cast<double>(std::clock()) / CLOCKS_PER_SEC, t.residual, t.tangent, t.factor,
            t.solve);
   if (!outcome.message.empty()) log.error(outcome.message);
+  if (left_out)
+    log.warn("interrupted: every step is done, margins and error estimates are not; go on with --resume");
   log.flush();
 
-  const ExitCode code = outcome.ending == Ending::gave_up ? ExitCode::not_converged
-                        : results.checks_passed()         ? ExitCode::ok
-                                                          : ExitCode::check_failed;
+  const ExitCode code = left_out                            ? ExitCode::interrupted
+                        : outcome.ending == Ending::gave_up ? ExitCode::not_converged
+                        : results.checks_passed()           ? ExitCode::ok
+                                                            : ExitCode::check_failed;
   post::Report report = run_report(one, device, results, recorder.journal(), read_text(folder / "run.log"));
   report.part_of = settings.part_of;
   if (one.all_states)
@@ -214,8 +223,10 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     if (results.profiles[p])
       folder.write(profile_name(one.profiles[p]) + ".csv", results.profiles[p]->csv(one.profiles[p]));
   folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
-  folder.set_complete(static_cast<int>(code));
-  std::filesystem::remove(folder / checkpoint_name);
+  if (!left_out) {
+    folder.set_complete(static_cast<int>(code));
+    std::filesystem::remove(folder / checkpoint_name);
+  }
   if (!settings.quiet)
     say("results in {}: report.html, history.csv, summary.json{}\n", folder.path().string(),
         one.fields ? fmt::format(", {}.pvd for ParaView", one.source.stem().string()) : "");

@@ -19,9 +19,10 @@ struct RunSettings {
 };
 
 /// Runs a case and writes everything into one directory: history.csv, the ParaView series, resolved.toml,
-/// run.log, summary.json and report.html. Stops after the next accepted state when interrupted() says so.
-/// Throws FileError, also for a case that has changed since the run to resume, post::WriteError, and what
-/// post::ResultsFolder, build_device() throw.
+/// run.log, summary.json and report.html. Stops after the next accepted state when interrupted() says so;
+/// behind the last step without what margins and error estimates are solved for. Throws FileError, also for a
+/// case that has changed since the run to resume, post::WriteError, and what post::ResultsFolder,
+/// build_device() throw.
 ExitCode run_case(const Case& one, const RunSettings& settings);
 
 } // namespace dielast::cases

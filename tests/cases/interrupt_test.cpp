@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 
 namespace dielast::test {
@@ -119,6 +121,37 @@ TEST_F(Interrupt, HistoryAndSeriesAreMadeAnewOfTheCheckpoint) {
   }
   ASSERT_EQ(dielast(into("stopped", {"--resume"})).exit_code, 0);
   expect_same_results("stopped", "straight");
+}
+
+// What is solved for behind the last step stops, too; everything else is told, and made up for.
+TEST_F(Interrupt, MarginsAndErrorEstimatesStop) {
+  write("slow.toml", small_disc + "[output]\nmargins_up_to = 50\n");
+  const std::vector<std::string> low{"--set", "drive.voltage=10 V"}, estimated{"--set", "mesh.rings=96"};
+  const auto run = [&](std::vector<std::string> more, const char* folder, const char* resume = nullptr) {
+    more.insert(more.begin(), {"run", "slow.toml", "-o", folder});
+    if (resume) more.emplace_back(resume);
+    return more;
+  };
+  const auto stop = [&](const std::vector<std::string>& words, const char* at) {
+    const pid_t process = start(words);
+    EXPECT_TRUE(until([&] { return content("stopped/run.log").find(at) != std::string::npos; }));
+    kill(process, SIGINT);
+    const Ended ended = wait_for(process);
+    EXPECT_EQ(ended.exit_code, 130) << ended.err;
+    EXPECT_NE(ended.out.find("go on with --resume"), std::string::npos) << ended.out;
+    EXPECT_EQ(rows("stopped/history.csv"), 4u);
+    return json_of("stopped/summary.json");
+  };
+  const nlohmann::json margins = stop(run(low, "stopped"), "margins: up to 50");
+  EXPECT_EQ(margins["margins"]["pull-in"]["remark"], "not known: interrupted before it was solved for");
+  EXPECT_EQ(margins["no_error_estimate_because"], "interrupted");
+  ASSERT_EQ(dielast(run(low, "straight")).exit_code, 0);
+  ASSERT_EQ(dielast(run(low, "stopped", "--resume")).exit_code, 0);
+  for (const char* file : {"history.csv", "summary.json"})
+    EXPECT_EQ(content(fmt::format("stopped/{}", file)), content(fmt::format("straight/{}", file))) << file;
+  std::filesystem::remove_all(directory / "stopped");
+  write("slow.toml", small_disc);
+  EXPECT_EQ(stop(run(estimated, "stopped"), "error estimate:")["no_error_estimate_because"], "interrupted");
 }
 
 TEST_F(Interrupt, ResumingAFinishedRunRepeatsIt) {
