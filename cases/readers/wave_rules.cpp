@@ -2,13 +2,17 @@
 // What follows a wave, and how finely.
 #include "cases/readers/rules.hpp"
 
+#include "cases/case/sudden_motion.hpp"
 #include "cases/language/conditions.hpp"
+#include "post/engineering.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 namespace dielast::cases {
 namespace {
@@ -43,6 +47,40 @@ bool is_smooth(const Waveform& wave) {
 /// How far below its amplitude a sine is, %, half a time step beside its peak.
 double missed(double steps) { return 100 * (1 - std::cos(std::numbers::pi / steps)); }
 
+/// Where a support's motion along an axis is written, or the section of what has brought it.
+std::pair<std::string, Source> place_of_motion(const SectionReader& reader, const Node& tree, const Case& one,
+                                               std::size_t support, std::size_t axis) {
+  const std::string key = one.supports[support].standard
+                              ? one.pivot ? "pivot" : "patch"
+                              : fmt::format("support[{}].displacement.{}", support + 1, "xyz"[axis]);
+  const auto written = reader.keys().find(key);
+  const Node* section = tree.find(key);
+  return {key, written != reader.keys().end() ? written->second : section ? section->source : tree.source};
+}
+
+/// A support does not jump with what has a mass.
+void check_jumps(SectionReader& reader, const Node& tree, const Case& one) {
+  const std::span<const Step> steps(one.steps);
+  for (std::size_t i = 0; i < one.supports.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t s = 0; s < steps.size(); ++s) {
+        if (steps[s].kind != StepKind::transient || !steps[s].inertia || !steps[s].duration) continue;
+        const auto jump = sudden_jump(one.supports[i], axis, steps.first(s + 1));
+        if (!jump) continue;
+        const auto [key, source] = place_of_motion(reader, tree, one, i, axis);
+        reader.report(
+            source, key,
+            fmt::format("jumps by {} at {} of step \"{}\", which no mass can follow (inertia = "
+                        "true); let it take a time: {}",
+                        post::engineering(std::abs(jump->by), "m"),
+                        jump->time == 0 ? "the beginning" : post::engineering(jump->time, "s"), steps[s].name,
+                        jump->time == 0 ? "lead it there before by a step of kind \"move\", or let it "
+                                          "set out from where it stands"
+                                        : "a \"ramp\", or a \"trapezoid\" with rise and fall"));
+        break;
+      }
+}
+
 } // namespace
 
 void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
@@ -56,6 +94,7 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
                               "at {:.6g} s",
                               wave.start, end));
   }
+  check_jumps(reader, tree, one);
   for (const WrittenWave& written : reader.waves())
     if (std::ranges::none_of(one.steps, [&](const Step& step) { return follows(step, written); }))
       reader.report(

@@ -2,7 +2,7 @@
 #include "cases/runs/simulation.hpp"
 
 #include "cases/language/conditions.hpp"
-#include "cases/loads/sudden_motion.hpp"
+#include "cases/case/sudden_motion.hpp"
 #include "cases/runs/phases.hpp"
 #include "fem/linear/rest.hpp"
 #include "fem/paths/homotopy.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/loads/sudden_motion.hpp"
+#include "cases/case/sudden_motion.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/runs/simulation.hpp"
 #include "tests/cases/scratch.hpp"
@@ -306,9 +306,6 @@ TEST_F(Energy, a_support_that_sets_out_at_once_is_told_where_it_leaves_the_works
   const Case corner = read_case(directory / "case.toml");
   EXPECT_EQ(sudden_motion(corner, corner.steps),
             "support \"right\" is to change its speed by 10.00 mm/s along x at once, at 100.0 ms");
-  const auto jump = shaken(sine + ", phase = \"90 deg\"");
-  ASSERT_EQ(jump.size(), 1u);
-  EXPECT_NE(jump[0].find("is to move by 1.000 mm along x at once"), std::string::npos) << jump[0];
   EXPECT_TRUE(shaken(sine + ", phase = \"90 deg\"", move).empty());
   EXPECT_TRUE(shaken("wave = \"unipolar sine\", amplitude = \"1 mm\", frequency = \"5 Hz\"").empty());
 }
