@@ -155,9 +155,11 @@ void check_leaks(SectionReader& reader, const Node& tree, const Case& one) {
       reader.warn(at.source, at.key,
                   "charges that are given here stay what they are, in spite of leakage_resistance");
     if (step.kind == StepKind::relax && isolated)
-      reader.warn(at.source, at.key,
-                  "isolated electrodes keep their charges here, in spite of leakage_resistance: these leak "
-                  "while time passes, in a hold");
+      reader.report(
+          at.source, at.key + ".control",
+          "isolated electrodes with a leakage_resistance lose their charges to the end: to that state "
+          "leads a step of kind \"voltage\" with to = \"0 V\"; they lose a part of them while time "
+          "passes, in a \"hold\"");
   }
 }
 
