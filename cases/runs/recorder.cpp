@@ -287,7 +287,7 @@ void Recorder::record(const Frame& frame) {
   journal_.records.push_back(record);
   journal_.values.push_back(frame.values);
   steps_ended_ += frame.ends_step;
-  if (std::chrono::steady_clock::now() > next_checkpoint_) save_checkpoint();
+  if (!frame.ends_path && std::chrono::steady_clock::now() > next_checkpoint_) save_checkpoint();
 }
 
 void Recorder::write_waiting() {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/simulation.hpp"
 
-#include "cases/language/conditions.hpp"
 #include "cases/case/sudden_motion.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/runs/phases.hpp"
 #include "fem/linear/rest.hpp"
 #include "fem/paths/homotopy.hpp"
@@ -275,7 +275,7 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   if (!admits(step, increment.load_factor, state)) return false;
   account(state, increment, reached);
   if (!sample(step, increment.load_factor, state)) return false;
-  if (increment.lands) return record(observer, step, state, increment);
+  if (increment.lands) return record(observer, step, state, increment, reached);
   unrecorded_ = increment;
   Measured measured(device_, *equilibrium_, state, energy_, scalars_);
   measured.may_rest = !step.duration;
@@ -296,7 +296,7 @@ std::vector<double> Simulation::voltages(const fem::State& state) const {
 }
 
 bool Simulation::record(const SimulationObserver& observer, const Step& step, const fem::State& state,
-                        const fem::Increment& increment) {
+                        const fem::Increment& increment, Reached reached) {
   unrecorded_.reset();
   const bool is_drawn = records_ == 0;
   const bool ends = !is_drawn && increment.load_factor >= 1;
@@ -336,7 +336,8 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, co
                                 .unstable_modes = newton.unstable_modes,
                                 .events = std::move(events),
                                 .jumped = increment.jumped};
-  return !observer.on_accept || observer.on_accept({record, measured, values, ends});
+  return !observer.on_accept ||
+         observer.on_accept({record, measured, values, ends, reached == Reached::to_its_end});
 }
 
 Outcome Simulation::run(const SimulationObserver& observer) {

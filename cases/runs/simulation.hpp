@@ -34,6 +34,7 @@ struct Frame {
   const Measured& measured;
   const std::vector<double>& values; ///< of the quantities, in the case's order, SI
   bool ends_step = false;
+  bool ends_path = false; ///< a critical point: what the device does there comes next, and no run begins here
 };
 
 /// Watches a simulation; every member may be left out.
@@ -98,7 +99,7 @@ class Simulation {
               const fem::Increment& increment, Reached reached);
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);
   bool record(const SimulationObserver& observer, const Step& step, const fem::State& state,
-              const fem::Increment& increment);
+              const fem::Increment& increment, Reached reached = Reached::along_path);
   std::vector<double> voltages(const fem::State& state) const;
 
   const Case& case_;

@@ -90,15 +90,16 @@ void StepRun::announce(const fem::CriticalPoint& critical, bool ends) {
            : post::Event{word(critical.kind), "", fmt::format("{} at {}", word(critical.kind), load)});
 }
 
-/// The last equilibrium before stability is lost is a result of its own.
-bool StepRun::accept_critical(const fem::CriticalPoint& critical) {
+/// The last equilibrium before stability is lost is a result of its own. An interrupt waits for what comes of
+/// it.
+void StepRun::accept_critical(const fem::CriticalPoint& critical) {
   fem::RampProgress& ramp = progress_.ramp;
   const double length = critical.load_factor - ramp.load_factor;
-  if (length <= 0) return true;
+  if (length <= 0) return;
   ramp.load_factor = critical.load_factor;
   ramp.slope.reset();
   ramp.points = {{0, model().settled(critical.state)}};
-  return accept(ramp.points.back().state, {ramp.load_factor, {}, true, length}, Reached::along_path);
+  accept(ramp.points.back().state, {ramp.load_factor, {}, true, length}, Reached::to_its_end);
 }
 
 bool StepRun::accept(const fem::State& state, const fem::Increment& increment, Reached reached) {
@@ -211,7 +212,7 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   }
   if (jumps) return jump(trouble);
   if (ends) {
-    if (trouble.critical && !accept_critical(*trouble.critical)) return Outcome{Ending::interrupted};
+    if (trouble.critical) accept_critical(*trouble.critical);
     return failure(trouble);
   }
   const double s = progress_.ramp.load_factor;
@@ -288,8 +289,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   fem::RampProgress& ramp = progress_.ramp;
   std::vector<Departure> ways = departures(trouble);
   if (ways.empty()) return failure(trouble);
-  if (step_.kind != StepKind::release && trouble.critical)
-    accept_critical(*trouble.critical); // an interrupt waits until the device has landed
+  if (step_.kind != StepKind::release && trouble.critical) accept_critical(*trouble.critical);
   const fem::State before = last();
   fem::JumpResult result{.end = fem::JumpEnd::stuck};
   fem::State state;

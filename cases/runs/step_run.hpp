@@ -15,7 +15,11 @@ struct StepProgress {
 };
 
 /// How an accepted state was reached.
-enum class Reached { along_path, by_jump };
+enum class Reached {
+  along_path,
+  to_its_end, ///< along the path to a critical point from which the device goes elsewhere, or nowhere
+  by_jump,
+};
 
 /// Whether events of this kind are critical points: "limit point" or "bifurcation".
 bool is_critical(const std::string& kind);
@@ -70,7 +74,7 @@ class StepRun {
   std::optional<fem::CriticalPoint> locate(double s, bool another) const;
   std::optional<fem::CriticalPoint> limit_in_time() const;
   void announce(const fem::CriticalPoint& critical, bool ends);
-  bool accept_critical(const fem::CriticalPoint& critical);
+  void accept_critical(const fem::CriticalPoint& critical);
   std::optional<Outcome> leave(const Trouble& trouble);
   std::optional<Outcome> follow();
   /// Loads and a state from which to jump, along a direction in the free equations.

@@ -123,6 +123,9 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
 ContinuationEnd continuation(Equilibrium& equilibrium, const LoadPath& path,
                              const ContinuationOptions& options, ContinuationProgress& progress,
                              const ContinuationObserver& observer) {
+  if (progress.steps > 0 && (progress.load_direction > 0 ? progress.load_factor >= options.highest
+                                                         : progress.load_factor <= options.lowest))
+    return ContinuationEnd::reached_load; // stopped there before
   while (progress.steps < options.most_steps) {
     const double arc = progress.arc;
     auto next = arc_step(equilibrium, path, progress, arc, options.newton);

@@ -58,7 +58,8 @@ Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, 
 
 /// Pseudo-arclength continuation (Keller 1977): follows the equilibrium path from `progress` on, through
 /// limit points, with the load factor as one more unknown. Electrodes may be isolated. The path must be
-/// smooth (no breaks) and defined a little beyond its ends; time stands still.
+/// smooth (no breaks) and defined a little beyond its ends; time stands still. One that was stopped where it
+/// ends is at its end.
 ContinuationEnd continuation(Equilibrium& equilibrium, const LoadPath& path,
                              const ContinuationOptions& options, ContinuationProgress& progress,
                              const ContinuationObserver& observer);

@@ -74,6 +74,44 @@ TEST_F(Paths, a_clamped_disc_goes_over_to_its_dome_by_the_branch_and_by_a_jump_a
   EXPECT_NEAR(dome, ends("on_instability = \"jump\""), 1e-6 * dome);
 }
 
+// A run that goes on from where it was kept ends like one that was never stopped, bit for bit: beside a
+// switch of branches, at the end of a path that was followed, beside a jump.
+TEST_F(Paths, a_run_goes_on_beside_a_switch_of_branches_and_a_jump) {
+  for (const char* way : {"on_bifurcation = \"switch\"", "on_instability = \"jump\""}) {
+    std::string text = clamped_disc(
+        fmt::format("[drive]\nvoltage = \"{} V\"\n[[step]]\nkind = \"voltage\"\nincrements = 4\n{}\n"
+                    "[[step]]\nkind = \"voltage\"\nname = \"less\"\nto = \"{} V\"\nincrements = 3\n",
+                    1.3 * buckling_voltage(), way, 1.2 * buckling_voltage()));
+    text.replace(text.find("rings = 8"), 9, "rings = 4");
+    write("dome.toml", text);
+    const Case one = read_case(directory / "dome.toml");
+    Simulation straight(one, 1);
+    std::vector<std::vector<double>> rows;
+    std::map<std::size_t, SimulationProgress> kept; // behind so many rows
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      rows.push_back(frame.values);
+      if (!frame.ends_path) kept.emplace(rows.size(), straight.progress());
+      return true;
+    };
+    ASSERT_EQ(straight.run(observer).ending, Ending::complete);
+    EXPECT_EQ(rows.size() - kept.size(), way[3] == 'i' ? 1u : 0u) << way;
+    for (const auto& [before, progress] : kept) {
+      if (before < 5 || before % 3 == 1) continue; // a part of them takes less time
+      Simulation resumed(one, 1);
+      resumed.enter(progress.step);
+      resumed.resume(progress);
+      std::vector<std::vector<double>> rest(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(before));
+      observer.on_accept = [&](const Frame& frame) {
+        rest.push_back(frame.values);
+        return true;
+      };
+      EXPECT_EQ(resumed.run(observer).ending, Ending::complete);
+      EXPECT_EQ(rest, rows) << way << ", behind " << before;
+    }
+  }
+}
+
 // Leissa 1969, Vibration of Plates, table 2.1: lambda^2 = 10.2158.
 TEST_F(Paths, a_clamped_disc_vibrates_as_a_plate) {
   const Run modes =
