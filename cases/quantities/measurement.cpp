@@ -9,16 +9,14 @@
 namespace dielast::cases {
 
 Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::State& at,
-                   const fem::EnergyBalance& balance, const post::WantedScalars& scalars)
+                   const fem::EnergyBalance& balance, const post::WantedScalars& scalars,
+                   const fem::Holding* held)
     : equilibrium(solver), state(at), samples(device.model.sample(at)), extremes(samples, scalars),
-      charges(device.model.charges(at, false)), energy(balance) {}
+      charges(device.model.charges(at, false)), energy(balance), held_(held) {}
 
 const Eigen::VectorXd& Measured::reaction() const {
-  if (reaction_.size() > 0) return reaction_;
-  fem::external_force(equilibrium, state, reaction_);
-  Eigen::VectorXd dead = state.dead_force;
-  equilibrium.model().dofs.gather(state, dead);
-  reaction_ -= dead;
+  if (reaction_.size() == 0)
+    reaction_ = fem::reactions(equilibrium.model(), state, held_ ? *held_ : fem::holding(equilibrium, state));
   return reaction_;
 }
 

@@ -15,9 +15,11 @@ namespace dielast::cases {
 
 /// A state, with what is needed to measure it.
 struct Measured {
-  /// `scalars`: of which the extremes are wanted; it must outlive this.
+  /// `scalars`: of which the extremes are wanted. `held`: what holds the state, where that is known. Both
+  /// must outlive this.
   Measured(const Device& device, fem::Equilibrium& equilibrium, const fem::State& state,
-           const fem::EnergyBalance& energy, const post::WantedScalars& scalars = post::WantedScalars::all());
+           const fem::EnergyBalance& energy, const post::WantedScalars& scalars = post::WantedScalars::all(),
+           const fem::Holding* held = nullptr);
 
   /// Of supports on the device at held equations (see DofMap), N and N m.
   const Eigen::VectorXd& reaction() const;
@@ -32,6 +34,7 @@ struct Measured {
   const fem::EnergyBalance& energy;
 
  private:
+  const fem::Holding* held_;
   mutable Eigen::VectorXd reaction_; ///< empty until somebody asks
 };
 

@@ -82,4 +82,36 @@ SimulationProgress restore_progress(const json& archived, const post::StateSizes
   return progress;
 }
 
+SimulationProgress Simulation::progress() const {
+  SimulationProgress progress{
+      step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
+      time_error_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_};
+  for (const auto& [load, signal] : signals_) progress.signals.push_back(signal->memory());
+  return progress;
+}
+
+void Simulation::resume(const SimulationProgress& progress) {
+  step_ = progress.step + (progress.in_step.ramp.load_factor >= 1 ? 1 : 0); // that step is done
+  records_ = progress.records;
+  in_step_ = progress.in_step;
+  energy_ = fem::EnergyBalance(progress.energy);
+  come_to(state());
+  measurement_.references = progress.references;
+  watch_.active = progress.active_events;
+  time_error_ = progress.time_error;
+  unseen_ = progress.unseen;
+  if (progress.peaks.size() != measurement_.peaks.size()) throw post::CheckpointError("damaged");
+  measurement_.peaks = progress.peaks;
+  news_ = progress.news;
+  unrecorded_.reset();
+  refusal_.reset();
+  loads_->let_go = progress.let_go;
+  if (progress.signals.size() != signals_.size()) throw post::CheckpointError("damaged");
+  auto kept = progress.signals.begin();
+  for (const auto& [load, signal] : signals_) {
+    if (kept->size() != signal->memory().size()) throw post::CheckpointError("damaged");
+    signal->recall(*kept++);
+  }
+}
+
 } // namespace dielast::cases

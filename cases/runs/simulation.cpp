@@ -118,8 +118,8 @@ bool Simulation::come_to_rest(fem::State& state) {
     return false;
   }
   state = *std::move(rest);
-  const auto release = energy_.add_after_jump(fem::energy_point(*equilibrium_, state, 1));
-  accounted_ = state;
+  come_to(state);
+  const auto release = energy_.add_after_jump(fem::energy_point(*equilibrium_, state, 1, held_));
   if (moves)
     news_.push_back(
         {"came to rest", "",
@@ -135,7 +135,7 @@ void Simulation::change_supports(fem::State& state) {
   loads_->let_go.resize(0);
   if (holding_in(case_, steps_, step_) == holding_) return;
   const fem::DofMap before = device_.model.dofs;
-  const Eigen::VectorXd reaction = Measured(device_, *equilibrium_, state, energy_, scalars_).reaction();
+  const Eigen::VectorXd reaction = fem::reactions(device_.model, state, held_);
   enter(step_);
   const Renumbering renumbered(before, device_.model.dofs);
   const Eigen::VectorXd let_go = renumbered.let_go(reaction);
@@ -147,7 +147,7 @@ void Simulation::change_supports(fem::State& state) {
     for (Eigen::VectorXd* part : {&point.mechanical.force, &point.mechanical.coordinate})
       *part = renumbered(*part);
   energy_ = fem::EnergyBalance(std::move(record));
-  accounted_ = state;
+  come_to(state);
 }
 
 Eigen::VectorXd Simulation::frame_force() {
@@ -157,53 +157,29 @@ Eigen::VectorXd Simulation::frame_force() {
   return force;
 }
 
-SimulationProgress Simulation::progress() const {
-  SimulationProgress progress{
-      step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
-      time_error_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_};
-  for (const auto& [load, signal] : signals_) progress.signals.push_back(signal->memory());
-  return progress;
-}
-
-void Simulation::resume(const SimulationProgress& progress) {
-  step_ = progress.step + (progress.in_step.ramp.load_factor >= 1 ? 1 : 0); // that step is done
-  records_ = progress.records;
-  in_step_ = progress.in_step;
-  energy_ = fem::EnergyBalance(progress.energy);
-  accounted_ = state();
-  measurement_.references = progress.references;
-  watch_.active = progress.active_events;
-  time_error_ = progress.time_error;
-  unseen_ = progress.unseen;
-  if (progress.peaks.size() != measurement_.peaks.size()) throw post::CheckpointError("damaged");
-  measurement_.peaks = progress.peaks;
-  news_ = progress.news;
-  unrecorded_.reset();
-  refusal_.reset();
-  loads_->let_go = progress.let_go;
-  if (progress.signals.size() != signals_.size()) throw post::CheckpointError("damaged");
-  auto kept = progress.signals.begin();
-  for (const auto& [load, signal] : signals_) {
-    if (kept->size() != signal->memory().size()) throw post::CheckpointError("damaged");
-    signal->recall(*kept++);
-  }
-}
-
 void Simulation::lead_to(const std::vector<double>& voltages, int increments) {
   steps_.back().increments = increments;
   for (std::size_t e = 0; e < voltages.size(); ++e)
     now_.drives[case_.electrodes[e].name].voltage = Waveform::constant_at(voltages[e]);
 }
 
+/// The state is the last one that is accounted for.
+void Simulation::come_to(const fem::State& state) {
+  accounted_ = state;
+  held_ = fem::holding(*equilibrium_, state);
+}
+
 void Simulation::account(const fem::State& state, const fem::Increment& increment, Reached reached) {
   if (increment.turns) energy_.corner();
-  fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length);
+  const fem::State before = accounted_;
+  const double energy_before = held_.energy;
+  come_to(state);
+  fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length, held_);
   if (!energy_.empty()) {
-    point.flow = fem::flow_heat(*equilibrium_, accounted_, state);
-    fem::follow_spins(device_.model.dofs, accounted_, state,
-                      energy_.record().points.back().mechanical.coordinate, point.mechanical.coordinate);
+    point.flow = fem::flow_heat(*equilibrium_, before, energy_before, state, held_.energy);
+    fem::follow_spins(device_.model.dofs, before, state, energy_.record().points.back().mechanical.coordinate,
+                      point.mechanical.coordinate);
   }
-  const fem::State before = std::exchange(accounted_, state);
   time_error_ += increment.time_error;
   std::optional<fem::EnergyBalance::JumpRelease> release;
   if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release)
@@ -254,12 +230,11 @@ bool Simulation::admits(const Step& step, double load_factor, const fem::State& 
 }
 
 /// Shows the state to the signals that want to see it; otherwise refusal_ says which cannot go on.
-bool Simulation::sample(const Step& step, double load_factor, const fem::State& state) {
+bool Simulation::sample(const Step& step, double load_factor, Measured& measured) {
   if (step.kind != StepKind::transient) return true;
   const double t = load_factor * *step.duration;
   for (const auto& [load, signal] : signals_) {
     if (!signal->samples(t)) continue;
-    Measured measured(device_, *equilibrium_, state, energy_, scalars_);
     measured.may_rest = false;
     const std::string wrong = signal->sample(t, measured, measurement_);
     if (wrong.empty()) continue;
@@ -274,10 +249,10 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
                         const fem::Increment& increment, Reached reached) {
   if (!admits(step, increment.load_factor, state)) return false;
   account(state, increment, reached);
-  if (!sample(step, increment.load_factor, state)) return false;
-  if (increment.lands) return record(observer, step, state, increment, reached);
+  Measured measured(device_, *equilibrium_, state, energy_, scalars_, &held_);
+  if (!sample(step, increment.load_factor, measured)) return false;
+  if (increment.lands) return record(observer, step, measured, increment, reached);
   unrecorded_ = increment;
-  Measured measured(device_, *equilibrium_, state, energy_, scalars_);
   measured.may_rest = !step.duration;
   measurement_.all(measured);
   std::vector<post::Event> found = watch_.check(state, measured.extremes, increment.newton.unstable_modes);
@@ -295,12 +270,12 @@ std::vector<double> Simulation::voltages(const fem::State& state) const {
           state.voltage.begin() + static_cast<std::ptrdiff_t>(case_.electrodes.size())};
 }
 
-bool Simulation::record(const SimulationObserver& observer, const Step& step, const fem::State& state,
+bool Simulation::record(const SimulationObserver& observer, const Step& step, Measured& measured,
                         const fem::Increment& increment, Reached reached) {
   unrecorded_.reset();
   const bool is_drawn = records_ == 0;
   const bool ends = !is_drawn && increment.load_factor >= 1;
-  Measured measured(device_, *equilibrium_, state, energy_, scalars_);
+  const fem::State& state = measured.state;
   measured.may_rest = ends || !step.duration;
   if (ends) measurement_.step_ended(step.name, measured);
   const std::vector<double> values = measurement_.all(measured);
@@ -368,7 +343,10 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         news_.push_back(
             {"no voltage", "",
              fmt::format("step \"{}\" leaves every electrode at 0 V: give [drive] a voltage", step.name)});
-      if (!sample(step, 0, ramp.points.back().state)) return *std::exchange(refusal_, std::nullopt);
+      if (step.kind == StepKind::transient && !signals_.empty()) {
+        Measured measured(device_, *equilibrium_, ramp.points.back().state, energy_, scalars_);
+        if (!sample(step, 0, measured)) return *std::exchange(refusal_, std::nullopt);
+      }
     }
     const fem::RampOptions options = loads_->options(step_);
     const fem::LoadPath path = loads_->path(step_, ramp.start);
@@ -386,7 +364,10 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         }};
     const Outcome outcome =
         StepRun(*equilibrium_, step, path, options, in_step_, watcher, ways_on(case_, step)).run();
-    if (outcome.ending == Ending::gave_up && unrecorded_) record(observer, step, state(), *unrecorded_);
+    if (outcome.ending == Ending::gave_up && unrecorded_) {
+      Measured measured(device_, *equilibrium_, state(), energy_, scalars_, &held_);
+      record(observer, step, measured, *unrecorded_);
+    }
     if (refusal_) return *std::exchange(refusal_, std::nullopt);
     if (outcome.ending != Ending::complete) return outcome;
   }

@@ -94,11 +94,12 @@ class Simulation {
   bool come_to_rest(fem::State& state);
   void change_supports(fem::State& state);
   bool admits(const Step& step, double load_factor, const fem::State& state);
-  bool sample(const Step& step, double load_factor, const fem::State& state);
+  void come_to(const fem::State& state);
+  bool sample(const Step& step, double load_factor, Measured& measured);
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
               const fem::Increment& increment, Reached reached);
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);
-  bool record(const SimulationObserver& observer, const Step& step, const fem::State& state,
+  bool record(const SimulationObserver& observer, const Step& step, Measured& measured,
               const fem::Increment& increment, Reached reached = Reached::along_path);
   std::vector<double> voltages(const fem::State& state) const;
 
@@ -126,6 +127,7 @@ class Simulation {
   double time_error_ = 0;
   fem::UnseenMotion unseen_; ///< of the current step
   fem::State accounted_;     ///< the last state in energy_
+  fem::Holding held_;        ///< what holds it
 };
 
 } // namespace dielast::cases

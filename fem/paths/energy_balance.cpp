@@ -220,43 +220,46 @@ EnergyBalance::Resolution EnergyBalance::worst() const {
   return worst;
 }
 
-void external_force(Equilibrium& equilibrium, const State& state, Eigen::VectorXd& force) {
-  equilibrium.internal_force(state, force);
-  if (!state.motion) return;
+Holding holding(Equilibrium& equilibrium, const State& state) {
+  Holding held;
+  held.energy = equilibrium.internal_force(state, held.force).energy;
+  if (!state.motion) return held;
   const Model& model = equilibrium.model();
   const Motion& motion = *state.motion;
   Eigen::VectorXd inertial =
       model.inertia.mass * motion.acceleration_now + model.inertia.resistance(motion.velocity);
   model.dofs.gather(state, inertial);
-  force += inertial;
+  held.force += inertial;
+  return held;
 }
 
-EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length) {
+Eigen::VectorXd reactions(const Model& model, const State& state, const Holding& held) {
+  Eigen::VectorXd dead = state.dead_force; // supports carry those on tied nodes
+  model.dofs.gather(state, dead);
+  return held.force - dead;
+}
+
+EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length, const Holding& held) {
   const Model& model = equilibrium.model();
   const DofMap& dofs = model.dofs;
   const auto electrodes = static_cast<Eigen::Index>(model.electrodes.size());
   const auto chambers = static_cast<Eigen::Index>(model.chambers.size());
   EnergyPoint point{.length = length, .time = state.time, .moves = state.motion != nullptr};
-  Eigen::VectorXd& force = point.mechanical.force;
-  external_force(equilibrium, state, force); // the reactions are external, too
   if (state.motion) {
     const Eigen::VectorXd& velocity = state.motion->velocity;
     point.power[EnergyPoint::dampers] = velocity.dot(model.inertia.resistance(velocity));
   }
-  // Supports carry the forces on tied nodes, which do work of their own.
-  Eigen::VectorXd carried = state.dead_force;
-  dofs.gather(state, carried);
+  // The reactions are external, too; dead forces on tied nodes do work of their own.
   const auto supported = Eigen::seqN(dofs.free_count(), dofs.held_count());
-  const Eigen::VectorXd reactions = force(supported) - carried(supported) + state.dead_force(supported);
-  force = state.dead_force;
-  force(supported) = reactions;
+  point.mechanical.force = state.dead_force;
+  point.mechanical.force(supported) += reactions(model, state, held)(supported);
   point.mechanical.coordinate = position(state, dofs);
   // What is given is known to the last digit; the rest follows.
-  Charges held = model.charges(state, false);
+  std::vector<double> charges = model.charges(state, false).charge;
   for (std::size_t e = 0; e < model.port_count(); ++e)
-    if (state.supply[e] == Supply::charge) held.charge[e] = state.charge[e];
+    if (state.supply[e] == Supply::charge) charges[e] = state.charge[e];
   const Eigen::Map<const Eigen::VectorXd> voltage(state.voltage.data(), electrodes + chambers);
-  const Eigen::Map<const Eigen::VectorXd> charge(held.charge.data(), electrodes + chambers);
+  const Eigen::Map<const Eigen::VectorXd> charge(charges.data(), electrodes + chambers);
   // What pumps do is mechanical work.
   for (auto [part, port] :
        {std::pair{&point.mechanical.force, &voltage}, {&point.mechanical.coordinate, &charge}}) {
@@ -293,7 +296,8 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   return point;
 }
 
-double flow_heat(Equilibrium& equilibrium, const State& from, const State& to) {
+double flow_heat(Equilibrium& equilibrium, const State& from, double energy_from, const State& to,
+                 double energy_to) {
   if (!from.history || !to.history || from.history->now == to.history->now) return 0;
   const Eigen::Map<const Eigen::VectorXd> first(from.history->now.data(), std::ssize(from.history->now)),
       last(to.history->now.data(), std::ssize(to.history->now));
@@ -305,7 +309,7 @@ double flow_heat(Equilibrium& equilibrium, const State& from, const State& to) {
     shape.scheme = materials::TimeScheme::frozen();
     return equilibrium.internal_force(shape, unused).energy;
   };
-  const double at_first = energy(from, 0) - energy(from, 1), at_last = energy(to, 0) - energy(to, 1);
+  const double at_first = energy_from - energy(from, 1), at_last = energy(to, 0) - energy_to;
   const double between = (at_first + at_last) / 2;
   if (at_first >= 0 && at_last >= 0) return between;
   const auto power = [&](const State& shape, double part) { // exact for polynomials of degree 4

@@ -117,19 +117,31 @@ class EnergyBalance {
   Record record_;
 };
 
-/// What acts from outside on an accepted state, N and N m, per equation: internal forces and those of
-/// inertia, damping and drag at the state's own time, those on tied nodes moved to their masters. Less the
-/// dead forces these are the reactions at held equations; where no mass moves, zero at free ones.
-void external_force(Equilibrium& equilibrium, const State& state, Eigen::VectorXd& force);
+/// What an accepted state is held by.
+struct Holding {
+  /// What acts from outside, N and N m, per equation: internal forces and those of inertia, damping and drag
+  /// at the state's own time, those on tied nodes moved to their masters. Less the dead forces these are the
+  /// reactions at held equations; where no mass moves, zero at free ones.
+  Eigen::VectorXd force;
+  double energy = 0; ///< of the elements, J
+};
+Holding holding(Equilibrium& equilibrium, const State& state);
+
+/// Of supports on the model at held equations, N and N m.
+Eigen::VectorXd reactions(const Model& model, const State& state, const Holding& held);
 
 /// Collects an energy point at an equilibrium.
-EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length);
+EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length, const Holding& held);
+inline EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length) {
+  return energy_point(equilibrium, state, length, holding(equilibrium, state));
+}
 
 /// Heat of the dashpots between two accepted states, J, from the states alone: the energy that is lost as the
 /// internal variables change at fixed shape and voltages, mean of both shapes. Where it would have to grow
 /// for that (dashpots that follow the shape sooner than an increment, as one beside the law does), the mean
 /// of what is lost per change of the internal variables in either state: one shape with the other's dashpots
-/// is far from the path.
-double flow_heat(Equilibrium& equilibrium, const State& from, const State& to);
+/// is far from the path. Energies of both states: see Holding.
+double flow_heat(Equilibrium& equilibrium, const State& from, double energy_from, const State& to,
+                 double energy_to);
 
 } // namespace dielast::fem

@@ -149,6 +149,9 @@ TEST_F(DiscMeasurement, ElongationsStartWhereTheirStepEnds) {
   for (std::size_t n = 0; n < built.mesh.nodes.size(); ++n) at.displacement[n] = 0.25 * built.mesh.nodes[n];
   EXPECT_NEAR(measurement.all(measured())[0], 0.25, 1e-12);
   EXPECT_NEAR(measurement.all(measured())[1], 0.25, 1e-12);
+  const fem::Holding held = fem::holding(equilibrium, at);
+  EXPECT_EQ(Measured(built, equilibrium, at, energy, post::WantedScalars::all(), &held).reaction(),
+            measured().reaction());
 }
 
 } // namespace

@@ -21,7 +21,8 @@ inline void account(EnergyBalance& balance, Equilibrium& equilibrium, const Stat
                     const Increment& increment) {
   if (increment.turns) balance.corner();
   EnergyPoint point = energy_point(equilibrium, to, increment.length);
-  point.flow = flow_heat(equilibrium, from, to);
+  point.flow =
+      flow_heat(equilibrium, from, holding(equilibrium, from).energy, to, holding(equilibrium, to).energy);
   follow_spins(equilibrium.model().dofs, from, to, balance.record().points.back().mechanical.coordinate,
                point.mechanical.coordinate);
   balance.add(std::move(point));
