@@ -38,6 +38,7 @@ struct Fit {
   std::filesystem::path source;
   Film film;                           ///< only its material is read
   std::vector<std::string> parameters; ///< names, see fit_parameters.hpp
+  std::vector<bool> keeps_viscosity;   ///< of every branch: given by it, or it is a parameter
   double range = 0;
   int max_iterations = 0;
   std::vector<FitTest> tests;

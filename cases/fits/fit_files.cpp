@@ -20,7 +20,7 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format(",{}"
 
 double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
 
-/// Keys and values of a section; a branch is told by its relaxation time, and a permittivity of 0 was not
+/// Keys and values of a section, but not a branch's relaxation time or viscosity; a permittivity of 0 was not
 /// given.
 std::string keys_text(const Section& section, const void* object) {
   const std::string selected = section.selected_in(object);
@@ -124,10 +124,13 @@ std::string material_toml(const FitResults& results) {
   if (film.material.dielectric.permittivity == 0)
     text += "# a case needs its relative_permittivity as well\n";
   text += "[film.material]\n" + keys_text(material, &film);
-  for (const materials::Branch& one : film.material.branches) {
+  for (std::size_t b = 0; b < film.material.branches.size(); ++b) {
+    const materials::Branch& one = film.material.branches[b];
+    text += "\n[[film.material.branch]]\n" + keys_text(branch, &one);
     const double tau = one.viscosity / materials::initial_shear_modulus(one.law);
-    text += "\n[[film.material.branch]]\n" + keys_text(branch, &one) +
-            fmt::format("relaxation_time = \"{}\"\n", format_measure(rounded(tau), "s"));
+    text += results.fit.keeps_viscosity[b]
+                ? fmt::format("viscosity = \"{}\"\n", format_measure(rounded(one.viscosity), "Pa s"))
+                : fmt::format("relaxation_time = \"{}\"\n", format_measure(rounded(tau), "s"));
   }
   return text;
 }

@@ -48,21 +48,34 @@ void add_law(std::vector<FitParameter>& all, const std::string& prefix, const El
 
 } // namespace
 
-std::vector<FitParameter> fit_parameters(const Material& material) {
+std::vector<FitParameter> fit_parameters(const Material& material, const std::vector<bool>& keeps_viscosity) {
   std::vector<FitParameter> all;
   add_law(
       all, "", material.law, [](const Material& one) -> const ElasticLaw& { return one.law; },
       [](Material& one, const auto& write) { write(one.law); });
+  if (material.viscosity > 0)
+    all.push_back({.name = "viscosity",
+                   .unit = "Pa s",
+                   .get = [](const Material& one) { return one.viscosity; },
+                   .set = [](Material& one, double eta) { one.viscosity = eta; }});
   for (std::size_t b = 0; b < material.branches.size(); ++b) {
+    const bool viscous = b < keeps_viscosity.size() && keeps_viscosity[b];
     const std::string prefix = fmt::format("branch[{}].", b + 1);
     add_law(
         all, prefix, material.branches[b].law,
         [b](const Material& one) -> const ElasticLaw& { return one.branches[b].law; },
-        [b](Material& one, const auto& write) {
+        [b, viscous](Material& one, const auto& write) {
           const double tau = relaxation_time(one.branches[b]);
           write(one.branches[b].law);
-          set_relaxation_time(one.branches[b], tau);
+          if (!viscous) set_relaxation_time(one.branches[b], tau);
         });
+    if (viscous) {
+      all.push_back({.name = prefix + "viscosity",
+                     .unit = "Pa s",
+                     .get = [b](const Material& one) { return one.branches[b].viscosity; },
+                     .set = [b](Material& one, double eta) { one.branches[b].viscosity = eta; }});
+      continue;
+    }
     FitParameter time{.name = prefix + "relaxation_time", .unit = "s"};
     time.get = [b](const Material& one) { return relaxation_time(one.branches[b]); };
     time.set = [b](Material& one, double tau) { set_relaxation_time(one.branches[b], tau); };

@@ -10,9 +10,9 @@
 
 namespace dielast::cases {
 
-/// One number of a material that a fit may change: a parameter of the law ("shear_modulus", "moduli[2]"), or
-/// of a branch ("branch[1].shear_modulus", "branch[1].relaxation_time"); lists are counted from 1. A branch
-/// keeps its relaxation time when its spring changes.
+/// One number of a material that a fit may change: a parameter of the law ("shear_modulus", "moduli[2]"),
+/// the viscosity beside it, or one of a branch ("branch[1].shear_modulus", "branch[1].relaxation_time");
+/// lists are counted from 1.
 struct FitParameter {
   std::string name;
   std::string unit; ///< SI
@@ -22,7 +22,10 @@ struct FitParameter {
   std::function<void(materials::Material&, double)> set;
 };
 
-/// All of them, in the order of the laws' tables.
-std::vector<FitParameter> fit_parameters(const materials::Material& material);
+/// All of them, in the order of the laws' tables. When its spring changes, a branch keeps its relaxation
+/// time, or its viscosity, which is then its parameter instead, where keeps_viscosity[its number] says so;
+/// branches beyond the end of that list keep their relaxation time.
+std::vector<FitParameter> fit_parameters(const materials::Material& material,
+                                         const std::vector<bool>& keeps_viscosity = {});
 
 } // namespace dielast::cases

@@ -189,7 +189,7 @@ Attempt minimise_in_time(const FitTask& task, const std::vector<Coordinate>& coo
 }
 
 /// Another start: relaxation times spread evenly, in their logarithms, from the shortest time between rows to
-/// the duration of the tests, and everything in Pa scaled to the measured stresses.
+/// the duration of the tests, moduli and viscosities scaled to the measured stresses.
 Eigen::VectorXd other_start(const FitTask& task, const std::vector<Coordinate>& coordinates,
                             const std::vector<int>& steps, Eigen::VectorXd q) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
@@ -201,7 +201,7 @@ Eigen::VectorXd other_start(const FitTask& task, const std::vector<Coordinate>& 
   std::vector<Eigen::Index> times, moduli;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     if (task.parameters[i].unit == "s") times.push_back(static_cast<Eigen::Index>(i));
-    if (task.parameters[i].unit == "Pa") moduli.push_back(static_cast<Eigen::Index>(i));
+    if (task.parameters[i].unit.starts_with("Pa")) moduli.push_back(static_cast<Eigen::Index>(i));
   }
   const auto limited = [&](Eigen::Index i, double p) {
     const Coordinate& c = coordinates[static_cast<std::size_t>(i)];

@@ -37,7 +37,15 @@ std::vector<std::string> names_of(const std::vector<FitParameter>& parameters) {
 }
 
 void complete_parameters(SectionReader& reader, const Node& section, Fit& fit) {
-  const std::vector<std::string> known = names_of(fit_parameters(fit.film.material));
+  for (std::size_t b = 1; b <= fit.film.material.branches.size(); ++b) {
+    const std::string branch = fmt::format("branch[{}].", b);
+    const auto asked = [&](const char* key) {
+      return std::ranges::find(fit.parameters, branch + key) != fit.parameters.end();
+    };
+    const bool given = reader.keys().contains("film.material." + branch + "viscosity");
+    fit.keeps_viscosity.push_back(asked("viscosity") || (given && !asked("relaxation_time")));
+  }
+  const std::vector<std::string> known = names_of(fit_parameters(fit.film.material, fit.keeps_viscosity));
   if (fit.parameters.empty()) fit.parameters = known;
   const Node* list = section.find("parameters");
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
@@ -62,6 +70,20 @@ void require_enough_rows(SectionReader& reader, const Node& section, const Fit& 
                   fmt::format("found {} row{} to fit {} parameter{} to, allowed at least {}", rows,
                               rows == 1 ? "" : "s", fit.parameters.size(),
                               fit.parameters.size() == 1 ? "" : "s", fit.parameters.size() + 1));
+}
+
+/// The width of a film with a viscosity is known where the flow of its branches is isotropic.
+void require_known_width(SectionReader& reader, const Node& tree, const Fit& fit) {
+  const auto nominal = [](const materials::Branch& one) {
+    return one.dashpot == materials::Dashpot::nominal;
+  };
+  if (fit.film.material.viscosity == 0 || std::ranges::none_of(fit.film.material.branches, nominal)) return;
+  for (std::size_t t = 0; t < fit.tests.size(); ++t)
+    if (fit.tests[t].kind == materials::Mode::uniaxial && !fit.tests[t].equilibrium)
+      reader.report(
+          tree.find("test")->items[t].source, fmt::format("test[{}].kind", t + 1),
+          "a uniaxial test of a film with a viscosity and nominal dashpots cannot be fitted, as they "
+          "resist its width by different rules: leave one of them out, or use a test in pure shear");
 }
 
 /// The start values must give a stress in every row that is fitted.
@@ -138,6 +160,7 @@ Fit read_fit(const std::filesystem::path& path) {
   complete_parameters(reader, *section, fit);
   if (wrong.empty() && reader.diagnostics().empty()) {
     require_enough_rows(reader, *section, fit);
+    require_known_width(reader, tree, fit);
     require_finite_start(reader, tree, fit);
   }
   wrong.insert(wrong.end(), reader.diagnostics().begin(), reader.diagnostics().end());
@@ -147,7 +170,7 @@ Fit read_fit(const std::filesystem::path& path) {
 
 FitTask fit_task(const Fit& fit) {
   FitTask task{.start = fit.film.material, .range = fit.range, .max_iterations = fit.max_iterations};
-  const std::vector<FitParameter> all = fit_parameters(fit.film.material);
+  const std::vector<FitParameter> all = fit_parameters(fit.film.material, fit.keeps_viscosity);
   for (const std::string& name : fit.parameters)
     task.parameters.push_back(
         *std::find_if(all.begin(), all.end(), [&](const FitParameter& one) { return one.name == name; }));

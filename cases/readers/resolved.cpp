@@ -46,6 +46,23 @@ void write_section(const Section& section, const void* object, const std::string
   }
 }
 
+/// A branch by its relaxation time where that is what the fit keeps.
+void write_what_branches_keep(Section& film, const Fit& fit) {
+  Section& material = *std::ranges::find(film.sections, "material", &Section::name);
+  Section& branch = *std::ranges::find(material.sections, "branch", &Section::name);
+  const auto get = [&fit](bool viscosity) {
+    return [&fit, viscosity](const void* object) -> std::optional<Value> {
+      const auto& one = *static_cast<const materials::Branch*>(object);
+      const auto b = static_cast<std::size_t>(&one - fit.film.material.branches.data());
+      if (fit.keeps_viscosity[b] != viscosity) return std::nullopt;
+      return Value{
+          {viscosity ? one.viscosity : one.viscosity / materials::initial_shear_modulus(one.law), ""}};
+    };
+  };
+  std::ranges::find(branch.keys, "relaxation_time", &Key::name)->binding.get = get(false);
+  std::ranges::find(branch.keys, "viscosity", &Key::name)->binding.get = get(true);
+}
+
 std::string text_in(const std::filesystem::path& file) {
   std::ostringstream content;
   content << std::ifstream(file, std::ios::binary).rdbuf();
@@ -113,7 +130,9 @@ std::string resolved_text(const Fit& fit) {
   std::ostringstream out;
   write_head(out);
   Section schema = fit_schema();
-  std::ranges::find(schema.sections, "film", &Section::name)->keys.clear(); // only its material is read
+  Section& film = *std::ranges::find(schema.sections, "film", &Section::name);
+  film.keys.clear(); // only its material is read
+  write_what_branches_keep(film, fit);
   write_section(schema, &fit, "", out);
   fmt::print(out, "\n");
   for (std::size_t t = 0; t < fit.tests.size(); ++t)

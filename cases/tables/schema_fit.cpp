@@ -12,9 +12,11 @@ Section fit_section() {
   section.presence = Section::Presence::separate;
   section.access = same_object();
   section.keys = {
-      text("parameters", to(&Fit::parameters),
-           "what the fit changes, such as \"shear_modulus\" of the law and \"branch[1].relaxation_time\"; "
-           "without it everything")
+      text(
+          "parameters", to(&Fit::parameters),
+          "what the fit changes, such as \"shear_modulus\" of the law, \"viscosity\" and "
+          "\"branch[1].relaxation_time\" (or \"branch[1].viscosity\": the branch keeps that of the two which "
+          "is named here or given with the material); without it everything")
           .values(1, 100)
           .optional(),
       number(

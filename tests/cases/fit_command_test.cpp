@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
+#include <fmt/format.h>
+
 #include <regex>
 
 namespace dielast::test {
@@ -115,6 +117,64 @@ TEST_F(FitCommand, ResumeOfAChangedFitSaysWhatHasChangedAndStops) {
   write_fit(law_only);
   write("pull.csv", "stretch,P_kPa\n1.2,7.7\n1.5,16.2\n2,26.1\n3,43.1\n");
   EXPECT_NE(changes().find("content of test[1].file is checksum "), std::string::npos);
+}
+
+// The data are those of 30 kPa beside a dashpot of 5 kPa s: P = mu (l - l^-2) + 3 eta l'/l^2.
+TEST_F(FitCommand, TheFilmsOwnViscosityIsADashpotAndCanBeFitted) {
+  std::string rows = "time_s,stretch,P_kPa\n0,1,0\n";
+  for (int i = 1; i <= 30; ++i) {
+    const double l = 1 + 0.05 * i;
+    rows += fmt::format("{},{},{}\n", 0.1 * i, l, 30 * (l - 1 / (l * l)) + 15 * 0.5 / (l * l));
+  }
+  write("pull.csv", rows);
+  const std::string test = "[[test]]\nfile = \"pull.csv\"\nkind = \"uniaxial\"\n";
+  const std::string film = "[film.material]\nshear_modulus = \"20 kPa\"\nrelative_permittivity = 3\n";
+  write("known.toml", film + "viscosity = \"5 kPa.s\"\n[fit]\nparameters = [\"shear_modulus\"]\n" + test);
+  write("free.toml", film + "viscosity = \"1 kPa.s\"\n[fit]\n" + test);
+  ASSERT_EQ(dielast({"fit", "known.toml", "-o", "known"}).exit_code, 0);
+  ASSERT_EQ(dielast({"fit", "free.toml", "-o", "free"}).exit_code, 0);
+  EXPECT_NEAR(json_of("known/fit.json")["parameters"][0]["value"].get<double>(), 30e3, 1e-3);
+  const nlohmann::json found = json_of("free/fit.json")["parameters"];
+  EXPECT_NEAR(found[0]["value"].get<double>(), 30e3, 1e-3);
+  EXPECT_EQ(found[1]["name"], "viscosity");
+  EXPECT_NEAR(found[1]["value"].get<double>(), 5e3, 1e-3);
+  EXPECT_NE(content("free/material.toml").find("viscosity = \"5000 Pa s\""), std::string::npos);
+  write("nominal.toml", film +
+                            "viscosity = \"1 kPa.s\"\n[[film.material.branch]]\nshear_modulus = \"1 kPa\"\n"
+                            "relaxation_time = \"1 s\"\ndashpot = \"nominal\"\n[fit]\n" +
+                            test);
+  const Ended refused = dielast({"fit", "nominal.toml", "-o", "nominal"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("a uniaxial test of a film with a viscosity and nominal dashpots"),
+            std::string::npos)
+      << refused.err;
+}
+
+// With the spring free, a branch keeps what the file says of its dashpot, in resolved.toml as well.
+TEST_F(FitCommand, ABranchKeepsTheViscosityThatIsGiven) {
+  write("pull.csv", "time_s,stretch,P_kPa\n0,1,0\n1,1.5,40\n2,2,60\n3,2.5,75\n4,3,90\n");
+  const auto kept = [&](const std::string& dashpot, const std::string& parameters) {
+    write("fit.toml", "[film.material]\nshear_modulus = \"20 kPa\"\nrelative_permittivity = 3\n"
+                      "[[film.material.branch]]\nshear_modulus = \"20 kPa\"\n" +
+                          dashpot + "\n[fit]\nparameters = [" + parameters +
+                          "]\n[[test]]\nfile = \"pull.csv\"\nkind = \"uniaxial\"\n");
+    EXPECT_EQ(dielast({"fit", "fit.toml", "-o", "out"}).exit_code, 0);
+    const std::string material = content("out/material.toml"), resolved = content("out/resolved.toml");
+    write("again.toml", resolved);
+    EXPECT_EQ(dielast({"fit", "again.toml", "-o", "again"}).exit_code, 0);
+    const std::string again = content("again/material.toml");
+    EXPECT_EQ(again.substr(again.find('\n')), material.substr(material.find('\n')));
+    return material.substr(material.find("directions"));
+  };
+  const std::string both = "\"shear_modulus\", \"branch[1].shear_modulus\"";
+  EXPECT_NE(kept("viscosity = \"80 kPa.s\"", both).find("viscosity = \"80000 Pa s\""), std::string::npos);
+  EXPECT_NE(kept("relaxation_time = \"4 s\"", both).find("relaxation_time = \"4 s\""), std::string::npos);
+  EXPECT_NE(kept("viscosity = \"80 kPa.s\"", "\"shear_modulus\", \"branch[1].relaxation_time\"")
+                .find("relaxation_time"),
+            std::string::npos);
+  EXPECT_NE(
+      kept("relaxation_time = \"4 s\"", "\"shear_modulus\", \"branch[1].viscosity\"").find("viscosity = "),
+      std::string::npos);
 }
 
 TEST_F(FitCommand, WrongInputAndFilesHaveTheirExitCodes) {

@@ -98,6 +98,37 @@ TEST(FitModel, BranchesInPureShearFlowAsThoseOfAFilm) {
   EXPECT_NEAR(stress[1], 2 * l * film.first[0], 1e-4 * stress[1]);
 }
 
+// Along a curve of stretch in time the rates are the curve's to second order; at a corner that before it
+// counts; rows at the start, which are reached at once, say nothing of a dashpot.
+TEST(FitModel, ADashpotBesideTheLawResistsTheRate) {
+  const Material material{.law = materials::NeoHookean{1000}, .viscosity = 300};
+  const double omega = 2, dt = 0.05;
+  const std::vector<std::pair<Mode, double>> factors{
+      {Mode::uniaxial, 3}, {Mode::pure_shear, 4}, {Mode::equal_biaxial, 6}};
+  for (const auto& [mode, factor] : factors) {
+    StretchHistory wave{mode, {}, {}}, corner{mode, {}, {}};
+    for (int i = 0; i <= 60; ++i) {
+      wave.time.push_back(i * dt), corner.time.push_back(i * dt);
+      wave.stretch.push_back(1.5 + 0.2 * std::sin(omega * i * dt));
+      corner.stretch.push_back(1 + 0.02 * std::min(i, 60 - i));
+    }
+    const auto elastic = [&](const StretchHistory& history) {
+      return nominal_stress({.law = material.law}, {mode, {}, history.stretch}, 1);
+    };
+    const auto smooth = nominal_stress(material, wave, 1), sharp = nominal_stress(material, corner, 1);
+    for (std::size_t i = 0; i < smooth.size(); ++i) {
+      const double l = wave.stretch[i], rate = 0.4 * std::cos(omega * wave.time[i]);
+      if (i > 1 && i + 1 < smooth.size()) {
+        EXPECT_NEAR(smooth[i] - elastic(wave)[i], factor * 300 * rate / (l * l), factor * 300 * 1e-3) << i;
+      }
+      const double ramp = i == 0 ? 0 : i <= 30 ? 0.4 : -0.4, at = corner.stretch[i];
+      EXPECT_NEAR(sharp[i] - elastic(corner)[i], factor * 300 * ramp / (at * at), 1e-6) << i;
+    }
+    EXPECT_DOUBLE_EQ(smooth[0], elastic(wave)[0]);
+    EXPECT_EQ(steps_needed(material, wave, 1e-4), 1);
+  }
+}
+
 TEST(FitModel, BeyondTheLawThereIsNoStress) {
   const auto stress = nominal_stress({.law = materials::Gent{1000, 10}}, {Mode::uniaxial, {}, {2, 5}}, 1);
   EXPECT_TRUE(std::isfinite(stress[0]));

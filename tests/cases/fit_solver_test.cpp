@@ -181,6 +181,21 @@ TEST(FitParameters, ABranchKeepsItsRelaxationTimeWhenItsSpringChanges) {
   EXPECT_DOUBLE_EQ(all[3].get(material), 5);
 }
 
+TEST(FitParameters, ABranchKeepsItsViscosityWhereItIsSaid) {
+  Material material = truth;
+  material.viscosity = 7;
+  const auto all = fit_parameters(material, {true});
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(all[2].name, "viscosity");
+  EXPECT_EQ(all[4].name, "branch[1].viscosity");
+  const double before = material.branches[0].viscosity;
+  all[3].set(material, 50e3);
+  EXPECT_DOUBLE_EQ(material.branches[0].viscosity, before);
+  all[2].set(material, 9), all[4].set(material, 5);
+  EXPECT_EQ(material.viscosity, 9);
+  EXPECT_EQ(all[4].get(material), 5);
+}
+
 // A straight line through (0, 1), (1, 2), (2, 4), (3, 4): slope 1.1, s^2 = 0.35, Sxx = 5, t(2) = 4.3027.
 TEST(FitStatistics, AStraightLine) {
   Eigen::MatrixXd J(4, 2);
