@@ -26,6 +26,7 @@ struct FitTest {
   bool predict = false;
   double weight = 1;
   MeasuredTest measured;  ///< of the file
+  std::string doubt;      ///< what may be meant otherwise in its file; empty: nothing
   std::vector<int> lines; ///< of the file, one for each row
 
   /// What tables and plots call it.

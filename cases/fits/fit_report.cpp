@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dielast::cases {
@@ -54,11 +55,15 @@ post::Table correlation_table(const FitResults& results) {
 }
 
 post::Table test_table(const FitResults& results) {
-  post::Table table{{"test", "use", "rows", "weight", "largest stress", "rms error", "largest error"}, {}};
+  post::Table table{
+      {"test", "use", "rows", "stretch", "weight", "largest stress", "rms error", "largest error"}, {}};
   for (std::size_t t = 0; t < results.errors.size(); ++t) {
     const FitTest& test = results.fit.tests[t];
+    const auto [least, most] = std::ranges::minmax_element(test.measured.history.stretch);
     table.rows.push_back({Cell{test.name()}, Cell{test.predict ? "prediction" : "fit"},
-                          Cell{std::to_string(test.lines.size())}, Cell{post::significant(test.weight)},
+                          Cell{std::to_string(test.lines.size())},
+                          Cell{fmt::format("{} to {}", post::significant(*least), post::significant(*most))},
+                          Cell{post::significant(test.weight)},
                           Cell{post::engineering(test.measured.largest_stress(), "Pa")},
                           Cell{percent(results.errors[t].rms)}, Cell{percent(results.errors[t].largest)}});
   }

@@ -33,7 +33,9 @@ FitResults::FitResults(const Fit& of, FitTask fitted, FitOutcome found)
 }
 
 std::string FitResults::ending() const {
-  const std::string after = fmt::format("after {} iterations", outcome.iterations);
+  const std::string after =
+      fmt::format("after {} iterations{}", outcome.iterations,
+                  outcome.iterations > fit.max_iterations ? " in several attempts" : "");
   switch (outcome.ending) {
   case FitEnding::converged:
     return "converged " + after;
@@ -47,6 +49,7 @@ std::string FitResults::ending() const {
 
 std::vector<std::string> FitResults::warnings() const {
   constexpr double dependent = 0.95, systematic = 0.5;
+  constexpr double rounding = 1e-6, time_steps = 1e-4; // errors that are none of the model's
   std::vector<std::string> all;
   for (std::size_t i = 0; i < outcome.parameters.size(); ++i) {
     const FittedParameter& one = outcome.parameters[i];
@@ -66,9 +69,12 @@ std::vector<std::string> FitResults::warnings() const {
   }
   for (std::size_t t = 0; t < errors.size(); ++t) {
     const std::string name = fit.tests[t].name();
+    const bool in_time = !fit.tests[t].measured.history.time.empty() && !fit.film.material.branches.empty();
+    if (!fit.tests[t].doubt.empty()) all.push_back(name + ": " + fit.tests[t].doubt);
     if (std::isnan(errors[t].rms))
       all.push_back(fmt::format("{}: the law does not reach all of its stretches", name));
-    else if (!fit.tests[t].predict && errors[t].likeness > systematic)
+    else if (!fit.tests[t].predict && errors[t].likeness > systematic &&
+             errors[t].rms > (in_time ? time_steps : rounding))
       all.push_back(
           fmt::format("{}: errors of neighbouring rows are alike (correlation {:.2f}): the misfit is the "
                       "model's, and the intervals are too narrow",

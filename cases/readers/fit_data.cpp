@@ -34,9 +34,13 @@ bool ends_in_stress(const std::string& name) {
   return !unit.empty() && stress_unit(unit);
 }
 
-bool names_true_stress(std::string name) {
+bool has_any(std::string name, std::initializer_list<const char*> words) {
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-  return name.find("true") != std::string::npos || name.find("cauchy") != std::string::npos;
+  return std::ranges::any_of(words, [&](const char* word) { return name.find(word) != std::string::npos; });
+}
+bool names_true_stress(const std::string& name) { return has_any(name, {"true", "cauchy"}); }
+bool names_other_strain(const std::string& name) {
+  return has_any(name, {"true", "hencky", "logarithmic", "log strain", "log_strain"});
 }
 
 /// Finds the columns of a test, and says what is wrong with them.
@@ -69,9 +73,63 @@ class Columns {
     const int column = find(key, named, "");
     if (column < 0) return {};
     if (const auto factor = factor_to_si(csv_, column, si_unit)) return scaled(column, *factor);
-    report(key, fmt::format("found {}: its name has no unit; allowed one of {}, as in \"{} ({})\"",
-                            toml_string(named), dimension(si_unit).usual, named, dimension(si_unit).shown));
+    report(key,
+           si_unit == "1"
+               ? fmt::format("found {}, whose unit is none of a pure number: allowed %, mm/mm or none",
+                             toml_string(named))
+               : fmt::format("found {}: its name has no unit; allowed one of {}, as in \"{} ({})\"",
+                             toml_string(named), dimension(si_unit).usual, named, dimension(si_unit).shown));
     return {};
+  }
+
+  /// The stretch of a column of nominal strains; where a number without a unit may be meant in percent,
+  /// `doubt` says so.
+  std::vector<double> stretch_of_strain(const std::string& named, std::string& doubt) const {
+    constexpr double largest = 15, unusual = 4;
+    if (names_other_strain(named)) {
+      report("strain",
+             fmt::format("found {}, which is not the nominal strain by its name; wanted is stretch - 1, "
+                         "of a logarithmic strain e exp(e) - 1",
+                         toml_string(named)));
+      return {};
+    }
+    std::vector<double> stretch = values("strain", named, "1");
+    const bool has_unit = names_percent(named) || named.ends_with(')') || named.ends_with(']');
+    if (const auto top = std::ranges::max_element(stretch); top != stretch.end() && !has_unit) {
+      if (*top > largest)
+        report("strain", fmt::format("found {}, which rises to {:.6g}: a strain of {:.6g} %; where it is "
+                                     "in percent, its name says so, as in \"strain (%)\"; where it is not, "
+                                     "as in \"strain (1)\"",
+                                     toml_string(named), *top, 100 * *top));
+      else if (*top > unusual)
+        doubt = fmt::format("{} rises to {:.6g}, a strain of {:.6g} %: if it is in percent, its name must "
+                            "say so, as in \"strain (%)\"; if it is not, as in \"strain (1)\"",
+                            toml_string(named), *top, 100 * *top);
+    }
+    for (double& one : stretch) one += 1;
+    return stretch;
+  }
+
+  /// A column of stretches: pure numbers, 1 where the film is undeformed.
+  std::vector<double> stretch(const std::string& named) const {
+    constexpr double largest = 50; // no elastomer stretches so far
+    const int column = find("stretch", named, "stretch");
+    if (column < 0) return {};
+    const std::string& name = csv_.names[static_cast<std::size_t>(column)];
+    const auto factor = factor_to_si(csv_, column, "1");
+    const std::vector<double>& found = csv_.columns[static_cast<std::size_t>(column)];
+    const double top = found.empty() ? 0 : *std::ranges::max_element(found);
+    const char* key = named.empty() ? "file" : "stretch";
+    if (names_percent(name) || factor != 1.0)
+      report(key, fmt::format("found {}: wanted is the stretch as a number, 1 where the film is undeformed; "
+                              "where it is a strain in percent, give strain = {}",
+                              toml_string(name), toml_string(name)));
+    else if (top > largest)
+      report(key,
+             fmt::format("found {}, which rises to {:.6g}; allowed a stretch up to {}: a number, 1 where "
+                         "the film is undeformed",
+                         toml_string(name), top, largest));
+    return found;
   }
 
   /// The column of the time: time_s, or the only one of that name in a unit of time; -1 where there is none.
@@ -180,20 +238,13 @@ void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Column
   std::vector<double>& stretch = test.measured.history.stretch;
   if (!test.strain_column.empty()) {
     stretch_name = test.strain_column;
-    stretch = columns.values("strain", test.strain_column, "1");
-    constexpr double largest = 15; // no elastomer stretches so far
-    if (const auto top = std::ranges::max_element(stretch); top != stretch.end() && *top > largest)
-      columns.report("strain",
-                     fmt::format("found {}, which rises to {:.6g}: a strain of {:.6g} %; where it is "
-                                 "in percent, its name says so, as in \"strain (%)\"",
-                                 toml_string(test.strain_column), *top, 100 * *top));
-    for (double& one : stretch) one += 1;
+    stretch = columns.stretch_of_strain(test.strain_column, test.doubt);
   } else if (!test.displacement_column.empty()) {
     stretch_name = test.displacement_column;
     stretch = columns.values("displacement", test.displacement_column, "m");
     for (double& one : stretch) one = 1 + one / *test.length;
-  } else if (const int column = columns.find("stretch", test.stretch_column, "stretch"); column >= 0) {
-    stretch = csv.columns[static_cast<std::size_t>(column)];
+  } else {
+    stretch = columns.stretch(test.stretch_column);
   }
   if (test.force_column.empty()) {
     test.measured.stress = columns.stress(test.stress_column);
@@ -206,6 +257,11 @@ void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Column
     time = columns.find("time", test.time_column, "");
   else if (!test.rate && !test.equilibrium)
     time = columns.usual_time();
+  if (const int said = columns.usual_time(); test.rate && said >= 0)
+    columns.report("rate",
+                   fmt::format("found a rate, but {} has the times in its column {}: leave the rate out, "
+                               "or the column",
+                               csv.file, toml_string(csv.names[static_cast<std::size_t>(said)])));
   if (wrong.size() > errors_before) return;
   if (needs_time && !test.equilibrium && !test.rate && time < 0) {
     columns.report("file",

@@ -25,7 +25,9 @@ Section fit_section() {
           .above(1)
           .at_most(1e6)
           .otherwise("1e4"),
-      integer("max_iterations", to(&Fit::max_iterations), "iterations before the fit gives up")
+      integer("max_iterations", to(&Fit::max_iterations),
+              "iterations before an attempt gives up; a fit that does not converge is tried once more, from "
+              "another start")
           .at_least(1)
           .at_most(10000)
           .otherwise("200"),
@@ -45,7 +47,8 @@ Section test_section() {
             {"pure shear", "one axis is pulled, the width is held", materials::Mode::pure_shear},
             {"equal-biaxial", "two axes are pulled alike", materials::Mode::equal_biaxial}},
            to(&FitTest::kind), "how the film is held"),
-      text("stretch", to(&FitTest::stretch_column), "column of the stretch; without it \"stretch\"")
+      text("stretch", to(&FitTest::stretch_column),
+           "column of the stretch, a number that is 1 in the undeformed film; without it \"stretch\"")
           .optional(),
       text("stress", to(&FitTest::stress_column),
            "column of the nominal stress, with the unit in its name as in \"P_kPa\" or \"stress (MPa)\"; "
@@ -53,9 +56,10 @@ Section test_section() {
            "one "
            "that ends in a unit of stress")
           .optional(),
-      text("strain", to(&FitTest::strain_column),
-           "column of the nominal strain, stretch - 1, in percent where its name says so, instead of the "
-           "stretch")
+      text(
+          "strain", to(&FitTest::strain_column),
+          "column of the nominal strain, stretch - 1, in percent where its name says so (%, percent or pct), "
+          "instead of the stretch")
           .optional(),
       text("displacement", to(&FitTest::displacement_column),
            "column of the specimen's elongation, with a unit of length in its name, instead of the stretch; "
@@ -74,7 +78,7 @@ Section test_section() {
            "\"time (min)\" and the like where there is one")
           .optional(),
       measure("rate", "1/s", to(&FitTest::rate),
-              "stretch per time between all rows, up and down, of a file without time")
+              "stretch per time between all rows, up and down, of a file without a column of time")
           .above(0)
           .optional(),
       flag("equilibrium", to(&FitTest::equilibrium), "infinitely slow: the branches carry nothing")

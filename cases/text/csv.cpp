@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -73,6 +74,19 @@ NameWithUnit split_unit(const std::string& name) {
                                    : NameWithUnit{name.substr(0, last), name.substr(last + 1)};
 }
 
+bool names_percent(std::string name) {
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (name.find('%') != std::string::npos || name.find("percent") != std::string::npos ||
+      name.find("per cent") != std::string::npos)
+    return true;
+  const auto is_letter = [&](std::size_t i) {
+    return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i])) != 0;
+  };
+  for (std::size_t at = name.find("pct"); at != std::string::npos; at = name.find("pct", at + 1))
+    if (!is_letter(at - 1) && !is_letter(at + 3)) return true;
+  return false;
+}
+
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong) {
   constexpr std::size_t largest = 64u << 20, enough = 20 * most_diagnostics;
   constexpr int most_rows = 100000;
@@ -126,8 +140,11 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
 }
 
 std::optional<double> factor_to_si(const CsvTable& table, int column, std::string_view si_unit) {
-  const std::string unit = split_unit(table.names.at(static_cast<std::size_t>(column))).unit;
-  if (si_unit == "1") return unit == "%" ? 0.01 : 1;
+  const std::string& name = table.names.at(static_cast<std::size_t>(column));
+  if (si_unit == "1" && names_percent(name)) return 0.01;
+  const auto [stem, unit] = split_unit(name);
+  const bool brackets = name.ends_with(')') || name.ends_with(']'); // otherwise any word may stand there
+  if (si_unit == "1" && (!brackets || unit.empty() || unit == "-")) return 1;
   try {
     return parse_measure("1 " + unit, si_unit).value;
   } catch (const UnitError&) { // a word, not a unit

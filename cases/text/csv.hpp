@@ -33,13 +33,17 @@ struct NameWithUnit {
 };
 NameWithUnit split_unit(const std::string& name);
 
+/// Whether a column's name says percent, anywhere: "strain (%)", "percent strain", "strain_pct".
+bool names_percent(std::string name);
+
 /// Everything that is wrong with the file is added to `wrong`, with line and column: text or nothing in a
 /// cell, a row with more or fewer cells than names, fewer than `least_rows` rows; a thousand errors end it.
 /// Throws FileError when the file cannot be read.
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong);
 
 /// What the numbers of the column are multiplied by to be SI: its name ends in a unit of the dimension of
-/// `si_unit`. Nothing where the name has no such unit; 1 for a pure number, 0.01 where it ends in %.
+/// `si_unit`. Nothing where the name has no such unit. Of a pure number: 0.01 where the name says percent,
+/// the factor of a unit in brackets ("mm/mm"), and otherwise 1.
 std::optional<double> factor_to_si(const CsvTable& table, int column, std::string_view si_unit);
 
 /// The column in SI: its name ends in a unit of the dimension of `si_unit`, or its numbers are SI already.

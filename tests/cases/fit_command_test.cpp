@@ -72,7 +72,8 @@ TEST_F(FitCommand, AFitThatGivesUpKeepsWhatItHas) {
   write_fit("max_iterations = 1\n" + std::string(law_only));
   const Ended ended = dielast({"fit", "fit.toml", "-o", "out"});
   EXPECT_EQ(ended.exit_code, 4);
-  EXPECT_EQ(ended.err, "error: not converged after 2 iterations: the best parameters so far\n");
+  EXPECT_EQ(ended.err,
+            "error: not converged after 2 iterations in several attempts: the best parameters so far\n");
   EXPECT_EQ(json_of("out/fit.json")["status"], "not converged");
   EXPECT_NE(content("out/material.toml").find("not converged after 2 iterations"), std::string::npos);
   EXPECT_NE(content("out/report.html").find("not converged after 2 iterations"), std::string::npos);
@@ -234,6 +235,46 @@ TEST_F(FitCommand, TablesOfTestingMachinesAreRead) {
   write("force.csv", "strain,stress (kPa)\n20,7.5\n50,16\n");
   EXPECT_NE(wrong("strain = \"strain\"\n").find("rises to 50: a strain of 5000 %; where it is in percent"),
             std::string::npos);
+}
+
+// Data of 50 kPa up to 15 %: whatever way a name says percent, and only what may be a number is taken as one.
+TEST_F(FitCommand, ColumnsOfStrainSayPercentInManyWays) {
+  const auto fitted = [&](const std::string& column, const std::string& key, double unit, double start) {
+    std::string rows = column + ";stress (kPa)\n";
+    for (int i = 1; i <= 15; ++i) {
+      const double l = 1 + 0.01 * i;
+      rows += fmt::format("{};{}\n", start + unit * (l - 1), 50 * (l - 1 / (l * l)));
+    }
+    write("pull.csv", rows);
+    write("fit.toml", "[film.material]\nshear_modulus = \"30 kPa\"\n[fit]\n[[test]]\nfile = \"pull.csv\"\n"
+                      "kind = \"uniaxial\"\n" +
+                          key + " = '" + column + "'\n");
+    return dielast({"fit", "fit.toml", "-o", "out"});
+  };
+  for (const char* column : {"strain (%)", "strain %", "strain, %", "strain_percent", "strain (Percent)",
+                             "percent strain", "strain_pct", "strain (pct)", "%strain", "Dehnung [%]"}) {
+    const Ended ended = fitted(column, "strain", 100, 0);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_NEAR(json_of("out/fit.json")["parameters"][0]["value"].get<double>(), 50e3, 1e-2) << column;
+    EXPECT_EQ(ended.out.find("warning"), std::string::npos) << ended.out;
+    EXPECT_NE(ended.out.find("1.010 to 1.150"), std::string::npos) << ended.out;
+  }
+  for (const char* column : {"strain", "strain (mm/mm)", "strain [-]", "impact_strain"}) {
+    EXPECT_EQ(fitted(column, "strain", 1, 0).exit_code, 0);
+    EXPECT_NEAR(json_of("out/fit.json")["parameters"][0]["value"].get<double>(), 50e3, 1e-2) << column;
+  }
+  EXPECT_NE(fitted("strain", "strain", 50, 0).out.find("\"strain\" rises to 7.5, a strain of 750 %: if it is in"),
+            std::string::npos);
+  const auto refused = [&](const std::string& column, const std::string& key, double unit, double start,
+                           const char* why) {
+    const Ended ended = fitted(column, key, unit, start);
+    EXPECT_EQ(ended.exit_code, 2) << column;
+    EXPECT_NE(ended.err.find(why), std::string::npos) << ended.err;
+  };
+  refused("strain (mm)", "strain", 1, 0, "whose unit is none of a pure number");
+  refused("true strain", "strain", 1, 0, "which is not the nominal strain by its name");
+  refused("stretch (%)", "stretch", 100, 100, "wanted is the stretch as a number");
+  refused("stretch", "stretch", 100, 100, "rises to 115; allowed a stretch up to 50");
 }
 
 // A fit's material goes into a case by the name of its file; what the case writes beside it comes first.

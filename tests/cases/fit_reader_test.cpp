@@ -87,6 +87,14 @@ TEST_F(FitReader, TimesAreTakenWhereTheFileHasThem) {
             (std::vector{0.0, 60.0, 120.0, 180.0, 240.0}));
 }
 
+TEST_F(FitReader, ARateBesideTimesIsRefused) {
+  write("timed.csv", "time (s),stretch,P_MPa\n0,1,0\n1,1.5,0.01\n2,2,0.02\n3,2,0.02\n4,2,0.02\n");
+  EXPECT_EQ(
+      errors("", "file = \"timed.csv\"\nkind = \"uniaxial\"\nrate = \"1 1/s\""),
+      Texts{"fit.toml:13:8: error: test[1].rate: found a rate, but timed.csv has the times in its column "
+            "\"time (s)\": leave the rate out, or the column"});
+}
+
 TEST_F(FitReader, FewerDataThanParameters) {
   EXPECT_EQ(errors("", slow),
             Texts{"fit.toml:8:1: error: fit: found 4 rows to fit 4 parameters to, allowed at least 5"});
