@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dielast::cases {
 namespace {
@@ -75,6 +76,19 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
       reader.report(list->items[p].source, fmt::format("profile[{}].of", p + 1),
                     fmt::format("found \"{}\": it is neither one of contact.between nor lies on the [table]",
                                 one.profiles[p].of));
+  }
+}
+
+/// A check whose tolerance is larger than its value passes with 0 and with the other sign, too.
+void check_tolerances(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t c = 0; c < one.checks.size(); ++c) {
+    const Check& check = one.checks[c];
+    const Node* written = tree.find("check")->items.at(c).find("tolerance");
+    if (check.value == 0 || check.tolerance <= std::abs(check.value) || !written) continue;
+    reader.warn(written->source, fmt::format("check[{}].tolerance", c + 1),
+                fmt::format("it is {:.3g} times the value: a {} of 0 would pass here; a part of the value is "
+                            "written as \"1 %\"",
+                            check.tolerance / std::abs(check.value), check.quantity));
   }
 }
 
@@ -155,6 +169,7 @@ void check_names(SectionReader& reader, const Node& tree, const Case& one) {
 void check_results(SectionReader& reader, const Node& tree, const Case& one) {
   check_quantities(reader, tree, one);
   check_beginnings(reader, tree, one);
+  check_tolerances(reader, tree, one);
   check_names(reader, tree, one);
   check_controllers(reader, tree, one);
 }

@@ -16,7 +16,9 @@ namespace dielast::cases {
 namespace {
 
 constexpr int most_runs = 40;
-constexpr double usual_tolerance = 1e-4; ///< of the value, or of its change between the two points
+constexpr int most_runs_to_failure = 12;
+constexpr double usual_tolerance = 1e-4; ///< of the value or its change between the two points, the smaller
+constexpr double rounding = 1e-8;        ///< of the value: what runs are good to
 
 /// Value of the key, and of the quantity less the target.
 using Point = std::pair<double, double>;
@@ -33,13 +35,17 @@ std::optional<double> difference(const Study& study, const StudyTarget& target,
   return value ? std::optional(*value - target.value) : std::nullopt;
 }
 
-/// Along the key; points without a value are left out.
+/// Along the key; points without a value are left out, their keys in `failed`.
 std::vector<Point> curve_of(const Study& study, const StudyTarget& target,
-                            const std::vector<StudyPoint>& points) {
+                            const std::vector<StudyPoint>& points, std::vector<double>& failed) {
   std::vector<Point> curve;
-  for (const StudyPoint& point : points)
+  for (const StudyPoint& point : points) {
+    const double key = written_measure(point.values[0])->number;
     if (const auto y = difference(study, target, result_of(study, point)))
-      curve.emplace_back(written_measure(point.values[0])->number, *y);
+      curve.emplace_back(key, *y);
+    else
+      failed.push_back(key);
+  }
   std::ranges::sort(curve);
   return curve;
 }
@@ -77,8 +83,10 @@ class Search {
   Search(const Study& study, std::size_t target, std::vector<Point> curve, std::size_t first)
       : study_(study), target_(study.targets[target]), curve_(std::move(curve)), i_(first) {
     solution_.target = target;
-    const double change = std::abs(curve_[i_ + 1].second - curve_[i_].second);
-    tolerance_ = target_.tolerance.value_or(usual_tolerance * std::max(std::abs(target_.value), change));
+    const double change = std::abs(curve_[i_ + 1].second - curve_[i_].second), size = std::abs(target_.value);
+    tolerance_ = target_.tolerance.value_or(
+        size > 0 ? std::max(usual_tolerance * std::min(size, change), rounding * size)
+                 : usual_tolerance * change);
   }
 
   TargetSolution run(const std::filesystem::path& directory, const std::string& name,
@@ -123,13 +131,76 @@ class Search {
   TargetSolution solution_;
 };
 
+/// Where a curve that comes nearer to the target ends beside points that failed: further runs between its end
+/// and the next of these, halfway each time, until one passes the target or the gap is closed. `ended` says
+/// where it was left then.
+class Approach {
+ public:
+  Approach(const Study& study, const StudyTarget& target, std::vector<Point>& curve)
+      : study_(study), target_(target), curve_(curve) {}
+
+  /// From the curve's last point, or its first, towards the key at which a run failed. False when
+  /// interrupted.
+  bool run(bool forward, double failed, const std::filesystem::path& directory, const std::string& name,
+           const PointRunner& run_point) {
+    if (curve_.size() > 1 && !comes_nearer(forward)) return true;
+    for (int n = 1; n <= most_runs_to_failure; ++n) {
+      const Point last = end(forward, 0);
+      const double key = (last.first + failed) / 2;
+      const auto result = run_point(point_at(study_, key, directory / fmt::format("{}-end-{:02d}", name, n)));
+      if (!result) return false;
+      const auto y = difference(study_, target_, result);
+      if (!y) {
+        failed = key;
+        continue;
+      }
+      curve_.insert(forward ? curve_.end() : curve_.begin(), Point{key, *y});
+      if (last.second * *y <= 0) return true;
+      if (!comes_nearer(forward)) break;
+    }
+    ended = fmt::format("; runs fail from between {:.6g} and {:.6g} on, where it is {:.6g}",
+                        end(forward, 0).first, failed, end(forward, 0).second + target_.value);
+    return true;
+  }
+
+  std::string ended;
+
+ private:
+  const Point& end(bool forward, std::size_t back) const {
+    return forward ? curve_[curve_.size() - 1 - back] : curve_[back];
+  }
+  bool comes_nearer(bool forward) const {
+    return std::abs(end(forward, 0).second) < std::abs(end(forward, 1).second);
+  }
+
+  const Study& study_;
+  const StudyTarget& target_;
+  std::vector<Point>& curve_;
+};
+
 } // namespace
 
 std::vector<TargetSolution> solve_targets(const Study& study, const std::vector<StudyPoint>& points,
                                           const std::filesystem::path& directory, const PointRunner& run) {
   std::vector<TargetSolution> solutions;
   for (std::size_t t = 0; t < study.targets.size(); ++t) {
-    const std::vector<Point> curve = curve_of(study, study.targets[t], points);
+    std::vector<double> failed;
+    std::vector<Point> curve = curve_of(study, study.targets[t], points, failed);
+    std::ranges::sort(failed);
+    std::string ends;
+    for (const bool forward : {false, true}) {
+      if (curve.empty()) break;
+      const double end = forward ? curve.back().first : curve.front().first;
+      const auto next =
+          forward ? std::ranges::upper_bound(failed, end) : std::ranges::lower_bound(failed, end);
+      if (forward ? next == failed.end() : next == failed.begin()) continue;
+      Approach approach(study, study.targets[t], curve);
+      if (!approach.run(forward, forward ? *next : *std::prev(next), directory,
+                        fmt::format("{}{:02d}-{}", target_folder, t + 1, forward ? "above" : "below"), run))
+        return solutions;
+      ends += approach.ended;
+    }
+    const std::size_t before = solutions.size();
     for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
       const bool passes = curve[i].second * curve[i + 1].second <= 0;
       const bool is_last = i + 2 == curve.size();
@@ -138,6 +209,8 @@ std::vector<TargetSolution> solve_targets(const Study& study, const std::vector<
           Search(study, t, curve, i)
               .run(directory, fmt::format("{}{:02d}", target_folder, solutions.size() + 1), run));
     }
+    if (solutions.size() == before && !ends.empty())
+      solutions.push_back({.target = t, .problem = "it is not reached by the values that run" + ends});
   }
   return solutions;
 }

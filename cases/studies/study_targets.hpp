@@ -24,7 +24,9 @@ using PointRunner = std::function<std::optional<PointResult>(const StudyPoint&)>
 
 /// Runs the case between neighbouring points of the grid whose values of a target's quantity lie on either
 /// side of it, at the zero of the polynomial through up to four points near, until the quantity is within the
-/// target's tolerance: a solution for every such pair. Directories `target-<number>-<run>` below `directory`.
+/// target's tolerance: a solution for every such pair. Where the quantity comes nearer to the target up to a
+/// point beside which the grid's fail, it looks between the two for the end of what runs. Directories
+/// `target-<number>-<run>` below `directory`.
 std::vector<TargetSolution> solve_targets(const Study& study, const std::vector<StudyPoint>& points,
                                           const std::filesystem::path& directory, const PointRunner& run);
 

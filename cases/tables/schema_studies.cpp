@@ -18,7 +18,7 @@ Section study_section() {
   derive.name = "derive";
   derive.meaning = "keys whose values are computed from those that vary, as \"film.prestretch\" = [\"l1\", "
                    "\"10 / l1\"]: numbers, units (2*mm), + - * / ^, sqrt, exp, ln, log10, abs, sin, "
-                   "cos, tan, asin, acos, atan, pi";
+                   "cos, tan (of angles with a unit: sin(pi/2*rad)), asin, acos, atan, pi";
   derive.presence = Section::Presence::separate;
   Section set;
   set.name = "set";
@@ -42,7 +42,8 @@ Section study_section() {
   Key allowance =
       text("tolerance", tolerance,
            "difference at which it counts as found: \"0.1 %\" of the value, or in the quantity's "
-           "unit; without it 0.01 % of the value, or of its change between two points of the study");
+           "unit; without it 0.01 % of the value or of its change between the two points of the study beside "
+           "it, whichever is smaller");
   allowance.type = Type::tolerance;
   target.keys = {
       text("quantity", to(&StudyTarget::quantity), "name of the quantity"),

@@ -202,7 +202,14 @@ std::string evaluate(const std::string& expression, const std::map<std::string, 
   }
   const auto powers =
       telling == 0 ? std::optional(BasePowers{}) : powers_of_value(expression, quantities, telling);
-  if (!powers) throw ExpressionError("adds or compares what has different units, or takes a function of it");
+  if (!powers) {
+    const std::vector<std::string> names = names_in(expression);
+    const bool turns = std::ranges::any_of(
+        names, [](const auto& name) { return name == "sin" || name == "cos" || name == "tan"; });
+    throw ExpressionError(
+        std::string("adds or compares what has different units, or takes a function of it") +
+        (turns ? "; angles have a unit, too: sin(30*deg), cos(pi/2*rad)" : ""));
+  }
   const std::string unit = name_of_unit(*powers);
   const std::string number = fmt::format("{:.15g}", value + 0.0);
   return unit.empty() ? number : toml_string(fmt::format("{} {}", number, unit));

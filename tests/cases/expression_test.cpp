@@ -43,7 +43,10 @@ TEST(Expression, TermsMustAgreeInTheirUnits) {
   const std::string disagree = "adds or compares what has different units, or takes a function of it";
   EXPECT_EQ(problem_of("t + 2", {{"t", "\"1 mm\""}}), disagree);
   EXPECT_EQ(problem_of("exp(t)", {{"t", "\"1 mm\""}}), disagree);
-  EXPECT_EQ(problem_of("sin(2)"), disagree);
+  const std::string angles = disagree + "; angles have a unit, too: sin(30*deg), cos(pi/2*rad)";
+  EXPECT_EQ(problem_of("sin(2)"), angles);
+  EXPECT_EQ(problem_of("1 + sin(pi/2)"), angles);
+  EXPECT_EQ(evaluate("1 + sin(pi/2*rad)", {}), "2");
 }
 
 TEST(Expression, SaysWhatIsWrong) {

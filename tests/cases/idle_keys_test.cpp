@@ -206,6 +206,16 @@ TEST_F(IdleKeys, QuantitiesThatCountFromTheLastStepAreTold) {
   EXPECT_EQ(keys(strip + weight), Keys{"drive.voltage"});
 }
 
+TEST_F(IdleKeys, AToleranceBeyondTheValue) {
+  const auto check = [&](const std::string& value, const std::string& tolerance) {
+    return keys(film + disc + ramp + "[[check]]\nquantity = \"electrical_work\"\nvalue = " + value +
+                "\ntolerance = " + tolerance + "\nsource = \"a paper\"\n");
+  };
+  EXPECT_EQ(check("97e-9", "0.01"), Keys{"check[1].tolerance"});
+  EXPECT_EQ(check("97e-9", "\"1 %\""), Keys{});
+  EXPECT_EQ(check("0", "0.01"), Keys{});
+}
+
 TEST_F(IdleKeys, TheGalleryHasNone) {
   for (const char* folder : {"cases/gallery", "tests/cases/valid"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder / folder)) {

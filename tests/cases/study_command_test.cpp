@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <regex>
 
@@ -267,6 +269,36 @@ TEST_F(StudyCommand, TargetsAreRunUntilTheyAreMet) {
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_EQ(std::filesystem::last_write_time(first_run), written);
   EXPECT_NE(again.out.find(found[0].str()), std::string::npos) << again.out;
+}
+
+// A patch under equal-biaxial stress 0 and a voltage: mu (l - l^-5) = eps (V/H)^2 l^3, with a limit point at
+// 24.302 kV and the stretch 1.26. What is asked of the stretch is asked of the strain.
+TEST_F(StudyCommand, TargetsAreMetToAPartOfTheChangeAndUpToWhereRunsFail) {
+  write("patch.toml", "[film]\nthickness = \"1 mm\"\n[film.material]\npermittivity = \"4e-11 F/m\"\n"
+                      "shear_modulus = \"50 kPa\"\n[patch]\nmode = \"equal-biaxial\"\nlength = \"20 mm\"\n"
+                      "[drive]\nvoltage = \"6 kV\"\n[[step]]\nkind = \"voltage\"\nincrements = 4\n"
+                      "[output]\nerror_estimate = false\nfields = false\n");
+  const auto asked = [&](const std::string& values, double stretch) {
+    write("study.toml", fmt::format("case = \"patch.toml\"\n[study]\nvary = {{ \"drive.voltage\" = [{}] }}\n"
+                                    "collect = [\"stretch_x\"]\n[[study.target]]\nquantity = "
+                                    "\"stretch_x\"\nvalue = {}\n",
+                                    values, stretch));
+    return dielast(into("out")).out;
+  };
+  const auto found = [&](const std::string& out) {
+    const std::regex words(R"re(stretch_x = \S+ at drive.voltage = (\S+) kV)re");
+    std::smatch voltage;
+    return std::regex_search(out, voltage, words) ? std::stod(voltage[1].str()) : 0;
+  };
+  const auto right = [](double l) {
+    return std::sqrt(50e3 * (l - std::pow(l, -5)) / (4e-11 * std::pow(l, 3))) * 1e-3 / 1e3;
+  };
+  EXPECT_NEAR(found(asked("\"2 kV\", \"5 kV\", \"8 kV\"", 1.005)) / right(1.005), 1, 1e-4);
+  EXPECT_NEAR(found(asked("\"2 kV\", \"15 kV\", \"27 kV\", \"40 kV\"", 1.2)) / right(1.2), 1, 1e-4);
+  const std::string beyond = asked("\"2 kV\", \"15 kV\", \"27 kV\", \"40 kV\"", 1.9);
+  EXPECT_NE(beyond.find("not solved: it is not reached by the values that run; runs fail from between 24.3"),
+            std::string::npos)
+      << beyond;
 }
 
 TEST_F(StudyCommand, TargetsThatCannotBeMetAreNotInterpolated) {
