@@ -110,13 +110,13 @@ const std::vector<FilmField> film_table{
     {"cauchy_stress",
      "Pa",
      {"xx", "yy", "zz", "xy", "yz", "xz"},
-     "true stress in space, elastic and electrostatic",
+     "true stress in space, elastic and electrostatic; of a stack with covers the mean over its section",
      [](const FilmPoint& p, double* v) { symmetric_components(p.cauchy, v); }},
     {"min_principal_stress",
      "Pa",
      {},
-     "smaller principal true stress in the film's plane; negative: the film has lost its tension; of a solid "
-     "the smallest",
+     "smaller principal true stress in the film's plane; negative: the film has lost its tension; of a stack "
+     "with covers of the mean stress over its section, of a solid the smallest",
      [](const FilmPoint& p, double* v) { *v = p.principal_stress(1); },
      Extreme::minimum},
     {"max_principal_stress",

@@ -42,15 +42,9 @@ void add(const Case& one, const meshing::Mesh& mesh, const PartFilm& film,
 void add_membranes(const Case& one, const meshing::Mesh& mesh, std::span<const PartFilm> films,
                    fem::Model& model) {
   for (const PartFilm& film : films) {
-    const fem::MembraneSection section = section_of(*film.part);
-    std::optional<fem::MembraneSection> covers;
-    if (const double cover = cover_of(*film.part); cover > 0) {
-      covers = section;
-      covers->thickness = cover;
-      covers->layers = 2;
-      covers->sampled = false;
-    }
-    add(one, mesh, film, section, covers, model);
+    fem::MembraneSection section = section_of(*film.part);
+    section.covers = 2 * cover_of(*film.part);
+    add(one, mesh, film, section, std::nullopt, model);
   }
 }
 

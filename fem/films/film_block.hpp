@@ -17,7 +17,9 @@ namespace dielast::fem {
 /// Membrane elements of one kinematics and one law, `lanes` at a time.
 /// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see FilmResponse), where
 /// that is a sheet by the voltages of its corners: k = eps sum_a N_a (V_a/H)^2 with N_a linear (see
-/// SheetPoint). A point's volume is that of the film, of a full turn where it is a film of revolution.
+/// SheetPoint). Covers that are bonded to the layers deform and wrinkle as these do: H and Psi are those of
+/// the whole section, of which only a part has the field. Stresses are means over the section. A point's
+/// volume is that of the film, of a full turn where it is a film of revolution.
 template<class Kinematics, class Law>
 class MembraneBlock final : public FilmPoints {
  public:
@@ -67,6 +69,8 @@ class MembraneBlock final : public FilmPoints {
   /// The same at a point where some of the elements lie under sheets; `k` holds for the others.
   Lanes under_sheets(const State& state, int pack, int point, Lanes k) const;
   double voltage(const State& state, int element, int point) const;
+  /// As if the field were in the covers, too.
+  double permittivity() const { return film_.dielectric().permittivity / section_.bulk(); }
   /// Psi over the elements of a pack; `lost`: a wrinkled film that the field pulls wider without limit.
   Potential potential(const State& state, int pack, int point, const materials::InPlaneC<Lanes>& C,
                       const Lanes& k, bool& lost) const;
@@ -122,7 +126,7 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
                                     " is inverted or degenerate as drawn");
       auto& kept = geometry_[static_cast<std::size_t>(e / lanes * points_ + p)];
       Kinematics::keep(place, e % lanes, kept);
-      kept.volume[e % lanes] = e < count_ ? place.area * section_.thickness : 0.0;
+      kept.volume[e % lanes] = e < count_ ? place.area * section_.thickness * section_.bulk() : 0.0;
     }
   }
 }
@@ -133,8 +137,8 @@ void MembraneBlock<Kinematics, Law>::add_mass(int element, std::span<double> pac
   for (const auto& place : Kinematics::places(drawn(element), section_, Kinematics::mass_points))
     for (int a = 0; a < Nodes; ++a)
       for (int b = 0; b <= a; ++b) {
-        const double mass =
-            section_.material.density * section_.thickness * place.area * place.shape[a] * place.shape[b];
+        const double mass = section_.material.density * section_.thickness * section_.bulk() * place.area *
+                            place.shape[a] * place.shape[b];
         for (int c = 0; c < Dim; ++c) {
           const int i = a * Dim + c;
           packed[static_cast<std::size_t>(i * (i + 1) / 2 + b * Dim + c)] += mass;
@@ -173,7 +177,7 @@ Lanes MembraneBlock<Kinematics, Law>::electric_modulus(const State& state, int p
     const int electrode = electrodes_[static_cast<std::size_t>(pack * lanes + l)];
     if (electrode == passive) continue;
     const double nominal_field = state.voltage[static_cast<std::size_t>(electrode)] / section_.thickness;
-    k[l] = film_.dielectric().permittivity * nominal_field * nominal_field;
+    k[l] = permittivity() * nominal_field * nominal_field;
   }
   return k;
 }
@@ -184,7 +188,7 @@ Lanes MembraneBlock<Kinematics, Law>::under_sheets(const State& state, int pack,
     const int element = pack * lanes + l;
     if (!sheets_.points(element)) continue;
     const auto electrode = static_cast<std::size_t>(electrodes_[static_cast<std::size_t>(element)]);
-    k[l] = film_.dielectric().permittivity / (section_.thickness * section_.thickness) *
+    k[l] = permittivity() / (section_.thickness * section_.thickness) *
            sheets_.mean_square(state, element, point, state.voltage[electrode]);
   }
   return k;
@@ -339,8 +343,8 @@ void MembraneBlock<Kinematics, Law>::add_charges(const State& state, const DofMa
     const auto e = static_cast<std::size_t>(electrode);
     const auto density = film_.charge_density(film_.shape(state, at.point, at.C, at.k), at.C);
     const double phi = voltage(state, at.element, at.place);
-    const double per_volt = film_.dielectric().permittivity * at.geometry.volume[at.lane] /
-                            (section_.thickness * section_.thickness);
+    const double per_volt =
+        permittivity() * at.geometry.volume[at.lane] / (section_.thickness * section_.thickness);
     charges.capacitance[e] += per_volt * density.value;
     charges.charge[e] += per_volt * phi * density.value;
     if (!dof_map) return;

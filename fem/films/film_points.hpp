@@ -6,7 +6,7 @@
 namespace dielast::fem {
 
 /// A block of film that tells of its points also where another one speaks for its cells in a model's samples
-/// (MembraneSection::sampled): the covers of a stack, what an electrode leaves bare of a rod.
+/// (MembraneSection::sampled): what an electrode leaves bare of a rod.
 class FilmPoints : public ElementBlock {
  public:
   explicit FilmPoints(bool sampled) : sampled_(sampled) {}

@@ -13,12 +13,16 @@ namespace dielast::fem {
 /// RodKinematics.
 struct MembraneSection {
   materials::Material material;
-  double thickness = 0;                       ///< undeformed H of a layer, m
-  int layers = 1;                             ///< one on another, each with the electrode's voltage across it
+  double thickness = 0; ///< undeformed H of a layer, m
+  int layers = 1;       ///< one on another, each with the electrode's voltage across it
+  double covers = 0;    ///< undeformed thickness of all that is bonded to them without a voltage across it, m
   std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing; of a rod along it
   bool tension_field = false;                 ///< wrinkles carry no compression (materials/tension_field.hpp)
   bool sampled = true;                        ///< false: another section speaks for its cells
   double width = 0;                           ///< of a rod: unstretched, all layers side by side, m
+
+  /// Thickness of the whole section over that of the layers.
+  double bulk() const { return 1 + covers / (layers * thickness); }
 };
 
 } // namespace dielast::fem

@@ -52,6 +52,29 @@ TEST(HungStack, FarFromItsClampsIsInUniaxialTension) {
   EXPECT_NEAR(found.at("stiffness"), 3 * 0.40e6 * 5e-3 * 0.5e-3 / 500e-3, 0.005 * 6);
 }
 
+// Layers are bonded to their covers: it is the resultant over the section that is nothing across a long stack
+// with free sides, and nothing wrinkles but in the corners of the clamps, though the covers compress the
+// charged layers by 2.5 kPa.
+TEST(HungStack, KeepsItsTensionBetweenItsCovers) {
+  std::vector<std::string> overrides{
+      "mesh.across=4",
+      "strip.length=60 mm",
+      "strip.width=10 mm",
+      "strip.electrode_length=60 mm",
+      "strip.electrode_width=10 mm",
+      "strip.cover_thickness=200 um",
+      "weight.mass=5 g",
+      "quantity.hung_coupling={ name = 'hung_coupling', kind = 'value', of = 'min_principal_stress', point = "
+      "['0 mm', '-30 mm', '0 mm'], at = 'voltage' }"};
+  const auto taut = test::values_at_end(gallery_case("hung_stack/case.toml", overrides));
+  EXPECT_NEAR(taut.at("hung_coupling"), 0, 20);
+  EXPECT_GT(taut.at("stroke"), 70e-6);
+  overrides.emplace_back("film.wrinkling='tension field'");
+  const auto wrinkling = test::values_at_end(gallery_case("hung_stack/case.toml", overrides));
+  for (const char* name : {"stroke", "capacitance"})
+    EXPECT_NEAR(wrinkling.at(name), taut.at(name), 1e-3 * taut.at(name)) << name;
+}
+
 // Chapter 3's table, of a film that is free across itself (a patch). Clamps hold the strip's width at its
 // ends, where the field does more: the strip gives more strain, and less than one of held width.
 TEST(Strip, GivesTheTableOfItsSource) {
