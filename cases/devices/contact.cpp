@@ -224,6 +224,13 @@ void add_core(const Case& one, const Roll& roll, const meshing::Mesh& mesh, fem:
   // A gap of half the barrier's thickness bears the film's tension around the core at 1.7 times its modulus.
   contact.barrier = {
       .thickness = thickness, .stiffness = modulus * wound / roll.radius / thickness, .foot = 1};
+  for (int c = 0; c < mesh.film()->size(); ++c) {
+    const auto own = mesh.film()->cell(c); // ends, and a middle
+    for (const auto& [end, other] : {std::array{own[0], own[1]}, std::array{own[1], own[0]}})
+      for (const char* cap : {"lower_end", "upper_end"})
+        if (std::ranges::count(mesh.node_sets.at(cap), end) > 0)
+          contact.kept.push_back({end, own.size() == 3 ? own[2] : other});
+  }
   model.blocks.push_back(fem::make_plane_contact_block(mesh, std::move(contact)));
 }
 

@@ -160,7 +160,7 @@ std::vector<QuantityKind> force_kinds() {
       {.word = "contact force",
        .meaning =
            "sum of the normal forces where walls touch, surfaces of solids, a solid lies on a [table], "
-           "or a [roll] on its core (N)",
+           "or a [roll] on its core, beside its caps as the film next to these (N)",
        .unit = "N",
        .keys = [] { return std::vector<Key>{touching_key()}; },
        .in_words =

@@ -30,6 +30,12 @@ class PlaneContactBlock final : public ContactBlock {
       : contact_(std::move(contact)),
         along_(Matrix3d::Identity() - contact_.normal * contact_.normal.transpose()) {
     for (const int node : contact_.nodes) drawn_.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+    for (int e = 0; e < element_count(); ++e) like_.push_back(e);
+    const auto element = [&](int node) {
+      return static_cast<std::size_t>(std::ranges::lower_bound(contact_.nodes, node) -
+                                      contact_.nodes.begin());
+    };
+    for (const auto& [node, other] : contact_.kept) like_[element(node)] = static_cast<int>(element(other));
   }
 
   int element_count() const override { return static_cast<int>(contact_.nodes.size()); }
@@ -72,13 +78,13 @@ class PlaneContactBlock final : public ContactBlock {
   }
   double contact_force(const State& state) const override {
     double sum = 0;
-    for (int e = 0; e < element_count(); ++e) sum += normal_force(state, e);
+    for (int e = 0; e < element_count(); ++e) sum += pressing(state, e);
     return sum;
   }
   bool is_between(std::string_view place) const override { return place == contact_.place; }
   void add_pressure(const State& state, NodalPressure& pressure) const override {
     for (int e = 0; e < element_count(); ++e) {
-      pressure.force[static_cast<std::size_t>(node(e))] += normal_force(state, e);
+      pressure.force[static_cast<std::size_t>(node(e))] += pressing(state, e);
       pressure.area[static_cast<std::size_t>(node(e))] += area(e);
     }
   }
@@ -146,6 +152,11 @@ class PlaneContactBlock final : public ContactBlock {
   double normal_force(const State& state, int element) const {
     return -area(element) * contact_.barrier.at(gap(state, element)).slope;
   }
+  /// Also where something else takes a part of it up.
+  double pressing(const State& state, int element) const {
+    const int like = like_[static_cast<std::size_t>(element)];
+    return area(element) / area(like) * normal_force(state, like);
+  }
   /// From its anchor, along the plane.
   Vector3d stretched(const State& state, int element) const {
     const std::vector<double>& now = state.history->now;
@@ -161,6 +172,7 @@ class PlaneContactBlock final : public ContactBlock {
   PlaneContact contact_;
   Matrix3d along_; ///< projects on the plane
   std::vector<Vector3d> drawn_;
+  std::vector<int> like_; ///< the element itself, or that which presses as it does (PlaneContact::kept)
   int first_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include "fem/model/contact_block.hpp"
 #include "meshing/mesh.hpp"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,13 +15,16 @@ namespace dielast::fem {
 
 /// A surface that may touch a rigid plane, or where it is of revolution a rigid cylinder.
 struct PlaneContact {
-  std::string place{}; ///< its name
-  std::vector<int> nodes;
+  std::string place{};                               ///< its name
+  std::vector<int> nodes;                            ///< ascending
   std::vector<double> areas;                         ///< undeformed, that each node stands for, m^2
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< a point of the plane, m
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY(); ///< unit vector towards the surface
   Barrier barrier;                                   ///< its stiffness in Pa/m
   double friction = 0;                               ///< Coulomb's coefficient; 0: it slides freely
+  /// Nodes of which something else keeps the distance, so that the barrier does not tell how they press, and
+  /// those that press as much per area: film pulls at the former as at the latter.
+  std::vector<std::array<int, 2>> kept{};
 };
 
 /// The surface that sides of solids, or films of revolution, make: each node stands for what Simpson's rule
