@@ -3,11 +3,11 @@
 
 #include "cases/devices/attachments.hpp"
 #include "cases/devices/bodies.hpp"
+#include "cases/devices/chamber.hpp"
 #include "cases/devices/load_warnings.hpp"
 #include "cases/devices/mesh_warnings.hpp"
 #include "cases/devices/sections.hpp"
 #include "cases/readers/reader.hpp"
-#include "fem/elements/chamber_block.hpp"
 #include "fem/equilibrium/sheet_conduction.hpp"
 #include "meshing/mesh_error.hpp"
 
@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -153,23 +152,6 @@ void carry_plate(const Plate& plate, const meshing::Mesh& mesh, fem::DofMap& dof
     dofs.share(edge.front(), node, 2);
     for (int c = 3; c < fem::DofMap::components; ++c) dofs.hold(node, c);
   }
-}
-
-void add_chamber(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  if (!one.chamber) return;
-  const std::size_t port = model.electrodes.size();
-  model.chambers = {{"chamber", one.chamber->bulk_modulus}};
-  if (!one.chamber->place.empty()) {
-    model.blocks.push_back(fem::make_pressure_block(mesh, wall_of_chamber(one, mesh), port));
-    return;
-  }
-  model.blocks.push_back(fem::make_pressure_block(mesh, *mesh.film(), port));
-  if (const auto* annulus = one.geometry<Annulus>(); annulus && one.plate)
-    model.blocks.push_back(
-        fem::make_lid_block(mesh,
-                            {mesh.node_sets.at(one.plate->place).front(),
-                             std::numbers::pi * annulus->inner_radius * annulus->inner_radius},
-                            port));
 }
 
 /// V, that makes charges of order one: what the sources of the electrode reach, where that is known.
@@ -310,7 +292,6 @@ Device build_device(const Case& one) {
   add_masses(one, mesh, shares, model);
   for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
   for (auto& fluid : fluid_around(fins)) model.blocks.push_back(std::move(fluid));
-  add_chamber(one, mesh, model);
   for (const auto& block : model.blocks) {
     block->place_scalars(model.dofs);
     block->claim_dofs(model.dofs, dimension);
@@ -344,6 +325,7 @@ Device build_device(const Case& one) {
               "a patch can hold",
               error.what())}});
   }
+  add_chamber(one, mesh, free_body, model); // behind what holds its edges
   model.inertia = fem::Inertia::of(model.blocks, model.dofs);
   add_circuits(one, model);
   add_sheets(one, mesh, model);

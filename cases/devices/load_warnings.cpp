@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/load_warnings.hpp"
 
+#include "cases/devices/held_places.hpp"
 #include "cases/text/diagnostics.hpp"
 
 #include <fmt/format.h>
@@ -21,38 +22,6 @@ bool holds_against_loads(const Case& one, const Support& support) {
   return (support.from.empty() || named(support.from) <= first) &&
          (support.until.empty() || named(support.until) + 1 >= steps.end());
 }
-
-/// Places that nothing moves in any step.
-class HeldPlaces {
- public:
-  HeldPlaces(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs)
-      : one_(one), mesh_(mesh), dofs_(dofs) {}
-
-  /// Whether no node of the place ever moves along the axis.
-  bool rests(const std::string& place, int axis) const {
-    return std::ranges::all_of(mesh_.node_sets.at(place), [&](int node) {
-      const int e = dofs_.equation(node, axis);
-      return e == fem::DofMap::absent || (dofs_.is_held(e) && !is_moved_or_let_go(node, axis));
-    });
-  }
-
- private:
-  bool is_moved_or_let_go(int node, int axis) const {
-    return std::ranges::any_of(one_.supports, [&](const Support& support) {
-      const auto driven = [&](const Controller& own) {
-        return own.drives == DrivenLoad{Driven::displacement, support.place, axis};
-      };
-      const bool moves = support.motion[static_cast<std::size_t>(axis)] || !support.until.empty() ||
-                         std::ranges::any_of(one_.controllers, driven);
-      return support.fixed[static_cast<std::size_t>(axis)] && moves &&
-             std::ranges::count(mesh_.node_sets.at(support.place), node) > 0;
-    });
-  }
-
-  const Case& one_;
-  const meshing::Mesh& mesh_;
-  const fem::DofMap& dofs_;
-};
 
 } // namespace
 

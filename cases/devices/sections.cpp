@@ -5,7 +5,6 @@
 #include "fem/elements/capacitor_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "meshing/mesh_error.hpp"
-#include "meshing/solids/sides.hpp"
 
 #include <fmt/format.h>
 
@@ -187,17 +186,6 @@ void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& 
       dofs.tie({node, master, at(node) - at(master)});
     }
   }
-}
-
-meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh) {
-  const std::string& place = one.chamber->place;
-  if (one.dimension != fem::Dimension::spatial)
-    return meshing::sides_at(mesh, place, meshing::CellType::meridian3);
-  meshing::CellBlock faces = meshing::faces_at(mesh, place);
-  if (!one.geometry<HollowSphere>() && !meshing::is_closed(faces))
-    throw meshing::MeshError(
-        fmt::format("chamber: the surface \"{}\" has an edge; a chamber in a solid is closed", place));
-  return faces;
 }
 
 void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent) {

@@ -20,10 +20,6 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
 /// Adds what else an electrode charges: its stray capacitance, and what of it lies in a strip's clamps.
 void add_capacitors(const Case& one, fem::Model& model);
 
-/// The surface of a solid on which the chamber presses. In space it must be closed, or be so with its mirror
-/// images: otherwise its volume would depend on where its edge is. Throws MeshError where it is not.
-meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh);
-
 /// Puts the bars whose axes lie beside the lines of the mesh on nodes of their own. Returns the rigid links
 /// by which the lines' nodes carry them. Throws MeshError as add_bars().
 std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh);

@@ -276,7 +276,10 @@ Section gravity_section() {
 Section chamber_section() {
   Section section;
   section.name = "chamber";
-  section.meaning = "a chamber between the film, with its plate, and the plane z = 0; inside a balloon";
+  section.meaning =
+      "a chamber between the film, with its plate, and the plane z = 0; inside a balloon. Where the film or "
+      "surface has an edge, this is held, or moves in such a way that the pressure has a potential: of "
+      "revolution along x or along z alone";
   section.presence = Section::Presence::optional;
   section.access = present(&Case::chamber);
   section.keys = {
@@ -296,7 +299,10 @@ Section chamber_section() {
           .at_least(1)
           .otherwise("2.2 GPa")
           .only_with(when::chamber_is_closed()),
-      text("at", to(&Chamber::place), "of a solid: the surface on which it presses")
+      text("at", to(&Chamber::place),
+           "of a solid: the surface on which it presses; with both ends held along z the volume is that "
+           "around "
+           "the axis")
           .optional()
           .refers_to(Reference::place),
   };

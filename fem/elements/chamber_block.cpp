@@ -5,6 +5,8 @@
 #include "fem/films/meridian.hpp"
 #include "fem/films/triangle.hpp"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace dielast::fem {
@@ -147,6 +149,61 @@ class PressureBlock final : public ElementBlock {
   std::vector<Eigen::Vector3d> reference_;
 };
 
+class LevelEdgeBlock final : public ElementBlock {
+ public:
+  LevelEdgeBlock(const meshing::Mesh& mesh, const meshing::CellBlock& meridians, const std::vector<int>& ends,
+                 std::size_t port)
+      : port_(port) {
+    for (int cell = 0; cell < meridians.size(); ++cell)
+      for (const std::size_t k : {0u, 1u})
+        if (const int node = meridians.cell(cell)[k]; std::ranges::count(ends, node) > 0) {
+          const Eigen::Vector3d& drawn = mesh.nodes[static_cast<std::size_t>(node)];
+          edges_.push_back({node, drawn.x(), (k == 1 ? 1 : -1) * std::numbers::pi * drawn.z()});
+        }
+  }
+
+  int element_count() const override { return static_cast<int>(edges_.size()); }
+  int dofs_per_element() const override { return 1; }
+  void claim_dofs(DofMap& /*those of the film*/, Dimension /*dimension*/) override {}
+  void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
+    equations[0] = dofs.equation(edge(element).node, 0);
+  }
+  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override {
+    Evaluation result;
+    const double p = state.voltage[port_];
+    for (int e = first; e < last; ++e) {
+      const double r = radius(state, e), k = -p * edge(e).height;
+      result.energy += k * r * r;
+      if (scatter.residual) scatter.add_residual(e, std::array{2 * k * r});
+      if (scatter.tangent) scatter.add_tangent(e, std::array{2 * k});
+    }
+    return result;
+  }
+  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
+  void add_charges(const State& state, const DofMap* dofs, Charges& charges) const override {
+    for (int e = 0; e < element_count(); ++e) {
+      const double r = radius(state, e), h = edge(e).height;
+      charges.charge[port_] += h * r * r;
+      if (!dofs) continue;
+      if (const int i = dofs->equation(edge(e).node, 0); i >= 0) charges.coupling[port_][i] += 2 * h * r;
+    }
+  }
+  void add_energies(const State& /*state*/, EnergyParts& /*the load stores none*/) const override {}
+
+ private:
+  struct Edge {
+    int node;
+    double drawn, height; ///< its radius; pi z with its sign; m
+  };
+  const Edge& edge(int element) const { return edges_[static_cast<std::size_t>(element)]; }
+  double radius(const State& state, int element) const {
+    return edge(element).drawn + state.displacement[static_cast<std::size_t>(edge(element).node)].x();
+  }
+
+  std::size_t port_;
+  std::vector<Edge> edges_;
+};
+
 class LidBlock final : public ElementBlock {
  public:
   LidBlock(const meshing::Mesh& mesh, const Lid& lid, std::size_t port)
@@ -196,6 +253,12 @@ std::unique_ptr<ElementBlock> make_pressure_block(const meshing::Mesh& mesh, con
   default:
     return std::make_unique<PressureBlock<UnderMeridian<2>>>(mesh, film, port);
   }
+}
+
+std::unique_ptr<ElementBlock> make_level_edge_block(const meshing::Mesh& mesh,
+                                                    const meshing::CellBlock& meridians,
+                                                    const std::vector<int>& ends, std::size_t port) {
+  return std::make_unique<LevelEdgeBlock>(mesh, meridians, ends, port);
 }
 
 std::unique_ptr<ElementBlock> make_lid_block(const meshing::Mesh& mesh, const Lid& lid, std::size_t port) {

@@ -99,6 +99,51 @@ TEST_F(FilmCases, a_soft_filling_gives_way_by_its_own_volume) {
   EXPECT_NEAR(space.last("pressure"), p, 2e-3 * p);
 }
 
+// A pressure has no potential where a film's edge moves along x and z: it is refused, in space likewise.
+// Edges in a plane of symmetry, those in the plane z = 0, and those of a plate are none of these.
+TEST_F(FilmCases, a_free_edge_is_refused_under_pressure) {
+  const auto pressed = [](const std::string& model, const std::string& geometry, const std::string& rest) {
+    return "model = \"" + model +
+           "\"\n[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+           "permittivity = \"4e-11 F/m\"\n" +
+           geometry + "[chamber]\npressure = \"100 Pa\"\n[[step]]\nkind = \"pressure\"\n" + rest;
+  };
+  const auto held = [](const std::string& place, const std::string& axes, const std::string& more = "") {
+    return "[[support]]\nplace = \"" + place + "\"\nfix = [" + axes + "]\n" + more;
+  };
+  const std::string annulus = "[annulus]\ninner_radius = \"5 mm\"\nouter_radius = \"20 mm\"\n",
+                    sheet = "[rectangle]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n";
+  const std::string ring = held("outer", "\"x\", \"y\", \"z\""),
+                    ends = held("left", "\"x\", \"y\", \"z\"") + held("right", "\"x\", \"y\", \"z\"");
+  for (const std::string& refused :
+       {pressed("axisymmetric", annulus, held("outer", "\"x\", \"z\"")), pressed("3d", annulus, ring),
+        pressed("3d", annulus, ring + held("inner", "\"x\"")), pressed("3d", sheet, ends),
+        pressed("3d", sheet, ends + held("top", "\"x\"") + held("bottom", "\"x\"")),
+        pressed("3d", sheet,
+                ends + held("bottom", "\"y\"") +
+                    held("top", "\"y\"", "displacement = { y = \"1 mm\" }\n[[step]]\nkind = \"move\"\n"))}) {
+    write("film.toml", refused);
+    const Case one = read_case(directory / "film.toml");
+    try {
+      build_device(one);
+      ADD_FAILURE() << "accepted";
+    } catch (const CaseError& error) {
+      EXPECT_NE(std::string(error.what()).find("has an edge at"), std::string::npos) << error.what();
+    }
+  }
+  for (const std::string& taken :
+       {pressed("axisymmetric", annulus, held("outer", "\"x\", \"z\"") + held("inner", "\"x\"")),
+        pressed("axisymmetric", annulus, held("outer", "\"x\", \"z\"") + held("inner", "\"z\"")),
+        pressed("axisymmetric", annulus + "[plate]\nmass = \"1 g\"\n", held("outer", "\"x\", \"z\"")),
+        pressed("3d", annulus, ring + held("inner", "\"z\"")),
+        pressed("3d", annulus, ring + held("inner", "\"x\", \"y\"")),
+        pressed("3d", sheet, ends + held("top", "\"y\"") + held("bottom", "\"z\""))}) {
+    write("film.toml", taken);
+    const Case one = read_case(directory / "film.toml");
+    EXPECT_NO_THROW(build_device(one));
+  }
+}
+
 // Curved triangles about the middle made its height converge with order 2 only.
 TEST_F(FilmCases, the_height_of_a_disc_in_space_is_that_of_its_meridian) {
   const std::string pressed = "pressure = \"200 Pa\"\n", steps = "[[step]]\nkind = \"pressure\"\n";

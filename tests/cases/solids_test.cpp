@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace dielast::cases {
 namespace {
@@ -72,6 +73,93 @@ TEST_F(Solids, thick_tube_has_the_exact_radii_and_capacitance) {
     EXPECT_NEAR(found.at("a"), a, 1e-5 * a);
     EXPECT_NEAR(found.at("b"), b, 1e-5 * b);
     EXPECT_NEAR(found.at("capacitance"), capacitance, 1e-5 * capacitance);
+  }
+}
+
+std::string pressed_slab(const std::string& slab, const std::string& at, const std::string& rest,
+                         const std::string& goal = "pressure = \"20 kPa\"") {
+  return "model = \"axisymmetric\"\n" + film() +
+         fmt::format("[slab]\n{}\n[mesh]\nacross = 8\n[chamber]\nat = \"{}\"\n{}\n[[step]]\nkind = \"{}\"\n"
+                     "name = \"press\"\n[[quantity]]\nname = \"a\"\nkind = \"radius\"\nof = \"left\"\n"
+                     "[[quantity]]\nname = \"b\"\nkind = \"radius\"\nof = \"right\"\n"
+                     "[[quantity]]\nname = \"top\"\nkind = \"displacement\"\nof = \"top\"\nalong = \"z\"\n",
+                     slab, at, goal, goal.starts_with("volume") ? "inflate" : "pressure") +
+         rest;
+}
+std::string held(const std::string& place, const std::string& axes, const std::string& rest = "") {
+  return fmt::format("[[support]]\nplace = \"{}\"\nfix = [{}]\n{}", place, axes, rest);
+}
+const std::string thick_tube = "inner_radius = \"5 mm\"\nlength = \"5 mm\"\nheight = \"2 mm\"",
+                  disc = "length = \"10 mm\"\nheight = \"4 mm\"";
+
+// The bore's ends rest along z and move outwards. In plane strain the stress across grows by mu (k^2 - 1/k^2)
+// dr/r with the hoop stretch k = r/R: p = mu [ln k - 1/(2 k^2)] between the two surfaces.
+TEST_F(Solids, a_pressure_in_a_tube_held_along_z_widens_it_as_in_plane_strain) {
+  constexpr double A = 5e-3, B = 10e-3, p = 20e3, height = 2e-3;
+  double low = A, high = 4 * A; // of the inner radius
+  for (int i = 0; i < 200; ++i) {
+    const double a = (low + high) / 2, grown = a * a - A * A;
+    const double ka = a / A, kb = std::sqrt(B * B + grown) / B;
+    const double held = mu * (std::log(ka / kb) + (1 / (kb * kb) - 1 / (ka * ka)) / 2);
+    (held < p ? low : high) = a;
+  }
+  const double outer = std::sqrt(B * B + low * low - A * A), bore = std::numbers::pi * low * low * height;
+  const std::string ends = held("bottom", "\"z\"") + held("top", "\"z\"");
+  const auto pressed = values(pressed_slab(thick_tube, "left", ends));
+  const auto pumped = values(pressed_slab(thick_tube, "left", ends,
+                                          fmt::format("volume = \"{:.17g} m^3\"", bore * (1 + p / 2.2e9))));
+  for (const auto& found : {pressed, pumped}) {
+    EXPECT_NEAR(found.at("a"), low, 3e-5 * low);
+    EXPECT_NEAR(found.at("b"), outer, 1e-5 * outer);
+    EXPECT_NEAR(found.at("volume"), bore, 1e-4 * bore);
+    EXPECT_NEAR(found.at("pressure"), p, 1e-4 * p);
+    EXPECT_NEAR(found.at("mechanical_work"), found.at("stored_energy"), 1e-9 * found.at("stored_energy"));
+  }
+}
+
+// Bonded ends do not move: that they rest along z may be known or not.
+TEST_F(Solids, a_pressure_acts_alike_whatever_form_its_edges_take) {
+  const std::string bottom = held("bottom", "\"x\", \"z\""), top = held("top", "\"x\", \"z\"");
+  const auto bonded = values(pressed_slab(thick_tube, "left", bottom + top));
+  const auto moved = values(pressed_slab(
+      thick_tube, "left", bottom + top + "displacement = { z = \"0 mm\" }\n[[step]]\nkind = \"move\"\n"));
+  EXPECT_NEAR(moved.at("a"), bonded.at("a"), 1e-12);
+  EXPECT_NEAR(moved.at("mechanical_work"), bonded.at("mechanical_work"), 1e-9 * bonded.at("mechanical_work"));
+  EXPECT_GT(bonded.at("a"), 5e-3 + 1e-5);
+}
+
+// On its axis and in a sleeve a disc's top moves along z alone.
+TEST_F(Solids, a_pressure_on_a_disc_in_a_sleeve_compresses_it_uniformly) {
+  constexpr double p = 20e3, bulk = 400e3;
+  double low = 0.5, high = 1;
+  for (int i = 0; i < 200; ++i) {
+    const double l = (low + high) / 2;
+    const double stress = mu * std::pow(l, -5.0 / 3) * (l * l - (l * l + 2) / 3) + bulk * (l - 1);
+    (stress < -p ? low : high) = l;
+  }
+  std::string soft = pressed_slab(disc, "top", held("bottom", "\"z\"") + held("right", "\"x\""));
+  soft.replace(soft.find("thickness"), 0, fmt::format("bulk_modulus = {}\n", bulk));
+  const auto found = values(soft);
+  EXPECT_NEAR(found.at("top"), 4e-3 * (low - 1), 1e-8 * 4e-3);
+  EXPECT_NEAR(-found.at("volume"), std::numbers::pi * 1e-4 * 4e-3 * low, 1e-8 * 1e-6); // the chamber is above
+}
+
+TEST_F(Solids, an_edge_that_may_move_across_itself_is_refused_under_pressure) {
+  const std::string bottom = held("bottom", "\"z\"");
+  for (const std::string& text :
+       {pressed_slab(thick_tube, "left", bottom), pressed_slab(disc, "top", bottom),
+        pressed_slab(disc, "right", bottom), pressed_slab(thick_tube, "left", ""),
+        pressed_slab(
+            thick_tube, "left",
+            bottom + held("top", "\"z\"", "displacement = { z = \"1 mm\" }\n[[step]]\nkind = \"move\"\n")),
+        pressed_slab(thick_tube, "left", bottom + held("top", "\"z\"", "until = \"press\"\n"))}) {
+    const Case open = read(text);
+    try {
+      build_device(open);
+      ADD_FAILURE() << "accepted";
+    } catch (const CaseError& error) {
+      EXPECT_NE(std::string(error.what()).find("has an edge at"), std::string::npos) << error.what();
+    }
   }
 }
 

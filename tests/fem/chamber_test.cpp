@@ -87,6 +87,50 @@ TEST(Chamber, a_frustum_closed_by_a_lid_has_its_volume) {
   EXPECT_EQ(held.capacitance[0], 0);
 }
 
+// A tube whose ends rest along z: what is around the axis, and p 2 pi r dz outwards on every node, ends or
+// not.
+TEST(Chamber, the_ends_of_a_tube_bear_what_the_pressure_on_it_makes) {
+  for (const int order : {1, 2}) {
+    const meshing::Mesh mesh = test::shaped(meshing::annulus_meridian(1, 2, 3, order, 2), [](const auto& X) {
+      return Eigen::Vector3d(1.5 - 0.2 * X.x(), 0, 3 + X.x());
+    });
+    auto model = chamber(mesh);
+    const int low = mesh.node_sets.at("inner").front(), high = mesh.node_sets.at("outer").front();
+    model->blocks.push_back(make_level_edge_block(mesh, mesh.blocks[0], {low, high}, 0));
+    State state = model->initial_state();
+    state.voltage = {-2};
+    const double wide = 1.3, narrow = 1.1;
+    const double held = model->charges(state, false).charge[0];
+    EXPECT_NEAR(std::abs(held), pi * (wide * wide + wide * narrow + narrow * narrow) / 3, 1e-13);
+    Eigen::VectorXd force;
+    Assembler(*model, 1).residual(state, force);
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(force.size());
+    const meshing::CellBlock& cells = mesh.blocks[0];
+    for (int cell = 0; cell < cells.size(); ++cell)
+      for (const MeridianPoint& at : meridian_rule(3)) {
+        const auto add = [&](const auto& N, const auto& dN) {
+          double r = 0, z = 0, dr = 0, dz = 0;
+          for (Eigen::Index a = 0; a < N.size(); ++a) {
+            const Eigen::Vector3d& X =
+                mesh.nodes[static_cast<std::size_t>(cells.cell(cell)[static_cast<std::size_t>(a)])];
+            r += N[a] * X.x(), z += N[a] * X.z(), dr += dN[a] * X.x(), dz += dN[a] * X.z();
+          }
+          for (Eigen::Index a = 0; a < N.size(); ++a) {
+            const int node = cells.cell(cell)[static_cast<std::size_t>(a)];
+            const double w = 2 * 2 * pi * r * at.weight * N[a];
+            expected[model->dofs.equation(node, 0)] += w * dz;
+            expected[model->dofs.equation(node, 2)] -= w * dr;
+          }
+        };
+        if (order == 1)
+          add(meridian_shape<2>(at.xi), meridian_slope<2>(at.xi));
+        else
+          add(meridian_shape<3>(at.xi), meridian_slope<3>(at.xi));
+      }
+    EXPECT_LT((force - expected).norm(), 1e-13 * expected.norm());
+  }
+}
+
 class ChamberShape : public testing::TestWithParam<meshing::CellType> {
  protected:
   static meshing::Mesh flat() {
@@ -103,6 +147,9 @@ TEST_P(ChamberShape, forces_and_their_derivatives_are_those_of_the_volume) {
   auto model = chamber(mesh);
   const int node = 1;
   model->blocks.push_back(make_lid_block(mesh, {.node = node, .area = 0.3}, 0));
+  if (meshing::is_meridian(GetParam()))
+    model->blocks.push_back(make_level_edge_block(
+        mesh, mesh.blocks[0], {mesh.node_sets.at("inner").front(), mesh.node_sets.at("outer").front()}, 0));
   State state = model->initial_state();
   std::mt19937 random(4);
   for (int a = 0; a < mesh.node_count(); ++a)

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/devices/chamber.hpp"
+
+#include "cases/devices/held_places.hpp"
+#include "cases/text/diagnostics.hpp"
+#include "fem/elements/chamber_block.hpp"
+#include "meshing/mesh_error.hpp"
+#include "meshing/solids/sides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <span>
+
+namespace dielast::cases {
+namespace {
+
+/// The surface of a solid on which the chamber presses. In space it must be closed, or be so with its mirror
+/// images: otherwise its volume would depend on where its edge is.
+meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh) {
+  const std::string& place = one.chamber->place;
+  if (place.empty()) return *mesh.film();
+  if (one.dimension != fem::Dimension::spatial)
+    return meshing::sides_at(mesh, place, meshing::CellType::meridian3);
+  meshing::CellBlock faces = meshing::faces_at(mesh, place);
+  if (!one.geometry<HollowSphere>() && !meshing::is_closed(faces))
+    throw meshing::MeshError(
+        fmt::format("chamber: the surface \"{}\" has an edge; a chamber in a solid is closed", place));
+  return faces;
+}
+
+/// Ends of meridians, or sides of triangles, that only one cell of the block has, with their middle nodes.
+std::vector<std::vector<int>> edges_of(const meshing::CellBlock& wall) {
+  std::vector<std::vector<int>> sides;
+  for (int cell = 0; cell < wall.size(); ++cell) {
+    const auto own = wall.cell(cell);
+    if (meshing::is_meridian(wall.type)) {
+      sides.push_back({own[0]});
+      sides.push_back({own[1]});
+    } else {
+      for (std::size_t k = 0; k < 3; ++k) {
+        sides.push_back({own[k], own[(k + 1) % 3]});
+        if (own.size() == 6) sides.back().push_back(own[3 + k]);
+      }
+    }
+    for (auto side = sides.end() - (meshing::is_meridian(wall.type) ? 2 : 3); side != sides.end(); ++side)
+      std::ranges::sort(*side);
+  }
+  std::ranges::sort(sides);
+  std::vector<std::vector<int>> edges;
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t next = i + 1;
+    while (next < sides.size() && sides[next] == sides[i]) ++next;
+    if (next == i + 1) edges.push_back(std::move(sides[i]));
+    i = next;
+  }
+  return edges;
+}
+
+/// Tells of every edge whether a pressure has a potential there, see fem/elements/chamber_block.hpp.
+class Edges {
+ public:
+  Edges(const Case& one, const meshing::Mesh& mesh, bool free_body, const fem::Model& model)
+      : one_(one), mesh_(mesh), held_(one, mesh, model.dofs), free_body_(free_body), extent_(model.extent) {}
+
+  /// Of a meridian: held along z, it may move along the radius.
+  bool is_level(int node) const { return rests({&node, 1}, 2); }
+  void require_potential(const std::vector<int>& edge, bool of_meridian) const {
+    const bool upright = rests(edge, 0) && (of_meridian || rests(edge, 1));
+    const bool fits = of_meridian
+                          ? is_level(edge[0])
+                          : (rests(edge, 2) && lies(edge, 2, 0)) || slides(edge, 0) || slides(edge, 1);
+    if (upright || fits) return;
+    const Eigen::Vector3d& x = drawn(edge[0]);
+    const std::string at = of_meridian ? fmt::format("x = {:.4g} mm, z = {:.4g} mm", 1e3 * x.x(), 1e3 * x.z())
+                                       : fmt::format("x = {:.4g} mm, y = {:.4g} mm, z = {:.4g} mm",
+                                                     1e3 * x.x(), 1e3 * x.y(), 1e3 * x.z());
+    const char* remedy =
+        of_meridian
+            ? "let a [[support]] fix x or z there, in all steps and without a displacement along it"
+            : "let a [[support]] fix x and y there, or z where z = 0, or y of an edge along x (x of one "
+              "along y), in all steps and without a displacement along these";
+    const char* key = !one_.chamber->place.empty() ? "chamber.at"
+                      : one_.chamber->pressure     ? "chamber.pressure"
+                                                   : "chamber.volume";
+    throw CaseError(
+        {{one_.where(key), "chamber",
+          fmt::format("the surface on which it presses has an edge at {} ({}) that may move across "
+                      "itself, where a pressure has no potential: its work depends on the way. "
+                      "Close the surface, or {}",
+                      at, place_of(edge), remedy)}});
+  }
+
+ private:
+  bool rests(std::span<const int> nodes, int axis) const {
+    return std::ranges::all_of(nodes, [&](int node) {
+      const bool on_axis =
+          one_.dimension == fem::Dimension::axisymmetric && axis == 0 && drawn(node).x() <= 1e-12 * extent_;
+      return on_axis || (!free_body_ && held_.rests(node, axis)); // a pin holds what would not move anyhow
+    });
+  }
+  bool lies(const std::vector<int>& edge, int axis, double at) const {
+    return std::ranges::all_of(edge,
+                               [&](int node) { return std::abs(drawn(node)[axis] - at) <= 1e-9 * extent_; });
+  }
+  /// Whether a side of triangles stays in its plane across the axis x or y, as in a plane of symmetry.
+  bool slides(const std::vector<int>& edge, int axis) const {
+    return rests(edge, axis) && lies(edge, axis, drawn(edge[0])[axis]);
+  }
+  const Eigen::Vector3d& drawn(int node) const { return mesh_.nodes[static_cast<std::size_t>(node)]; }
+  /// The smallest place that has the whole edge.
+  std::string place_of(const std::vector<int>& edge) const {
+    const std::pair<const std::string, std::vector<int>>* found = nullptr;
+    for (const auto& place : mesh_.node_sets)
+      if (std::ranges::includes(place.second, edge) && (!found || place.second.size() < found->second.size()))
+        found = &place;
+    return found ? fmt::format("on \"{}\"", found->first) : "on no named place";
+  }
+
+  const Case& one_;
+  const meshing::Mesh& mesh_;
+  HeldPlaces held_;
+  bool free_body_;
+  double extent_; ///< of the model, m
+};
+
+} // namespace
+
+void add_chamber(const Case& one, const meshing::Mesh& mesh, bool free_body, fem::Model& model) {
+  if (!one.chamber) return;
+  const std::size_t port = model.electrodes.size();
+  model.chambers = {{"chamber", one.chamber->bulk_modulus}};
+  const meshing::CellBlock wall = wall_of_chamber(one, mesh);
+  model.blocks.push_back(fem::make_pressure_block(mesh, wall, port));
+  const bool of_meridian = meshing::is_meridian(wall.type);
+  const Edges edges(one, mesh, free_body, model);
+  std::vector<int> level;
+  for (const std::vector<int>& edge : edges_of(wall)) {
+    edges.require_potential(edge, of_meridian);
+    if (of_meridian && edges.is_level(edge[0]) && mesh.nodes[static_cast<std::size_t>(edge[0])].z() != 0)
+      level.push_back(edge[0]);
+  }
+  if (!level.empty()) model.blocks.push_back(fem::make_level_edge_block(mesh, wall, level, port));
+  if (const auto* annulus = one.geometry<Annulus>(); annulus && one.plate)
+    model.blocks.push_back(
+        fem::make_lid_block(mesh,
+                            {mesh.node_sets.at(one.plate->place).front(),
+                             std::numbers::pi * annulus->inner_radius * annulus->inner_radius},
+                            port));
+}
+
+} // namespace dielast::cases
