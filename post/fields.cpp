@@ -95,23 +95,30 @@ const std::vector<FilmField> film_table{
     {"log_strain",
      "1",
      {"xx", "yy", "zz", "xy", "yz", "xz"},
-     "logarithmic (Hencky) strain in space, from the unstretched film",
+     "logarithmic (Hencky) strain in space, from the unstretched film; of revolution in the half plane y = "
+     "0, y around, of films in ParaView turned with them",
      [](const FilmPoint& p, double* v) {
        const Eigen::Vector3d principal = p.stretch.array().log();
        symmetric_components(p.direction * principal.asDiagonal() * p.direction.transpose(), v);
-     }},
+     },
+     std::nullopt,
+     true},
     {"green_lagrange_strain",
      "1",
      {"XX", "YY", "XY"},
-     "Green-Lagrange strain in the plane of the unstretched film",
+     "Green-Lagrange strain in the plane of the unstretched film; of a film of revolution XX along the "
+     "meridian, YY around",
      [](const FilmPoint& p, double* v) {
        v[0] = (p.C(0, 0) - 1) / 2, v[1] = (p.C(1, 1) - 1) / 2, v[2] = p.C(0, 1) / 2;
      }},
     {"cauchy_stress",
      "Pa",
      {"xx", "yy", "zz", "xy", "yz", "xz"},
-     "true stress in space, elastic and electrostatic; of a stack with covers the mean over its section",
-     [](const FilmPoint& p, double* v) { symmetric_components(p.cauchy, v); }},
+     "true stress in space, elastic and electrostatic; of a stack with covers the mean over its section; of "
+     "revolution in the half plane y = 0, y around, of films in ParaView turned with them",
+     [](const FilmPoint& p, double* v) { symmetric_components(p.cauchy, v); },
+     std::nullopt,
+     true},
     {"min_principal_stress",
      "Pa",
      {},

@@ -41,6 +41,7 @@ struct Field {
   std::string_view meaning;
   void (*evaluate)(const Point&, double* values);
   std::optional<Extreme> worst{}; ///< of a scalar: the end of its range that breaks a device
+  bool in_space = false;          ///< a symmetric tensor (xx, yy, zz, xy, yz, xz) that turns with the film
 
   int width() const { return components.empty() ? 1 : static_cast<int>(components.size()); }
 };

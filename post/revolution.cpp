@@ -28,11 +28,11 @@ Revolution::Revolution(const meshing::Mesh& mesh, const meshing::CellBlock& meri
   const auto add_strip = [&](int a, int b, int cell) {
     for (int s = 0; s < sectors; ++s) {
       if (on_axis(a))
-        facets.push_back({{point(a, s), point(b, s + 1), point(b, s), -1}, 3, cell});
+        facets.push_back({{point(a, s), point(b, s + 1), point(b, s), -1}, 3, cell, s});
       else if (on_axis(b))
-        facets.push_back({{point(a, s), point(a, s + 1), point(b, s), -1}, 3, cell});
+        facets.push_back({{point(a, s), point(a, s + 1), point(b, s), -1}, 3, cell, s});
       else
-        facets.push_back({{point(a, s), point(a, s + 1), point(b, s + 1), point(b, s)}, 4, cell});
+        facets.push_back({{point(a, s), point(a, s + 1), point(b, s + 1), point(b, s)}, 4, cell, s});
     }
   };
   for (int cell = 0; cell < meridians.size(); ++cell) {

@@ -31,6 +31,7 @@ struct Revolution {
     std::array<int, 4> points; ///< indices into `points`, counter-clockwise about the normal
     int corners;               ///< 3 or 4 of them
     int cell;                  ///< the meridian's cell
+    int sector;                ///< by (sector + 1/2)/sectors of a turn its middle is turned
   };
 
   static constexpr int sectors = 48;

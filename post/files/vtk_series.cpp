@@ -26,6 +26,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 
@@ -67,6 +69,17 @@ void use_one_thread() {
 }
 
 Part part_of(meshing::CellType type) { return meshing::is_line(type) ? Part::walls : Part::film; }
+
+/// A symmetric tensor (xx, yy, zz, xy, yz, xz) turned about z.
+void turn(double cosine, double sine, std::span<float, 6> t) {
+  const double xx = t[0], yy = t[1], xy = t[3], yz = t[4], xz = t[5];
+  const double cc = cosine * cosine, ss = sine * sine, cs = cosine * sine;
+  t[0] = static_cast<float>(cc * xx - 2 * cs * xy + ss * yy);
+  t[1] = static_cast<float>(ss * xx + 2 * cs * xy + cc * yy);
+  t[3] = static_cast<float>(cs * (xx - yy) + (cc - ss) * xy);
+  t[4] = static_cast<float>(sine * xz + cosine * yz);
+  t[5] = static_cast<float>(cosine * xz - sine * yz);
+}
 
 /// `values`: of the mesh's cells; the array has a tuple per cell of the grid.
 vtkNew<vtkFloatArray> cell_array(const std::string& name, std::span<const std::string_view> components,
@@ -200,9 +213,11 @@ class VtkSeries::PartFile {
   }
   void add_surface(Revolution film) {
     points_ = std::move(film.points);
-    for (const Revolution::Facet& facet : film.facets)
+    for (const Revolution::Facet& facet : film.facets) {
       add_cell(facet.corners == 4 ? VTK_QUAD : VTK_TRIANGLE,
                {facet.points.begin(), facet.points.begin() + facet.corners}, facet.cell);
+      sectors_.push_back(facet.sector);
+    }
   }
   void add_bars(Bars bars) {
     edges_ = std::move(bars.points);
@@ -262,8 +277,14 @@ class VtkSeries::PartFile {
     // Arrays replace those of the last step by their names.
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const Field<Point>& field = fields[i];
-      grid_->GetCellData()->AddArray(cell_array(fmt::format("{} [{}]", field.name, field.unit),
-                                                field.components, values[i].average, mesh_cells_));
+      const auto average = cell_array(fmt::format("{} [{}]", field.name, field.unit), field.components,
+                                      values[i].average, mesh_cells_);
+      for (std::size_t cell = 0; field.in_space && cell < sectors_.size(); ++cell) {
+        const double angle = 2 * std::numbers::pi * (sectors_[cell] + 0.5) / Revolution::sectors;
+        turn(std::cos(angle), std::sin(angle),
+             std::span<float, 6>(average->GetPointer(6 * static_cast<vtkIdType>(cell)), 6));
+      }
+      grid_->GetCellData()->AddArray(average);
       if (field.worst)
         grid_->GetCellData()->AddArray(
             cell_array(fmt::format("{}_{} [{}]", field.name, *field.worst == Extreme::minimum ? "min" : "max",
@@ -279,6 +300,7 @@ class VtkSeries::PartFile {
   std::vector<BarPoint> edges_;        ///< of the grid, where it is of walls
   std::vector<Eigen::Vector3d> drawn_; ///< the grid's points, m
   std::vector<int> mesh_cells_;        ///< per cell of the grid
+  std::vector<int> sectors_;           ///< likewise, of a film of revolution: see Revolution::Facet
   vtkNew<vtkUnstructuredGrid> grid_;
   vtkNew<vtkDoubleArray> place_, displacement_, mode_;
   vtkNew<vtkIntArray> part_number_;

@@ -59,11 +59,12 @@ struct SeriesMode {
 ///
 /// Points are where the mesh's nodes are in that state; point data "displacement [m]", by which they have
 /// moved since drawn. Walls are solids with their sections (post/bars.hpp), films of revolution surfaces
-/// (post/revolution.hpp) with the vectors of points turned with them; tensors stay those of the meridian's
-/// plane, x along the radius and y around. Cell data: every output field averaged over its cell, in single
-/// precision, named "electric_field [V/m]"; its extreme over the cell's integration points where one matters,
-/// "electric_field_max [V/m]"; and "part", a number of field data "part_names". Every file appears whole or
-/// not at all, and the list after the files it names, so a killed run leaves a readable series.
+/// (post/revolution.hpp) with what is in space turned with them: vectors of points, and the meridian's
+/// tensors to the middle of a facet. A solid of revolution is its half section, y around. Cell data: every
+/// output field averaged over its cell, in single precision, named "electric_field [V/m]"; its extreme over
+/// the cell's integration points where one matters, "electric_field_max [V/m]"; and "part", a number of field
+/// data "part_names". Every file appears whole or not at all, and the list after the files it names, so a
+/// killed run leaves a readable series.
 class VtkSeries {
  public:
   /// Precondition: at most one film and one line block, as samples number their cells within a block.
