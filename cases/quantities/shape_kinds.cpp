@@ -270,7 +270,9 @@ std::vector<QuantityKind> shape_kinds() {
        .shape = radius,
        .gradient = radius_gradient},
       {.word = "distance",
-       .meaning = "between the centroids of two places (m)",
+       .meaning =
+           "between the centroids of two places (m); in a model of revolution of what lies in the half "
+           "plane y = 0: along x the difference of mean radii",
        .unit = "m",
        .keys =
            [] {
@@ -313,7 +315,9 @@ std::vector<QuantityKind> shape_kinds() {
        .shape = stretch,
        .of_solids = false},
       {.word = "size",
-       .meaning = "of the box around a place (m)",
+       .meaning =
+           "of the box around a place (m); in a model of revolution around what of it lies in the half "
+           "plane y = 0: along x from the smallest to the largest radius",
        .unit = "m",
        .keys =
            [] {
