@@ -356,6 +356,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         observer.on_cutback,
         [&](const fem::CriticalPoint& critical, const post::Event& event) {
           news_.push_back(event);
+          news_.back().before = {critical.load_factor, critical.state.time, voltages(critical.state)};
           if (observer.on_critical) observer.on_critical(critical, event);
         },
         [&](double s, const fem::State& state) { return admits(step, s, state); },

@@ -67,6 +67,14 @@ TEST_F(Paths, a_clamped_disc_goes_over_to_its_dome_by_the_branch_and_by_a_jump_a
                                      1.3 * buckling_voltage(), way)),
             "depth");
     EXPECT_EQ(one.outcome.ending, Ending::complete) << one.outcome.message;
+    // the critical point is told where it is, not where the first state beyond it is
+    const auto told = std::ranges::find(one.events, "bifurcation", &post::Event::kind);
+    if (told == one.events.end() || !told->before) {
+      ADD_FAILURE() << "no bifurcation, or not where it is: " << way;
+    } else {
+      EXPECT_NEAR(told->before->voltages.at(0), buckling_voltage(), 0.0025 * buckling_voltage());
+      EXPECT_NEAR(told->before->load_factor, told->before->voltages[0] / (1.3 * buckling_voltage()), 1e-6);
+    }
     return one.rows.back().value;
   };
   const double dome = ends("on_bifurcation = \"switch\"");
