@@ -57,11 +57,21 @@ Simulation::Simulation(const Case& one, int threads)
   require_one_motion(one, device_.mesh, device_.model.dofs);
   equilibrium_.emplace(device_.model, threads);
   frame_ = frame_force();
-  double film_force = 0;
-  for (int b = 0; b < device_.films; ++b)
-    film_force =
-        std::max(film_force, equilibrium_->assembler().block_residuals()[static_cast<std::size_t>(b)].norm());
-  const double rest = std::max(balanced * film_force, equilibrium_->round_off());
+  const auto film_force = [this] {
+    double largest = 0;
+    for (int b = 0; b < device_.films; ++b)
+      largest =
+          std::max(largest, equilibrium_->assembler().block_residuals()[static_cast<std::size_t>(b)].norm());
+    return largest;
+  };
+  double force = film_force();
+  fem::State wider = device_.model.initial_state(); // film without tension is at rest within its rounding
+  for (std::size_t n = 0; n < wider.displacement.size(); ++n)
+    wider.displacement[n] = 1e-3 * device_.model.drawn[n];
+  Eigen::VectorXd residual;
+  equilibrium_->assembler().residual(wider, residual);
+  force = std::max(force, film_force());
+  const double rest = std::max(balanced * force, equilibrium_->round_off());
   const bool at_rest = frame_.norm() <= rest;
   Eigen::VectorXd unbalanced = frame_; // where the film pulls at bodies only, these may hold it
   device_.model.dofs.gather(device_.model.initial_state(), unbalanced);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/step_run.hpp"
 
+#include "cases/loads/load_text.hpp"
 #include "fem/model/contact_block.hpp"
 #include "fem/paths/held_masses.hpp"
 #include "fem/paths/jump.hpp"
@@ -27,6 +28,8 @@ constexpr std::array further{1e-2, 1e-1};
 /// Displacements along a mode at which another branch is looked for, over the model's extent: those of thin
 /// films are less than their thickness.
 constexpr std::array branch_amplitudes{1e-3, 1e-4, 1e-5};
+/// Eigenvalue of a mode, over the stiffness as drawn, that is one of rounding.
+constexpr double no_stiffness = 1e-10;
 /// Eigenvalue of the lowest mode, over the stiffness as drawn, below which a timed step has come to a limit.
 constexpr double critical_in_time = 1e-3;
 
@@ -48,27 +51,8 @@ fem::State StepRun::loaded(fem::State state, double s) const {
   return state;
 }
 
-/// The loads of a state at s, as a person would name them: that which has changed most since before the step.
 std::string StepRun::load_text(const fem::State& at, double s) const {
-  fem::State begin = at;
-  if (timed())
-    path_.before(begin, 0); // a load may jump there
-  else
-    path_.apply(begin, 0);
-  std::string text;
-  double largest = 0;
-  for (std::size_t e = 0; e < at.voltage.size(); ++e) {
-    const bool isolated = fem::is_isolated(at.supply[e]);
-    const double from = isolated ? begin.charge[e] : begin.voltage[e];
-    const double to = isolated ? at.charge[e] : at.voltage[e];
-    if (std::abs(to - from) <= largest) continue;
-    largest = std::abs(to - from);
-    const bool chamber = e >= model().electrodes.size();
-    const char* unit = chamber ? (isolated ? "m^3" : "Pa") : (isolated ? "C" : "V");
-    text = post::engineering(to, unit, post::Ratio::plain, 5);
-  }
-  if (!text.empty()) return text;
-  return s > 0 ? fmt::format("load factor {:.5g}", s) : "the beginning of the step";
+  return cases::load_text(model(), path_, at, s, timed());
 }
 
 std::string StepRun::load_text(double s) const {
@@ -328,14 +312,24 @@ std::vector<std::size_t> StepRun::lost_film(double s) const {
   return lost == 0 ? std::vector<std::size_t>{} : std::vector{lost, film.size()};
 }
 
+/// Whether a motion meets no stiffness in the last state: the sign of its eigenvalue is then one of rounding.
+bool StepRun::moves_freely() const {
+  const auto mode = fem::lowest_mode(equilibrium_, loaded(last(), progress_.ramp.load_factor));
+  return mode && std::abs(mode->eigenvalue) < no_stiffness;
+}
+
 Outcome StepRun::failure(const Trouble& trouble) const {
   const double reached = progress_.ramp.load_factor;
-  if (trouble.ramp.failure.outcome == fem::Outcome::singular)
-    return {Ending::gave_up, "singular tangent",
-            fmt::format("step \"{}\" stopped at {}: the tangent is singular. Part of the device can move "
-                        "freely: hold it with [[support]]; with model = \"3d\" an unstretched film has no "
-                        "stiffness normal to itself: stretch it or use model = \"planar\"",
-                        step_.name, load_text(reached))};
+  const auto singular = [&] {
+    return Outcome{
+        Ending::gave_up, "singular tangent",
+        fmt::format(
+            "step \"{}\" stopped at {}: the tangent is singular. Part of the device can move freely: "
+            "hold it with [[support]], a [[body]] by its fix; with model = \"3d\" an unstretched film "
+            "has no stiffness normal to itself: stretch it or use model = \"planar\"",
+            step_.name, load_text(reached))};
+  };
+  if (trouble.ramp.failure.outcome == fem::Outcome::singular) return singular();
   if (fem::edges_meet(model(), last()))
     return {Ending::gave_up, "edges meet",
             fmt::format("step \"{}\" stopped at {}: edges of surfaces in [contact] meet between the points "
@@ -358,7 +352,12 @@ Outcome StepRun::failure(const Trouble& trouble) const {
   const std::string go_on =
       ways_on_.empty() ? "" : "; or let the step go on with on_instability = " + ways_on_;
   const std::string more =
-      " Lower the drive, or stiffen the device or stretch the film more, to stay below it" + go_on;
+      " Lower what drives it, or stiffen the device or stretch the film more, to stay below it" + go_on;
+  const char* of_edges =
+      fem::contact_pressure(model(), last()).empty() || fem::contact_force(model(), last(), "") == 0
+          ? ""
+          : ". Where surfaces in [contact] end on each other an edge may slip off the other one: let one of "
+            "them reach over the other by contact.thickness, or refine the mesh there";
   if (trouble.critical) {
     const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
     if (timed())
@@ -375,8 +374,9 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                     trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
                     branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable"
                                  : "",
-                    more)};
+                    more + (branches_off ? of_edges : ""))};
   }
+  if (trouble.unstable_modes > 0 && moves_freely()) return singular();
   if (trouble.unstable_modes > 0)
     return {Ending::gave_up, "instability",
             fmt::format(

@@ -88,6 +88,7 @@ class StepRun {
   std::string load_text(const fem::State& at, double s) const;
   std::string load_text(double s) const;
   std::vector<std::size_t> lost_film(double s) const;
+  bool moves_freely() const;
   Outcome failure(const Trouble& trouble) const;
 
   fem::Equilibrium& equilibrium_;

@@ -193,6 +193,36 @@ TEST_F(Contacts, pass_the_force_on_from_solid_to_solid) {
   }
 }
 
+/// Two discs alike, with few elements: the edge of one stands on that of the other, and slips off it. One
+/// that is wider by half of the barrier's reach is pressed on.
+TEST_F(Contacts, tell_of_edges_that_slip_off_each_other) {
+  const auto disc = [](const char* name, const char* at, double radius, int across) {
+    return fmt::format("[part.{0}]\nat = [0, 0, \"{1}\"]\n[part.{0}.film]\nthickness = \"1 mm\"\nsection = "
+                       "\"solid\"\n[part.{0}.film.material]\nshear_modulus = \"50 kPa\"\npermittivity = "
+                       "\"4e-11 F/m\"\n[part.{0}.slab]\nlength = \"{2} mm\"\nheight = \"4 "
+                       "mm\"\n[part.{0}.mesh]\nacross = {3}\n",
+                       name, at, radius, across);
+  };
+  for (const double wider : {0.0, 0.005}) {
+    const Run pressed =
+        run("model = \"axisymmetric\"\n" + disc("lower", "0 mm", 10 + wider, 3) +
+                disc("upper", "4.02 mm", 10, 2) +
+                "[contact]\nthickness = \"10 um\"\nbetween = [\"upper.bottom\", \"lower.top\"]\n"
+                "[[support]]\nplace = \"lower.bottom\"\nfix = [\"z\"]\n"
+                "[[support]]\nplace = \"upper.top\"\ndisplacement = { z = \"-0.5 mm\" }\n"
+                "[[step]]\nkind = \"move\"\n[output]\nerror_estimate = false\n"
+                "[[quantity]]\nname = \"held\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"z\"\n",
+            "held");
+    if (wider == 0) {
+      EXPECT_EQ(pressed.outcome.kind, "limit point");
+      EXPECT_NE(pressed.outcome.message.find("reach over the other by contact.thickness"), std::string::npos)
+          << pressed.outcome.message;
+    } else {
+      EXPECT_EQ(pressed.outcome.ending, Ending::complete) << pressed.outcome.message;
+    }
+  }
+}
+
 /// What moves without strain is on no other path: increments are as long as they are asked for.
 TEST_F(Contacts, let_a_solid_come_near_without_strain) {
   std::string text = two_blocks(0.5);

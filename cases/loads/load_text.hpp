@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/model/model.hpp"
+#include "fem/paths/load_path.hpp"
+
+#include <string>
+
+namespace dielast::cases {
+
+/// The loads of a state at s of a path, as a person would name them: that which has changed most since the
+/// beginning, in a timed step since the moment before it.
+std::string load_text(const fem::Model& model, const fem::LoadPath& path, const fem::State& at, double s,
+                      bool timed);
+
+} // namespace dielast::cases
