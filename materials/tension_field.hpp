@@ -2,6 +2,7 @@
 #pragma once
 
 #include "materials/laws/plane_stress.hpp"
+#include "materials/laws/small_matrices.hpp"
 
 #include <Eigen/Dense>
 
@@ -64,12 +65,13 @@ inline Smallest smallest(const Eigen::Matrix2d& S) {
 /// Newton step -D^-1 g, with concave directions turned downhill.
 template<int N>
 Eigen::Vector<double, N> downhill(const Eigen::Matrix<double, N, N>& D, const Eigen::Vector<double, N>& g) {
-  const Eigen::LLT<Eigen::Matrix<double, N, N>> convex(D);
-  if (convex.info() == Eigen::Success) return -convex.solve(g);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> eigen(D);
-  const auto stiffness = eigen.eigenvalues().cwiseAbs().eval();
-  return -eigen.eigenvectors() * (eigen.eigenvectors().transpose() * g)
-                                     .cwiseQuotient(stiffness.cwiseMax(1e-9 * stiffness.maxCoeff()));
+  if (const auto L = cholesky_factor(D)) {
+    const auto lower = L->template triangularView<Eigen::Lower>();
+    return -lower.transpose().solve(lower.solve(g));
+  }
+  const auto [values, axes] = symmetric_eigen(D);
+  const Eigen::Vector<double, N> stiffness = values.cwiseAbs();
+  return -axes * (axes.transpose() * g).cwiseQuotient(stiffness.cwiseMax(1e-9 * stiffness.maxCoeff()));
 }
 
 /// A wider film, or none where no finite width will do: `found` is false.

@@ -2,6 +2,7 @@
 #include "materials/branches/solid_branch.hpp"
 
 #include "materials/laws/principal_energy.hpp"
+#include "materials/laws/small_matrices.hpp"
 
 #include <Eigen/Dense>
 
@@ -26,9 +27,9 @@ struct Frame {
 
   /// From any root of G: root root^T.
   Frame(const Matrix3& C, const Matrix3& root) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(Matrix3(root.transpose() * C * root));
-    T = root * eigen.eigenvectors();
-    b = eigen.eigenvalues();
+    const SymmetricEigen<3> eigen = symmetric_eigen<3>(root.transpose() * C * root);
+    T = root * eigen.vectors;
+    b = eigen.values;
   }
   /// T^T dC T, in components, from dC, in components.
   Matrix6 turn() const {
@@ -96,20 +97,17 @@ struct Settled {
 Settled settle(const ElasticLaw& law, const Flow& flow, const Matrix3& C, Frame frame) {
   StepPotential at = step_potential(principal_energy(law, frame.b), flow, frame);
   for (int iteration = 0; iteration < 60 && std::isfinite(at.value); ++iteration) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(at.second);
-    const Vector6& stiffness = eigen.eigenvalues();
+    const auto [stiffness, axes] = symmetric_eigen(at.second);
     const double scale = stiffness.cwiseAbs().maxCoeff();
     // Concave directions are turned downhill.
-    Vector6 step = -(eigen.eigenvectors() * (eigen.eigenvectors().transpose() * at.first)
-                                                .cwiseQuotient(stiffness.cwiseAbs().cwiseMax(1e-6 * scale)));
+    Vector6 step =
+        -(axes * (axes.transpose() * at.first).cwiseQuotient(stiffness.cwiseAbs().cwiseMax(1e-6 * scale)));
     // Convergence is quadratic: from an error of 1e-8 one more step reaches the last digits.
     const bool last = stiffness[0] > 0 && -at.first.dot(step) <= 1e-16 * scale;
     for (int halving = 0; halving < 40; ++halving, step /= 2) {
       const Matrix3 X{{step[0], step[3], step[5]}, {step[3], step[1], step[4]}, {step[5], step[4], step[2]}};
-      const Eigen::SelfAdjointEigenSolver<Matrix3> axes(X);
-      const Matrix3 grow = axes.eigenvectors() *
-                           (axes.eigenvalues() / 2).array().exp().matrix().asDiagonal() *
-                           axes.eigenvectors().transpose();
+      const auto [logarithms, Q] = symmetric_eigen(X);
+      const Matrix3 grow = Q * (logarithms / 2).array().exp().matrix().asDiagonal() * Q.transpose();
       const Frame there(C, frame.T * grow);
       const StepPotential trial = step_potential(principal_energy(law, there.b), flow, there);
       if (!(trial.value <= at.value + 1e-14 * scale)) continue;
@@ -126,9 +124,12 @@ Matrix3 tensor(const SolidInternal& y) {
   return Matrix3{{y[0], y[3], y[5]}, {y[3], y[1], y[4]}, {y[5], y[4], y[2]}};
 }
 
-/// A root of Cv^-1, scaled to unit determinant.
+/// A root of Cv^-1, scaled to unit determinant; not a number where there is none, so that nothing is found
+/// from there.
 Matrix3 inverse_root(const Matrix3& Cv) {
-  const Matrix3 root = Cv.llt().matrixU().solve(Matrix3::Identity());
+  const auto L = cholesky_factor(Cv);
+  if (!L) return Matrix3::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Matrix3 root = L->inverse().transpose();
   return root / std::cbrt(root.determinant());
 }
 
@@ -138,7 +139,7 @@ Flow flow_over(const Branch& branch, const TimeScheme& scheme, const SolidIntern
   const Flow euler{weight, tensor(now)};
   if (scheme.h2 == 0) return euler;
   const Matrix3 H = scheme.h1 * tensor(now) + scheme.h2 * tensor(before);
-  return H.llt().info() == Eigen::Success ? Flow{weight, H} : euler;
+  return cholesky_factor(H) ? Flow{weight, H} : euler;
 }
 
 /// Starts where a neo-Hookean branch would end, Cv ~ H + dt mu/eta Cbar, or, where the law cannot be there,
@@ -187,7 +188,10 @@ SolidPotential condensed(const ElasticLaw& law, const Flow& flow, const Settled&
     const auto [i, j] = solid_components[static_cast<std::size_t>(a)];
     mixed(a, a) = 2 * W.difference(i, j);
   }
-  potential.second -= mixed.transpose() * step.second.ldlt().solve(mixed);
+  const Eigen::LDLT<Matrix6> stiffness(step.second);
+  Matrix6 follows; // column by column: many at once take the compiler longer
+  for (int a = 0; a < 6; ++a) follows.col(a) = stiffness.solve(mixed.col(a));
+  potential.second -= mixed.transpose() * follows;
   return turned(potential, frame);
 }
 

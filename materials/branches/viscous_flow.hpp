@@ -3,6 +3,7 @@
 
 #include "materials/branches/neo_hookean_branch.hpp"
 #include "materials/branches/time_scheme.hpp"
+#include "materials/laws/small_matrices.hpp"
 
 #include <Eigen/Dense>
 
@@ -190,10 +191,9 @@ Settled<Flow> settle(const Law& law, const Flow& flow, const InPlaneC<double>& C
     if (convex) {
       step = -(curvature.inverse() * slope);
     } else { // far from the minimum: turn the concave directions downhill
-      const Eigen::SelfAdjointEigenSolver<Matrix> eigen(curvature);
-      const double least = 1e-6 * eigen.eigenvalues().cwiseAbs().maxCoeff();
-      const Vector stiffness = eigen.eigenvalues().cwiseAbs().cwiseMax(least);
-      step = -eigen.eigenvectors() * (eigen.eigenvectors().transpose() * slope).cwiseQuotient(stiffness);
+      const auto [values, axes] = symmetric_eigen(curvature);
+      const Vector stiffness = values.cwiseAbs().cwiseMax(1e-6 * values.cwiseAbs().maxCoeff());
+      step = -axes * (axes.transpose() * slope).cwiseQuotient(stiffness);
     }
     // Convergence is quadratic: from a relative error of 1e-8 one more step reaches the last digits.
     const double scale = y.dot(curvature * y);

@@ -3,6 +3,7 @@
 
 #include "materials/laws/dual.hpp"
 #include "materials/laws/power_sum.hpp"
+#include "materials/laws/small_matrices.hpp"
 
 #include <Eigen/Dense>
 
@@ -56,9 +57,8 @@ Scalar third_invariant(const Eigen::Matrix3d& C, Derivatives wanted) {
 }
 
 /// tr C^p: its derivatives are p C^(p-1) and the divided differences of p x^(p-1) in the principal axes.
-Scalar power_trace(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& principal, double p) {
-  const Eigen::Vector3d& c = principal.eigenvalues();
-  const Eigen::Matrix3d& Q = principal.eigenvectors();
+Scalar power_trace(const SymmetricEigen<3>& principal, double p) {
+  const auto& [c, Q] = principal;
   Eigen::Matrix3d differences;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -158,7 +158,7 @@ SolidPotential potential_of(const Law& law, const Eigen::Matrix3d& C, double bul
 SolidPotential potential_of(const Ogden& law, const Eigen::Matrix3d& C, double bulk_modulus,
                             Derivatives /*all*/) {
   using Dual2 = Dual<2>;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(C);
+  const SymmetricEigen<3> principal = symmetric_eigen(C);
   const Scalar I3 = third_invariant(C, Derivatives::second);
   const Dual2 det = Dual2::variable(I3.value, 1);
   SolidPotential sum = compose<2>(volumetric(bulk_modulus, det),
