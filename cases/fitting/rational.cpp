@@ -2,9 +2,8 @@
 #include "cases/fitting/rational.hpp"
 
 #include "cases/fitting/fit_statistics.hpp"
+#include "fem/algebra/dense_algebra.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
@@ -129,7 +128,7 @@ std::vector<Complex> roots(const VectorXd& c) {
   MatrixXd companion = MatrixXd::Zero(n, n);
   companion.diagonal(-1).setOnes();
   companion.col(n - 1) = -c.head(n) / c[n];
-  const VectorXcd values = companion.eigenvalues();
+  const VectorXcd values = fem::eigenvalues(companion);
   std::vector<Complex> all(values.begin(), values.end());
   std::ranges::sort(all, {}, [](const Complex& z) { return std::pair(std::abs(z), z.imag()); });
   return all;
@@ -196,7 +195,7 @@ VectorXd rational_start(const FrequencyTable& table, const RationalOrder& order,
       }
     }
     const VectorXd size = A.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
-    q = (A * size.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(b).cwiseQuotient(size);
+    q = fem::least_squares(A * size.cwiseInverse().asDiagonal(), b).cwiseQuotient(size);
     VectorXd denominator(order.poles + 1);
     denominator << q.tail(order.poles), 1;
     for (Index i = 0; i < rows; ++i)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/quantities/film_values.hpp"
 
+#include "fem/algebra/dense_algebra.hpp"
 #include "fem/films/film_points.hpp"
 #include "fem/films/meridian.hpp"
 #include "fem/films/triangle.hpp"
 #include "fem/solids/tetrahedron.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <map>
@@ -81,9 +81,8 @@ Eigen::MatrixXd continued(CellType type, int points, const Eigen::MatrixXd& loca
     if (points > 1) linear.rightCols(at.cols()) = at;
     return linear;
   };
-  return basis(local) * basis(local_points(type, points))
-                            .colPivHouseholderQr()
-                            .solve(Eigen::MatrixXd::Identity(points, points));
+  return basis(local) *
+         fem::least_squares(basis(local_points(type, points)), Eigen::MatrixXd::Identity(points, points));
 }
 
 /// The integration points of an element among the samples; films of a case may have different rules.

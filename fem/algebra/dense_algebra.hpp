@@ -35,6 +35,9 @@ SingularValues singular_values(const Eigen::MatrixXd& A);
 /// Lower triangular L with L L^T = A, A positive definite.
 Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& A);
 
+/// The x with the least |A x - b|, by columns.
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
+
 /// A^-1 b.
 Eigen::MatrixXcd solve_dense(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);
 

@@ -19,15 +19,16 @@ constexpr double round_off =
 /// 1972).
 Eigen::MatrixXd gramian_root(const ComplexSchur& schur, const Eigen::MatrixXd& F) {
   const auto& [T, U] = schur;
-  const Eigen::MatrixXcd G = U.adjoint() * F;
-  Eigen::MatrixXcd Y = -G * G.adjoint();
+  // Products of plain complex matrices all: every other pair of factors takes the compiler seconds.
+  const Eigen::MatrixXcd U_H = U.adjoint(), G = U_H * F.cast<std::complex<double>>(), G_H = G.adjoint();
+  Eigen::MatrixXcd Y = -(G * G_H);
   for (Eigen::Index j = T.rows() - 1; j >= 0; --j) {
     for (Eigen::Index k = j + 1; k < T.rows(); ++k) Y.col(j) -= std::conj(T(j, k)) * Y.col(k);
     Eigen::MatrixXcd shifted = T;
     shifted.diagonal().array() += std::conj(T(j, j));
     Y.col(j) = shifted.triangularView<Eigen::Upper>().solve(Y.col(j)).eval();
   }
-  const Eigen::MatrixXd X = (U * Y * U.adjoint()).real();
+  const Eigen::MatrixXd X = (U * Y * U_H).real();
   const SymmetricEigen eigen = symmetric_eigen((X + X.transpose()) / 2);
   return eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }

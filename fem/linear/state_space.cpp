@@ -98,7 +98,7 @@ struct Linear {
 Eigen::MatrixXcd StateSpace::transfer(std::complex<double> s) const {
   Eigen::MatrixXcd resolvent = -A.cast<std::complex<double>>();
   resolvent.diagonal().array() += s;
-  return C * solve_dense(resolvent, B.cast<std::complex<double>>()) + D;
+  return C.cast<std::complex<double>>() * solve_dense(resolvent, B.cast<std::complex<double>>()) + D;
 }
 
 StateSpace state_space(Equilibrium& equilibrium, const State& state, const Channels& channels,

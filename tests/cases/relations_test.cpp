@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/readers/reader.hpp"
 #include "cases/runs/simulation.hpp"
+#include "fem/algebra/dense_algebra.hpp"
 #include "meshing/rings.hpp"
 #include "tests/cases/own_mesh.hpp"
 #include "tests/cases/scratch.hpp"
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -203,7 +203,7 @@ std::complex<double> amplitude(const std::vector<double>& times, const std::vect
       A(r, c) = rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
     b[r] = rows[static_cast<std::size_t>(r)][3];
   }
-  const Eigen::VectorXd x = A.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd x = fem::least_squares(A, b);
   return {x[1], -x[2]};
 }
 
