@@ -14,24 +14,23 @@
 
 namespace dielast::fem {
 
-/// Membrane elements of one kinematics and one law, `lanes` at a time.
+/// Membrane elements of one kinematics, `lanes` at a time; FilmOfLaw says how the law is evaluated.
 /// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see FilmResponse), where
 /// that is a sheet by the voltages of its corners: k = eps sum_a N_a (V_a/H)^2 with N_a linear (see
 /// SheetPoint). Covers that are bonded to the layers deform and wrinkle as these do: H and Psi are those of
 /// the whole section, of which only a part has the field. Stresses are means over the section. A point's
 /// volume is that of the film, of a full turn where it is a film of revolution.
-template<class Kinematics, class Law>
-class MembraneBlock final : public FilmPoints {
+template<class Kinematics>
+class FilmBlock : public FilmPoints {
  public:
-  MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells, const MembraneSection& section,
-                Law law, std::vector<int> electrodes, int integration_points, std::vector<int> numbers);
+  FilmBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells, const MembraneSection& section,
+            std::vector<int> electrodes, int integration_points, std::vector<int> numbers);
 
   int element_count() const override { return count_; }
   int dofs_per_element() const override { return dofs; }
   int granularity() const override { return lanes; }
   void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
-  Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
   void sample_points(const State& state, Samples& samples) const override;
   void add_mass(int element, std::span<double> packed) const override;
   void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
@@ -45,6 +44,13 @@ class MembraneBlock final : public FilmPoints {
   void place_history(int first) override { film_.place_history(first, count_ * points_); }
   void start_history(std::vector<double>& all) const override { film_.start_history(count_ * points_, all); }
   void advance_history(const State& state, std::vector<double>& all) const override;
+
+ protected:
+  /// `simple(C, k)`: FilmResponse::simple() of a pack.
+  template<bool with_tangent, class Simple>
+  Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter,
+                            const Simple& simple) const;
+  const FilmResponse& film() const { return film_; }
 
  private:
   static constexpr int Nodes = Kinematics::nodes, Dim = Kinematics::dim, Corners = Kinematics::corners;
@@ -71,9 +77,10 @@ class MembraneBlock final : public FilmPoints {
   double voltage(const State& state, int element, int point) const;
   /// As if the field were in the covers, too.
   double permittivity() const { return film_.dielectric().permittivity / section_.bulk(); }
-  /// Psi over the elements of a pack; `lost`: a wrinkled film that the field pulls wider without limit.
-  Potential potential(const State& state, int pack, int point, const materials::InPlaneC<Lanes>& C,
-                      const Lanes& k, bool& lost) const;
+  /// Psi over the elements of a pack, `psi` what it is without branches and wrinkles; `lost`: a wrinkled film
+  /// that the field pulls wider without limit.
+  void resolve(const State& state, int pack, int point, const materials::InPlaneC<Lanes>& C, const Lanes& k,
+               Potential& psi, bool& lost) const;
   /// One integration point of one element, as everything but the assembly sees it.
   struct Visit {
     int element;
@@ -87,10 +94,7 @@ class MembraneBlock final : public FilmPoints {
   };
   template<class Visitor>
   void for_each_point(const State& state, const Visitor& visit) const;
-  template<bool with_tangent>
-  Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const;
-
-  FilmResponse<Law> film_;
+  FilmResponse film_;
   MembraneSection section_;
   int count_ = 0, points_ = 0;
   std::vector<int> nodes_;      ///< padded to whole packs by repeating the last element
@@ -102,12 +106,11 @@ class MembraneBlock final : public FilmPoints {
   std::vector<typename Kinematics::Rule> rule_;
 };
 
-template<class Kinematics, class Law>
-MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
-                                              const MembraneSection& section, Law law,
-                                              std::vector<int> electrodes, int integration_points,
-                                              std::vector<int> numbers)
-    : FilmPoints(section.sampled), film_(std::move(law), section), section_(section), count_(cells.size()),
+template<class Kinematics>
+FilmBlock<Kinematics>::FilmBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
+                                 const MembraneSection& section, std::vector<int> electrodes,
+                                 int integration_points, std::vector<int> numbers)
+    : FilmPoints(section.sampled), film_(section), section_(section), count_(cells.size()),
       points_(integration_points), nodes_(cells.nodes), electrodes_(std::move(electrodes)),
       numbers_(std::move(numbers)), reference_(mesh.nodes), rule_(Kinematics::rule(integration_points)) {
   const int packs = (count_ + lanes - 1) / lanes;
@@ -132,8 +135,8 @@ MembraneBlock<Kinematics, Law>::MembraneBlock(const meshing::Mesh& mesh, const m
 }
 
 /// Consistent: rho H int N_a N_b dA.
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::add_mass(int element, std::span<double> packed) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::add_mass(int element, std::span<double> packed) const {
   for (const auto& place : Kinematics::places(drawn(element), section_, Kinematics::mass_points))
     for (int a = 0; a < Nodes; ++a)
       for (int b = 0; b <= a; ++b) {
@@ -146,22 +149,22 @@ void MembraneBlock<Kinematics, Law>::add_mass(int element, std::span<double> pac
       }
 }
 
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::claim_dofs(DofMap& dof_map, Dimension /*the kinematics say it*/) {
+template<class Kinematics>
+void FilmBlock<Kinematics>::claim_dofs(DofMap& dof_map, Dimension /*the kinematics say it*/) {
   for (const int n : nodes_)
     for (int d = 0; d < Dim; ++d) dof_map.add(n, component(d));
 }
 
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::element_equations(int element, const DofMap& dof_map,
-                                                       std::span<int> equations) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::element_equations(int element, const DofMap& dof_map,
+                                              std::span<int> equations) const {
   for (int a = 0; a < Nodes; ++a)
     for (int d = 0; d < Dim; ++d)
       equations[static_cast<std::size_t>(a * Dim + d)] = dof_map.equation(node(element, a), component(d));
 }
 
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::gather(const State& state, int pack, Lanes (&x)[Nodes][Dim]) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::gather(const State& state, int pack, Lanes (&x)[Nodes][Dim]) const {
   for (int a = 0; a < Nodes; ++a)
     for (int d = 0; d < Dim; ++d)
       x[a][d] = lanes_of([&](int l) {
@@ -170,8 +173,8 @@ void MembraneBlock<Kinematics, Law>::gather(const State& state, int pack, Lanes 
       });
 }
 
-template<class Kinematics, class Law>
-Lanes MembraneBlock<Kinematics, Law>::electric_modulus(const State& state, int pack) const {
+template<class Kinematics>
+Lanes FilmBlock<Kinematics>::electric_modulus(const State& state, int pack) const {
   Lanes k{};
   for (int l = 0; l < lanes; ++l) {
     const int electrode = electrodes_[static_cast<std::size_t>(pack * lanes + l)];
@@ -182,8 +185,8 @@ Lanes MembraneBlock<Kinematics, Law>::electric_modulus(const State& state, int p
   return k;
 }
 
-template<class Kinematics, class Law>
-Lanes MembraneBlock<Kinematics, Law>::under_sheets(const State& state, int pack, int point, Lanes k) const {
+template<class Kinematics>
+Lanes FilmBlock<Kinematics>::under_sheets(const State& state, int pack, int point, Lanes k) const {
   for (int l = 0; l < lanes; ++l) {
     const int element = pack * lanes + l;
     if (!sheets_.points(element)) continue;
@@ -195,20 +198,17 @@ Lanes MembraneBlock<Kinematics, Law>::under_sheets(const State& state, int pack,
 }
 
 /// Phi at a point of an element, 0 under no electrode, V.
-template<class Kinematics, class Law>
-double MembraneBlock<Kinematics, Law>::voltage(const State& state, int element, int point) const {
+template<class Kinematics>
+double FilmBlock<Kinematics>::voltage(const State& state, int element, int point) const {
   const int electrode = electrodes_[static_cast<std::size_t>(element)];
   if (electrode == passive) return 0;
   return sheets_.voltage(state, element, point, state.voltage[static_cast<std::size_t>(electrode)]);
 }
 
-template<class Kinematics, class Law>
-[[gnu::always_inline]] inline typename MembraneBlock<Kinematics, Law>::Potential
-MembraneBlock<Kinematics, Law>::potential(const State& state, int pack, int point,
-                                          const materials::InPlaneC<Lanes>& C, const Lanes& k,
-                                          bool& lost) const {
-  Potential psi = film_.simple(C, k);
-  if (film_.is_simple()) return psi;
+template<class Kinematics>
+void FilmBlock<Kinematics>::resolve(const State& state, int pack, int point,
+                                    const materials::InPlaneC<Lanes>& C, const Lanes& k, Potential& psi,
+                                    bool& lost) const {
   materials::TensionField field{}; // that of the lane before holds for triangles of a patch
   for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
     const int here = (pack * lanes + l) * points_ + point;
@@ -217,12 +217,11 @@ MembraneBlock<Kinematics, Law>::potential(const State& state, int pack, int poin
     lost |= field.tension == materials::Tension::lost;
     set_lane(psi, l, field.potential);
   }
-  return psi;
 }
 
-template<class Kinematics, class Law>
+template<class Kinematics>
 template<class Visitor>
-void MembraneBlock<Kinematics, Law>::for_each_point(const State& state, const Visitor& visit) const {
+void FilmBlock<Kinematics>::for_each_point(const State& state, const Visitor& visit) const {
   std::vector<Point> points(static_cast<std::size_t>(points_));
   std::vector<Deformation> of_pack(points.size());
   for (int pack = 0; pack * lanes < count_; ++pack) {
@@ -244,10 +243,10 @@ void MembraneBlock<Kinematics, Law>::for_each_point(const State& state, const Vi
   }
 }
 
-template<class Kinematics, class Law>
-template<bool with_tangent>
-Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, int first, int last,
-                                                          const Scatter& scatter) const {
+template<class Kinematics>
+template<bool with_tangent, class Simple>
+Evaluation FilmBlock<Kinematics>::evaluate_packs(const State& state, int first, int last,
+                                                 const Scatter& scatter, const Simple& simple) const {
   Evaluation result{.convex = with_tangent};
   Lanes energy{};
   LaneMask upright = Lanes{} == 0.0;
@@ -262,8 +261,9 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
       const Deformation d = Kinematics::deformation(x, point);
       upright &= Kinematics::orientation(d) > 0;
       bool lost = false;
-      const Potential stored =
-          potential(state, pack, p, d.C, varies ? under_sheets(state, pack, p, k) : k, lost);
+      const Lanes here = varies ? under_sheets(state, pack, p, k) : k;
+      Potential stored = simple(d.C, here);
+      if (!film_.is_simple()) resolve(state, pack, p, d.C, here, stored, lost);
       if (lost) result.feasible = false;
       energy += point.volume * stored.value;
       const WeightedStress stress(point.volume, stored);
@@ -282,16 +282,9 @@ Evaluation MembraneBlock<Kinematics, Law>::evaluate_packs(const State& state, in
   return result;
 }
 
-template<class Kinematics, class Law>
-Evaluation MembraneBlock<Kinematics, Law>::evaluate(const State& state, int first, int last,
-                                                    const Scatter& scatter) const {
-  return scatter.tangent ? evaluate_packs<true>(state, first, last, scatter)
-                         : evaluate_packs<false>(state, first, last, scatter);
-}
-
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::add_relaxation(const State& state, const RateWeight& weight,
-                                                    const Scatter& scatter) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::add_relaxation(const State& state, const RateWeight& weight,
+                                           const Scatter& scatter) const {
   if (history_size() == 0) return;
   for (int pack = 0; pack * lanes < count_; ++pack) {
     Lanes x[Nodes][Dim];
@@ -313,8 +306,8 @@ void MembraneBlock<Kinematics, Law>::add_relaxation(const State& state, const Ra
   }
 }
 
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::sample_points(const State& state, Samples& samples) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::sample_points(const State& state, Samples& samples) const {
   samples.film.reserve(samples.film.size() + static_cast<std::size_t>(count_ * points_));
   for_each_point(state, [&](const Visit& at) {
     const materials::TensionField field = film_.resolve(state, at.point, at.C, at.k);
@@ -334,9 +327,8 @@ void MembraneBlock<Kinematics, Law>::sample_points(const State& state, Samples& 
   });
 }
 
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::add_charges(const State& state, const DofMap* dof_map,
-                                                 Charges& charges) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::add_charges(const State& state, const DofMap* dof_map, Charges& charges) const {
   for_each_point(state, [&](const Visit& at) {
     const int electrode = electrodes_[static_cast<std::size_t>(at.element)];
     if (electrode == passive) return;
@@ -362,8 +354,8 @@ void MembraneBlock<Kinematics, Law>::add_charges(const State& state, const DofMa
 }
 
 /// The current flows along the film itself, wrinkles included.
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::add_sheets(const State& state, SheetMatrices& matrices) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::add_sheets(const State& state, SheetMatrices& matrices) const {
   if (sheets_.empty()) return;
   std::vector<FilmPlace<Nodes, Corners>> places;
   for_each_point(state, [&](const Visit& at) {
@@ -378,8 +370,8 @@ void MembraneBlock<Kinematics, Law>::add_sheets(const State& state, SheetMatrice
   });
 }
 
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::add_energies(const State& state, EnergyParts& parts) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::add_energies(const State& state, EnergyParts& parts) const {
   for_each_point(state, [&](const Visit& at) {
     const EnergyParts density =
         film_.energies(state, at.point, film_.shape(state, at.point, at.C, at.k), at.C);
@@ -391,8 +383,8 @@ void MembraneBlock<Kinematics, Law>::add_energies(const State& state, EnergyPart
   });
 }
 
-template<class Kinematics, class Law>
-void MembraneBlock<Kinematics, Law>::advance_history(const State& state, std::vector<double>& all) const {
+template<class Kinematics>
+void FilmBlock<Kinematics>::advance_history(const State& state, std::vector<double>& all) const {
   if (film_.history_size(1) == 0) return;
   for_each_point(state, [&](const Visit& at) {
     if (film_.repeats(state, at.point, points_, at.deformation.C, at.lane, all)) return;

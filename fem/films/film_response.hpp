@@ -4,15 +4,11 @@
 #include "fem/films/lanes.hpp"
 #include "fem/films/membrane_section.hpp"
 #include "fem/model/element_block.hpp"
-#include "fem/model/relaxation.hpp"
-#include "materials/branches/branch.hpp"
-#include "materials/laws/plane_stress.hpp"
 #include "materials/tension_field.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <stdexcept>
 #include <tuple>
+#include <variant>
+#include <vector>
 
 namespace dielast::fem {
 
@@ -20,35 +16,23 @@ namespace dielast::fem {
 /// internal variables, the field, and wrinkling, composed into one potential
 ///   Psi(C) = W(C) + sum_b Psi_b(C; history) - (k/2) e(C) det C,
 /// relaxed where wrinkles carry no compression. Per undeformed volume, at one point numbered `point`.
-template<class Law>
 class FilmResponse {
  public:
   using C = materials::InPlaneC<double>;
   using Potential = materials::MembranePotential<double>;
 
-  FilmResponse(Law law, const MembraneSection& section)
-      : law_(std::move(law)), material_(materials::with_dashpot(section.material)),
-        tension_field_(section.tension_field) {}
+  explicit FilmResponse(const MembraneSection& section)
+      : material_(materials::with_dashpot(section.material)), tension_field_(section.tension_field) {}
 
   /// True when Psi depends on C and k alone, through the law and the field: several points may then be
   /// computed at once by simple().
   bool is_simple() const { return material_.branches.empty() && !tension_field_; }
-  template<class T>
-  materials::MembranePotential<T> simple(const materials::InPlaneC<T>& at, const T& k) const {
-    return materials::membrane_potential(law_, material_.dielectric, at, k);
-  }
+  Potential simple(const C& at, double k) const;
+  materials::MembranePotential<Lanes> simple(const materials::InPlaneC<Lanes>& at, const Lanes& k) const;
 
   /// The potential with its state of tension; `simple`: simple(at, k), known already.
   materials::TensionField resolve(const State& state, int point, const C& at, double k,
-                                  const Potential& simple) const {
-    const Potential taut = with_branches(state, point, at, simple);
-    if (!tension_field_) return {tension_of(taut), taut, at};
-    materials::TensionField field = materials::relax(
-        [&](const C& wider) { return with_branches(state, point, wider, this->simple(wider, k)); }, at, taut);
-    if (wrinkles(field))
-      field.potential = sum(scaled(field.potential, 1 - regularisation), scaled(taut, regularisation));
-    return field;
-  }
+                                  const Potential& simple) const;
   materials::TensionField resolve(const State& state, int point, const C& at, double k) const {
     return resolve(state, point, at, k, simple(at, k));
   }
@@ -65,100 +49,36 @@ class FilmResponse {
     double value;
     Eigen::Vector3d slope;
   };
-  ChargeDensity charge_density(const materials::TensionField& field, const C& at) const {
-    const auto of = [&](const C& film) {
-      const auto q = materials::capacitance_ratio(material_.dielectric, film.trace(), film.det());
-      return ChargeDensity{q.value, {q.dT + q.dD * film.C22, q.dT + q.dD * film.C11, -2.0 * q.dD * film.C12}};
-    };
-    const ChargeDensity natural = of(field.natural);
-    if (!wrinkles(field)) return natural;
-    const ChargeDensity taut = of(at);
-    return {(1 - regularisation) * natural.value + regularisation * taut.value,
-            (1 - regularisation) * (field.carry * natural.slope) + regularisation * taut.slope};
-  }
+  ChargeDensity charge_density(const materials::TensionField& field, const C& at) const;
 
   /// Densities, per undeformed volume; `electric` stays 0: it follows from the charges.
   EnergyParts energies(const State& state, int point, const materials::TensionField& field,
-                       const C& at) const {
-    EnergyParts parts;
-    const double share = wrinkles(field) ? regularisation : 0;
-    if (share > 0) parts.regularised = share * simple(at, 0.0).value;
-    parts.elastic = (1 - share) * simple(field.natural, 0.0).value + parts.regularised;
-    for (int b = 0; b < branches(); ++b) {
-      const auto& branch = material_.branches[static_cast<std::size_t>(b)];
-      const materials::BranchPower power =
-          materials::branch_power(branch, field.natural, read(state.history->now, place(point, b)));
-      parts.branches += power.stored;
-      parts.dissipation += power.dissipation;
-    }
-    return parts;
-  }
+                       const C& at) const;
 
   /// Second derivatives sum_j weight(rate_j) w_j w_j^T over the branches, see relaxation_spectrum().
-  Potential relaxation(const State& state, int point, const C& at, double k, const RateWeight& weight) const {
-    if (wrinkles(shape(state, point, at, k)))
-      throw std::domain_error("wrinkled film with branches cannot be linearised");
-    Potential psi{};
-    for (int b = 0; b < branches(); ++b) {
-      const auto& branch = material_.branches[static_cast<std::size_t>(b)];
-      const materials::Internal now = read(state.history->now, place(point, b));
-      if (!is_relaxed(branch, at, now))
-        throw std::domain_error("branches cannot be linearised while their dashpots flow");
-      const RelaxationSpectrum<3> spectrum = relaxation_spectrum(branch, at, now);
-      for (int j = 0; j < spectrum.count; ++j) {
-        const auto& [w, rate] = spectrum.element[static_cast<std::size_t>(j)];
-        const double factor = weight(rate);
-        for (std::size_t p = 0; p < psi.second.size(); ++p)
-          psi.second[p] += factor * w[materials::component_pairs[p][0]] * w[materials::component_pairs[p][1]];
-      }
-    }
-    return psi;
-  }
+  Potential relaxation(const State& state, int point, const C& at, double k, const RateWeight& weight) const;
 
   /// Whether a point in lane l is deformed like one in the lane before, and has the same past, to the last
   /// bit.
-  bool alike(const State& state, int before, int point, const materials::InPlaneC<Lanes>& at, int l) const {
-    if (at.C11[l] != at.C11[l - 1] || at.C22[l] != at.C22[l - 1] || at.C12[l] != at.C12[l - 1]) return false;
-    const auto same = [&](const std::vector<double>& all) {
-      const auto of = [&](int p) { return all.begin() + static_cast<std::ptrdiff_t>(place(p, 0)); };
-      return all.empty() || branches() == 0 ||
-             std::equal(of(before), of(before) + history_size(1), of(point));
-    };
-    return !state.history || (same(state.history->now) && same(state.history->before));
-  }
+  bool alike(const State& state, int before, int point, const materials::InPlaneC<Lanes>& at, int l) const;
 
+  template<class Law>
+  const Law& law() const {
+    return std::get<Law>(material_.law);
+  }
   const materials::Dielectric& dielectric() const { return material_.dielectric; }
 
   // --- internal variables: branch by branch, point by point
   int history_size(int points) const { return points * branches() * per_branch; }
   /// `points`: of which what the branches do is kept until they are deformed otherwise; none with a tension
   /// field.
-  void place_history(int first, int points = 0) {
-    first_ = first;
-    if (branches() > 0 && !tension_field_)
-      kept_.assign(static_cast<std::size_t>(points * kept_size()), std::numeric_limits<double>::quiet_NaN());
-  }
-  void start_history(int points, std::vector<double>& all) const {
-    for (int p = 0; p < points; ++p)
-      for (int b = 0; b < branches(); ++b) write(all, place(p, b), materials::undeformed());
-  }
+  void place_history(int first, int points = 0);
+  void start_history(int points, std::vector<double>& all) const;
   void advance_history(const State& state, int point, const materials::TensionField& field,
-                       std::vector<double>& all) const {
-    for (int b = 0; b < branches(); ++b) {
-      const std::size_t i = place(point, b);
-      write(all, i,
-            materials::advance(material_.branches[static_cast<std::size_t>(b)], field.natural, state.scheme,
-                               read(state.history->now, i), read(state.history->before, i)));
-    }
-  }
+                       std::vector<double>& all) const;
   /// Where the point `points` before it, in the lane before, is alike and has advanced, so does this one.
   bool repeats(const State& state, int point, int points, const materials::InPlaneC<Lanes>& at, int l,
-               std::vector<double>& all) const {
-    if (tension_field_ || l == 0 || !alike(state, point - points, point, at, l)) return false;
-    const auto of = [&](int p) { return all.begin() + static_cast<std::ptrdiff_t>(place(p, 0)); };
-    std::copy_n(of(point - points), history_size(1), of(point));
-    return true;
-  }
+               std::vector<double>& all) const;
 
  private:
   /// What is left of the taut film's potential where it wrinkles, to keep the tangent regular.
@@ -169,75 +89,14 @@ class FilmResponse {
   std::size_t place(int point, int branch) const {
     return static_cast<std::size_t>(first_ + (point * branches() + branch) * per_branch);
   }
-  static materials::Internal read(const std::vector<double>& all, std::size_t place) {
-    if (all.empty()) return {}; // no such past: its weight is 0
-    return {all[place], all[place + 1], all[place + 2]};
-  }
-  Potential with_branches(const State& state, int point, const C& at, const Potential& psi) const {
-    if (branches() == 0) return psi;
-    if (kept_.empty()) return sum(psi, of_branches(state, point, at));
-    // The tangent is asked for where the residual was: what the branches do is kept with all that it depends
-    // on. A thread has its own points.
-    const materials::TimeScheme& scheme = state.scheme;
-    const std::array<double, 7> given{at.C11, at.C22, at.C12, scheme.dt, scheme.a0, scheme.h1, scheme.h2};
-    const int past = history_size(1);
-    const auto begin = static_cast<std::ptrdiff_t>(place(point, 0));
-    const auto now = state.history->now.begin() + begin;
-    const bool remembers = scheme.h2 != 0;
-    const auto before = remembers ? state.history->before.begin() + begin : now;
-    double* const kept = kept_.data() + static_cast<std::ptrdiff_t>(point) * kept_size();
-    double* const known = kept + given.size() + 2 * past;
-    if (!(std::equal(given.begin(), given.end(), kept) && std::equal(now, now + past, kept + given.size()) &&
-          std::equal(before, before + past, kept + given.size() + past))) {
-      const Potential made = of_branches(state, point, at);
-      std::copy_n(before, past, std::copy_n(now, past, std::copy(given.begin(), given.end(), kept)));
-      *known = made.value;
-      std::ranges::copy(made.second, std::ranges::copy(made.first, known + 1).out);
-      return sum(psi, made);
-    }
-    Potential made{*known, {}, {}};
-    std::copy_n(known + 1, made.first.size(), made.first.begin());
-    std::copy_n(known + 1 + made.first.size(), made.second.size(), made.second.begin());
-    return sum(psi, made);
-  }
-  Potential of_branches(const State& state, int point, const C& at) const {
-    Potential psi{};
-    for (int b = 0; b < branches(); ++b) {
-      const std::size_t i = place(point, b);
-      psi = sum(psi,
-                materials::branch_potential(material_.branches[static_cast<std::size_t>(b)], at, state.scheme,
-                                            read(state.history->now, i), read(state.history->before, i)));
-    }
-    return psi;
-  }
+  Potential with_branches(const State& state, int point, const C& at, const Potential& psi) const;
+  Potential of_branches(const State& state, int point, const C& at) const;
   /// C, the scheme, two pasts, and the potential with its derivatives.
   int kept_size() const { return 7 + 2 * history_size(1) + 10; }
-  static Potential scaled(Potential p, double factor) {
-    p.value *= factor;
-    for (double& x : p.first) x *= factor;
-    for (double& x : p.second) x *= factor;
-    return p;
-  }
-  static Potential sum(Potential p, const Potential& q) {
-    p.value += q.value;
-    for (std::size_t i = 0; i < p.first.size(); ++i) p.first[i] += q.first[i];
-    for (std::size_t i = 0; i < p.second.size(); ++i) p.second[i] += q.second[i];
-    return p;
-  }
-  static void write(std::vector<double>& all, std::size_t place, const materials::Internal& values) {
-    std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(place));
-  }
   bool wrinkles(const materials::TensionField& field) const {
     return tension_field_ && field.tension != materials::Tension::taut;
   }
-  /// By the signs of the principal stresses.
-  static materials::Tension tension_of(const Potential& p) {
-    const Eigen::Matrix2d S = materials::tension_field::stress(p);
-    if (S.determinant() < 0) return materials::Tension::wrinkled;
-    return S.trace() < 0 ? materials::Tension::slack : materials::Tension::taut;
-  }
 
-  Law law_;
   materials::Material material_;
   bool tension_field_;
   int first_ = 0;

@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/films/membrane_block.hpp"
 
-#include "fem/films/film_block.hpp"
+#include "fem/films/film_of_law.hpp"
 #include "fem/films/rod_kinematics.hpp"
 
 #include <numeric>
 
 namespace dielast::fem {
-
-namespace {
-
-template<class Kinematics>
-std::unique_ptr<ElementBlock> make_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
-                                         const MembraneSection& section, std::vector<int> electrodes,
-                                         int integration_points, std::vector<int> numbers) {
-  return std::visit(
-      [&](const auto& law) -> std::unique_ptr<ElementBlock> {
-        using Block = MembraneBlock<Kinematics, std::decay_t<decltype(law)>>;
-        return std::make_unique<Block>(mesh, cells, section, law, std::move(electrodes), integration_points,
-                                       std::move(numbers));
-      },
-      section.material.law);
-}
-
-} // namespace
 
 std::unique_ptr<ElementBlock> make_membrane_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                                                   const MembraneSection& section, std::vector<int> electrodes,
@@ -37,25 +20,32 @@ std::unique_ptr<ElementBlock> make_membrane_block(const meshing::Mesh& mesh, con
   }
   if ((dimension == Dimension::axisymmetric) != meshing::is_meridian(cells.type))
     throw std::invalid_argument("a film of revolution is made of meridians, any other of triangles or rods");
-  const auto make = [&]<class Kinematics>() {
-    return make_block<Kinematics>(mesh, cells, section, std::move(electrodes), integration_points,
-                                  std::move(numbers));
+  const auto make = [&]<class Kinematics, class Law>() -> std::unique_ptr<ElementBlock> {
+    return std::make_unique<FilmOfLaw<Kinematics, Law>>(mesh, cells, section, std::move(electrodes),
+                                                        integration_points, std::move(numbers));
+  };
+  const auto triangles = [&]<class Kinematics>() { // these are many: each law has a loop of its own
+    return std::visit([&]<class Law>(const Law&) { return make.template operator()<Kinematics, Law>(); },
+                      section.material.law);
+  };
+  const auto lines = [&]<class Kinematics>() { // these are few
+    return make.template operator()<Kinematics, materials::ElasticLaw>();
   };
   const bool planar = dimension == Dimension::planar;
   switch (cells.type) {
   case meshing::CellType::triangle6:
-    return planar ? make.template operator()<TriangleKinematics<6, 2>>()
-                  : make.template operator()<TriangleKinematics<6, 3>>();
+    return planar ? triangles.template operator()<TriangleKinematics<6, 2>>()
+                  : triangles.template operator()<TriangleKinematics<6, 3>>();
   case meshing::CellType::triangle3:
-    return planar ? make.template operator()<TriangleKinematics<3, 2>>()
-                  : make.template operator()<TriangleKinematics<3, 3>>();
+    return planar ? triangles.template operator()<TriangleKinematics<3, 2>>()
+                  : triangles.template operator()<TriangleKinematics<3, 3>>();
   case meshing::CellType::meridian3:
-    return make.template operator()<MeridianKinematics<3>>();
+    return lines.template operator()<MeridianKinematics<3>>();
   case meshing::CellType::meridian2:
-    return make.template operator()<MeridianKinematics<2>>();
+    return lines.template operator()<MeridianKinematics<2>>();
   case meshing::CellType::rod2:
-    return planar ? make.template operator()<RodKinematics<2>>()
-                  : make.template operator()<RodKinematics<3>>();
+    return planar ? lines.template operator()<RodKinematics<2>>()
+                  : lines.template operator()<RodKinematics<3>>();
   default:
     throw std::invalid_argument("a membrane is not made of walls");
   }

@@ -47,7 +47,7 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
     const ShellLayer& layer = section.layers[l];
     const double H = section.depth_of(layer), middle = bottom + H / 2;
     electrodes[l].resize(static_cast<std::size_t>(packs * lanes), electrodes[l].back());
-    layers_.push_back({make_film_layer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
+    layers_.push_back({FilmLayer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
                        layer.number, std::move(electrodes[l])});
     drawn_flat_ = drawn_flat_ || layers_.back().stretched();
     shear_stiffness_ += shear_correction * H * materials::initial_shear_modulus(layer.material.law);
@@ -238,7 +238,7 @@ Lanes ShellBlock::electric_modulus(const State& state, const Layer& layer, int p
     const int electrode = layer.electrodes[static_cast<std::size_t>(pack * lanes + l)];
     if (electrode == passive) continue;
     const double nominal_field = state.voltage[static_cast<std::size_t>(electrode)] / layer.thickness;
-    k[l] = layer.film->dielectric().permittivity * nominal_field * nominal_field;
+    k[l] = layer.film.dielectric().permittivity * nominal_field * nominal_field;
   }
   return k;
 }
@@ -270,7 +270,7 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
           if (!(within[l] > 0)) feasible = false;
         section.add(
             place.Z, Lanes{} + place.weight,
-            layer.in_section(layer.film->potential(state, place.point, lanes_of(pack), place.C, place.k)));
+            layer.in_section(layer.film.potential(state, place.point, lanes_of(pack), place.C, place.k)));
       });
     for (int l = 0; l < lanes; ++l)
       if (!(f.normal[l] > 0 && det[l] > 0)) feasible = false;

@@ -62,7 +62,7 @@ class ShellBlock final : public ElementBlock {
   static constexpr double shear_correction = 5.0 / 6, slenderest = 30;
 
   struct Layer {
-    std::unique_ptr<FilmLayer> film;
+    FilmLayer film;
     double thickness;                    ///< H, m
     double depth, middle;                ///< see ShellSection::depth_of(); above the drawn surface, m
     std::array<double, 2> extra_stretch; ///< see ShellSection

@@ -9,7 +9,7 @@ void ShellBlock::sample(const State& state, Samples& samples) const {
   for_each_point(state, [&](const Visit& at) {
     const Layer& layer = at.place.layer;
     const auto C = lane_of(at.place.C, at.lane);
-    const materials::TensionField field = layer.film->resolve(state, at.number(), C, at.place.k[at.lane]);
+    const materials::TensionField field = layer.film.resolve(state, at.number(), C, at.place.k[at.lane]);
     const int electrode = layer.electrodes[static_cast<std::size_t>(at.element)];
     MembraneSample s;
     s.cell = numbers_[static_cast<std::size_t>(at.element)];
@@ -29,7 +29,7 @@ void ShellBlock::sample(const State& state, Samples& samples) const {
     s.voltage = electrode == passive ? 0 : state.voltage[static_cast<std::size_t>(electrode)];
     s.electrode = electrode;
     s.layer = layer.number;
-    s.breakdown_field = layer.film->dielectric().breakdown_field_at(C.det());
+    s.breakdown_field = layer.film.dielectric().breakdown_field_at(C.det());
     samples.film.push_back(s);
   });
 }
@@ -39,7 +39,7 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
     const ShellNodes nodes = gather(state, pack);
     for (const Layer& layer : layers_) {
       ShellSum<false, 3> sum(nodes);
-      const double per_volt = layer.film->dielectric().permittivity / (layer.thickness * layer.thickness);
+      const double per_volt = layer.film.dielectric().permittivity / (layer.thickness * layer.thickness);
       Lanes density{};
       for (int p = 0; p < points; ++p) {
         const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
@@ -49,7 +49,7 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
         SectionPotential section(at);
         across(state, layer, pack, p, at, [&](const Place& place) {
           materials::MembranePotential<Lanes> q{};
-          for (int l = 0; l < lanes; ++l) set_lane(q, l, layer.film->charge_density(lane_of(place.C, l)));
+          for (int l = 0; l < lanes; ++l) set_lane(q, l, layer.film.charge_density(lane_of(place.C, l)));
           section.add(place.Z, Lanes{} + place.weight, layer.in_section(q));
         });
         density += here.area * section.value();
@@ -78,7 +78,7 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
 void ShellBlock::add_energies(const State& state, EnergyParts& parts) const {
   for_each_point(state, [&](const Visit& at) {
     const EnergyParts density =
-        at.place.layer.film->energies(state, at.number(), lane_of(at.place.C, at.lane));
+        at.place.layer.film.energies(state, at.number(), lane_of(at.place.C, at.lane));
     parts.elastic += at.volume * density.elastic;
     parts.branches += at.volume * density.branches;
     parts.dissipation += at.volume * density.dissipation;
@@ -112,8 +112,8 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
           materials::MembranePotential<Lanes> psi{};
           for (int l = 0; l < lanes_of(pack); ++l)
             set_lane(psi, l,
-                     layer.film->relaxation(state, place.point[static_cast<std::size_t>(l)],
-                                            lane_of(place.C, l), place.k[l], weight));
+                     layer.film.relaxation(state, place.point[static_cast<std::size_t>(l)],
+                                           lane_of(place.C, l), place.k[l], weight));
           section.add(place.Z, Lanes{} + place.weight, layer.in_section(psi));
         });
       sum.add(table, f, ShellStress::of<true>(here, section.derivatives<true>()));
@@ -125,25 +125,25 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
 
 int ShellBlock::history_size() const {
   int size = 0;
-  for (const Layer& layer : layers_) size += layer.film->history_size(count_ * points * depths);
+  for (const Layer& layer : layers_) size += layer.film.history_size(count_ * points * depths);
   return size;
 }
 
 void ShellBlock::place_history(int first) {
   for (Layer& layer : layers_) {
-    layer.film->place_history(first);
-    first += layer.film->history_size(count_ * points * depths);
+    layer.film.place_history(first);
+    first += layer.film.history_size(count_ * points * depths);
   }
 }
 
 void ShellBlock::start_history(std::vector<double>& all) const {
-  for (const Layer& layer : layers_) layer.film->start_history(count_ * points * depths, all);
+  for (const Layer& layer : layers_) layer.film.start_history(count_ * points * depths, all);
 }
 
 void ShellBlock::advance_history(const State& state, std::vector<double>& all) const {
   if (history_size() == 0) return;
   for_each_point(state, [&](const Visit& at) {
-    at.place.layer.film->advance_history(state, at.number(), lane_of(at.place.C, at.lane), all);
+    at.place.layer.film.advance_history(state, at.number(), lane_of(at.place.C, at.lane), all);
   });
 }
 
