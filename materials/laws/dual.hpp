@@ -9,7 +9,8 @@ namespace dielast::materials {
 
 /// Second-order forward dual number in N variables: a value with its exact gradient and Hessian. The oracle
 /// that the hand-written derivatives are tested against, and a path for laws that only give an energy; not
-/// for element loops.
+/// for element loops. Its operations are loops over numbers: expressions of Eigen cost the compiler several
+/// times as much for every N.
 template<int N>
 struct Dual {
   double value = 0;
@@ -28,15 +29,19 @@ struct Dual {
   /// phi(x) from phi, phi' and phi'' at x.value.
   Dual chain(double phi, double phi_1, double phi_2) const {
     Dual y(phi);
-    y.gradient = phi_1 * gradient;
-    y.hessian = phi_1 * hessian + phi_2 * gradient * gradient.transpose();
+    const double *g = gradient.data(), *H = hessian.data();
+    double *y_1 = y.gradient.data(), *y_2 = y.hessian.data();
+    for (int i = 0; i < N; ++i) {
+      y_1[i] = phi_1 * g[i];
+      for (int j = 0; j < N; ++j) y_2[i * N + j] = phi_1 * H[i * N + j] + phi_2 * g[i] * g[j];
+    }
     return y;
   }
 
   Dual& operator+=(const Dual& b) {
     value += b.value;
-    gradient += b.gradient;
-    hessian += b.hessian;
+    for (int i = 0; i < N; ++i) gradient.data()[i] += b.gradient.data()[i];
+    for (int i = 0; i < N * N; ++i) hessian.data()[i] += b.hessian.data()[i];
     return *this;
   }
   friend Dual operator+(Dual a, const Dual& b) { return a += b; }
@@ -44,9 +49,15 @@ struct Dual {
   friend Dual operator-(const Dual& a, const Dual& b) { return a + (-b); }
   friend Dual operator*(const Dual& a, const Dual& b) {
     Dual y(a.value * b.value);
-    y.gradient = a.value * b.gradient + b.value * a.gradient;
-    y.hessian = a.value * b.hessian + b.value * a.hessian + a.gradient * b.gradient.transpose() +
-                b.gradient * a.gradient.transpose();
+    const double *a_1 = a.gradient.data(), *b_1 = b.gradient.data();
+    const double *a_2 = a.hessian.data(), *b_2 = b.hessian.data();
+    double *y_1 = y.gradient.data(), *y_2 = y.hessian.data();
+    for (int i = 0; i < N; ++i) {
+      y_1[i] = a.value * b_1[i] + b.value * a_1[i];
+      for (int j = 0; j < N; ++j)
+        y_2[i * N + j] =
+            a.value * b_2[i * N + j] + b.value * a_2[i * N + j] + a_1[i] * b_1[j] + b_1[i] * a_1[j];
+    }
     return y;
   }
   friend Dual operator/(const Dual& a, const Dual& b) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "materials/laws/small_matrices.hpp"
 #include "tests/materials/law_examples.hpp"
 #include "tests/materials/oracles.hpp"
 
@@ -72,12 +73,11 @@ class DerivativeContract : public LawTest<Law> {
     return components(Q * l.cwiseAbs2().asDiagonal() * Q.transpose());
   }
   /// The oracles lose their digits where principal values of an elastic deformation are nearly equal.
-  template<class Matrix>
-  static bool distinct(const Matrix& C, const Matrix& G) {
-    const Matrix root = G.llt().matrixL();
-    const Eigen::VectorXd b =
-        Matrix(root.transpose() * C * root).template selfadjointView<Eigen::Lower>().eigenvalues();
-    for (int i = 1; i < b.size(); ++i)
+  template<int N>
+  static bool distinct(const Eigen::Matrix<double, N, N>& C, const Eigen::Matrix<double, N, N>& G) {
+    const auto root = cholesky_factor(G).value();
+    const Eigen::Vector<double, N> b = symmetric_eigen<N>(root.transpose() * C * root).values;
+    for (int i = 1; i < N; ++i)
       if (b[i] < 1.02 * b[i - 1]) return false;
     return true;
   }

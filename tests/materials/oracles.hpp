@@ -9,7 +9,10 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 /// Energies as their formulas say them, for dual numbers: what the hand-written derivatives are tested
 /// against. They are singular where principal values are equal.
@@ -29,6 +32,9 @@ T energy_at(const Law& law, const T& c1, const T& c2) {
     return law.plane_stress_energy(c1, c2);
 }
 
+/// The first `kept` rows and columns of a form that is stationary in the `flowing` variables behind them.
+Eigen::MatrixXd condensed(const Eigen::MatrixXd& form, int kept, int flowing);
+
 /// Minimum over `flowing` of K variables, which come behind the first N; `joint` is given there.
 template<int N, int K>
 Dual<N> minimum(const Dual<K>& joint, int flowing) {
@@ -36,10 +42,10 @@ Dual<N> minimum(const Dual<K>& joint, int flowing) {
   y.gradient = joint.gradient.template head<N>();
   y.hessian = joint.hessian.template topLeftCorner<N, N>();
   if (flowing == 0) return y;
-  const Eigen::MatrixXd mixed = joint.hessian.block(N, 0, flowing, N),
-                        stiffness = joint.hessian.block(N, N, flowing, flowing);
-  EXPECT_LT(joint.gradient.segment(N, flowing).norm(), 1e-9 * stiffness.norm()) << "not a minimum";
-  y.hessian -= mixed.transpose() * stiffness.fullPivLu().solve(mixed);
+  EXPECT_LT(joint.gradient.segment(N, flowing).norm(),
+            1e-9 * joint.hessian.block(N, N, flowing, flowing).norm())
+      << "not a minimum";
+  y.hessian = condensed(joint.hessian, N, flowing);
   return y;
 }
 
@@ -118,6 +124,16 @@ Dual<K> root_near(double start, const Dual<K>& I1, const Dual<K>& I2, const Dual
   return x;
 }
 
+/// Of x^3 - I1 x^2 + I2 x - I3, by Viete's angle.
+inline Eigen::Vector3d real_roots(double I1, double I2, double I3) {
+  const double mean = I1 / 3, p = mean * mean - I2 / 3, q = mean * (mean * mean - I2 / 2) + I3 / 2;
+  const double angle = std::acos(std::clamp(q / (p * std::sqrt(p)), -1.0, 1.0));
+  Eigen::Vector3d x;
+  for (int i = 0; i < 3; ++i)
+    x[i] = mean + 2 * std::sqrt(p) * std::cos((angle + 2 * std::numbers::pi * i) / 3);
+  return x;
+}
+
 /// W of C G, at constant volume but for St. Venant-Kirchhoff.
 template<int K, class Law>
 Dual<K> solid_energy(const Law& law, const Tensor<Dual<K>>& C, const Tensor<Dual<K>>& G) {
@@ -129,9 +145,7 @@ Dual<K> solid_energy(const Law& law, const Tensor<Dual<K>>& C, const Tensor<Dual
   } else if constexpr (std::same_as<Law, MooneyRivlin>) {
     return law.energy(T(I1 * shrink), T(I2 * shrink * shrink));
   } else if constexpr (std::same_as<Law, Ogden>) {
-    // of the polynomial's companion matrix: real, as C G has real principal values
-    const Eigen::Matrix3d companion{{I1.value, -I2.value, I3.value}, {1, 0, 0}, {0, 1, 0}};
-    const Eigen::Vector3d c = companion.eigenvalues().real();
+    const Eigen::Vector3d c = real_roots(I1.value, I2.value, I3.value);
     return law.energy(T(shrink * root_near(c[0], I1, I2, I3)), T(shrink * root_near(c[1], I1, I2, I3)),
                       T(shrink * root_near(c[2], I1, I2, I3)));
   } else {
