@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
 
 namespace dielast::cases {
 namespace {
@@ -34,6 +35,11 @@ struct Linearised {
   double error = 0;                ///< largest, relative to the full response
   std::vector<double> frequency;   ///< Hz
   std::vector<Complex> full, reduced;
+  struct Enough {
+    int order;
+    double error;
+  };
+  std::optional<Enough> enough;               ///< more states, with which it would be good
   std::vector<std::vector<Complex>> compared; ///< as in the case
 };
 
@@ -82,18 +88,27 @@ Linearised linearise(const Case& one, Simulation& simulation) {
                                              {.highest_frequency = band * omega.back()});
     large.B = large.B.rowwise().sum().eval(); // the sources swing together: one input
     large.D = large.D.rowwise().sum().eval();
-    const fem::StateSpace model = fem::balanced_truncation(large, one.linearise->order);
     std::vector<Complex> reduced;
-    double error = 0;
-    for (std::size_t i = 0; i < omega.size(); ++i) {
-      reduced.push_back(model.transfer(Complex(0, omega[i]))(0, 0));
-      error = std::max(error, std::abs(reduced[i] - result.full[i]) / std::abs(result.full[i]));
-    }
+    const auto error_of = [&](const fem::StateSpace& model) {
+      reduced.clear();
+      double error = 0;
+      for (std::size_t i = 0; i < omega.size(); ++i) {
+        reduced.push_back(model.transfer(Complex(0, omega[i]))(0, 0));
+        error = std::max(error, std::abs(reduced[i] - result.full[i]) / std::abs(result.full[i]));
+      }
+      return error;
+    };
+    const fem::StateSpace model = fem::balanced_truncation(large, one.linearise->order);
+    const double error = error_of(model);
     if (band == bands.front() || error < result.error) {
       result.model = model;
-      result.reduced = std::move(reduced);
+      result.reduced = reduced;
       result.error = error;
     }
+    const auto most = static_cast<int>(std::min<Eigen::Index>(large.order(), one.linearise->order + 20));
+    for (int order = one.linearise->order + 1; error >= good && !result.enough && order <= most; ++order)
+      if (const double less = error_of(fem::balanced_truncation(large, order)); less < good)
+        result.enough = {order, less};
   }
   for (const TransferFunction& other : one.linearise->compare) {
     auto& response = result.compared.emplace_back();
@@ -225,8 +240,11 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
         "{}\n",
         found.model.order(), 100 * found.error, found.model.transfer(0)(0, 0).real(), found.unit,
         fmt::format("{}", fmt::join(found.driven, ", ")));
-    const bool all_states = found.model.order() < one.linearise->order;
+    const bool enough = found.enough && found.error >= good;
+    const bool all_states = found.model.order() < one.linearise->order && !enough;
     if (all_states) say("the response tells no more than {} states apart\n", found.model.order());
+    if (enough)
+      say("with linearise.order = {} it is {:.3g} %\n", found.enough->order, 100 * found.enough->error);
     if (found.error > poor)
       say(stderr,
           "error: the linear model does not answer as the device does up to {:.4g} Hz; {} (linearise.to)\n",

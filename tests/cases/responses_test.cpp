@@ -107,6 +107,17 @@ TEST_F(Responses, ALinearModelHasTheModesLittleAboveItsFrequencies) {
   EXPECT_LT(json_of("model/linear_model.json")["largest_relative_error"], 0.01);
 }
 
+// With one state of two that take part the model is 5 % off.
+TEST_F(Responses, WhatMoreStatesWouldBeWorthIsTold) {
+  write("disc.toml", disc + "[linearise]\norder = 1\noutput = \"r\"\nfrom = \"0.01 Hz\"\nto = \"20 Hz\"\n");
+  const Ended made = dielast({"linearise", "disc.toml", "-o", "model", "--set",
+                              "film.material.branch=[{shear_modulus='30 kPa', relaxation_time='0.02 s'}, "
+                              "{shear_modulus='2 kPa', relaxation_time='5 s'}]"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("order 1, largest error 4."), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find("with linearise.order = 2 it is 0."), std::string::npos) << made.out;
+}
+
 // A case without a section [linearise] gets the default one, and what this one asks of the case.
 TEST_F(Responses, AnyCaseHasALinearModel) {
   write("disc.toml", disc + "[circuit]\nresistance = \"1 Mohm\"\n");
