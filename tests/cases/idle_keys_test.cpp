@@ -99,11 +99,6 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
            "[[step]]\nkind = \"harmonic\"\n",
        film + disc + drive + "[circuit]\nresistance = 1e6\ncurrent_limit = 1e-3\n" + transient},
       {"step[1]",
-       film + disc +
-           "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n[[step]]\nkind = "
-           "\"relax\"\ncontrol = \"charge\"\n",
-       film + disc + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n" + charged_hold},
-      {"step[1]",
        film + disc + "[drive]\ncharge = 1e-9\n[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n" +
            transient + "control = \"charge\"\n",
        film + disc + "[drive]\ncharge = 1e-9\n[circuit]\nresistance = 1e6\n" + transient +
