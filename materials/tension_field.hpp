@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "materials/algebra/small_matrices.hpp"
 #include "materials/laws/plane_stress.hpp"
-#include "materials/laws/small_matrices.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/fields.hpp"
 
-#include "materials/laws/small_matrices.hpp"
-
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -21,11 +20,11 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
     const fem::SolidSample& solid = *sample.solid;
     const Eigen::Matrix3d green = solid.F.transpose() * solid.F;
     C = green.topLeftCorner<2, 2>();
-    const auto strain = materials::symmetric_eigen(green), stress = materials::symmetric_eigen(solid.cauchy);
-    stretch = strain.values.reverse().cwiseSqrt();
-    direction = (solid.F * strain.vectors.rowwise().reverse()).colwise().normalized();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> strain(green), stress(solid.cauchy);
+    stretch = strain.eigenvalues().reverse().cwiseSqrt();
+    direction = (solid.F * strain.eigenvectors().rowwise().reverse()).colwise().normalized();
     cauchy = solid.cauchy;
-    principal_stress = {stress.values[2], stress.values[0]};
+    principal_stress = {stress.eigenvalues()[2], stress.eigenvalues()[0]};
     thickness = solid.thickness;
     electric_field = solid.field.norm();
     return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/films/film_response.hpp"
 
-#include "fem/model/relaxation.hpp"
 #include "materials/branches/branch.hpp"
+#include "materials/branches/relaxation.hpp"
 #include "materials/laws/plane_stress.hpp"
 
 #include <algorithm>
@@ -108,9 +108,9 @@ FilmResponse::Potential FilmResponse::relaxation(const State& state, int point, 
   for (int b = 0; b < branches(); ++b) {
     const auto& branch = material_.branches[static_cast<std::size_t>(b)];
     const materials::Internal now = read(state.history->now, place(point, b));
-    if (!is_relaxed(branch, at, now))
+    if (!materials::is_relaxed(branch, at, now))
       throw std::domain_error("branches cannot be linearised while their dashpots flow");
-    const RelaxationSpectrum<3> spectrum = relaxation_spectrum(branch, at, now);
+    const materials::RelaxationSpectrum<3> spectrum = materials::relaxation_spectrum(branch, at, now);
     for (int j = 0; j < spectrum.count; ++j) {
       const auto& [w, rate] = spectrum.element[static_cast<std::size_t>(j)];
       const double factor = weight(rate);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/solids/solid_response.hpp"
 
-#include "fem/model/relaxation.hpp"
+#include "materials/branches/relaxation.hpp"
 #include "materials/laws/solid_field.hpp"
 
 #include <algorithm>
@@ -91,8 +91,8 @@ SolidDensity SolidResponse::relaxation(const State& state, int point, const Eige
     for (std::size_t i = 0; i < now.size(); ++i)
       if (std::abs(rest[i] - now[i]) > still * std::max(1.0, std::abs(now[i])))
         throw std::domain_error("branches cannot be linearised while their dashpots flow");
-    const RelaxationSpectrum<6> spectrum =
-        relaxation_spectrum<6>(branch, [&](const materials::TimeScheme& scheme) {
+    const materials::RelaxationSpectrum<6> spectrum =
+        materials::relaxation_spectrum<6>(branch, [&](const materials::TimeScheme& scheme) {
           return Eigen::Matrix<double, 6, 6>(
               materials::solid_branch_potential(branch, C, scheme, now, {}).second);
         });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "materials/branches/solid_branch.hpp"
 
+#include "materials/algebra/small_matrices.hpp"
 #include "materials/laws/principal_energy.hpp"
-#include "materials/laws/small_matrices.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "materials/algebra/small_matrices.hpp"
 #include "materials/branches/neo_hookean_branch.hpp"
 #include "materials/branches/time_scheme.hpp"
-#include "materials/laws/small_matrices.hpp"
 
 #include <Eigen/Dense>
 

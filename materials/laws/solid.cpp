@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "materials/laws/solid.hpp"
 
+#include "materials/algebra/small_matrices.hpp"
 #include "materials/laws/dual.hpp"
 #include "materials/laws/power_sum.hpp"
-#include "materials/laws/small_matrices.hpp"
 
 #include <Eigen/Dense>
 

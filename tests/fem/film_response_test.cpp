@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/equilibrium/equilibrium.hpp"
-#include "materials/laws/small_matrices.hpp"
+#include "materials/algebra/small_matrices.hpp"
 #include "tests//fem/derivative_contract.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"

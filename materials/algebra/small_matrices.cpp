@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "materials/laws/small_matrices.hpp"
+#include "materials/algebra/small_matrices.hpp"
 
 #include <Eigen/Eigenvalues>
 

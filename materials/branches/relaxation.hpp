@@ -7,13 +7,13 @@
 
 #include <array>
 
-namespace dielast::fem {
+namespace dielast::materials {
 
 /// Small motions exp(s t) of a branch about a state in which its dashpot does not flow. With its viscous
 /// unknowns y, linearised: dW_b = A dC + X dy, 0 = X^T dC + (N + s H) dy, so that the tangent is
 ///   A - X (N + s H)^-1 X^T = relaxed tangent + sum_j w_j w_j^T s/(s + rate_j):
 /// at most three Maxwell elements side by side, in a solid six. `weight`: in (C11, C22, C12), C12 counted
-/// once (see materials::MembranePotential), in a solid likewise (see SolidPotential), sqrt(Pa); `rate`: 1/s.
+/// once (see MembranePotential), in a solid likewise (see SolidPotential), sqrt(Pa); `rate`: 1/s.
 template<int Size>
 struct Relaxation {
   Eigen::Vector<double, Size> weight;
@@ -37,20 +37,17 @@ RelaxationSpectrum<Size> relaxation_spectrum(const Eigen::Matrix<double, Size, S
 
 /// `tangent(scheme)`: of the branch over a step.
 template<int Size, class Tangent>
-RelaxationSpectrum<Size> relaxation_spectrum(const materials::Branch& branch, const Tangent& tangent) {
-  using materials::TimeScheme;
-  const double dt = branch.viscosity / materials::initial_shear_modulus(branch.law);
+RelaxationSpectrum<Size> relaxation_spectrum(const Branch& branch, const Tangent& tangent) {
+  const double dt = branch.viscosity / initial_shear_modulus(branch.law);
   return relaxation_spectrum<Size>(tangent(TimeScheme::frozen()), tangent(TimeScheme::relaxed()),
                                    tangent(TimeScheme::backward_euler(dt)), dt);
 }
 
 /// Of a film.
-RelaxationSpectrum<3> relaxation_spectrum(const materials::Branch& branch,
-                                          const materials::InPlaneC<double>& C,
-                                          const materials::Internal& now);
+RelaxationSpectrum<3> relaxation_spectrum(const Branch& branch, const InPlaneC<double>& C,
+                                          const Internal& now);
 
 /// Whether a branch is where its dashpot lets it come to rest at C.
-bool is_relaxed(const materials::Branch& branch, const materials::InPlaneC<double>& C,
-                const materials::Internal& now);
+bool is_relaxed(const Branch& branch, const InPlaneC<double>& C, const Internal& now);
 
-} // namespace dielast::fem
+} // namespace dielast::materials
