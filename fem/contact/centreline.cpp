@@ -43,6 +43,25 @@ double Centreline::nearest(const PointAndLine& x) const {
   return best;
 }
 
+materials::Dual<Centreline::size> Centreline::nearest_with_derivatives(const PointAndLine& x) const {
+  using Dual = materials::Dual<size>;
+  Dual s(nearest(x));
+  if (!(s.value > 0 && s.value < 1)) return s;
+  // Each of Newton's steps for 0 = (c(s) - x) . c'(s) adds an order of derivatives.
+  for (int step = 0; step < 2; ++step) {
+    Dual value = 0, derivative = 0;
+    for (int i = 0; i < 2; ++i) {
+      const auto at = [&](int a) { return Dual::variable(x[static_cast<std::size_t>(a)][i], 2 * a + i); };
+      const Dual bend = at(1) + at(2) - 2.0 * at(3), slope = at(2) - at(1) - 2.0 * bend;
+      const Dual away = at(1) + s * (slope + 2.0 * s * bend) - at(0), first = slope + 4.0 * s * bend;
+      value += away * first;
+      derivative += first * first + 4.0 * away * bend;
+    }
+    s = s - value / derivative;
+  }
+  return s;
+}
+
 double Centreline::least_distance(const PointAndLine& x) const {
   const Vector2d centre = (x[1] + x[2]) / 2;
   const double radius = std::max((x[1] - x[2]).norm() / 2, (control(x) - centre).norm());

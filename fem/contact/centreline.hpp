@@ -39,6 +39,8 @@ class Centreline {
   }
   /// The place that is nearest to the point.
   double nearest(const PointAndLine& x) const;
+  /// nearest() of a parabola with its derivatives; where it is an end these are 0.
+  materials::Dual<size> nearest_with_derivatives(const PointAndLine& x) const;
   /// No more than the distance of point and line: that from a disc about the latter, m.
   double least_distance(const PointAndLine& x) const;
   /// Of the point from the line, m, not negative.

@@ -3,6 +3,7 @@
 
 #include "fem/contact/centreline.hpp"
 #include "fem/contact/contact_sums.hpp"
+#include "fem/contact/surface_ends.hpp"
 #include "fem/contact/surface_sliders.hpp"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ constexpr std::array<SidePoint, 2 * parts + 1> rule = [] {
   return points;
 }();
 constexpr std::size_t rule_size = rule.size();
+constexpr double ramp_spacings = 4; ///< of the coarser surface's points: so far from an end both count
 
 const Centreline parabola(Centreline::Shape::parabola), end(Centreline::Shape::point);
 
@@ -74,6 +76,9 @@ class SurfaceContactBlock final : public ContactBlock {
     };
     const double finer = std::pow(mean_side(1) / mean_side(0), 2);
     share_ = {finer / (1 + finer), 1 / (1 + finer)};
+    const double over = ramp_spacings * std::max(mean_side(0), mean_side(1)) / (2 * parts);
+    for (std::size_t k = 0; k < 2; ++k)
+      ends_[k] = SurfaceEnds(contact_.sides[k], drawn_, !contact_.width, over);
     require_apart(contact_.sides[0], contact_.sides[1]);
     std::vector<double> areas(drawn_.size(), 0);
     for_each_point([&](const Pair& pair, std::size_t q) {
@@ -103,9 +108,8 @@ class SurfaceContactBlock final : public ContactBlock {
       for (std::size_t q = 0; q < rule_size && near; ++q) {
         const PointAndLine x = facing(own, other, q);
         if (parabola.least_distance(x) > contact_.barrier.reach()) continue;
-        const double area = share_[pair.surface] * this->area(pair, q);
-        add(parabola, x, q, area, scatter, sums);
-        if (is_shared(pair)) add(end, x, q, -area, scatter, sums);
+        add(parabola, pair, x, q, area(pair, q), scatter, sums);
+        if (is_shared(pair)) add(end, pair, x, q, -area(pair, q), scatter, sums);
       }
       sliders_.add(state, pair.surface, pair.own, pair.other, scatter.residual || scatter.tangent, sums);
       sums.add_to(result, e, scatter);
@@ -128,7 +132,7 @@ class SurfaceContactBlock final : public ContactBlock {
   double contact_force(const State& state) const override {
     double sum = 0;
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      sum -= share_[pair.surface] * area(pair, q) * touching.energy.slope;
+      sum -= touching.share * area(pair, q) * touching.energy.slope;
     });
     return sum;
   }
@@ -138,12 +142,13 @@ class SurfaceContactBlock final : public ContactBlock {
   void add_pressure(const State& state, NodalPressure& pressure) const override {
     for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      share(pair, q, -area(pair, q) * touching.energy.slope, pressure.force);
+      const double part = std::min(1.0, touching.share / share_[pair.surface]); // a corner may be very near
+      share(pair, q, -part * area(pair, q) * touching.energy.slope, pressure.force);
     });
   }
   void add_energies(const State& state, EnergyParts& all) const override {
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      all.elastic += share_[pair.surface] * area(pair, q) * touching.energy.value;
+      all.elastic += touching.share * area(pair, q) * touching.energy.value;
     });
     all.elastic += sliders_.energy(state);
   }
@@ -171,6 +176,7 @@ class SurfaceContactBlock final : public ContactBlock {
   struct Touching {
     BarrierEnergy energy;
     Vector2d normal; ///< unit vector towards the point
+    double share;    ///< of this surface's integral there
   };
   /// All sides in a state.
   struct Moved {
@@ -181,6 +187,13 @@ class SurfaceContactBlock final : public ContactBlock {
     }
   };
 
+  const SurfaceEnds& other_ends(const Pair& pair) const { return ends_[1 - pair.surface]; }
+  /// The part of the integral of a point's surface, where the other one's ramp is `other`: a function of the
+  /// same s.
+  Ramp share_at(const Pair& pair, std::size_t q, const Ramp& other) const {
+    const double own = ends_[pair.surface].at(pair.own, rule[q].s).value;
+    return shared(share_[pair.surface], own, share_[1 - pair.surface], other);
+  }
   Pair pair(int element) const {
     const int a = contact_.sides[0].size(), b = contact_.sides[1].size();
     if (element < a * b) return {0, element / b, element % b};
@@ -231,8 +244,8 @@ class SurfaceContactBlock final : public ContactBlock {
   static PointAndLine facing(const Side& own, const Side& other, std::size_t q) {
     return {own.at(parabola.shape(rule[q].s)), other.x[0], other.x[1], other.x[2]};
   }
-  void add(const Centreline& line, const PointAndLine& x, std::size_t q, double area, const Scatter& scatter,
-           Sums& sums) const {
+  void add(const Centreline& line, const Pair& pair, const PointAndLine& x, std::size_t q, double area,
+           const Scatter& scatter, Sums& sums) const {
     const double gap = line.distance(x);
     if (!(gap > 0)) {
       sums.feasible = false;
@@ -241,10 +254,18 @@ class SurfaceContactBlock final : public ContactBlock {
     if (!contact_.barrier.touches(gap)) return;
     const BarrierEnergy energy = contact_.barrier.at(gap);
     sums.any = true;
-    sums.energy += area * energy.value;
+    const Ramp part = share_at(pair, q, other_ends(pair).at(pair.other, line.nearest(x)));
+    sums.energy += area * part.value * energy.value;
     if (!scatter.residual && !scatter.tangent) return;
-    const materials::Dual<Centreline::size> total = line.distance_with_derivatives(x).chain(
-        area * energy.value, area * energy.slope, area * energy.curvature);
+    const double size = area * part.value;
+    materials::Dual<Centreline::size> total = line.distance_with_derivatives(x).chain(
+        size * energy.value, size * energy.slope, size * energy.curvature);
+    if (part.first != 0 || part.second != 0) { // the share of a point that passes by an end
+      const auto along = line.nearest_with_derivatives(x).chain(part.value, part.first, part.second);
+      total = line.distance_with_derivatives(x).chain(area * energy.value, area * energy.slope,
+                                                      area * energy.curvature) *
+              along;
+    }
     Eigen::Matrix<double, Centreline::size, dofs> moves; // point and line with the two sides' nodes
     moves.setZero();
     const std::array<double, 3> N = parabola.shape(rule[q].s);
@@ -264,10 +285,14 @@ class SurfaceContactBlock final : public ContactBlock {
       for (std::size_t q = 0; q < rule_size; ++q) {
         const PointAndLine x = facing(now.of(pair, 0), now.of(pair, 1), q);
         const auto add = [&](const Centreline& line, double factor) {
-          const Vector2d way = x[0] - line.at(x, line.nearest(x));
+          const double nearest = line.nearest(x);
+          const Vector2d way = x[0] - line.at(x, nearest);
           const BarrierEnergy energy = contact_.barrier.at(way.norm());
           if (contact_.barrier.touches(way.norm()))
-            use(pair, q, Touching{{factor * energy.value, factor * energy.slope}, way.normalized()});
+            use(pair, q,
+                Touching{{factor * energy.value, factor * energy.slope},
+                         way.normalized(),
+                         share_at(pair, q, other_ends(pair).at(pair.other, nearest)).value});
         };
         add(parabola, 1);
         if (is_shared(pair)) add(end, -1);
@@ -284,7 +309,7 @@ class SurfaceContactBlock final : public ContactBlock {
       return all[static_cast<std::size_t>(sliders_.number(pair.surface, pair.own, a))];
     };
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      const double size = -share_[pair.surface] * area(pair, q) * touching.energy.slope;
+      const double size = -touching.share * area(pair, q) * touching.energy.slope;
       for (int a = 0; a < 3; ++a)
         at(pair, a).force += node_share(q)[static_cast<std::size_t>(a)] * size * in_space(touching.normal);
     });
@@ -342,6 +367,7 @@ class SurfaceContactBlock final : public ContactBlock {
   int up_; ///< the second direction: y, of revolution z
   Sliders sliders_;
   std::array<std::vector<char>, 2> shared_;
+  std::array<SurfaceEnds, 2> ends_;
   std::array<double, 2> share_;              ///< of the two integrals: the finer surface has the greater one
   std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' sides
 };

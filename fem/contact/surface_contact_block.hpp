@@ -28,7 +28,8 @@ struct SurfaceContact {
 /// Barrier, w_A + w_B = 1; the finer surface's integral has the greater share, as the square of the elements'
 /// size. Distances are those from the curved sides; each side is integrated with 17 points, its nodes among
 /// them. Where two sides meet the barrier is that of one, as of walls (see ContactPair). So it changes
-/// smoothly as a point passes from side to side, whatever the two meshes; what one surface pushes the other
+/// smoothly as a point passes from side to side, whatever the two meshes; where a surface ends its integral
+/// counts alone (SurfaceEnds); what one surface pushes the other
 /// pushes back. It does not tell on which side of one surface the other lies, but no way leads through: see
 /// ContactBlock::free_way().
 ///

@@ -28,10 +28,10 @@ meshing::Mesh block(double from, double wide, int elements, double way, bool in_
 }
 
 struct Blocks : TwoBodies {
-  Blocks(Dimension drawn, bool held)
+  Blocks(Dimension drawn, bool held, bool lower_is_rigid = false)
       : TwoBodies(block(0, 3, drawn == Dimension::spatial ? 4 : 9, -1, drawn == Dimension::spatial),
                   block(0.63, 1.5, drawn == Dimension::spatial ? 2 : 5, 1, drawn == Dimension::spatial),
-                  drawn, {thickness, 0.03 * mu / thickness, 1}, held, 3, false, friction) {}
+                  drawn, {thickness, 0.03 * mu / thickness, 1}, held, 3, lower_is_rigid, friction) {}
   struct Ridden {
     RampEnd end;
     double load_factor;
@@ -105,6 +105,44 @@ void slides(Dimension dimension) {
 TEST(SurfaceFriction, block_slides_with_the_coefficient_times_its_force) { slides(Dimension::planar); }
 TEST(SurfaceFriction, block_slides_with_the_coefficient_times_its_force_in_space) {
   slides(Dimension::spatial);
+}
+
+/// A block's edges pass over points and nodes of a coarser surface: none of them catches on an edge, and all
+/// of the way the force is the coefficient times that across (points that did took it 20 % beyond it).
+TEST(SurfaceFriction, edges_pass_over_nodes_without_catching) {
+  Blocks blocks(Dimension::planar, true, true);
+  Equilibrium equilibrium(blocks.model, 1);
+  constexpr double down = 0.025, along = 0.5;
+  const auto move = [&](double from, double to, double way) {
+    LoadPath path;
+    path.apply = [&blocks, from, to, way](State& state, double s) {
+      for (const int node : blocks.nodes("upper.back"))
+        state.displacement[static_cast<std::size_t>(node)] = {s * way, -from - s * (to - from), 0};
+    };
+    return path;
+  };
+  const auto pressed =
+      blocks.ride(equilibrium, blocks.model.initial_state(), 5, move(0, down, 0), [](const State&) {});
+  ASSERT_EQ(pressed.end, RampEnd::complete);
+  double most = 0, least = 1;
+  const auto drawn =
+      blocks.ride(equilibrium, pressed.state, 50, move(down, down, along), [&](const State& state) {
+        equilibrium.internal_force(state, blocks.force);
+        double force = 0;
+        for (const int node : blocks.nodes("upper.back"))
+          force += blocks.force[blocks.model.dofs.equation(node, 0)];
+        const double way =
+            state.displacement[static_cast<std::size_t>(blocks.nodes("upper.back").front())].x();
+        const double ratio = force / -blocks.reaction("upper.back") / friction;
+        if (way < 0.1) return; // it begins to slide, and its normal forces follow by an increment
+        most = std::max(most, ratio);
+        least = std::min(least, ratio);
+      });
+  ASSERT_EQ(drawn.end, RampEnd::complete) << drawn.load_factor;
+  ::testing::Test::RecordProperty("most of the friction", std::to_string(most));
+  ::testing::Test::RecordProperty("least of the friction", std::to_string(least));
+  EXPECT_LT(most, 1.005);
+  EXPECT_GT(least, 0.995);
 }
 
 /// Pressed on the lower block by a traction whose slope then grows: it sticks until the slope is the
