@@ -13,11 +13,16 @@ enum class MeasuredResponse { none, displacement, impedance, admittance };
 /// SI unit of what a table of that response has.
 const char* unit_of(MeasuredResponse response);
 
+/// Which state a row at an instant at which something jumps was measured in.
+enum class AtJump { unsaid, before, after };
+
 /// [[identify.test]]: what was measured on the device
 struct DeviceTest {
-  std::filesystem::path file;        ///< as written
-  std::string quantity;              ///< of the case; empty: a response
-  MeasuredResponse response{};       ///< displacement: of the step's quantity, per squared volt, m/V^2
+  std::filesystem::path file;  ///< as written
+  std::string quantity;        ///< of the case; empty: a response
+  MeasuredResponse response{}; ///< displacement: of the step's quantity, per squared volt, m/V^2
+  std::string step;            ///< of the case, in which it was measured; empty: not said
+  AtJump at_jump{};
   std::vector<std::string> settings; ///< "key=value", of this test alone
   bool predict = false;              ///< kept out of the fit
   double weight = 1;

@@ -2,6 +2,7 @@
 #include "cases/fits/device_model.hpp"
 
 #include "cases/case/quantities.hpp"
+#include "cases/fits/course.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/runs/simulation.hpp"
 
@@ -20,11 +21,10 @@ constexpr double beside = 0.2;        ///< of a place where something was measur
 constexpr double close_enough = 1e-5; ///< of a row to what was measured, over its range
 constexpr int most_runs = 4;          ///< to get there
 
-/// What a run has recorded: rows of the history, the steps that led to them, and its first response.
+/// What a run has recorded: the history, and the responses by the names of their steps.
 struct Recorded {
-  std::vector<std::vector<double>> rows; ///< a row begins with the load factor
-  std::vector<std::string> steps;
-  std::optional<Analysis> response;
+  std::vector<RecordedRow> rows;
+  std::map<std::string, Analysis> responses;
 };
 
 Recorded record(const Case& one, bool with_rows, bool with_response) {
@@ -36,13 +36,18 @@ Recorded record(const Case& one, bool with_rows, bool with_response) {
       std::vector<double> row{frame.record.load_factor, frame.record.time};
       row.insert(row.end(), frame.record.voltages.begin(), frame.record.voltages.end());
       row.insert(row.end(), frame.values.begin(), frame.values.end());
-      recorded.rows.push_back(std::move(row));
-      recorded.steps.push_back(frame.record.step);
+      const auto step = std::ranges::find(one.steps, frame.record.step, &Step::name);
+      recorded.rows.push_back({.values = std::move(row),
+                               .step = frame.record.step,
+                               .jumped = frame.record.jumped ||
+                                         std::ranges::count(frame.record.events, "jump", &post::Event::kind),
+                               .at_once = step != one.steps.end() && !step->duration &&
+                                          step->response == Response::instantaneous});
       return true;
     };
   if (with_response)
     observer.on_analysis = [&](const Analysis& analysis, const fem::State&) {
-      if (analysis.kind == StepKind::harmonic && !recorded.response) recorded.response = analysis;
+      if (analysis.kind == StepKind::harmonic) recorded.responses.emplace(analysis.step, analysis);
     };
   const Outcome outcome = simulation.run(observer);
   if (outcome.ending != Ending::complete) throw std::runtime_error(outcome.message);
@@ -52,77 +57,6 @@ Recorded record(const Case& one, bool with_rows, bool with_response) {
 std::size_t column_of(const std::vector<post::Column>& columns, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::find(columns, name, &post::Column::name) - columns.begin());
 }
-
-/// Rows of the history between which a column grows up to each of some places; the last way there is meant.
-class Course {
- public:
-  Course(const Recorded& recorded, std::size_t x, std::size_t y) : recorded_(recorded), x_(x), y_(y) {
-    for (std::size_t row = 0; row < recorded.rows.size(); ++row) {
-      if (!std::isfinite(at(row, y)) || !std::isfinite(at(row, x))) continue;
-      while (!rows_.empty() && at(rows_.back(), x) >= at(row, x)) rows_.pop_back();
-      rows_.push_back(row);
-    }
-  }
-
-  /// Number of the first row at or behind a place, in order of growth. Throws where the run does not get
-  /// there.
-  std::size_t find(double place, const std::string& name) const {
-    const double slack = rows_.empty() ? 0 : 1e-9 * std::abs(at(rows_.back(), x_));
-    const auto after =
-        std::ranges::lower_bound(rows_, place - slack, {}, [this](std::size_t row) { return at(row, x_); });
-    if (after == rows_.end() || (after == rows_.begin() && place < at(*after, x_) - slack))
-      throw std::runtime_error(fmt::format("{}: the run does not come to {:.6g}", name, place));
-    return static_cast<std::size_t>(after - rows_.begin());
-  }
-  /// The other column there; between rows along a straight line.
-  double value(double place, const std::string& name) const {
-    const std::size_t after = find(place, name);
-    const double x = at(rows_[after], x_), y = at(rows_[after], y_);
-    if (after == 0 || place >= x) return y;
-    const double x0 = at(rows_[after - 1], x_), y0 = at(rows_[after - 1], y_);
-    return std::lerp(y0, y, (place - x0) / (x - x0));
-  }
-  /// Where a step has to stop so that a row is at the place: its name and load factor; there now if it is
-  /// within `tolerance` of a row, or beyond what a step of its own goes through.
-  std::pair<std::string, double> stop(double place, double tolerance, const std::string& name) const {
-    const std::size_t after = find(place, name);
-    const std::size_t row = rows_[after];
-    if (after == 0 || at(row, x_) - place <= tolerance) return {recorded_.steps[row], at(row, 0)};
-    const std::size_t before = rows_[after - 1];
-    const bool same_step = recorded_.steps[before] == recorded_.steps[row];
-    if (place - at(before, x_) <= tolerance) return {recorded_.steps[before], at(before, 0)};
-    // The load factor as a polynomial of the column, through up to four rows of the step.
-    std::vector<std::pair<double, double>> points;
-    for (std::size_t i = after < 2 ? 0 : after - 2; i < std::min(rows_.size(), after + 2); ++i)
-      if (recorded_.steps[rows_[i]] == recorded_.steps[row])
-        points.emplace_back(at(rows_[i], x_), at(rows_[i], 0));
-      else if (i + 1 == after)
-        points.emplace_back(at(rows_[i], x_), 0.0); // the end of a step is the start of the next
-    double s = 0;
-    for (const auto& [x, factor] : points) {
-      double weight = 1;
-      for (const auto& [other, unused] : points)
-        if (other != x) weight *= (place - other) / (x - other);
-      s += weight * factor;
-    }
-    const double s0 = same_step ? at(before, 0) : 0, s1 = at(row, 0);
-    if (!(s > s0 && s < s1)) s = std::lerp(s0, s1, (place - at(before, x_)) / (at(row, x_) - at(before, x_)));
-    return {recorded_.steps[row], s};
-  }
-
-  bool is_row(const std::string& step, double s) const {
-    return std::ranges::any_of(rows_, [&](std::size_t row) {
-      return recorded_.steps[row] == step && std::abs(at(row, 0) - s) < same_place;
-    });
-  }
-
- private:
-  double at(std::size_t row, std::size_t column) const { return recorded_.rows[row][column]; }
-
-  const Recorded& recorded_;
-  std::size_t x_, y_;
-  std::vector<std::size_t> rows_; ///< of these the column grows
-};
 
 using Stops = std::map<std::string, std::vector<double>>; ///< load factors of steps, by their names
 
@@ -210,14 +144,14 @@ std::vector<double> DeviceModel::run(std::size_t run, const std::vector<double>&
   // Quantities that nobody asks for need not be evaluated along the way.
   const std::vector<post::Column> columns = history_columns(one);
   const auto course = [&](const DeviceTest& test, const Recorded& recorded) {
-    return Course(recorded, column_of(columns, test.against), column_of(columns, test.quantity));
+    return Course(test, recorded.rows, column_of(columns, test.against), column_of(columns, test.quantity));
   };
   Stops times;
   for (const std::size_t t : group)
     if (asked_.tests[t].against == "time") add_times(one, asked_.tests[t].x, times);
   set_stops(one, times, false);
   Recorded recorded = record(one, !all_responses, !hertz.empty());
-  const std::optional<Analysis> responses = std::move(recorded.response);
+  const std::map<std::string, Analysis> responses = std::move(recorded.responses);
   for (int runs = 1; runs < most_runs; ++runs) { // those that follow stop where something was measured
     Stops stops;
     bool farther = false;
@@ -226,12 +160,12 @@ std::vector<double> DeviceModel::run(std::size_t run, const std::vector<double>&
       if (test.is_response()) continue;
       const Course rows = course(test, recorded);
       const double range = test.x.size() > 1 ? test.x.back() - test.x.front() : std::abs(test.x.front());
-      for (const double x : test.x) {
-        const auto [name, s] = rows.stop(x, close_enough * range, test.name());
-        stops[name].push_back(s);
-        const auto step = std::ranges::find(one.steps, name, &Step::name);
-        farther = farther || (!rows.is_row(name, s) && step != one.steps.end() && !contains(step->stops, s));
-      }
+      for (const double x : test.x)
+        for (const auto& [name, s, is_row] : rows.stops(x, close_enough * range)) {
+          stops[name].push_back(s);
+          const auto step = std::ranges::find(one.steps, name, &Step::name);
+          farther = farther || (!is_row && step != one.steps.end() && !contains(step->stops, s));
+        }
     }
     if (!farther) break;
     set_stops(one, std::move(stops), true);
@@ -242,13 +176,16 @@ std::vector<double> DeviceModel::run(std::size_t run, const std::vector<double>&
     const DeviceTest& test = asked_.tests[t];
     if (!test.is_response()) {
       const Course rows = course(test, recorded);
-      for (const double x : test.x) model.push_back(rows.value(x, test.name()));
+      for (const double x : test.x) model.push_back(rows.at(x));
+      if (test.at_jump != AtJump::unsaid &&
+          std::ranges::none_of(test.x, [&](double x) { return rows.has_jump_at(x); }))
+        throw std::runtime_error(test.name() + ": at_jump has no effect: nothing jumps at any of its rows");
       continue;
     }
+    const Analysis& asked = test.step.empty() ? responses.begin()->second : responses.at(test.step);
     for (const double frequency : test.x) {
       const auto place = std::ranges::lower_bound(hertz, frequency) - hertz.begin();
-      const std::complex<double> found =
-          response(test, *responses, responses->rows[static_cast<std::size_t>(place)]);
+      const std::complex<double> found = response(test, asked, asked.rows[static_cast<std::size_t>(place)]);
       model.insert(model.end(), {found.real(), found.imag()});
     }
   }

@@ -171,7 +171,7 @@ void require_start(const Identification& asked, const DeviceMisfit& misfit) {
   std::string failure;
   const auto start = misfit.residuals(misfit.models({q}, &failure)[0]);
   if (!start)
-    reject(asked, fmt::format("the case does not run with its start values: {}",
+    reject(asked, fmt::format("nothing to compare with at the start values: {}",
                               failure.empty() ? "a value is not finite" : failure));
   constexpr double nothing = 1e-9; // relative, of a change by a factor e
   Eigen::MatrixXd J;

@@ -92,7 +92,8 @@ FrequencyTable read_response(MeasuredResponse response, const CsvTable& csv, con
 
 void read_quantity(DeviceTest& test, const CsvTable& csv, const Columns& columns, const Case& one,
                    std::vector<Diagnostic>& wrong) {
-  const std::vector<post::Column> history = history_columns(one);
+  std::vector<post::Column> history = history_columns(one);
+  history.erase(std::ranges::find(history, "iterations", &post::Column::name), history.end()); // the solver's
   test.against = csv.names.at(0);
   auto column = std::ranges::find(history, test.against, &post::Column::name);
   if (column == history.end()) {
@@ -107,6 +108,16 @@ void read_quantity(DeviceTest& test, const CsvTable& csv, const Columns& columns
                      fmt::format("found {}: its first column is none of the run's history, allowed {}",
                                  toml_string(csv.names[0]), listed(known))});
     return;
+  }
+  if (std::vector<std::string> steps; test.against == "load_factor" && test.step.empty()) {
+    for (const Step& step : one.steps)
+      if (!step.is_analysis()) steps.push_back(step.name);
+    if (steps.size() > 1)
+      wrong.push_back({{csv.file, csv.header_line, 1},
+                       "",
+                       fmt::format("found \"load_factor\", which begins again in each step; say by step in "
+                                   "which it was measured, one of {}",
+                                   listed(steps))});
   }
   const auto quantity = std::ranges::find(history, test.quantity, &post::Column::name);
   const std::size_t before = wrong.size();
@@ -175,15 +186,36 @@ void find_unknowns(SectionReader& reader, const Node& section, Node base, Identi
   }
 }
 
+/// The step of the case in which a test was measured: one whose states it can be compared with.
+void check_step(SectionReader& reader, const Node& table, const std::string& path, const Case& one,
+                const DeviceTest& test) {
+  std::vector<std::string> steps;
+  for (const Step& step : one.steps)
+    if (test.is_response() ? step.kind == StepKind::harmonic : !step.is_analysis())
+      steps.push_back(step.name);
+  const char* kind = test.is_response() ? "of kind \"harmonic\"" : "with a history";
+  if (const Node* at_jump = table.find("at_jump"); at_jump && test.is_response())
+    reader.report(at_jump->source, path + ".at_jump", "has no effect: a response is that of a state at rest");
+  if (test.is_response() && steps.empty())
+    reader.report(table.source, path + ".response",
+                  "the case has no step of kind \"harmonic\", whose response it would be");
+  else if (const Node* step = table.find("step"); step && std::ranges::count(steps, test.step) == 0)
+    reader.report(step->source, path + ".step",
+                  fmt::format("found {}: the case has no such step {}, allowed {}{}", toml_string(test.step),
+                              kind, listed(steps), did_you_mean(test.step, steps)));
+  else if (test.is_response() && !step && steps.size() > 1)
+    reader.report(table.source, path + ".step",
+                  fmt::format("missing: the case has several steps {}; say which was measured, one of {}",
+                              kind, listed(steps)));
+}
+
 /// What the tests ask of the case.
 void check_tests(SectionReader& reader, const Node& section, const Case& one, const Identification& asked) {
   for (std::size_t t = 0; t < asked.tests.size(); ++t) {
     const DeviceTest& test = asked.tests[t];
     const Node& table = section.find("test")->items[t];
     const std::string path = fmt::format("identify.test[{}]", t + 1);
-    if (test.is_response() && !has_step(one, {StepKind::harmonic}))
-      reader.report(table.source, path + ".response",
-                    "the case has no step of kind \"harmonic\", whose response it would be");
+    check_step(reader, table, path, one, test);
     if (!test.is_response() && std::ranges::count(one.quantities, test.quantity, &Quantity::name) == 0) {
       std::vector<std::string> known;
       for (const Quantity& quantity : one.quantities) known.push_back(quantity.name);

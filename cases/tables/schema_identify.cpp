@@ -67,7 +67,21 @@ Section identify_section() {
       text("file", to(&DeviceTest::file), "CSV file; its path starts at this file's folder"),
       text("quantity", to(&DeviceTest::quantity),
            "quantity of the case whose column the file has, against its first column: \"time\" or another "
-           "column of the run's history, in which the run goes on only. The run stops at each of its values"),
+           "column of the run's history. The run stops at each of its values. A value that the column keeps "
+           "is "
+           "that of the state in which the column begins to move, or comes to rest for the rest of the run"),
+      text("step", to(&DeviceTest::step),
+           "the step of the case in which it was measured, where the run comes to the same value in several, "
+           "or has several of kind \"harmonic\"; a value that a column keeps all through it is that of its "
+           "end")
+          .optional(),
+      word(
+          "at_jump",
+          {{"before", "in the state before", AtJump::before}, {"after", "in the state after", AtJump::after}},
+          to(&DeviceTest::at_jump),
+          "where rows lie at the instant of a jump (a wave's, or of a step that takes no time): what was "
+          "measured there")
+          .optional(),
       word("response", responses(), to(&DeviceTest::response),
            "of the case's step of kind \"harmonic\", instead of a quantity: columns \"frequency\", and "
            "\"real\" and \"imaginary\" or \"magnitude\" and \"phase\"")

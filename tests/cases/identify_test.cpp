@@ -144,6 +144,144 @@ TEST_F(Identify, TakesTheRunWhereItWasMeasured) {
   }
 }
 
+/// The model's values of the only test, with the unknown at `value`.
+std::vector<double> model_of(const Identification& asked, double value) {
+  return DeviceModel(asked).run(0, {value});
+}
+
+void expect_measured(const Identification& asked, double value, double tolerance) {
+  const std::vector<double> model = model_of(asked, value);
+  ASSERT_EQ(model.size(), asked.tests[0].measured.size());
+  for (std::size_t row = 0; row < model.size(); ++row)
+    EXPECT_NEAR(model[row], asked.tests[0].measured[row].real(), tolerance * std::abs(model[row])) << row;
+}
+
+const std::string creeping = R"toml(
+[film]
+thickness = "1 mm"
+[film.material]
+permittivity = "4e-11 F/m"
+shear_modulus = "25 kPa"
+[[film.material.branch]]
+shear_modulus = "40 kPa"
+relaxation_time = "2 s"
+[patch]
+)toml";
+
+// A ramp at once, P = (40 + 40) kPa (l - 1/l^2), and a hold in which the film creeps at that stress, known to
+// round-off only; a charge in closed form on a film of 30 + 40 kPa, and a hold at the voltage.
+TEST_F(Identify, TakesTheStateInWhichTheColumnComesToAValueThatItKeeps) {
+  const std::string test = "[[identify.test]]\nfile = \"v.csv\"\nquantity = ";
+  write("v.csv", "stress_x_kPa,stretch_x\n3,1.012657552\n15,1.066568329\n27,1.126091914\n30,1.141903856\n");
+  write_test("\"film.material.shear_modulus\"", test + "\"stretch_x\"\n");
+  for (const int increments : {5, 20, 100}) {
+    write("stack.toml", creeping +
+                            "stress_x = \"30 kPa\"\n[[step]]\nkind = \"force\"\nresponse = "
+                            "\"instantaneous\"\nincrements = " +
+                            std::to_string(increments) +
+                            "\n[[step]]\nkind = \"hold\"\nduration = \"20 s\"\n");
+    expect_measured(read_identification(directory / "identify.toml"), 40, 1e-9);
+  }
+  const std::string ramp = creeping +
+                           "length = \"20 mm\"\nmode = \"equal-biaxial\"\n[drive]\nvoltage = \"9 kV\"\n"
+                           "[[step]]\nkind = \"voltage\"\nresponse = \"instantaneous\"\n"
+                           "[[step]]\nkind = \"hold\"\nduration = \"20 s\"\n";
+  write("stack.toml", ramp);
+  write("v.csv", "voltage_kV,charge_nC\n1,16.006099\n5,80.774862\n8,131.261122\n9,148.700078\n");
+  write_test("\"film.material.shear_modulus\"", test + "\"charge\"\n");
+  expect_measured(read_identification(directory / "identify.toml"), 30, 1e-7);
+  // A row alone may be of the hold: then its step has to be said.
+  Identification alone = read_identification(directory / "identify.toml");
+  alone.tests[0].x = {9000};
+  alone.tests[0].measured = {148.700078e-9};
+  EXPECT_THROW(model_of(alone, 30), std::runtime_error);
+  alone.tests[0].step = "voltage";
+  expect_measured(alone, 30, 1e-7);
+  alone.tests[0].step = "hold"; // over ten relaxation times
+  EXPECT_NEAR(model_of(alone, 30)[0], 155.775066e-9, 1e-12);
+  // Behind the hold the voltage is lowered without time.
+  write("stack.toml", ramp + "[[step]]\nkind = \"voltage\"\nname = \"off\"\nto = \"1 kV\"\n"
+                             "response = \"instantaneous\"\n");
+  write("v.csv", "time_s,charge_nC\n10,154.908524\n20,155.775066\n");
+  expect_measured(read_identification(directory / "identify.toml"), 30, 1e-5); // by its own time steps
+}
+
+// The log of a creep test begins with the film at rest, at the instant at which the voltage is switched on.
+TEST_F(Identify, AsksWhichSideOfAJumpWasMeasured) {
+  write("stack.toml", creeping + "mode = \"equal-biaxial\"\n[drive]\nvoltage = { wave = \"step\", to = \"10 "
+                                 "kV\" }\n[[step]]\nkind = \"transient\"\nduration = \"1 s\"\n"
+                                 "increments = 20\n[[quantity]]\nname = \"strain\"\nkind = \"areal "
+                                 "strain\"\nof = \"film\"\n");
+  write("v.csv", "time_s,strain\n0,0\n0.5,0.023098704\n1.0,0.025715204\n");
+  const std::string test = "[[identify.test]]\nfile = \"v.csv\"\nquantity = \"strain\"\n";
+  write_test("\"film.material.shear_modulus\"", test);
+  EXPECT_NE(message().find("v: at time = 0 strain jumps from 0 to 0.0218859"), std::string::npos)
+      << message();
+  write_test("\"film.material.shear_modulus\"", test + "at_jump = \"before\"\n");
+  expect_measured(read_identification(directory / "identify.toml"), 30, 1e-4); // by its own time steps
+  write_test("\"film.material.shear_modulus\"", test + "at_jump = \"after\"\n");
+  EXPECT_NEAR(model_of(read_identification(directory / "identify.toml"), 30)[0], 0.0202241096, 1e-9);
+  write("v.csv", "time_s,strain\n0.5,0.023098704\n1.0,0.025715204\n");
+  EXPECT_NE(message().find("at_jump has no effect"), std::string::npos) << message();
+}
+
+TEST_F(Identify, AsksForTheStepWhereTheRunComesToAValueInSeveral) {
+  const auto write_case = [&](const std::string& second) {
+    write("stack.toml", creeping +
+                            "[drive]\nvoltage = \"6 kV\"\n[[step]]\nkind = \"voltage\"\nname = "
+                            "\"up\"\n[[step]]\nkind = \"voltage\"\nname = \"down\"\n" +
+                            second);
+  };
+  const std::string test = "[[identify.test]]\nfile = \"v.csv\"\nquantity = \"stretch_x\"\n",
+                    unknown = "\"film.material.shear_modulus\"";
+  write_case("to = \"1 kV\"\n");
+  write("v.csv", "voltage_kV,stretch_x\n1.5,1.001\n3,1.003\n6,1.01\n");
+  write_test(unknown, test);
+  // Branches that have all the time they need: up and down are the same states.
+  const std::vector<double> both = model_of(read_identification(directory / "identify.toml"), 30);
+  write_test(unknown, test + "step = \"up\"\n");
+  const std::vector<double> up = model_of(read_identification(directory / "identify.toml"), 30);
+  for (std::size_t row = 0; row < up.size(); ++row) EXPECT_NEAR(both[row], up[row], 1e-9);
+  write_case("to = \"1 kV\"\nresponse = \"instantaneous\"\n");
+  EXPECT_EQ(model_of(read_identification(directory / "identify.toml"), 30), up);
+  write_test(unknown, test);
+  EXPECT_NE(message().find("v: the run comes to voltage = 1500 more than once, with stretch_x at "),
+            std::string::npos)
+      << message();
+  write("v.csv", "load_factor,stretch_x\n0.25,1.001\n0.5,1.003\n1,1.01\n");
+  EXPECT_NE(message().find("begins again in each step; say by step in which it was measured, one of \"up\", "
+                           "\"down\""),
+            std::string::npos)
+      << message();
+  write_test(unknown, test + "step = \"up\"\n");
+  const std::vector<double> same = model_of(read_identification(directory / "identify.toml"), 30);
+  for (std::size_t row = 0; row < up.size(); ++row) EXPECT_NEAR(same[row], up[row], 1e-9);
+  write_test(unknown, test + "step = \"upp\"\n");
+  EXPECT_NE(
+      message().find("found \"upp\": the case has no such step with a history, allowed \"up\", \"down\""),
+      std::string::npos)
+      << message();
+}
+
+TEST_F(Identify, AsksForTheStepWhereSeveralAreHarmonic) {
+  write("stack.toml", stack + "[[step]]\nkind = \"voltage\"\nname = \"lower\"\nto = \"500 V\"\n[[step]]\n"
+                              "kind = \"harmonic\"\nname = \"again\"\npoints = 2\n");
+  write("g.csv", "frequency[Hz],real[m/V^2],imaginary[m/V^2]\n1,1,0\n10,1,0\n");
+  write_test("\"film.material.shear_modulus\"", displacement);
+  EXPECT_EQ(message(), "error: identify.test[1].step: missing: the case has several steps of kind "
+                       "\"harmonic\"; say which was measured, one of \"harmonic\", \"again\"");
+  const auto first = [&](const std::string& step) {
+    write_test("\"film.material.shear_modulus\"", displacement + step);
+    return model_of(read_identification(directory / "identify.toml"), 0.4);
+  };
+  const std::vector<double> at_1000 = first("step = \"harmonic\"\n"), at_500 = first("step = \"again\"\n");
+  EXPECT_GT(std::abs(at_1000[0] - at_500[0]), 1e-3 * std::abs(at_500[0]));
+  write("stack.toml", stack.substr(0, stack.rfind("[[step]]")) +
+                          "to = \"500 V\"\n[[step]]\nkind = \"harmonic\"\npoints = 2\n");
+  const std::vector<double> alone = first("");
+  EXPECT_NEAR(at_500[0], alone[0], 1e-5 * std::abs(alone[0])); // behind a branch that has relaxed
+}
+
 // The measured impedance is that of a permittivity below the lowest that the key takes.
 TEST_F(Identify, TellsThatAnUnknownEndsAtTheLimitOfItsKey) {
   write("z.csv", "frequency[Hz],magnitude[kOhm],phase[deg]\n10,1,0\n100,1,0\n1000,1,0\n");
@@ -226,7 +364,7 @@ TEST_F(Identify, RefusesTestsThatTheCaseCannotAnswer) {
   EXPECT_NE(message().find("found \"volt\": its first column is none of the run's history"),
             std::string::npos);
   write("v.csv", "voltage[V],stroke[mm]\n200,1\n4000,1\n");
-  EXPECT_NE(message().find("the run does not come to 4000"), std::string::npos);
+  EXPECT_NE(message().find("the run does not come to voltage = 4000"), std::string::npos);
   write("stack.toml", stack.substr(0, stack.rfind("[[step]]")));
   write_test("\"film.material.shear_modulus\"", displacement);
   EXPECT_EQ(message(), "error: identify.test[1].response: the case has no step of kind \"harmonic\", whose "
