@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 namespace dielast::cases {
 namespace {
@@ -47,15 +46,23 @@ class Columns {
   std::vector<double> values(int column, const std::string& name, std::string_view si_unit) const {
     const std::string& written = csv_.names[static_cast<std::size_t>(column)];
     const std::string unit = written == name ? "" : split_unit(written).unit;
-    const bool pure = si_unit == "1" && (unit == "%" || unit == "1" || unit == "-");
-    if (unit.empty() || pure || (si_unit != "1" && factor_to_si(csv_, column, si_unit)))
-      return si_column(csv_, column, si_unit);
-    wrong_.push_back(
-        {{csv_.file, csv_.header_line, 1},
-         "",
-         fmt::format("found {}, whose unit \"{}\" is none of {}; without a unit the numbers are {}",
-                     toml_string(written), unit, name,
-                     si_unit == "1" ? "those of the run, no percent" : "in " + std::string(si_unit))});
+    const bool ratio = unit == "%" || unit == "1" || unit == "-"; // an angle is none
+    const bool known = si_unit == "1" ? unit.empty() || ratio
+                       : unit.empty() ? name != "phase"
+                                      : !ratio && factor_to_si(csv_, column, si_unit).has_value();
+    if (known) return si_column(csv_, column, si_unit);
+    const Source header{csv_.file, csv_.header_line, 1};
+    if (unit.empty())
+      wrong_.push_back({header, "",
+                        fmt::format("found {} without a unit; write {} or {}", toml_string(written),
+                                    toml_string(name + "[deg]"), toml_string(name + "[rad]"))});
+    else
+      wrong_.push_back(
+          {header, "",
+           fmt::format("found {}, whose unit \"{}\" is none of {}{}", toml_string(written), unit, name,
+                       name == "phase"  ? ""
+                       : si_unit == "1" ? "; without a unit the numbers are those of the run, no percent"
+                                        : "; without a unit the numbers are in " + std::string(si_unit))});
     return {};
   }
 
@@ -67,7 +74,6 @@ class Columns {
 
 FrequencyTable read_response(MeasuredResponse response, const CsvTable& csv, const Columns& columns,
                              std::vector<Diagnostic>& wrong) {
-  constexpr double degree = std::numbers::pi / 180;
   const std::size_t before = wrong.size();
   std::string_view unit = unit_of(response);
   if (const int column = std::max(columns.find("magnitude"), columns.find("real"));
@@ -79,11 +85,8 @@ FrequencyTable read_response(MeasuredResponse response, const CsvTable& csv, con
   const std::vector<double> first = columns.values(polar ? "magnitude" : "real", unit);
   const std::vector<double> second = columns.values(polar ? "phase" : "imaginary", polar ? "rad" : unit);
   if (wrong.size() > before) return table;
-  const bool degrees =
-      polar && split_unit(csv.names[static_cast<std::size_t>(columns.find("phase"))]).unit.empty();
   for (std::size_t i = 0; i < table.hertz.size(); ++i) {
-    table.value.push_back(polar ? std::polar(first[i], degrees ? second[i] * degree : second[i])
-                                : std::complex(first[i], second[i]));
+    table.value.push_back(polar ? std::polar(first[i], second[i]) : std::complex(first[i], second[i]));
     if (!(table.hertz[i] > 0) || table.value.back() == 0.0)
       wrong.push_back({{csv.file, csv.lines[i], 1}, "", "a response is above 0, at a frequency above 0"});
   }

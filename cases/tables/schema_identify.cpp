@@ -84,7 +84,7 @@ Section identify_section() {
           .optional(),
       word("response", responses(), to(&DeviceTest::response),
            "of the case's step of kind \"harmonic\", instead of a quantity: columns \"frequency\", and "
-           "\"real\" and \"imaginary\" or \"magnitude\" and \"phase\"")
+           "\"real\" and \"imaginary\" or \"magnitude\" and \"phase[deg]\" (or [rad])")
           .replacing("quantity"),
       word("use",
            {{"fit", "the unknowns are fitted to it", false},

@@ -194,6 +194,11 @@ TEST_F(RationalFile, TellsWhatIsWrong) {
                     "unit the numbers are in Ohm",
                     unit));
   }
+  write("z.csv", "frequency[Hz],magnitude[Ohm],phase\n1,1,0\n10,1,0\n");
+  EXPECT_EQ(message(z + "poles = 1"),
+            "error: found \"phase\" without a unit; write \"phase[deg]\" or \"phase[rad]\"");
+  write("z.csv", "frequency[Hz],magnitude[Ohm],phase (%)\n1,1,0\n10,1,0\n");
+  EXPECT_EQ(message(z + "poles = 1"), "error: found \"phase (%)\", whose unit \"%\" is none of phase");
 }
 
 } // namespace
