@@ -140,6 +140,16 @@ bool KeptFactor::prepare() {
   return make();
 }
 
+/// z = A^-1 r, as far as the factor tells.
+void KeptFactor::apply_factor() {
+  if (is_ahead_ && ahead_ == r_)
+    factor_.finish(z_);
+  else
+    factor_.solve(r_, z_);
+  is_ahead_ = false;
+  ++solves_;
+}
+
 /// Iterations until a correction of x is small enough, none where `most` do not suffice. `square`: that of
 /// the norm of x.
 std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, double tolerance, int most) {
@@ -151,12 +161,7 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
     return now <= least || (iteration > (proves_ ? 1 : 2) && foreseen * now * now <= least * last);
   };
   for (int iteration = 1; iteration <= most; ++iteration) {
-    if (is_ahead_ && ahead_ == r_)
-      factor_.finish(z_);
-    else
-      factor_.solve(r_, z_);
-    is_ahead_ = false;
-    ++solves_;
+    apply_factor();
     const double rz = dot(r_, z_);
     if (rz == 0) return iteration;
     const double kept = iteration == 1 ? 0 : rz / product;
@@ -190,6 +195,11 @@ bool KeptFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tole
   x.setZero(b.size());
   const double largest = scale(b, r_);
   if (largest == 0) return true;
+  if (tolerance >= 1) {
+    apply_factor();
+    x = largest * z_;
+    return true;
+  }
   double square = 0;
   const bool fresh = fresh_ == 0;
   const double decades = -std::log10(tolerance), expected = fresh_ * decades;

@@ -31,7 +31,8 @@ class KeptFactor {
   /// with the `right` side, if it comes next, then costs less.
   [[nodiscard]] bool prove(const Eigen::VectorXd* right = nullptr);
   /// x = A^-1 b with the current values, by corrections until one is below `tolerance` of x, in the norm of
-  /// A. False: A has turned out not to be positive definite, or not in single precision.
+  /// A; from 1 on what the factor tells. False: A has turned out not to be positive definite, or not in
+  /// single precision.
   [[nodiscard]] bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance);
 
   int factorisations() const { return factorisations_; }
@@ -53,6 +54,7 @@ class KeptFactor {
   double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
   static constexpr double rounded = 2e-6; ///< some thirty roundings
   bool make(double lessened = 0, const Eigen::VectorXd* right = nullptr);
+  void apply_factor();
   std::optional<int> iterate(Eigen::VectorXd& x, double& square, double tolerance, int most);
 
   const SparseSymmetric& matrix_;

@@ -18,6 +18,7 @@ namespace dielast::fem {
 class SymmetricSolver {
  public:
   static constexpr double exact = 1e-10; ///< tolerance of solve()
+  static constexpr double estimate = 1;  ///< the same: one solve with the factor at hand does
 
   /// Analyses the pattern of `matrix` once; its values may change afterwards. `indefinite`: it is known never
   /// to be positive definite. Matrix and workers must outlive this.

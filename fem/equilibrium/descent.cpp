@@ -48,12 +48,16 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
     result.residual = current.scale > 0 ? current.norm / current.scale : 0;
     if (log) log({result.iterations, result.residual, length, result.negative_pivots});
     // How far a damped step goes tells nothing of how near the equilibrium is.
-    if (balanced(current, options.tolerance, previous_norm, infinity)) {
+    const double admitted = admitted_correction(current, options.tolerance, previous_norm, infinity);
+    if (admitted > 0) {
       if (!factor(state)) return result;
-      result.negative_pivots = tangent_.negative_pivots();
-      result.unstable_modes = tangent_.unstable_modes();
-      result.outcome = Outcome::converged;
-      return result;
+      tangent_.solve(-current.force.head(free), step);
+      if (step_size(step) <= admitted) {
+        result.negative_pivots = tangent_.negative_pivots();
+        result.unstable_modes = tangent_.unstable_modes();
+        result.outcome = Outcome::converged;
+        return result;
+      }
     }
     const Eigen::VectorXd added = damping * stiffness_;
     if (!factor(state, nullptr, &added) || tangent_.unstable_modes() > 0) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -37,9 +38,16 @@ constexpr int most_halvings = 12;
 constexpr double near = 1e-3;
 /// Weights of unknowns that have no stiffness as drawn (a slack film's, across it), over the stiffest's.
 constexpr double least_stiffness = 1e-6;
-constexpr double negligible = 1e-3;    ///< strain to which the tolerance of steps refers
+constexpr double negligible = 1e-3; ///< strain to which the tolerance of steps refers
+/// Corrections are computed where this many times what is foretold of them is more than is admitted, ...
+constexpr double cautious = 100;
+constexpr double soft =
+    10; ///< ... and a film without nodal forces may have as many times what it was to have
 constexpr double rounded_step = 1e-10; ///< over the extent; smaller ones may know no descent
-constexpr double farthest_step = 1e4;  ///< over the extent; no part of a farther one leads anywhere
+/// Over the extent, of a correction that is more than `linear` of the last one: rounding, or a state whose
+/// tangent is singular, to which Newton's steps halve the way.
+constexpr double most_unresolved = 1e-6, linear = 0.2;
+constexpr double farthest_step = 1e4; ///< over the extent; no part of a farther one leads anywhere
 constexpr double first_widening = 0.02, most_widening = 0.5; ///< strains that give a film tension
 constexpr int most_voltage_corrections = 30;
 constexpr double charge_tolerance = 1e-13; ///< of the voltage
@@ -73,6 +81,12 @@ double tolerance_of_step(double residual, double tolerance) {
 }
 
 } // namespace
+
+bool is_settled(double correction, double admitted, double last_step, double last_residual) {
+  const bool is_rounding =
+      last_residual <= near && correction > linear * last_step && correction <= most_unresolved;
+  return correction <= admitted || is_rounding;
+}
 
 Equilibrium::Equilibrium(const Model& model, int threads)
     : model_(model), assembler_(model, threads), tangent_(model, assembler_, stiffness_) {
@@ -159,12 +173,14 @@ void Equilibrium::balance(State& state, Balance& balance, Pressure pressure) {
 }
 
 /// A film whose field carries its stress has no nodal forces to compare the residual with: there, what the
-/// next step would change must be negligible, as told by the last one and the residual's decrease.
-bool Equilibrium::balanced(const Balance& balance, double tolerance, double previous_norm,
-                           double step) const {
+/// next step would change must be negligible, as foretold by the last one and the residual's decrease.
+double Equilibrium::admitted_correction(const Balance& balance, double tolerance, double previous_norm,
+                                        double step) const {
   const bool stagnates = balance.norm <= round_off_ && balance.norm > 0.3 * previous_norm;
-  return balance.norm <= tolerance * balance.scale || stagnates ||
-         (std::isfinite(step) && step * balance.norm <= negligible * tolerance * previous_norm);
+  if (balance.norm <= tolerance * balance.scale || stagnates) return tolerance;
+  const double least = negligible * tolerance;
+  const bool foretold = std::isfinite(step) && step * balance.norm <= least * previous_norm;
+  return foretold ? soft * least : 0;
 }
 
 double Equilibrium::step_size(const Eigen::VectorXd& step) const {
@@ -190,8 +206,9 @@ bool Equilibrium::factor(const State& state, const PathBorder* path, const Eigen
 }
 
 /// Goes along the Newton step, shorter while that leads nowhere; returns the fraction taken, 0 if none will
-/// do.
-double Equilibrium::backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings) {
+/// do. Where the forces are balanced already, those that are `balanced_to` this part tell nothing.
+double Equilibrium::backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings,
+                              double balanced_to) {
   const Eigen::Index free = model_.dofs.free_count();
   // With scalars an equilibrium is a saddle of the energy: only the residual tells.
   const bool definite = tangent_.unstable_modes() == 0 && model_.dofs.scalar_count() == 0;
@@ -218,7 +235,8 @@ double Equilibrium::backtrack(State& state, Balance& current, const Eigen::Vecto
     const double energy_change = there_.energy - current.energy - length * dead_work -
                                  model_.dofs.work_on_tied(state.dead_force, state, trial_);
     const bool descends = definite && energy_change <= sufficient_decrease * length * slope;
-    if (!descends && !(there_.norm < current.norm)) continue;
+    const bool stays_balanced = there_.norm <= std::max(balanced_to * there_.scale, round_off_);
+    if (!descends && !(there_.norm < current.norm) && !(balanced_to > 0 && stays_balanced)) continue;
     std::swap(state, trial_);
     std::swap(current, there_);
     return length;
@@ -313,9 +331,19 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
     // An unstable mode of a state close by is not one of this state; a pump's filling makes close far.
     const bool tells = stale_tangent <= near && result.unstable_modes == 0 && !model_.closed_chamber(state);
-    if (balanced(current, options.tolerance, previous_norm, step_length == 1 ? step_size(step) : infinity)) {
-      const bool known = tells || factor_and_count(state, false);
-      return end(known ? Outcome::converged : Outcome::singular);
+    const double last_step = step_length == 1 ? step_size(step) : infinity;
+    const double admitted = admitted_correction(current, options.tolerance, previous_norm, last_step);
+    right_ = -current.force.head(model_.dofs.free_count());
+    bool is_at_hand = false; // the step, by the tangent that there is
+    if (admitted > 0) {
+      const double foretold = last_step * std::max(stale_tangent, current.norm / previous_norm);
+      if (tells && cautious * foretold <= admitted) return end(Outcome::converged);
+      if (!tells && !factor_and_count(state, false, &right_)) return end(Outcome::singular);
+      const Stopwatch watch(timings_.solve, model_);
+      tangent_.solve(right_, step, 0, SymmetricSolver::estimate);
+      const double correction = step_size(step);
+      if (is_settled(correction, admitted, last_step, stale_tangent)) return end(Outcome::converged);
+      is_at_hand = !tells || correction <= linear * last_step;
     }
     if (result.iterations >= options.max_iterations ||
         (result.iterations >= patience(options) && current.norm > first_norm) ||
@@ -323,10 +351,12 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
       return end(Outcome::not_converged);
     const bool shrinks_slowly = step_length == 1 && current.norm > slow * previous_norm;
     previous_norm = current.norm;
-    stale_tangent = result.residual;
-    ++timings_.iterations;
+    if (!is_at_hand || !tells) {
+      stale_tangent = result.residual;
+      ++timings_.iterations;
+    }
     const auto find_step = [&](const State& at, bool close) {
-      right_ = -current.force.head(model_.dofs.free_count());
+      if (std::exchange(is_at_hand, false)) return true;
       if (!factor_and_count(at, close, &right_)) return false;
       const Stopwatch watch(timings_.solve, model_);
       tangent_.solve(right_, step, 0, tolerance_of_step(result.residual, options.tolerance));
@@ -353,9 +383,11 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     }
     indefinite = result.unstable_modes > 0 ? indefinite + 1 : 0;
     step_length =
-        backtrack(state, current, step, stiffened || options.wrinkles ? 2 * most_halvings : most_halvings);
+        backtrack(state, current, step, stiffened || options.wrinkles ? 2 * most_halvings : most_halvings,
+                  admitted > 0 ? options.tolerance : 0);
     if (step_length == 0) {
-      const bool rounded = current.norm <= round_off_ || step_size(step) <= rounded_step;
+      const double most = current.norm <= round_off_ ? most_unresolved : rounded_step;
+      const bool rounded = step_size(step) <= most;
       return end(rounded ? Outcome::converged : Outcome::not_converged);
     }
   }

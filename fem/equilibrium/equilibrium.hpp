@@ -19,7 +19,7 @@ struct Iteration {
 
 struct NewtonOptions {
   double tolerance = 1e-9; ///< on |R_free| over the largest norm of a block's nodal forces (of the reactions,
-                           ///< where one block is held)
+                           ///< where one block is held), and on the correction over the extent
   int max_iterations = 25;
   bool wrinkles = false; ///< film carries no compression: where Newton's method fails damped steps go on
 };
@@ -56,6 +56,13 @@ struct Timings {
   double residual = 0, tangent = 0, factor = 0, solve = 0;
   int iterations = 0;
 };
+
+/// Whether Newton's method may end where the forces are balanced and the next step would be a correction of
+/// this size (of step_size()): it is no more than is admitted, or, up to a millionth of the extent, the steps
+/// no longer converge as they do but to a state that they can resolve. That is told by the `last_step`, a
+/// full one (or infinity), from a state with a relative residual of `last_residual`: rounding, or a singular
+/// tangent.
+bool is_settled(double correction, double admitted, double last_step, double last_residual);
 
 /// Finds states in which the internal forces balance the dead ones: Newton's method with backtracking on the
 /// potential energy where the tangent is positive definite under the control, on the residual where it is
@@ -109,9 +116,12 @@ class Equilibrium {
 
   /// Sets the voltages that are not given to what their charges need and evaluates the forces.
   void balance(State& state, Balance& balance);
-  /// Whether a balance is an equilibrium. `previous_norm` is that of the iteration before, from which a full
-  /// Newton step of size `step` (see step_size()) led here; infinity at the start.
-  bool balanced(const Balance& balance, double tolerance, double previous_norm, double step) const;
+  /// What Newton's next step may at most be (its step_size()) where a balance is an equilibrium; 0 where its
+  /// forces do not balance. Forces alone do not tell: stiff directions make rounding, and what is left of
+  /// their residual, larger than what keeps a soft one from its place. `previous_norm` is that of the
+  /// iteration before, from which a full Newton step of size `step` led here; infinity at the start.
+  double admitted_correction(const Balance& balance, double tolerance, double previous_norm,
+                             double step) const;
   /// Largest displacement in a step, rotations times the model's length scale, over its extent.
   double step_size(const Eigen::VectorXd& step) const;
   /// Tangent at `state`, factored; see BorderedTangent::factor.
@@ -148,7 +158,8 @@ class Equilibrium {
   bool follow_charges(State& state, Pressure pressure) const;
   bool fill(State& state);
   State widened(State state, double strain) const;
-  double backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings);
+  double backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings,
+                   double balanced_to);
 
   const Model& model_;
   Assembler assembler_;

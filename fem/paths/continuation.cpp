@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -18,17 +19,22 @@ Eigen::VectorXd dual(const Equilibrium& equilibrium, const Eigen::VectorXd& du) 
   return equilibrium.stiffness().cwiseProduct(du) / equilibrium.energy_scale();
 }
 
-/// Sets direction and inertia at a converged point; false at a singular one. The new direction makes an acute
-/// angle with that of `before`, whose cosine is returned.
-std::optional<double> turn(Equilibrium& equilibrium, const LoadPath& path, ContinuationProgress& at,
-                           const Eigen::VectorXd& direction, double load_direction) {
+/// Factors the tangent at a point, bordered by the path through it in this direction; false at a singular
+/// one.
+bool factor_along(Equilibrium& equilibrium, const LoadPath& path, const ContinuationProgress& at,
+                  const Eigen::VectorXd& direction, double load_direction) {
   const PathBorder border{load_derivative(equilibrium, path, at.state, at.load_factor),
                           dual(equilibrium, direction), load_direction};
-  if (!equilibrium.factor(at.state, &border)) return std::nullopt;
+  return equilibrium.factor(at.state, &border);
+}
+
+/// Sets direction and inertia at a converged point, after factor_along() there. The new direction makes an
+/// acute angle with the one that was given to that, whose cosine is returned.
+std::optional<double> turn(Equilibrium& equilibrium, ContinuationProgress& at) {
   at.newton.negative_pivots = equilibrium.tangent().negative_pivots();
   at.newton.unstable_modes = equilibrium.tangent().unstable_modes();
-  at.load_direction =
-      equilibrium.tangent().solve(Eigen::VectorXd::Zero(border.column.size()), at.direction, 1);
+  const Eigen::Index free = equilibrium.model().dofs.free_count();
+  at.load_direction = equilibrium.tangent().solve(Eigen::VectorXd::Zero(free), at.direction, 1);
   const double length =
       std::hypot(std::sqrt(dual(equilibrium, at.direction).dot(at.direction)), at.load_direction);
   if (!std::isfinite(length)) return std::nullopt;
@@ -51,7 +57,7 @@ std::optional<ContinuationProgress> land(Equilibrium& equilibrium, const LoadPat
   path.apply(beyond.state, s);
   beyond.newton = equilibrium.solve(beyond.state, options);
   if (beyond.newton.outcome != Outcome::converged ||
-      !turn(equilibrium, path, beyond, direction, load_direction))
+      !factor_along(equilibrium, path, beyond, direction, load_direction) || !turn(equilibrium, beyond))
     return std::nullopt;
   return beyond;
 }
@@ -74,7 +80,8 @@ std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium,
                                                        const ContinuationOptions& options) {
   ContinuationProgress progress{.state = state, .load_factor = s, .arc = options.first_arc};
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(equilibrium.model().dofs.free_count());
-  if (!turn(equilibrium, path, progress, still, heading)) return std::nullopt;
+  if (!factor_along(equilibrium, path, progress, still, heading) || !turn(equilibrium, progress))
+    return std::nullopt;
   return progress;
 }
 
@@ -88,9 +95,8 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
   if (free_way(equilibrium.model(), from.state, to.state) < 1) return std::nullopt;
   to.last_arc = arc;
   ++to.steps;
-  const Eigen::VectorXd row = dual(equilibrium, from.direction);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  double previous_norm = infinity, step = infinity;
+  double previous_norm = infinity, previous_residual = infinity, step = infinity;
   Balance current;
   Eigen::VectorXd du;
   for (to.newton = {};; ++to.newton.iterations) {
@@ -100,21 +106,23 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
     equilibrium.balance(to.state, current);
     if (!current.feasible) return std::nullopt;
     to.newton.residual = current.scale > 0 ? current.norm / current.scale : 0;
-    if (equilibrium.balanced(current, options.tolerance, previous_norm, step)) break;
-    if (to.newton.iterations >= options.max_iterations || current.norm > 1e3 * previous_norm)
+    const double admitted = equilibrium.admitted_correction(current, options.tolerance, previous_norm, step);
+    const bool ends = to.newton.iterations >= options.max_iterations || current.norm > 1e3 * previous_norm;
+    if ((ends && admitted == 0) || !factor_along(equilibrium, path, to, from.direction, from.load_direction))
       return std::nullopt;
+    const double change = equilibrium.tangent().solve(-current.force.head(dofs.free_count()), du);
+    const double last_step = std::exchange(step, equilibrium.step_size(du));
+    if (admitted > 0 && is_settled(step, admitted, last_step, previous_residual)) break;
+    if (ends) return std::nullopt;
     previous_norm = current.norm;
-    const PathBorder border{load_derivative(equilibrium, path, to.state, to.load_factor), row,
-                            from.load_direction};
-    if (!equilibrium.factor(to.state, &border)) return std::nullopt;
-    to.load_factor += equilibrium.tangent().solve(-current.force.head(row.size()), du);
+    previous_residual = to.newton.residual;
+    to.load_factor += change;
     const State before = to.state;
     dofs.advance(to.state, du, 1);
     if (free_way(equilibrium.model(), before, to.state) < 1) return std::nullopt;
-    step = equilibrium.step_size(du);
   }
   to.newton.outcome = Outcome::converged;
-  const auto cosine = turn(equilibrium, path, to, from.direction, from.load_direction);
+  const auto cosine = turn(equilibrium, to);
   if (!cosine || *cosine < least_cosine) return std::nullopt;
   to.state.history = equilibrium.model().advanced_history(to.state);
   return to;

@@ -184,6 +184,42 @@ TEST_F(EulerColumn, buckles_at_eulers_load_in_a_bifurcation) {
   EXPECT_NEAR(by_load->load_factor, along[0].load_factor, 1e-6);
 }
 
+// A thousandth below its critical load next to no force takes the column back to its place.
+TEST_F(EulerColumn, is_not_balanced_yet_where_it_is_off_along_its_soft_mode) {
+  const auto along = critical_points(equilibrium, path, 1);
+  ASSERT_EQ(along.size(), 1U);
+  State straight = model->initial_state();
+  path.apply(straight, 0.999 * along[0].load_factor);
+  ASSERT_EQ(equilibrium.solve(straight, {}).outcome, Outcome::converged);
+  const Eigen::VectorXd& mode = along[0].mode.direction;
+  const double off = 1e-7 / mode.cwiseAbs().maxCoeff();
+  State state = straight;
+  model->dofs.advance(state, mode, off);
+  Balance balance;
+  equilibrium.balance(state, balance);
+  EXPECT_LT(balance.norm, 1e-8 * balance.scale);
+  ASSERT_EQ(equilibrium.solve(state, {.tolerance = 1e-8}).outcome, Outcome::converged);
+  EXPECT_LT(model->dofs.increment(straight, state).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+// What Newton's first step leaves of a stiff direction is next to nothing of its force, and tells nothing of
+// a soft one, in which that step went by a tangent with the stiff one's stress.
+TEST_F(EulerColumn, is_not_balanced_yet_where_only_its_stiff_direction_is) {
+  const auto bent = [&](double force) {
+    State state = model->initial_state();
+    state.dead_force[model->dofs.equation(tip, 1)] = force;
+    EXPECT_EQ(equilibrium.solve(state, {.tolerance = 1e-12, .max_iterations = 60}).outcome,
+              Outcome::converged);
+    return state;
+  };
+  const State exact = bent(0.2);
+  State state = bent(0.2 * (1 + 1e-5));
+  state.dead_force = exact.dead_force;
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) state.displacement[a].x() += 1e-6 * mesh.nodes[a].x();
+  ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
+  EXPECT_LT(model->dofs.increment(exact, state).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 // Elastica: the tip of a clamped column, slopes to 20 degrees at 1.015 and 40 at 1.063 times Euler's load
 // (Timoshenko & Gere, art. 2.7); y of the tip 0.220 and 0.422 lengths.
 TEST_F(EulerColumn, its_bent_branch_is_the_elastica) {
