@@ -17,9 +17,7 @@ namespace dielast::fem {
 /// Membrane elements of one kinematics, `lanes` at a time; FilmOfLaw says how the law is evaluated.
 /// Energy: int_A0 H Psi(C, k) dA0, k = eps (Phi/H)^2 under the element's electrode (see FilmResponse), where
 /// that is a sheet by the voltages of its corners: k = eps sum_a N_a (V_a/H)^2 with N_a linear (see
-/// SheetPoint). Covers that are bonded to the layers deform and wrinkle as these do: H and Psi are those of
-/// the whole section, of which only a part has the field. Stresses are means over the section. A point's
-/// volume is that of the film, of a full turn where it is a film of revolution.
+/// SheetPoint). A point's volume is that of the film, of a full turn where it is a film of revolution.
 template<class Kinematics>
 class FilmBlock : public FilmPoints {
  public:
@@ -75,7 +73,6 @@ class FilmBlock : public FilmPoints {
   /// The same at a point where some of the elements lie under sheets; `k` holds for the others.
   Lanes under_sheets(const State& state, int pack, int point, Lanes k) const;
   double voltage(const State& state, int element, int point) const;
-  /// As if the field were in the covers, too.
   double permittivity() const { return film_.dielectric().permittivity / section_.bulk(); }
   /// Psi over the elements of a pack, `psi` what it is without branches and wrinkles; `lost`: a wrinkled film
   /// that the field pulls wider without limit.

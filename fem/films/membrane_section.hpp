@@ -21,7 +21,8 @@ struct MembraneSection {
   bool sampled = true;                        ///< false: another section speaks for its cells
   double width = 0;                           ///< of a rod: unstretched, all layers side by side, m
 
-  /// Thickness of the whole section over that of the layers.
+  /// Thickness of the whole section over that of the layers. Covers deform and wrinkle with these: energy and
+  /// stresses are means over the section, as if all of it had the field, with so much less permittivity.
   double bulk() const { return 1 + covers / (layers * thickness); }
 };
 
