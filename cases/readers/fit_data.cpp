@@ -253,9 +253,9 @@ void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Column
     for (double& one : test.measured.stress) one /= *test.area;
   }
   int time = -1;
-  if (!test.time_column.empty())
-    time = columns.find("time", test.time_column, "");
-  else if (!test.rate && !test.equilibrium)
+  if (!test.time_column.empty() && !columns.values("time", test.time_column, "s").empty())
+    time = csv.find(test.time_column);
+  else if (test.time_column.empty() && !test.rate && !test.equilibrium)
     time = columns.usual_time();
   if (const int said = columns.usual_time(); test.rate && said >= 0)
     columns.report("rate",

@@ -87,6 +87,18 @@ TEST_F(FitReader, TimesAreTakenWhereTheFileHasThem) {
             (std::vector{0.0, 60.0, 120.0, 180.0, 240.0}));
 }
 
+TEST_F(FitReader, ATimeInAnUnknownUnitIsRefused) {
+  for (const char* name : {"time (mins)", "time, min", "time_m", "t"}) {
+    write("timed.csv",
+          std::string(name) + ";stretch;P_MPa\n0;1;0\n1;1.5;0.01\n2;2;0.02\n3;2;0.02\n4;2;0.02\n");
+    const Texts found =
+        errors("", std::string("file = \"timed.csv\"\nkind = \"uniaxial\"\ntime = '") + name + "'");
+    ASSERT_EQ(found.size(), 1u) << name;
+    EXPECT_NE(found[0].find("its name has no unit; allowed one of ms s min h"), std::string::npos)
+        << found[0];
+  }
+}
+
 TEST_F(FitReader, ARateBesideTimesIsRefused) {
   write("timed.csv", "time (s),stretch,P_MPa\n0,1,0\n1,1.5,0.01\n2,2,0.02\n3,2,0.02\n4,2,0.02\n");
   EXPECT_EQ(
