@@ -50,7 +50,7 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
     layers_.push_back({FilmLayer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
                        layer.number, std::move(electrodes[l])});
     drawn_flat_ = drawn_flat_ || layers_.back().stretched();
-    shear_stiffness_ += shear_correction * H * materials::initial_shear_modulus(layer.material.law);
+    shear_.add_layer(layer.material, H);
     surface_density_ += layer.material.density * H;
     bottom += H;
   }
@@ -243,14 +243,6 @@ Lanes ShellBlock::electric_modulus(const State& state, const Layer& layer, int p
   return k;
 }
 
-Lanes ShellBlock::add_shear(const ShellPoint& here, const ShellDeformation& f, ShellStress& stress) const {
-  const Lanes g[2] = {f.gamma[0] - here.gamma[0], f.gamma[1] - here.gamma[1]};
-  for (int i = 0; i < 3; ++i) stress.shear[i] = shear_stiffness_ * here.area * here.shear[i];
-  stress.gamma[0] = stress.shear[0] * g[0] + stress.shear[2] * g[1];
-  stress.gamma[1] = stress.shear[2] * g[0] + stress.shear[1] * g[1];
-  return 0.5 * (stress.gamma[0] * g[0] + stress.gamma[1] * g[1]);
-}
-
 template<bool with_tangent, int axes>
 bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& nodes, const Scatter& scatter,
                                Lanes& energy) const {
@@ -275,7 +267,8 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
     for (int l = 0; l < lanes; ++l)
       if (!(f.normal[l] > 0 && det[l] > 0)) feasible = false;
     ShellStress stress = ShellStress::of<with_tangent>(here, section.derivatives<with_tangent>());
-    energy += here.area * section.value() + add_shear(here, f, stress);
+    energy += here.area * section.value() +
+              shear_.evaluate(state, surface_points(pack, p), lanes_of(pack), here, f, stress);
     sum.add(table, f, stress);
   }
   if constexpr (axes == 3) energy += sum.add_drilling(drilling_stiffness(pack));

@@ -6,6 +6,7 @@
 #include "fem/shells/film_layer.hpp"
 #include "fem/shells/shell_block.hpp"
 #include "fem/shells/shell_kinematics.hpp"
+#include "fem/shells/shell_shear.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +60,7 @@ class ShellBlock final : public ElementBlock {
  private:
   static constexpr int Nodes = ShellTables::nodes, points = ShellTables::points;
   static constexpr int dofs = ShellSum<true, 3>::dofs;
-  static constexpr double shear_correction = 5.0 / 6, slenderest = 30;
+  static constexpr double slenderest = 30;
 
   struct Layer {
     FilmLayer film;
@@ -137,17 +138,21 @@ class ShellBlock final : public ElementBlock {
   Evaluation evaluate_packs(const State& state, int first, int last, const Scatter& scatter) const;
   template<bool with_tangent, int axes>
   void scatter_pack(int pack, const ShellSum<with_tangent, axes>& sum, const Scatter& scatter) const;
-  /// Energy of the transverse shear, J, and its stresses.
-  Lanes add_shear(const ShellPoint& here, const ShellDeformation& f, ShellStress& stress) const;
+  /// Numbers of a pack's p-th points in the surface.
+  std::array<int, lanes> surface_points(int pack, int p) const {
+    std::array<int, lanes> numbers;
+    for (int l = 0; l < lanes; ++l) numbers[static_cast<std::size_t>(l)] = (pack * lanes + l) * points + p;
+    return numbers;
+  }
   Lanes drilling_stiffness(int pack) const { // N m
-    return drilling_ * shear_stiffness_ / Nodes * areas_[static_cast<std::size_t>(pack)];
+    return drilling_ * shear_.stiffness() / Nodes * areas_[static_cast<std::size_t>(pack)];
   }
 
   std::vector<Layer> layers_;
   std::array<double, 2> prestretch_;
-  bool drawn_flat_ = false;    ///< as a prestretch of layers asks for
-  double height_ = 0;          ///< of the layers before the prestretch, m
-  double shear_stiffness_ = 0; ///< k_s sum mu H, N/m
+  bool drawn_flat_ = false; ///< as a prestretch of layers asks for
+  double height_ = 0;       ///< of the layers before the prestretch, m
+  ShellShear shear_;
   double surface_density_ = 0; ///< sum rho H, kg/m^2
   double drilling_;            ///< see ShellSection
   int count_ = 0;

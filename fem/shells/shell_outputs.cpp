@@ -87,11 +87,9 @@ void ShellBlock::add_energies(const State& state, EnergyParts& parts) const {
     const ShellNodes nodes = gather(state, pack);
     Lanes energy{};
     if (!nodes.tilt) energy = ShellSum<false, 3>(nodes).add_drilling(drilling_stiffness(pack));
-    for (int p = 0; p < points; ++p) {
-      ShellStress stress{};
-      energy += add_shear(point(pack, p),
-                          deformation(shell_tables().point[static_cast<std::size_t>(p)], nodes), stress);
-    }
+    for (int p = 0; p < points; ++p)
+      shear_.add_energies(state, surface_points(pack, p), lanes_of(pack), point(pack, p),
+                          deformation(shell_tables().point[static_cast<std::size_t>(p)], nodes), parts);
     for (int l = 0; l < lanes_of(pack); ++l) parts.elastic += energy[l];
   }
 }
@@ -116,7 +114,9 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
                                            lane_of(place.C, l), place.k[l], weight));
           section.add(place.Z, Lanes{} + place.weight, layer.in_section(psi));
         });
-      sum.add(table, f, ShellStress::of<true>(here, section.derivatives<true>()));
+      ShellStress stress = ShellStress::of<true>(here, section.derivatives<true>());
+      shear_.add_relaxation(weight, here, stress);
+      sum.add(table, f, stress);
     }
     sum.finish();
     scatter_pack(pack, sum, scatter);
@@ -124,7 +124,7 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
 }
 
 int ShellBlock::history_size() const {
-  int size = 0;
+  int size = shear_.history_size(count_ * points);
   for (const Layer& layer : layers_) size += layer.film.history_size(count_ * points * depths);
   return size;
 }
@@ -134,10 +134,12 @@ void ShellBlock::place_history(int first) {
     layer.film.place_history(first);
     first += layer.film.history_size(count_ * points * depths);
   }
+  shear_.place_history(first);
 }
 
 void ShellBlock::start_history(std::vector<double>& all) const {
   for (const Layer& layer : layers_) layer.film.start_history(count_ * points * depths, all);
+  shear_.start_history(count_ * points, all);
 }
 
 void ShellBlock::advance_history(const State& state, std::vector<double>& all) const {
@@ -145,6 +147,12 @@ void ShellBlock::advance_history(const State& state, std::vector<double>& all) c
   for_each_point(state, [&](const Visit& at) {
     at.place.layer.film.advance_history(state, at.number(), lane_of(at.place.C, at.lane), all);
   });
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    const ShellNodes nodes = gather(state, pack);
+    for (int p = 0; p < points; ++p)
+      shear_.advance_history(state, surface_points(pack, p), lanes_of(pack), point(pack, p),
+                             deformation(shell_tables().point[static_cast<std::size_t>(p)], nodes), all);
+  }
 }
 
 } // namespace dielast::fem
