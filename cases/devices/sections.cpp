@@ -118,13 +118,19 @@ void add_capacitors(const Case& one, fem::Model& model) {
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     double beside = one.electrodes[e].stray_capacitance;
     if (strip && one.electrodes[e].place == "electrode") {
-      const materials::Dielectric& dielectric = part->film->material.dielectric;
-      const auto [along_x, along_y] = part->film->prestretch;
-      const double area = strip->layers * strip->clamped_electrode() *
-                          strip->electrode_width.value_or(strip->width) / (along_x * along_y);
-      beside += dielectric.permittivity * area / part->film->thickness *
-                materials::capacitance_ratio_value(dielectric, along_x * along_x + along_y * along_y,
-                                                   along_x * along_x * along_y * along_y);
+      const auto in_clamps = [&](const auto& film) {
+        const materials::Dielectric& dielectric = film.material.dielectric;
+        const auto [along_x, along_y] = film.prestretch;
+        const double area = strip->layers * strip->clamped_electrode() *
+                            strip->electrode_width.value_or(strip->width) / (along_x * along_y);
+        return dielectric.permittivity * area / film.thickness *
+               materials::capacitance_ratio_value(dielectric, along_x * along_x + along_y * along_y,
+                                                  along_x * along_x * along_y * along_y);
+      };
+      const std::string& layer = one.electrodes[e].layer;
+      beside += layer.empty()
+                    ? in_clamps(*part->film)
+                    : in_clamps(*std::ranges::find(part->film->further_layers, layer, &Layer::name));
     }
     if (beside > 0) model.blocks.push_back(fem::make_capacitor_block({e, beside}));
   }

@@ -27,6 +27,8 @@ std::string ways_on(const Case& one, const Step& step) {
 
 /// Forces below this fraction of the film's own leave the drawn state in equilibrium.
 constexpr double balanced = 1e-9;
+/// Permittivity over that of undeformed film below which film is taken to have none.
+constexpr double least_permittivity = 1e-9;
 
 const std::string drawn = "drawn"; ///< name of the state before the first step
 
@@ -230,7 +232,7 @@ bool Simulation::admits(const Step& step, double load_factor, const fem::State& 
     if (left < smallest) electrostriction = dielectric.electrostriction;
     smallest = std::min(smallest, left);
   }
-  if (smallest > 0) return true;
+  if (smallest > least_permittivity) return true;
   refusal_ = {
       Ending::gave_up, "loss of permittivity",
       fmt::format("step \"{}\" stopped: at load factor {:.4g} electrostriction = {:.6g} would make the "

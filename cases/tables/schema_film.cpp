@@ -128,7 +128,13 @@ Section material_section() {
                                                    [](auto& film) { return &film.material.dielectric; });
   if constexpr (std::is_same_v<Owner, Layer>) // passive ones do not say it
     for (Key& key : section.keys)
-      if (key.name == "permittivity") key = std::move(key).optional();
+      if (key.name == "permittivity") {
+        key = std::move(key).optional();
+        key.binding.get = [](const void* object) -> std::optional<Value> {
+          const double said = static_cast<const Layer*>(object)->material.dielectric.permittivity;
+          return said > 0 ? value_of(said) : std::nullopt;
+        };
+      }
   for (Key& key : section.keys)
     if (key.name == "electrostriction" || key.name.starts_with("breakdown")) key.acts = when::electrodes();
   const Binding relative{[](void* object, const Value& value) {

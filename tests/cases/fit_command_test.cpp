@@ -263,8 +263,9 @@ TEST_F(FitCommand, ColumnsOfStrainSayPercentInManyWays) {
     EXPECT_EQ(fitted(column, "strain", 1, 0).exit_code, 0);
     EXPECT_NEAR(json_of("out/fit.json")["parameters"][0]["value"].get<double>(), 50e3, 1e-2) << column;
   }
-  EXPECT_NE(fitted("strain", "strain", 50, 0).out.find("\"strain\" rises to 7.5, a strain of 750 %: if it is in"),
-            std::string::npos);
+  EXPECT_NE(
+      fitted("strain", "strain", 50, 0).out.find("\"strain\" rises to 7.5, a strain of 750 %: if it is in"),
+      std::string::npos);
   const auto refused = [&](const std::string& column, const std::string& key, double unit, double start,
                            const char* why) {
     const Ended ended = fitted(column, key, unit, start);
