@@ -39,6 +39,35 @@ void require_one_of(SectionReader& reader, const Source& source, const std::stri
         fmt::format("found {}, allowed {}{}", toml_string(name), listed(known), did_you_mean(name, known)));
 }
 
+/// The key of "key=value".
+std::string_view key_of(std::string_view assignment) {
+  std::string_view key = assignment.substr(0, assignment.find('='));
+  while (key.ends_with(' ')) key.remove_suffix(1);
+  while (key.starts_with(' ')) key.remove_prefix(1);
+  return key;
+}
+
+/// Whether a key is another, or stands within it.
+bool is_within(std::string_view key, std::string_view other) {
+  return key.starts_with(other) &&
+         (key.size() == other.size() || key[other.size()] == '.' || key[other.size()] == '[');
+}
+
+/// What varies, or is computed, takes the place of what all points are to have.
+void check_settings(SectionReader& reader, const Node& section, const Study& study,
+                    const std::vector<std::string>& overrides) {
+  const auto check = [&](const Source& source, std::string_view key) {
+    for (const std::string& varied : study.varied())
+      if (is_within(key, varied))
+        reader.report(source, std::string(key),
+                      fmt::format("has no effect: the study gives {} a value at each of its points",
+                                  toml_string(varied)));
+  };
+  if (const Node* set = section.find("set"); set && set->is(Node::Kind::table))
+    for (std::size_t i = 0; i < set->items.size(); ++i) check(set->items[i].key_source, set->keys[i]);
+  for (const std::string& assignment : overrides) check({"--set " + assignment}, key_of(assignment));
+}
+
 /// Quantities and axes that the study names must exist.
 void check_names(SectionReader& reader, const Node& section, const Study& study, const Case& base) {
   std::vector<std::string> quantities, axes = study.varied();
@@ -122,8 +151,10 @@ void require_only_study(SectionReader& reader, const Node& tree) {
 } // namespace
 
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const Node tree = read_tree(path);
+  Node tree = read_tree(path);
   refuse_fit(tree);
+  for (const std::string& assignment : overrides)
+    if (tree.find("study") && is_within(key_of(assignment), "study")) apply_override(tree, assignment);
   Study study;
   study.source = study.base = path;
   study.title = path.stem().string();
@@ -153,12 +184,14 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   }
   read_settings(reader, *section, base, study);
   for (const std::string& assignment : overrides) {
+    if (is_within(key_of(assignment), "study")) continue; // is in the tree of this file
     apply_override(base, assignment);
     study.settings.push_back(assignment);
   }
   base_case = interpret(base, study.base); // its own errors come first: nothing can be varied without it
   reader.read_table(*case_schema().find_section("study"), *section, &study, "study");
   read_axes(reader, *section, base, study);
+  check_settings(reader, *section, study, overrides);
   check_names(reader, *section, study, base_case);
   check_targets(reader, *section, study, base_case);
   complete_collection(study, base_case);

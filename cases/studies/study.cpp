@@ -94,7 +94,12 @@ void run_here(const Study& study, std::span<const WaitingPoint> waiting, std::si
 } // namespace
 
 ExitCode run_points(const Study& study, const StudySettings& settings, std::span<const int> numbers) {
-  for (const StudyPoint& point : study_points(study, settings.directory)) {
+  const std::vector<StudyPoint> points = study_points(study, settings.directory);
+  for (const int number : numbers)
+    if (number > static_cast<int>(points.size()))
+      throw std::invalid_argument(
+          fmt::format("--points {}: the study has {} points only", number, points.size()));
+  for (const StudyPoint& point : points) {
     if (interrupted()) return ExitCode::interrupted;
     if (std::ranges::find(numbers, point.number) == numbers.end()) continue;
     const Kept kept = kept_of(study, point, true);

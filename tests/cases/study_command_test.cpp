@@ -75,6 +75,27 @@ set = { "output.error_estimate" = false }
   EXPECT_EQ(rows[1][5], "VHB 4910 (honeycomb)");
 }
 
+TEST_F(StudyCommand, TakesSettingsOfTheStudyAndRefusesThoseWithoutEffect) {
+  write_study(R"({ "drive.voltage" = ["2 kV", "4 kV"] })");
+  const auto with = [&](const std::vector<std::string>& more) { return dielast(into("out", more)); };
+  const Ended varied = with({"--set", "drive.voltage=1 kV"});
+  EXPECT_EQ(varied.exit_code, 2);
+  EXPECT_NE(
+      varied.err.find("error: drive.voltage: has no effect: the study gives \"drive.voltage\" a value at "
+                      "each of its points"),
+      std::string::npos)
+      << varied.err;
+  const Ended missing = with({"--points", "2-3"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_EQ(missing.err, "error: --points 3: the study has 2 points only\n");
+  EXPECT_EQ(with({"--set", "study.colect=[\"eps_x\"]"}).exit_code, 2);
+  const Ended ended = with({"--set", "study.collect=[\"eps_x\", \"eps_y\", \"max_field\"]"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(table_of(directory / "out/study.csv")[0],
+            (std::vector<std::string>{"point", "drive.voltage[kV]", "eps_x[1]", "eps_y[1]", "max_field[V/m]",
+                                      "exit_code", "events", "message"}));
+}
+
 // The best point under a bound must be what the table says: here the bound leaves out the point that is best
 // without it.
 TEST_F(StudyCommand, TheBestPointHoldsItsBounds) {
