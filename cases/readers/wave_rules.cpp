@@ -95,6 +95,22 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
                               wave.start, end));
   }
   check_jumps(reader, tree, one);
+  for (const WrittenWave& written : reader.waves()) {
+    if (written.wave.kind != Waveform::Kind::file) continue;
+    const auto& rows = written.wave.samples;
+    if (rows.empty()) continue;
+    const double end = followed_time(one, written), first = rows.front()[0], last = rows.back()[0];
+    if (end > last * (1 + 1e-9))
+      reader.warn(
+          written.source, written.key,
+          fmt::format(
+              "its last row is at {:.6g} s, and the step that follows it ends at {:.6g} s: from there "
+              "on it keeps that row's value",
+              last, end));
+    if (end > 0 && first > 0)
+      reader.warn(written.source, written.key,
+                  fmt::format("its first row is at {:.6g} s: until there it has that row's value", first));
+  }
   for (const WrittenWave& written : reader.waves())
     if (std::ranges::none_of(one.steps, [&](const Step& step) { return follows(step, written); }))
       reader.report(

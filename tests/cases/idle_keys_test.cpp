@@ -211,6 +211,16 @@ TEST_F(IdleKeys, AToleranceBeyondTheValue) {
   EXPECT_EQ(check("0", "0.01"), Keys{});
 }
 
+TEST_F(IdleKeys, RowsThatAStepLeavesBehindAreTold) {
+  const std::string drive = "[drive]\nvoltage = { wave = \"file\", file = \"w.csv\" }\n";
+  write("w.csv", "time_s,voltage_kV\n0,0\n0.5,4\n1,1\n");
+  EXPECT_EQ(keys(film + disc + drive + transient), Keys{});
+  write("w.csv", "time_s,voltage_kV\n0,0\n0.5,4\n");
+  EXPECT_EQ(keys(film + disc + drive + transient), Keys{"drive.voltage"});
+  write("w.csv", "time_s,voltage_kV\n0.1,0\n0.5,4\n");
+  EXPECT_EQ(keys(film + disc + drive + transient), (Keys{"drive.voltage", "drive.voltage"}));
+}
+
 TEST_F(IdleKeys, TheGalleryHasNone) {
   for (const char* folder : {"cases/gallery", "tests/cases/valid"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder / folder)) {
