@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -55,6 +56,41 @@ double number_in(std::string text, char separator) {
   return problem == std::errc{} && stop == end && std::isfinite(number) ? number : std::nan("");
 }
 
+/// Whether the number may have a separator of thousands where another has a decimal one: "13.678".
+bool may_have_thousands(std::string_view text, char separator) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  const std::size_t at = text.find(separator);
+  return at >= 1 && at <= 3 && text.size() == at + 4 && text[0] != '0' &&
+         text.find_first_not_of(std::string("0123456789") + separator) == std::string_view::npos;
+}
+
+/// Decimal commas and dots of a file.
+class Decimals {
+ public:
+  void add(const std::string& text, const Source& source) {
+    for (std::size_t i : {0u, 1u}) {
+      if (text.find(signs[i]) == std::string::npos) continue;
+      if (first_[i].empty()) first_[i] = text;
+      if (doubtful_[i].first.empty() && may_have_thousands(text, signs[i])) doubtful_[i] = {text, source};
+    }
+  }
+  /// Where one of them may stand between thousands.
+  void check(std::vector<Diagnostic>& wrong) const {
+    for (std::size_t i : {0u, 1u})
+      if (const auto& [text, source] = doubtful_[i]; !text.empty() && !first_[1 - i].empty())
+        wrong.push_back(
+            {source, "",
+             fmt::format("found \"{}\" in a file with \"{}\", allowed one sign for decimals and none "
+                         "between thousands",
+                         text, first_[1 - i])});
+  }
+
+ private:
+  static constexpr std::array signs{',', '.'};
+  std::array<std::string, 2> first_;
+  std::array<std::pair<std::string, Source>, 2> doubtful_;
+};
+
 } // namespace
 
 int CsvTable::find(std::string_view name) const {
@@ -95,6 +131,7 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
   table.file = path.string();
   int number = 0;
   char separator = ',';
+  Decimals decimals;
   for (std::string line; std::getline(stream, line) && wrong.size() < enough;) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3); // byte order mark of spreadsheets
@@ -126,9 +163,12 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
                          cells[c].text.empty()
                              ? "the cell is empty, allowed a number"
                              : fmt::format("found \"{}\", allowed a number", cells[c].text)});
+      else if (separator != ',')
+        decimals.add(cells[c].text, {table.file, number, cells[c].column});
       table.columns[c].push_back(value);
     }
   }
+  decimals.check(wrong);
   if (table.rows() > most_rows)
     wrong.push_back({{table.file}, "", fmt::format("found {} rows, allowed {}", table.rows(), most_rows)});
   if (table.rows() < least_rows)

@@ -51,7 +51,18 @@ TEST(Csv, SemicolonsTabsAndDecimalCommas) {
   read("a;b\n1.234,5;2\n1,2,3;4\n", wrong);
   EXPECT_EQ(texts(wrong), (std::vector<std::string>{":2:1: error: a: found \"1.234,5\", allowed a number",
                                                     ":3:1: error: a: found \"1,2,3\", allowed a number"}));
+  // 13.678 Pa, or 13678 Pa as a spreadsheet shows them beside decimal commas?
+  for (const std::string first : {"1,100000", "1,1"}) {
+    wrong.clear();
+    read("a;b\n" + first + ";13.678\n1,2;-1.250\n", wrong);
+    EXPECT_EQ(texts(wrong), (std::vector{":2:" + std::to_string(first.size() + 2) +
+                                         ": error: found \"13.678\" in a file with \"" + first +
+                                         "\", allowed one sign for decimals and none between thousands"}));
+  }
   wrong.clear();
+  read("a;b\n0,5;0.678\n1,250000;1.2345\n1,2;100.5\n2,5;1.250e3\n", wrong);
+  read("a;b\n5;13.678\n6;1.250\n", wrong);
+  EXPECT_TRUE(wrong.empty()) << wrong.front().text();
   read("a,b\n0,5,1,25\n", wrong);
   EXPECT_EQ(texts(wrong),
             (std::vector<std::string>{":2:1: error: found 4 cells, allowed 2: one for each name in line "
