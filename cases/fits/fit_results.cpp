@@ -54,7 +54,11 @@ std::vector<std::string> FitResults::warnings() const {
   for (std::size_t i = 0; i < outcome.parameters.size(); ++i) {
     const FittedParameter& one = outcome.parameters[i];
     const std::string& name = task.parameters[i].name;
-    if (one.at_bound)
+    if (one.ends_model)
+      all.push_back(fmt::format("{} is at its bound: beyond it the material has no stable state at a stretch "
+                                "that was measured, and what fits better may lie there",
+                                name));
+    else if (one.at_bound)
       all.push_back(fmt::format("{} is at its bound: the tests do not tell it", name));
     else if (!one.determined())
       all.push_back(

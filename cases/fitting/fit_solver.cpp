@@ -75,8 +75,10 @@ class Misfit : public ceres::CostFunction {
     return r.allFinite();
   }
 
-  /// By central differences, one-sided where only one side has a stress. False where none has.
-  bool jacobian(const Eigen::VectorXd& q, const Eigen::VectorXd& r, Eigen::MatrixXd& J) const {
+  /// By central differences, one-sided where only one side has a stress: `ends` says where. False where none
+  /// has.
+  bool jacobian(const Eigen::VectorXd& q, const Eigen::VectorXd& r, Eigen::MatrixXd& J,
+                std::vector<bool>* ends = nullptr) const {
     constexpr double h = 1e-4;
     J.resize(r.size(), q.size());
     for (Eigen::Index i = 0; i < q.size(); ++i) {
@@ -86,6 +88,7 @@ class Misfit : public ceres::CostFunction {
       there[i] = q[i] - h;
       const bool has_behind = residuals(there, behind);
       if (!has_ahead && !has_behind) return false;
+      if (ends) ends->push_back(!has_ahead || !has_behind);
       J.col(i) = ((has_ahead ? ahead : r) - (has_behind ? behind : r)) / (h * (has_ahead + has_behind));
     }
     return true;
@@ -239,9 +242,11 @@ void add_statistics(const Misfit& misfit, const std::vector<Coordinate>& coordin
                     const Eigen::VectorXd& q, FitOutcome& outcome) {
   Eigen::VectorXd r;
   Eigen::MatrixXd J;
-  if (!misfit.residuals(q, r) || !misfit.jacobian(q, r, J)) J.setZero(r.size(), q.size());
+  std::vector<bool> ends; // where the model has a stress on one side only
+  if (!misfit.residuals(q, r) || !misfit.jacobian(q, r, J, &ends)) J.setZero(r.size(), q.size());
+  ends.resize(coordinates.size());
   for (std::size_t i = 0; i < coordinates.size(); ++i)
-    if (coordinates[i].at_bound(q[static_cast<Eigen::Index>(i)]))
+    if (ends[i] || coordinates[i].at_bound(q[static_cast<Eigen::Index>(i)]))
       J.col(static_cast<Eigen::Index>(i)).setZero();
   const FitStatistics statistics = fit_statistics(J, r);
   outcome.deviation = statistics.deviation;
@@ -250,7 +255,8 @@ void add_statistics(const Misfit& misfit, const std::vector<Coordinate>& coordin
     const double at = q[static_cast<Eigen::Index>(i)];
     const double half_width = statistics.half_widths[static_cast<Eigen::Index>(i)];
     FittedParameter& one = outcome.parameters[i];
-    one.at_bound = coordinates[i].at_bound(at);
+    one.ends_model = ends[i];
+    one.at_bound = one.ends_model || coordinates[i].at_bound(at);
     one.low = coordinates[i].p(at - half_width), one.high = coordinates[i].p(at + half_width);
   }
 }

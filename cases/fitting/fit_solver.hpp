@@ -33,6 +33,7 @@ struct FittedParameter {
   double start = 0, value = 0;
   double low = 0, high = 0; ///< 95 % interval; not finite where the tests do not determine the parameter
   bool at_bound = false;    ///< of `range` or of the law; then without an interval
+  bool ends_model = false;  ///< at_bound: beyond, a measured stretch has no stress
 
   bool determined() const;
 };
