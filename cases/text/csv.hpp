@@ -13,8 +13,8 @@ namespace dielast::cases {
 
 /// Columns of numbers from a CSV file: one line of names, lines that begin with # are comments. Cells are
 /// separated by semicolons or tabs where the line of names has some, and then numbers may have a decimal
-/// comma, but none between thousands; otherwise by commas. The unit of a column is at the end of its name: time_s, "time (s)",
-/// voltage[kV].
+/// comma, but none between thousands; otherwise by commas. The unit of a column is at the end of its name:
+/// time_s, "time (s)", voltage[kV].
 struct CsvTable {
   std::string file; ///< as messages name it
   std::vector<std::string> names;
