@@ -71,13 +71,26 @@ bool takes_time(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });
 }
 
+std::optional<Discretisation> finer_discretisation(const Case& one) {
+  Discretisation finer{one, 0.5};
+  for (Part& part : finer.one.parts) {
+    if (is_exact(part)) continue;
+    if (std::holds_alternative<MeshFile>(part.geometry))
+      ++part.mesh.refine;
+    else if (const auto elements = part.traits().elements)
+      part.mesh.*elements *= 2;
+    else
+      return std::nullopt;
+  }
+  coarsen_steps(finer.one, 2);
+  return finer;
+}
+
 std::vector<Discretisation> other_discretisations(const Case& one) {
   std::vector<Discretisation> others;
   if (has_own_meshes_only(one) &&
       std::ranges::any_of(one.parts, [](const Part& p) { return p.has_mesh() && p.mesh.refine == 0; })) {
-    Discretisation& finer = others.emplace_back(Discretisation{one, 0.5});
-    for (Part& part : finer.one.parts) ++part.mesh.refine;
-    coarsen_steps(finer.one, 2);
+    others.push_back(*finer_discretisation(one));
     return others;
   }
   const bool exact = std::ranges::all_of(one.parts, is_exact);

@@ -3,6 +3,7 @@
 
 #include "cases/case/case.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace dielast::cases {
@@ -22,5 +23,9 @@ bool takes_time(const Case& one);
 /// as long. Static steps take a third of their increments: homogeneous patches and what is one element have
 /// that only where no time passes. Empty when a mesh is the coarsest already.
 std::vector<Discretisation> other_discretisations(const Case& one);
+
+/// The case with elements half as large, and time steps twice as long; nothing where a mesh has no number of
+/// elements that could be doubled.
+std::optional<Discretisation> finer_discretisation(const Case& one);
 
 } // namespace dielast::cases

@@ -3,6 +3,7 @@
 
 #include "cases/case/quantities.hpp"
 #include "cases/console/terminal.hpp"
+#include "cases/devices/bonded_corners.hpp"
 #include "cases/devices/discretisation.hpp"
 #include "cases/runs/results.hpp"
 #include "post/engineering.hpp"
@@ -21,6 +22,8 @@ namespace dielast::cases {
 namespace {
 
 constexpr int most_to_refine = 20000; ///< triangles of a user's own mesh
+/// Cells of solids with bonded corners that are refined unasked: triangles, tetrahedra.
+constexpr int most_triangles = 6000, most_tetrahedra = 300;
 
 /// What has become of the case on one discretisation.
 struct Solution {
@@ -118,8 +121,53 @@ bool has_fringes(const Case& one) {
   });
 }
 
+/// Where a solid's held sides end displacements go as r^0.5 (along a flat side) or r^0.6 (at a right angle),
+/// and no number on a mesh that does not grade towards the place is known to converge faster.
+constexpr OrderRange next_to_a_bonded_corner{0.5, 1};
+
+/// The solids' corners, and whether there is a field in the cells around them.
+struct BondedCorners {
+  bool any = false, charged = false;
+};
+
+BondedCorners corners_of(const Simulation& run) {
+  const std::vector<int> nodes = bonded_corners(run.device());
+  if (nodes.empty()) return {};
+  const meshing::CellBlock& film = *run.device().mesh.film();
+  const fem::Samples samples = run.device().model.sample(run.state());
+  return {true, std::ranges::any_of(samples.film, [&](const fem::MembraneSample& at) {
+            return at.solid && at.solid->field.norm() > 0 &&
+                   std::ranges::any_of(film.cell(at.cell),
+                                       [&](int node) { return std::ranges::binary_search(nodes, node); });
+          })};
+}
+
+/// Whether a field of the film is singular where its strains are.
+bool is_singular_with_strain(const std::string& field, const BondedCorners& corners) {
+  if (field == "electric_field" || field == "breakdown_ratio") return corners.charged;
+  constexpr std::array bounded{"tension_state", "voltage", "slope"};
+  return std::ranges::find(bounded, field) == bounded.end();
+}
+
+/// The other discretisations. Where solids have bonded corners larger elements tell nothing of what all of
+/// them do not resolve: smaller ones are compared with, too, as long as these are not too many.
+std::vector<Discretisation> compared_with(const Case& one, const Simulation& own, bool corners) {
+  std::vector<Discretisation> all = other_discretisations(one);
+  if (!corners || (!all.empty() && all.front().size < 1)) return all;
+  const meshing::CellBlock& film = *own.device().mesh.film();
+  if (film.size() > (meshing::is_tetrahedron(film.type) ? most_tetrahedra : most_triangles)) return all;
+  std::optional<Discretisation> finer = finer_discretisation(one);
+  if (!finer) return all;
+  if (all.size() > 1) all.resize(1);
+  all.insert(all.begin(), *std::move(finer));
+  return all;
+}
+
 /// Orders that the elements may have, measured on the cases of docs/verification.md.
-OrderRange orders_of(const Quantity& quantity, const Case& one, bool smooth) {
+OrderRange orders_of(const Quantity& quantity, const Case& one, bool smooth, bool bonded) {
+  if (bonded)
+    return {std::min(next_to_a_bonded_corner.least, orders_of(quantity, one, smooth, false).least),
+            next_to_a_bonded_corner.most};
   const QuantityKind& kind = *quantity.kind;
   if (has_fringes(one) && (kind.fields || !kind.orders)) return {0.5, 1};
   if (kind.orders) return {(*kind.orders)[0], (*kind.orders)[1]};
@@ -206,7 +254,8 @@ std::vector<EventRemark> event_remarks(const Case& one, const Solution& own,
 Estimates estimate_errors(const Case& one, const Simulation& own_run,
                           std::span<const post::StepRecord> records, const std::vector<Margin>& margins,
                           int threads) {
-  const std::vector<Discretisation> discretisations = other_discretisations(one);
+  const BondedCorners bonded = corners_of(own_run);
+  const std::vector<Discretisation> discretisations = compared_with(one, own_run, bonded.any);
   Estimates estimates;
   if (discretisations.empty()) {
     estimates.reason = one.parts.size() > 1 ? "the meshes of its parts cannot all be made coarser alike"
@@ -258,11 +307,16 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
     } else if (quantity.kind->extreme && has_fringes(one)) {
       estimate.singular = true;
       estimate.remark = "singular where an electrode ends: no converged value";
+    } else if (quantity.kind->extreme && bonded.any && quantity.at.empty() &&
+               is_singular_with_strain(quantity.of, bonded)) {
+      estimate.singular = true;
+      estimate.remark = "singular where a held side ends: no converged value";
     } else {
       std::vector<Sampled> sampled;
       for (const Solution& other : others) sampled.push_back({other.size, other.values[q], other.rises[q]});
-      estimate = estimate_error({1, own.values[q], own.rises[q]}, sampled,
-                                orders_of(one.quantities[q], one, smooth), direction_of(quantity));
+      estimate =
+          estimate_error({1, own.values[q], own.rises[q]}, sampled,
+                         orders_of(one.quantities[q], one, smooth, bonded.any), direction_of(quantity));
       if (estimate.error && takes_time(one)) // the steps were chosen to be no better than that
         estimate.error = std::max(*estimate.error, one.solver.time_tolerance * std::abs(own.values[q]));
     }

@@ -74,6 +74,10 @@ ErrorEstimate estimate_error(const Sampled& own, std::span<const Sampled> others
     std::swap(solutions[0], solutions[1]);
     const Difference step = difference(next, own);
     estimate.error = safety * (std::abs(step.value) + step.error(orders.least));
+    if (others.size() > 1 && std::isfinite(others[1].value)) { // what both of them do not resolve yet
+      estimate.error = std::max(*estimate.error, safety * difference(own, others[1]).error(orders.least));
+      solutions.push_back(others[1]);
+    }
   } else {
     const Difference near = difference(own, next);
     estimate.error = safety * near.error(orders.least);

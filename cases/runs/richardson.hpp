@@ -26,10 +26,12 @@ struct Sampled {
   double rise = 0;  ///< of the extreme of a field: by how much the field changes over one element there, >= 0
 };
 
-/// The error of `own` from the same number on `others`, which stand from the finer to the coarser:
-/// Richardson's estimate times a safety factor. From three sizes the order is observed; from two it is the
-/// least of `orders`. Where the differences change their sign no order can be seen, and they are the estimate
-/// themselves. (Roache's grid convergence index as in Celik et al., J. Fluids Eng. 130, 078001, 2008.)
+/// The error of `own` from the same number on `others`, which stand from the finer to the coarser; the first
+/// of them may be finer than `own`: Richardson's estimate times a safety factor. From three sizes the order
+/// is observed; from two it is the least of `orders`. Where the differences change their sign no order can be
+/// seen, and they are the estimate themselves. From a finer one and a coarser one it is the larger that
+/// either tells at the least order. (Roache's grid convergence index as in Celik et al., J. Fluids Eng. 130,
+/// 078001, 2008.)
 ///
 /// `direction`: 1 for a maximum of a field, -1 for a minimum, otherwise 0. An extreme is read at integration
 /// points, so that its error is no less than its rise; one that grows from mesh to mesh while its rise does

@@ -171,6 +171,87 @@ on_instability = "jump"
   EXPECT_NE(content("out/run.log").find("no error estimate: "), std::string::npos);
 }
 
+// A disc and a stack that are bonded at their undersides: fine: across = 96. By larger elements, which do not
+// see the corner either, the estimates were 2 to 25 times too small.
+TEST_F(Estimates, AreNotTooSmallNextToABondedEdge) {
+  const std::string material = R"toml([film]
+thickness = "1 mm"
+section = "solid"
+[film.material]
+shear_modulus = "50 kPa"
+permittivity = "4e-11 F/m"
+density = "1000 kg/m^3"
+[drive]
+voltage = "6 kV"
+[[step]]
+kind = "voltage"
+increments = 3
+)toml";
+  write("disc.toml", "model = \"axisymmetric\"\n" + material + R"toml([slab]
+length = "10 mm"
+height = "4 mm"
+[[support]]
+place = "bottom"
+fix = ["x", "z"]
+[[quantity]]
+name = "end"
+kind = "displacement"
+of = "right"
+along = "x"
+[[quantity]]
+name = "stiffness"
+kind = "stiffness"
+of = "top"
+along = "z"
+[[quantity]]
+name = "w1"
+kind = "natural frequency"
+)toml");
+  write("stack.toml", "model = \"planar\"\n" + material + R"toml([slab]
+length = "20 mm"
+height = "4 mm"
+electrode = ["5 mm", "15 mm"]
+cover_thickness = "0.5 mm"
+[mesh]
+across = 8
+[[support]]
+place = "bottom"
+fix = ["x", "y"]
+[[quantity]]
+name = "end"
+kind = "displacement"
+of = "right"
+along = "x"
+[[quantity]]
+name = "stiffness"
+kind = "stiffness"
+of = "top"
+along = "y"
+[[quantity]]
+name = "w1"
+kind = "natural frequency"
+)toml");
+  const auto check = [&](const std::string& file, const std::map<std::string, double>& fine) {
+    const nlohmann::json quantities = summary_of(file)["quantities"];
+    for (const auto& [name, value] : fine) {
+      const double error = std::abs(quantities[name]["value"].get<double>() - value),
+                   printed = quantities[name]["error_estimate"];
+      EXPECT_GT(printed, error) << file << ' ' << name;
+      EXPECT_LT(printed, 6 * error) << file << ' ' << name;
+    }
+    EXPECT_EQ(quantities["min_principal_stress"]["error_remark"],
+              "singular where a held side ends: no converged value");
+    return quantities;
+  };
+  check("disc.toml", {{"end", 30.153e-6}, {"stiffness", 18853}, {"w1", 3688.3}});
+  const nlohmann::json stack =
+      check("stack.toml", {{"end", 8.3044e-6}, {"stiffness", 2067534}, {"w1", 2660.24}});
+  EXPECT_GT(stack["max_field"]["error_estimate"], 0); // far from the corners there is no field at
+  // Held across itself only it has no such corners: everything is homogeneous.
+  const nlohmann::json smooth = summary_of("disc.toml", {"support.bottom.fix=[\"z\"]"})["quantities"];
+  EXPECT_TRUE(smooth["min_principal_stress"]["error_estimate"].is_number());
+}
+
 TEST_F(Estimates, SayWhyThereAreNone) {
   EXPECT_EQ(summary_of("small.toml", {"mesh.wall_elements=1"})["no_error_estimate_because"],
             "the mesh is the coarsest already");

@@ -56,6 +56,14 @@ TEST(ErrorEstimate, FromAFinerSolutionIsNearlyTheDifference) {
   }
 }
 
+// As next to a corner that neither this mesh nor the finer one resolves.
+TEST(ErrorEstimate, FromAFinerAndACoarserSolutionIsTheLarger) {
+  const std::vector<Sampled> others{{0.5, 7.1}, {2, 5}};
+  EXPECT_NEAR(*estimate_error({1, 7}, others, {1, 1}, 0).error, 1.25 * 2, 1e-12);
+  const std::vector<Sampled> slow{{0.5, 8}, {2, 6.9}};
+  EXPECT_NEAR(*estimate_error({1, 7}, slow, {1, 1}, 0).error, 1.25 * 2, 1e-12);
+}
+
 TEST(ErrorEstimate, OfAnExtremeIsNoLessThanItsRise) {
   const std::vector<Sampled> others{{2, 7.01, 0.6}, {4, 7.03, 1.2}};
   EXPECT_EQ(*estimate_error({1, 7, 0.3}, others, {0.5, 1}, 1).error, 0.3);
