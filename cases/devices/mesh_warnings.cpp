@@ -2,6 +2,7 @@
 #include "cases/devices/mesh_warnings.hpp"
 
 #include "cases/case/quantity_kind.hpp"
+#include "cases/text/diagnostics.hpp"
 #include "meshing/quality.hpp"
 #include "post/engineering.hpp"
 
@@ -9,13 +10,61 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <set>
 
 namespace dielast::cases {
 
+namespace {
+
+/// The part that a place of a mesh of its own belongs to; null: it is of the unnamed part's mesh.
+const Part* named_part_of(const std::string& place, const Case& one) {
+  const auto owner = std::ranges::find_if(one.parts, [&](const Part& part) {
+    return !part.name.empty() && (place == part.name || place.starts_with(part.name + "."));
+  });
+  return owner == one.parts.end() ? one.unnamed() : &*owner;
+}
+
+/// A sentence for every bar that is tied to a shell at one node: a point of a plate carries no moment about
+/// its normal. What does is the stiffness that holds spins about directors, which falls with the elements'
+/// area.
+std::vector<std::string> drilling_warnings(const Case& one, const meshing::Mesh& mesh) {
+  std::vector<std::string> warnings;
+  for (std::size_t t = 0; t < one.ties.size(); ++t) {
+    const auto& between = one.ties[t].between;
+    const std::array parts{named_part_of(between[0], one), named_part_of(between[1], one)};
+    const auto any = [&](auto&& is) {
+      return std::ranges::any_of(parts, [&](const Part* p) { return p && is(*p); });
+    };
+    if (!any([](const Part& p) { return p.film && p.film->section == FilmSection::shell; }) ||
+        !any([](const Part& p) { return p.beam.has_value(); }))
+      continue;
+    const auto nodes_of = [&](const std::string& place) {
+      const auto found = mesh.node_sets.find(place);
+      return found == mesh.node_sets.end() ? std::vector<int>{} : found->second;
+    };
+    const std::vector<int> first = nodes_of(between[0]), second = nodes_of(between[1]);
+    std::vector<int> common;
+    std::ranges::set_intersection(first, second, std::back_inserter(common));
+    if (common.size() != 1) continue;
+    const std::string key = fmt::format("tie[{}].between", t + 1);
+    warnings.push_back(Diagnostic{
+        one.where(key), key,
+        fmt::format("\"{}\" and \"{}\" have one node in common: a point of a shell carries next to no "
+                    "moment about the shell's normal, about which the bar hangs as on a hinge; let a "
+                    "[[body]] carry a side of the shell, and the bar's end, instead",
+                    between[0], between[1]),
+        Severity::warning}
+                           .text());
+  }
+  return warnings;
+}
+
+} // namespace
+
 std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mesh) {
   constexpr double largest = 1; // m, of the templates' dimensions
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = drilling_warnings(one, mesh);
   if (one.dimension == fem::Dimension::spatial && one.any_geometry<HollowSphere>())
     warnings.push_back("hollow_sphere: in space its eighth at x, y, z >= 0 is computed; volumes, charges, "
                        "capacitances, energies and masses are those of the eighth");

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -229,6 +230,116 @@ TEST_F(Paths, a_shell_is_let_go_of_as_if_it_had_never_been_held) {
   EXPECT_GT(free, 1e-5);
   for (const char* fix : {"\"turn_x\"", "\"turn_x\", \"turn_y\", \"turn_z\""})
     EXPECT_NEAR(rise(fix), free, 1e-6 * free) << fix;
+}
+
+// A plate that is ten thicknesses long: in all that it does, transverse shear as well, the material is one
+// spring beside a Maxwell element of the same modulus, whose compliance is (1 - exp(-t/2 tau)/2) of the
+// relaxed one.
+TEST_F(Paths, branches_act_in_the_transverse_shear_of_shells) {
+  const auto tip = [this](const std::string& branch, const std::string& steps) {
+    const Run one = run(R"(model = "3d"
+[film]
+thickness = "1 mm"
+section = "shell"
+[film.material]
+shear_modulus = "1 MPa"
+relative_permittivity = 5
+)" + branch + R"(
+[rectangle]
+length = "10 mm"
+width = "5 mm"
+[mesh]
+across = 2
+[[support]]
+place = "left"
+fix = ["x", "y", "z", "turn_x", "turn_y", "turn_z"]
+[[load]]
+place = "right"
+force = [0, 0, "1 uN"]
+[[quantity]]
+name = "tip"
+kind = "displacement"
+of = "right"
+along = "z"
+[output]
+error_estimate = false
+[[step]]
+kind = "force"
+response = "instantaneous"
+)" + steps,
+                        "tip");
+    EXPECT_EQ(one.outcome.ending, Ending::complete) << one.outcome.message; // the energies balance
+    return one.rows.back().value;
+  };
+  const std::string branch =
+                        "[[film.material.branch]]\nshear_modulus = \"1 MPa\"\nrelaxation_time = \"1 s\"\n",
+                    hold = "[[step]]\nkind = \"hold\"\nduration = \"2 s\"\nincrements = 20\n",
+                    relax = "[[step]]\nkind = \"relax\"\n";
+  const double relaxed = tip("", "");
+  EXPECT_NEAR(tip(branch, ""), relaxed / 2, 1e-7 * relaxed);
+  EXPECT_NEAR(tip(branch, hold), (1 - std::exp(-1.0) / 2) * relaxed, 2e-4 * relaxed);
+  EXPECT_NEAR(tip(branch, hold + relax), relaxed, 1e-7 * relaxed);
+}
+
+// The strains of shells next to a curved rim are not quite in balance as drawn.
+TEST_F(Paths, a_prestretched_shell_that_is_clamped_all_round_is_held) {
+  std::string sides; // one of two millimetres is free
+  for (const char* side : {"left", "bottom", "top"})
+    sides += fmt::format("[[support]]\nplace = \"{}\"\nfix = [\"x\", \"y\", \"z\"]\n", side);
+  const auto blames_its_supports = [this](const std::string& geometry) {
+    const Case one =
+        read(fmt::format("model = \"3d\"\n[film]\nthickness = \"1 mm\"\nsection = \"shell\"\nprestretch = 2\n"
+                         "[film.material]\nshear_modulus = \"1 MPa\"\nrelative_permittivity = 4\n{}"
+                         "[drive]\nvoltage = \"1 V\"\n[[step]]\nkind = \"voltage\"\n",
+                         geometry));
+    return std::ranges::any_of(Simulation(one, 1).warnings(), [](const std::string& warning) {
+      return warning.find("is not held in its prestretch") != std::string::npos;
+    });
+  };
+  for (const int rings : {3, 6, 12})
+    EXPECT_FALSE(blames_its_supports(fmt::format("[disc]\nradius = \"50 mm\"\n[mesh]\nrings = {}\n", rings)))
+        << rings;
+  EXPECT_TRUE(blames_its_supports("[rectangle]\nlength = \"50 mm\"\nwidth = \"2 mm\"\n" + sides));
+}
+
+// A point of a plate carries no moment about its normal.
+TEST_F(Paths, a_bar_tied_to_a_shell_at_one_node_is_warned_of) {
+  const auto warns = [this](const std::string& places) {
+    const Device device = build_device(read(R"(model = "3d"
+[part.a]
+[part.a.film]
+thickness = "1 mm"
+section = "shell"
+[part.a.film.material]
+shear_modulus = "1 MPa"
+relative_permittivity = 4
+[part.a.rectangle]
+length = "50 mm"
+width = "10 mm"
+[part.l.line]
+from = ["25 mm", "0 mm", "0 mm"]
+to = ["75 mm", "0 mm", "0 mm"]
+[part.l.beam]
+width = "10 mm"
+height = "1 mm"
+[part.l.beam.material]
+youngs_modulus = "3 MPa"
+poisson_ratio = 0.49
+[[support]]
+place = "a.left"
+fix = ["x", "y", "z", "turn_x", "turn_y", "turn_z"]
+[[load]]
+place = "l.end"
+force = [0, "10 uN", 0]
+[[step]]
+kind = "force"
+)" + places));
+    return std::ranges::any_of(device.warnings, [](const std::string& warning) {
+      return warning.find("as on a hinge") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(warns("[[tie]]\nbetween = [\"a.right\", \"l.start\"]\n"));
+  EXPECT_FALSE(warns("[[body]]\nname = \"grip\"\nplaces = [\"a.right\", \"l.start\"]\n"));
 }
 
 } // namespace
