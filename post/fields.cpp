@@ -19,7 +19,7 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   if (sample.solid) {
     const fem::SolidSample& solid = *sample.solid;
     const Eigen::Matrix3d green = solid.F.transpose() * solid.F;
-    C = green.topLeftCorner<2, 2>();
+    C = green;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> strain(green), stress(solid.cauchy);
     stretch = strain.eigenvalues().reverse().cwiseSqrt();
     direction = (solid.F * strain.eigenvectors().rowwise().reverse()).colwise().normalized();
@@ -30,7 +30,8 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
     return;
   }
   const auto& F = sample.F;
-  C.noalias() = F.transpose() * F;
+  C.setZero();
+  C.topLeftCorner<2, 2>().noalias() = F.transpose() * F;
   const Eigen::Vector3d area = F.col(0).cross(F.col(1));
   const double given_stretch = area.norm(), area_stretch = given_stretch * sample.widening;
 
@@ -39,6 +40,7 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   stretch(0) = std::sqrt((C(0, 0) + C(1, 1)) / 2 + radius);
   stretch(1) = given_stretch / stretch(0); // not the other root: it cancels when the stretches differ much
   stretch(2) = 1 / area_stretch;
+  C(2, 2) = stretch(2) * stretch(2);
 
   // Cosine and sine of half the angle of (half_difference, C12), the larger one first: the other would
   // cancel.
@@ -105,12 +107,11 @@ const std::vector<FilmField> film_table{
      true},
     {"green_lagrange_strain",
      "1",
-     {"XX", "YY", "XY"},
-     "Green-Lagrange strain in the plane of the unstretched film; of a film of revolution XX along the "
-     "meridian, YY around",
-     [](const FilmPoint& p, double* v) {
-       v[0] = (p.C(0, 0) - 1) / 2, v[1] = (p.C(1, 1) - 1) / 2, v[2] = p.C(0, 1) / 2;
-     }},
+     {"XX", "YY", "ZZ", "XY", "YZ", "XZ"},
+     "Green-Lagrange strain from the unstretched film: X and Y in its plane (of revolution along the meridian "
+     "and around), Z through the thickness; of a solid along x, y and z as drawn, of revolution along the "
+     "radius, the hoop and the axis",
+     [](const FilmPoint& p, double* v) { symmetric_components((p.C - Eigen::Matrix3d::Identity()) / 2, v); }},
     {"cauchy_stress",
      "Pa",
      {"xx", "yy", "zz", "xy", "yz", "xz"},
@@ -165,7 +166,8 @@ const std::vector<FilmField> film_table{
     {"tension_state",
      "1",
      {},
-     "number of compressive principal stresses: 0 taut, 1 wrinkled, 2 slack",
+     "number of compressive principal stresses: 0 taut, 1 wrinkled, 2 slack; of solids, which bear "
+     "compression, 0",
      [](const FilmPoint& p, double* v) { *v = tension_state(p.sample); }},
     {"voltage",
      "V",

@@ -21,7 +21,7 @@ struct FilmPoint {
   explicit FilmPoint(const fem::MembraneSample& sample);
 
   const fem::MembraneSample& sample;
-  Eigen::Matrix2d C;         ///< right Cauchy-Green tensor, w.r.t. the unstretched film
+  Eigen::Matrix3d C;         ///< right Cauchy-Green tensor, w.r.t. the unstretched film; Z through it
   Eigen::Vector3d stretch;   ///< lambda1 >= lambda2 in the plane, lambda3 through the thickness
   Eigen::Matrix3d direction; ///< columns: unit vectors of these stretches in space; the third is the normal
   Eigen::Matrix3d cauchy;    ///< sigma in space, Pa
