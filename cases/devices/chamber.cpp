@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/chamber.hpp"
 
-#include "cases/devices/held_places.hpp"
 #include "cases/text/diagnostics.hpp"
+#include "cases/warnings/held_places.hpp"
 #include "fem/elements/chamber_block.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/solids/sides.hpp"

@@ -4,10 +4,10 @@
 #include "cases/devices/attachments.hpp"
 #include "cases/devices/bodies.hpp"
 #include "cases/devices/chamber.hpp"
-#include "cases/devices/load_warnings.hpp"
-#include "cases/devices/mesh_warnings.hpp"
 #include "cases/devices/sections.hpp"
 #include "cases/readers/reader.hpp"
+#include "cases/warnings/load_warnings.hpp"
+#include "cases/warnings/mesh_warnings.hpp"
 #include "fem/equilibrium/sheet_conduction.hpp"
 #include "meshing/mesh_error.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/devices/load_warnings.hpp"
+#include "cases/warnings/load_warnings.hpp"
 
-#include "cases/devices/held_places.hpp"
 #include "cases/text/diagnostics.hpp"
+#include "cases/warnings/held_places.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/devices/mesh_warnings.hpp"
+#include "cases/warnings/mesh_warnings.hpp"
 
 #include "cases/case/quantity_kind.hpp"
 #include "cases/text/diagnostics.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/devices/held_places.hpp"
+#include "cases/warnings/held_places.hpp"
 
 #include <algorithm>
 
