@@ -49,7 +49,6 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
     electrodes[l].resize(static_cast<std::size_t>(packs * lanes), electrodes[l].back());
     layers_.push_back({FilmLayer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
                        layer.number, std::move(electrodes[l])});
-    drawn_flat_ = drawn_flat_ || layers_.back().stretched();
     shear_.add_layer(layer.material, H);
     surface_density_ += layer.material.density * H;
     bottom += H;
@@ -83,8 +82,7 @@ void ShellBlock::place_element(int element) {
     if (!(det > 0)) fail(" is inverted or degenerate as drawn");
     const bool flat = std::abs(T(2, 0)) + std::abs(T(2, 1)) < 1e-9;
     if (flat && T(1, 1) < 0) fail(" is inverted as drawn");
-    if (!flat && (prestretch_[0] != 1 || prestretch_[1] != 1 || drawn_flat_))
-      fail(": a prestretched shell must be drawn parallel to the xy plane");
+    if (!flat && is_prestretched()) fail(": a prestretched shell must be drawn parallel to the xy plane");
     const Eigen::Matrix2d G =
         jacobian.inverse() * Eigen::Vector2d(prestretch_[0], prestretch_[1]).asDiagonal(); // r, s per metre
     Eigen::Matrix3d map;

@@ -111,6 +111,9 @@ class ShellBlock final : public ElementBlock {
   const ShellPoint& point(int pack, int p) const {
     return geometry_[static_cast<std::size_t>(pack * points + p)];
   }
+  bool is_prestretched() const {
+    return prestretch_ != std::array{1.0, 1.0} || std::ranges::any_of(layers_, &Layer::stretched);
+  }
   void place_element(int element);
   ShellNodes gather(const State& state, int pack) const;
   void turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes) const;
@@ -150,8 +153,7 @@ class ShellBlock final : public ElementBlock {
 
   std::vector<Layer> layers_;
   std::array<double, 2> prestretch_;
-  bool drawn_flat_ = false; ///< as a prestretch of layers asks for
-  double height_ = 0;       ///< of the layers before the prestretch, m
+  double height_ = 0; ///< of the layers before the prestretch, m
   ShellShear shear_;
   double surface_density_ = 0; ///< sum rho H, kg/m^2
   double drilling_;            ///< see ShellSection
