@@ -187,26 +187,29 @@ voltage = "6 kV"
 kind = "voltage"
 increments = 3
 )toml";
+  const auto quantities_along = [](const std::string& height) {
+    return R"toml([[quantity]]
+name = "end"
+kind = "displacement"
+of = "right"
+along = "x"
+[[quantity]]
+name = "w1"
+kind = "natural frequency"
+[[quantity]]
+name = "stiffness"
+kind = "stiffness"
+of = "top"
+along = ")toml" +
+           height + "\"\n";
+  };
   write("disc.toml", "model = \"axisymmetric\"\n" + material + R"toml([slab]
 length = "10 mm"
 height = "4 mm"
 [[support]]
 place = "bottom"
 fix = ["x", "z"]
-[[quantity]]
-name = "end"
-kind = "displacement"
-of = "right"
-along = "x"
-[[quantity]]
-name = "stiffness"
-kind = "stiffness"
-of = "top"
-along = "z"
-[[quantity]]
-name = "w1"
-kind = "natural frequency"
-)toml");
+)toml" + quantities_along("z"));
   write("stack.toml", "model = \"planar\"\n" + material + R"toml([slab]
 length = "20 mm"
 height = "4 mm"
@@ -217,20 +220,7 @@ across = 8
 [[support]]
 place = "bottom"
 fix = ["x", "y"]
-[[quantity]]
-name = "end"
-kind = "displacement"
-of = "right"
-along = "x"
-[[quantity]]
-name = "stiffness"
-kind = "stiffness"
-of = "top"
-along = "y"
-[[quantity]]
-name = "w1"
-kind = "natural frequency"
-)toml");
+)toml" + quantities_along("y"));
   const auto check = [&](const std::string& file, const std::map<std::string, double>& fine) {
     const nlohmann::json quantities = summary_of(file)["quantities"];
     for (const auto& [name, value] : fine) {
