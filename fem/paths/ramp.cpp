@@ -4,6 +4,7 @@
 #include "fem/model/contact_block.hpp"
 #include "fem/paths/held_masses.hpp"
 #include "fem/paths/homotopy.hpp"
+#include "fem/paths/predictor.hpp"
 #include "fem/paths/time_error.hpp"
 
 #include <algorithm>
@@ -15,8 +16,7 @@ namespace dielast::fem {
 namespace {
 
 constexpr double round_off = load_factor_round_off;
-constexpr std::size_t most_points = 4; ///< of the predictor
-constexpr double most_growth = 2;      ///< of a time step: BDF2 is stable below 2.41
+constexpr double most_growth = 2; ///< of a time step: BDF2 is stable below 2.41
 constexpr double safety = 0.9;
 constexpr int jump_parts = 8;              ///< of loads that jump
 constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
@@ -310,7 +310,8 @@ bool Ramp::accept(State state, double s) {
   unstable_before_ = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
   progress_.slope = std::exchange(slope_, std::nullopt);
   progress_.points.push_back({parameter(s), std::move(state)});
-  if (progress_.points.size() > most_points) progress_.points.erase(progress_.points.begin());
+  if (progress_.points.size() > (timed() || has_friction(equilibrium_.model()) ? most_in_time : most_at_rest))
+    progress_.points.erase(progress_.points.begin());
   return notify(lands, length);
 }
 
@@ -344,7 +345,7 @@ RampResult Ramp::run() {
     const double s = next_load_factor();
     const double tried = s - progress_.load_factor;
     if (observer_.on_try) observer_.on_try(s);
-    State predicted = extrapolate(progress_.points, parameter(s));
+    State predicted = predict(progress_.points, parameter(s));
     equilibrium_.model().dofs.carry(predicted);
     if (free_way(equilibrium_.model(), last(), predicted) < 1) predicted = last();
     State trial = solve(predicted, s);

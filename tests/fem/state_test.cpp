@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/model/state.hpp"
 
+#include "fem/paths/predictor.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -103,6 +105,27 @@ TEST(Extrapolation, passes_through_its_points_whatever_they_are) {
     EXPECT_LT((there.displacement[0] - point.state.displacement[0]).norm(), 1e-14);
     EXPECT_LT((there.rotation[0].coeffs() - point.state.rotation[0].coeffs()).norm(), 1e-14);
   }
+}
+
+TEST(Predictor, goes_by_as_many_points_as_a_smooth_path_has) {
+  std::vector<PathPoint> points;
+  for (int i = 0; i < 8; ++i) points.push_back({0.1 * i, on_path(0.1 * i, 6)});
+  const State expected = on_path(0.8, 6);
+  const auto error = [&](const State& state) {
+    return (state.displacement[0] - expected.displacement[0]).norm();
+  };
+  EXPECT_LT(error(predict(points, 0.8)), 1e-13);
+  EXPECT_GT(error(extrapolate(std::span(points).last(4), 0.8)), 1e-5);
+}
+
+TEST(Predictor, forgets_what_was_before_a_kink) {
+  std::vector<PathPoint> points;
+  for (int i = 0; i < 8; ++i) points.push_back({0.1 * i, on_path(0.1 * i, 2)});
+  for (std::size_t i = 0; i < 4; ++i)
+    points[i].state.displacement[0].x() += 0.1 * (0.4 - points[i].parameter);
+  const State expected = on_path(0.8, 2), actual = predict(points, 0.8);
+  EXPECT_LT((actual.displacement[0] - expected.displacement[0]).norm(), 1e-14);
+  EXPECT_GT((extrapolate(points, 0.8).displacement[0] - expected.displacement[0]).norm(), 1e-2);
 }
 
 } // namespace
