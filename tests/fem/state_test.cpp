@@ -128,5 +128,16 @@ TEST(Predictor, forgets_what_was_before_a_kink) {
   EXPECT_GT((extrapolate(points, 0.8).displacement[0] - expected.displacement[0]).norm(), 1e-2);
 }
 
+TEST(Predictor, adds_nothing_to_what_is_left_in_rotations) { // those of thin shells are hardly resisted
+  std::vector<PathPoint> points;
+  constexpr double left = 1e-8;
+  for (int i = 0; i < 8; ++i) {
+    points.push_back({0.1 * i, on_path(0.1 * i, 2)});
+    points.back().state.rotation[0] = rotation_of({i % 2 == 0 ? left : -left, 0, 0});
+  }
+  EXPECT_LT(spin_of(predict(points, 0.8).rotation[0]).norm(), 16 * left);
+  EXPECT_GT(spin_of(extrapolate(points, 0.8).rotation[0]).norm(), 200 * left);
+}
+
 } // namespace
 } // namespace dielast::fem
