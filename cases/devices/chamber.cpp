@@ -33,34 +33,6 @@ meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh) {
   return faces;
 }
 
-/// Ends of meridians, or sides of triangles, that only one cell of the block has, with their middle nodes.
-std::vector<std::vector<int>> edges_of(const meshing::CellBlock& wall) {
-  std::vector<std::vector<int>> sides;
-  for (int cell = 0; cell < wall.size(); ++cell) {
-    const auto own = wall.cell(cell);
-    if (meshing::is_meridian(wall.type)) {
-      sides.push_back({own[0]});
-      sides.push_back({own[1]});
-    } else {
-      for (std::size_t k = 0; k < 3; ++k) {
-        sides.push_back({own[k], own[(k + 1) % 3]});
-        if (own.size() == 6) sides.back().push_back(own[3 + k]);
-      }
-    }
-    for (auto side = sides.end() - (meshing::is_meridian(wall.type) ? 2 : 3); side != sides.end(); ++side)
-      std::ranges::sort(*side);
-  }
-  std::ranges::sort(sides);
-  std::vector<std::vector<int>> edges;
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t next = i + 1;
-    while (next < sides.size() && sides[next] == sides[i]) ++next;
-    if (next == i + 1) edges.push_back(std::move(sides[i]));
-    i = next;
-  }
-  return edges;
-}
-
 /// Tells of every edge whether a pressure has a potential there, see fem/elements/chamber_block.hpp.
 class Edges {
  public:
@@ -69,7 +41,7 @@ class Edges {
 
   /// Of a meridian: held along z, it may move along the radius.
   bool is_level(int node) const { return rests({&node, 1}, 2); }
-  void require_potential(const std::vector<int>& edge, bool of_meridian) const {
+  void require_potential(std::span<const int> edge, bool of_meridian) const {
     const bool upright = rests(edge, 0) && (of_meridian || rests(edge, 1));
     const bool fits = of_meridian
                           ? is_level(edge[0])
@@ -103,20 +75,22 @@ class Edges {
       return on_axis || (!free_body_ && held_.rests(node, axis)); // a pin holds what would not move anyhow
     });
   }
-  bool lies(const std::vector<int>& edge, int axis, double at) const {
+  bool lies(std::span<const int> edge, int axis, double at) const {
     return std::ranges::all_of(edge,
                                [&](int node) { return std::abs(drawn(node)[axis] - at) <= 1e-9 * extent_; });
   }
   /// Whether a side of triangles stays in its plane across the axis x or y, as in a plane of symmetry.
-  bool slides(const std::vector<int>& edge, int axis) const {
+  bool slides(std::span<const int> edge, int axis) const {
     return rests(edge, axis) && lies(edge, axis, drawn(edge[0])[axis]);
   }
   const Eigen::Vector3d& drawn(int node) const { return mesh_.nodes[static_cast<std::size_t>(node)]; }
   /// The smallest place that has the whole edge.
-  std::string place_of(const std::vector<int>& edge) const {
+  std::string place_of(std::span<const int> edge) const {
     const std::pair<const std::string, std::vector<int>>* found = nullptr;
     for (const auto& place : mesh_.node_sets)
-      if (std::ranges::includes(place.second, edge) && (!found || place.second.size() < found->second.size()))
+      if (std::ranges::all_of(edge,
+                              [&](int node) { return std::ranges::binary_search(place.second, node); }) &&
+          (!found || place.second.size() < found->second.size()))
         found = &place;
     return found ? fmt::format("on \"{}\"", found->first) : "on no named place";
   }
@@ -139,7 +113,8 @@ void add_chamber(const Case& one, const meshing::Mesh& mesh, bool free_body, fem
   const bool of_meridian = meshing::is_meridian(wall.type);
   const Edges edges(one, mesh, free_body, model);
   std::vector<int> level;
-  for (const std::vector<int>& edge : edges_of(wall)) {
+  for (const meshing::OuterSide& side : meshing::outer_sides(wall)) {
+    const std::span<const int> edge = side.nodes();
     edges.require_potential(edge, of_meridian);
     if (of_meridian && edges.is_level(edge[0]) && mesh.nodes[static_cast<std::size_t>(edge[0])].z() != 0)
       level.push_back(edge[0]);

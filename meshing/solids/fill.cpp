@@ -149,15 +149,15 @@ Mesh filled(const Surface& surface, double size) {
   std::map<std::string, std::set<int>> places;
   for (const OuterSide& side : outer_sides(mesh.blocks[0])) {
     const auto put = [&](const std::string& name) {
-      places[name].insert(side.nodes.begin(), side.nodes.end());
+      places[name].insert(side.nodes().begin(), side.nodes().end());
     };
     put("surface");
-    std::array<int, 3> corners{side.nodes[0], side.nodes[1], side.nodes[2]};
+    std::array<int, 3> corners{side.own[0], side.own[1], side.own[2]};
     std::ranges::sort(corners);
     put(fmt::format("face_{}", surface.face[triangles.at(corners)] + 1));
     for (int c = 0; c < 3; ++c)
       for (const auto& [name, end] : {std::pair{"min", box.min()[c]}, {"max", box.max()[c]}})
-        if (std::ranges::all_of(side.nodes, [&, at = end](int node) {
+        if (std::ranges::all_of(side.nodes(), [&, at = end](int node) {
               return std::abs(mesh.nodes[static_cast<std::size_t>(node)][c] - at) <= within;
             }))
           put(fmt::format("{}_{}", "xyz"[c], name));

@@ -6,24 +6,54 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <iterator>
+#include <stdexcept>
 
 namespace dielast::meshing {
 
-std::vector<OuterSide> outer_sides(const CellBlock& tetrahedra) {
-  // Corners of the sides as seen from outside, and the middles between them.
-  constexpr std::array<std::array<std::size_t, 6>, 4> own{
-      {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {2, 0, 3, 6, 7, 9}}};
+namespace {
+
+struct LocalSide {
+  std::array<std::size_t, 6> nodes;
+  std::size_t corners, count;
+};
+
+std::vector<LocalSide> sides_of(CellType type) {
+  switch (type) {
+  case CellType::meridian2:
+  case CellType::meridian3:
+    return {{{0}, 1, 1}, {{1}, 1, 1}};
+  case CellType::triangle3:
+    return {{{0, 1}, 2, 2}, {{1, 2}, 2, 2}, {{2, 0}, 2, 2}};
+  case CellType::triangle6:
+    return {{{0, 1, 3}, 2, 3}, {{1, 2, 4}, 2, 3}, {{2, 0, 5}, 2, 3}};
+  case CellType::tetrahedron4:
+    return {{{0, 2, 1}, 3, 3}, {{0, 1, 3}, 3, 3}, {{1, 2, 3}, 3, 3}, {{2, 0, 3}, 3, 3}};
+  case CellType::tetrahedron10:
+    return {{{0, 2, 1, 6, 5, 4}, 3, 6},
+            {{0, 1, 3, 4, 8, 7}, 3, 6},
+            {{1, 2, 3, 5, 9, 8}, 3, 6},
+            {{2, 0, 3, 6, 7, 9}, 3, 6}};
+  default:
+    throw std::logic_error("lines have no sides");
+  }
+}
+
+} // namespace
+
+std::vector<OuterSide> outer_sides(const CellBlock& block) {
   struct Keyed {
-    std::array<int, 3> corners;
+    std::array<int, 3> corners; // ascending
     OuterSide side;
   };
+  const std::vector<LocalSide> sides = sides_of(block.type);
   std::vector<Keyed> all;
-  for (int cell = 0; cell < tetrahedra.size(); ++cell)
-    for (const auto& local : own) {
-      Keyed keyed{{}, {cell, {}}};
-      for (std::size_t k = 0; k < 6; ++k) keyed.side.nodes[k] = tetrahedra.cell(cell)[local[k]];
-      std::copy_n(keyed.side.nodes.begin(), 3, keyed.corners.begin());
+  all.reserve(sides.size() * static_cast<std::size_t>(block.size()));
+  for (int cell = 0; cell < block.size(); ++cell)
+    for (const LocalSide& local : sides) {
+      Keyed keyed{{-1, -1, -1}, {cell, {}, local.corners, local.count}};
+      for (std::size_t k = 0; k < local.count; ++k) keyed.side.own[k] = block.cell(cell)[local.nodes[k]];
+      std::ranges::copy(keyed.side.corners(), keyed.corners.begin());
       std::ranges::sort(keyed.corners);
       all.push_back(keyed);
     }
@@ -39,45 +69,37 @@ std::vector<OuterSide> outer_sides(const CellBlock& tetrahedra) {
   return outer;
 }
 
-CellBlock faces_at(const Mesh& mesh, const std::string& place) {
+namespace {
+
+/// Those whose nodes are all in the place.
+std::vector<OuterSide> outer_sides_at(const Mesh& mesh, const std::string& place, CellType type) {
   const std::vector<int>& nodes = mesh.node_sets.at(place);
-  CellBlock faces{CellType::triangle6, {}};
+  std::vector<OuterSide> found;
   for (const CellBlock& block : mesh.blocks)
-    if (block.type == CellType::tetrahedron10)
-      for (const auto& [cell, own] : outer_sides(block))
-        if (std::ranges::all_of(own, [&](int node) { return std::ranges::binary_search(nodes, node); }))
-          faces.nodes.insert(faces.nodes.end(), {own[0], own[2], own[1], own[5], own[4], own[3]});
-  if (faces.nodes.empty()) throw MeshError(fmt::format("the place \"{}\" is no surface of a solid", place));
+    if (block.type == type)
+      std::ranges::copy_if(outer_sides(block), std::back_inserter(found), [&](const OuterSide& side) {
+        return std::ranges::all_of(side.nodes(),
+                                   [&](int node) { return std::ranges::binary_search(nodes, node); });
+      });
+  if (found.empty()) throw MeshError(fmt::format("the place \"{}\" is no surface of a solid", place));
+  return found;
+}
+
+} // namespace
+
+CellBlock faces_at(const Mesh& mesh, const std::string& place) {
+  CellBlock faces{CellType::triangle6, {}};
+  for (const auto& [cell, own, corners, count] : outer_sides_at(mesh, place, CellType::tetrahedron10))
+    faces.nodes.insert(faces.nodes.end(), {own[0], own[2], own[1], own[5], own[4], own[3]});
   return faces;
 }
 
-bool is_closed(const CellBlock& triangles) {
-  std::map<int, int> count; // at each middle node
-  for (int cell = 0; cell < triangles.size(); ++cell)
-    for (const int middle : triangles.cell(cell).last(3)) ++count[middle];
-  return std::ranges::all_of(count, [](const auto& side) { return side.second == 2; });
-}
+bool is_closed(const CellBlock& triangles) { return outer_sides(triangles).empty(); }
 
 CellBlock sides_at(const Mesh& mesh, const std::string& place, CellType type) {
-  const std::vector<int>& nodes = mesh.node_sets.at(place);
-  std::map<int, int> triangles; // at each middle node
-  std::vector<std::array<int, 3>> found;
-  for (const CellBlock& block : mesh.blocks) {
-    if (block.type != CellType::triangle6) continue;
-    for (int cell = 0; cell < block.size(); ++cell) {
-      const auto own = block.cell(cell);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::array<int, 3> side{own[(k + 1) % 3], own[k], own[3 + k]};
-        ++triangles[side[2]];
-        if (std::ranges::all_of(side, [&](int node) { return std::ranges::binary_search(nodes, node); }))
-          found.push_back(side);
-      }
-    }
-  }
   CellBlock sides{type, {}};
-  for (const auto& side : found)
-    if (triangles.at(side[2]) == 1) sides.nodes.insert(sides.nodes.end(), side.begin(), side.end());
-  if (sides.nodes.empty()) throw MeshError(fmt::format("the place \"{}\" is no surface of a solid", place));
+  for (const auto& [cell, own, corners, count] : outer_sides_at(mesh, place, CellType::triangle6))
+    sides.nodes.insert(sides.nodes.end(), {own[1], own[0], own[2]});
   return sides;
 }
 

@@ -232,8 +232,8 @@ Raster film_raster(const meshing::Mesh& mesh, const Panel& panel, std::pair<doub
   for (const CellBlock& block : mesh.blocks) {
     if (is_line(block.type)) continue;
     if (block.type == meshing::CellType::tetrahedron10)
-      for (const auto& [cell, nodes] : meshing::outer_sides(block))
-        draw(number + static_cast<std::size_t>(cell), nodes);
+      for (const meshing::OuterSide& side : meshing::outer_sides(block))
+        draw(number + static_cast<std::size_t>(side.cell), side.nodes());
     if (is_triangle(block.type))
       for (int cell = 0; cell < block.size(); ++cell)
         draw(number + static_cast<std::size_t>(cell), block.cell(cell));

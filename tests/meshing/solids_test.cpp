@@ -92,7 +92,7 @@ TEST(Block, IsFilledByTetrahedraThatFit) {
   EXPECT_EQ(static_cast<int>(tetrahedra.size()), mesh.node_count());
   double outside = 0;
   for (const OuterSide& side : outer_sides(mesh.blocks[0])) {
-    const auto x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(side.nodes[k])]; };
+    const auto x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(side.own[k])]; };
     const Eigen::Vector3d twice_area = (x(1) - x(0)).cross(x(2) - x(0));
     outside += twice_area.norm() / 2;
     const Eigen::Vector3d from_middle = x(3) - Eigen::Vector3d(2, 0.3, 0);
