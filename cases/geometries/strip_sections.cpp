@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A strip of film or a stack of layers, and what hangs from it.
 #include "cases/geometries/geometry_kinds.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/tables/bar_keys.hpp"
 
 namespace dielast::cases {
@@ -91,7 +92,9 @@ Section weight_section() {
                     "[[body]] of that name says so";
   section.presence = Section::Presence::optional;
   section.access = present(&Case::weight);
-  section.keys = {measure("mass", "kg", to(&HungWeight::mass), "its mass").at_least(0)};
+  section.keys = {measure("mass", "kg", to(&HungWeight::mass), "its mass")
+                      .at_least(0)
+                      .only_with(when::hung_weight_matters())};
   return section;
 }
 

@@ -152,6 +152,12 @@ Condition point_masses_matter() {
                  [](const Case& one) { return masses_accelerate(one) || has_step(one, {StepKind::weight}); });
 }
 
+Condition hung_weight_matters() {
+  return on_case("a step of kind \"weight\", \"modes\" or \"harmonic\", or inertia", [](const Case& one) {
+    return has_inertia(one) || is_linearised(one) || has_step(one, {StepKind::weight, StepKind::modes});
+  });
+}
+
 Condition turns_matter() {
   const Condition mass = masses_matter();
   return {mass.needs + ", of what is not of revolution", [mass](const Case& one, const void* object) {

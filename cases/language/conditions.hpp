@@ -15,6 +15,7 @@ Condition without_duration();    ///< the key's own step has none
 Condition weight();              ///< gravity acts in a step
 Condition masses_matter();       ///< something has inertia, vibrates, or weighs
 Condition turns_matter();        ///< likewise, and bodies turn
+Condition hung_weight_matters(); ///< beside the standard quantities, whose natural frequency has it
 Condition inertia();             ///< something moves with inertia
 Condition dampers_matter();      ///< something moves with inertia, or is linearised
 Condition point_masses_matter(); ///< masses that weigh without gravity.film

@@ -41,9 +41,13 @@ class IdleKeys {
   bool is_idle(const Condition& acts, const void* object) const {
     return acts.met && !acts.met(case_, object);
   }
+  /// Or a zero of a measure that has no default.
   static bool is_default(const Key& key, const void* object) {
-    const auto value = key.fallback ? key.binding.get(object) : std::nullopt;
+    const auto value = key.binding.get(object);
     if (!value) return false;
+    if (!key.fallback)
+      return !key.unit.empty() &&
+             std::ranges::all_of(*value, [](const Scalar& one) { return one.number == 0; });
     Value fallback = convert(key, parse_value(*key.fallback, {}), key.unit, {});
     if (key.spreads && fallback.size() == 1) fallback.assign(value->size(), fallback[0]);
     return std::ranges::equal(*value, fallback, {}, &Scalar::number, &Scalar::number);

@@ -218,7 +218,7 @@ Section circuit_section() {
 
 template<class T>
 std::vector<Key> mass_keys() {
-  return {measure("mass", "kg", to(&T::mass), "its mass").at_least(0),
+  return {measure("mass", "kg", to(&T::mass), "its mass").at_least(0).only_with(when::point_masses_matter()),
           measure("damping", "N s/m", to(&T::damping), "of a damper between it and the ground")
               .at_least(0)
               .otherwise("0 N.s/m")

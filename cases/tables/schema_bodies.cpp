@@ -15,7 +15,10 @@ Section body_section() {
       text("places", to(&Body::places), "the places whose nodes move with it")
           .values(1, 100)
           .refers_to(Reference::place),
-      measure("mass", "kg", to(&Body::mass), "its mass").at_least(0).otherwise("0 kg"),
+      measure("mass", "kg", to(&Body::mass), "its mass")
+          .at_least(0)
+          .otherwise("0 kg")
+          .only_with(when::point_masses_matter()),
       measure("inertia", "kg m^2", to(&Body::inertia),
               "moments of inertia about axes along x, y and z through its centre; in the plane only the last "
               "acts")

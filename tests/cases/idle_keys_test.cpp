@@ -23,6 +23,7 @@ const std::string balloon =
     "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = \"500 Pa\"\nvolume = \"50 ml\"\n";
 const std::string diaphragm =
     "[annulus]\ninner_radius = \"12 mm\"\nouter_radius = \"68 mm\"\n[plate]\nmass = \"100 g\"\n";
+const std::string strip = "[strip]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[weight]\nmass = \"50 g\"\n";
 const std::string ramp = "[[step]]\nkind = \"voltage\"\n";
 const std::string transient = "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\n";
 
@@ -64,6 +65,11 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
   };
   const std::string neo_hookean = "shear_modulus = \"40 kPa\"\n", bulk = "bulk_modulus = \"10 kPa\"\n",
                     stacked = "stacked_along = \"x\"\n";
+  const std::string plate_on_slab =
+      "model = \"axisymmetric\"\n" + film.substr(0, film.find("prestretch")) +
+      film.substr(film.find("[film.m")) +
+      "[slab]\nlength = \"5 mm\"\nheight = \"2 mm\"\n[plate]\nmass = \"50 g\"\nat = \"top\"\n"
+      "[[support]]\nplace = \"bottom\"\nfix = [\"z\"]\n";
   const std::vector<Pair> pairs{
       {"film.bulk_modulus",
        slab(bulk, "law = \"st-venant-kirchhoff\"\nyoungs_modulus = \"120 kPa\"\npoisson_ratio = 0.4\n"),
@@ -78,6 +84,8 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       {"point_mass[1]", film + disc + point_mass, film + disc + point_mass + "[[step]]\nkind = \"modes\"\n"},
       {"point_mass[1]", film + disc + point_mass + transient + "inertia = false\n",
        film + disc + point_mass + transient},
+      {"plate.mass", plate_on_slab + ramp, plate_on_slab + weight + ramp},
+      {"weight.mass", film + strip + ramp, film + strip + weight + ramp},
       {"film.material.density", film + "density = \"1000 kg/m^3\"\n" + disc,
        film + "density = \"1000 kg/m^3\"\n" + disc + transient + "inertia = true\n"},
       {"film.material.electrostriction",
