@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace dielast::cases {
 
@@ -120,11 +121,26 @@ std::vector<StudyPlot> by_unit(const Study& study, const StudyPlot& spec, const 
   return plots;
 }
 
+/// Whether one key varies along each curve, or keys that go together: lines would join points that have
+/// nothing else in common.
+bool varies_one_key(const Study& study, const StudyPlot& spec) {
+  const auto together = [&](const std::string& key) {
+    return study.goes_together(key) ? study.pair[0] : key;
+  };
+  std::set<std::string> varied;
+  for (const StudyAxis& axis : study.axes)
+    if (axis.values.size() > 1 && together(axis.key) != together(spec.group))
+      varied.insert(together(axis.key));
+  const bool of_axis = std::ranges::find(study.axes, spec.x, &StudyAxis::key) != study.axes.end();
+  return varied.empty() || (varied.size() == 1 && (!of_axis || varied.contains(together(spec.x))));
+}
+
 post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vector<StudyPoint>& points,
                      const Collected& collected) {
   const auto axes = study.varied();
   const auto x_axis = position(axes, spec.x), group = position(axes, spec.group);
   const auto x_quantity = position(study.collect, spec.x);
+  const bool joined = varies_one_key(study, spec);
   post::Plot plot{.x_label = spec.x};
   double size = 0;
   std::string names;
@@ -146,7 +162,7 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
       series.label = !group               ? y
                      : spec.y.size() == 1 ? fmt::format("{} = {}", spec.group, name)
                                           : fmt::format("{}, {} = {}", y, spec.group, name);
-      series.style = post::Series::Style::line_and_points;
+      series.style = joined ? post::Series::Style::line_and_points : post::Series::Style::points;
       if (x_axis) {
         const auto number = written_measure(points[p].values[*x_axis]);
         series.x.push_back(number ? number->number : static_cast<double>(p + 1));

@@ -24,7 +24,10 @@ Section study_section() {
   set.name = "set";
   set.meaning = "keys that have another value than in the case at all points, as \"output.fields\" = false";
   set.presence = Section::Presence::separate;
-  Section plot = list_section("plot", "a plot in the study's report", each(&Study::plots));
+  Section plot = list_section(
+      "plot",
+      "a plot in the study's report; its points are joined where nothing but one key varies along a curve",
+      each(&Study::plots));
   plot.keys = {
       text("x", to(&StudyPlot::x), "a varied key, or a quantity"),
       text("y", to(&StudyPlot::y), "quantities").values(1, 20),

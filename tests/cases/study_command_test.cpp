@@ -9,17 +9,20 @@
 namespace dielast::test {
 namespace {
 
+const std::string grid =
+    R"({ "honeycomb.angle" = ["120 deg", "150 deg"], "drive.voltage" = ["2 kV", "4 kV", "6 kV"] })";
+
 class StudyCommand : public CommandTest {
  protected:
   void SetUp() override {
     CommandTest::SetUp();
-    write_study(
-        R"({ "honeycomb.angle" = ["120 deg", "150 deg"], "drive.voltage" = ["2 kV", "4 kV", "6 kV"] })");
+    write_study(grid);
   }
-  void write_study(const std::string& vary) const {
+  void write_study(const std::string& vary, const std::string& more_plots = "") const {
     write("study.toml", "title = \"Small study\"\ncase = \"small.toml\"\n[study]\nvary = " + vary +
                             "\ncollect = [\"eps_x\", \"eps_y\"]\n"
-                            "plot = [{ x = \"eps_x\", y = [\"eps_y\"] }]\n");
+                            "plot = [{ x = \"eps_x\", y = [\"eps_y\"] }" +
+                            more_plots + "]\n");
   }
   std::string mark(int point) const { return "out/point-000" + std::to_string(point) + "/point.json"; }
   std::vector<std::string> into(const std::string& folder, const std::vector<std::string>& more = {}) const {
@@ -30,6 +33,7 @@ class StudyCommand : public CommandTest {
 };
 
 TEST_F(StudyCommand, RunsEveryPointOfTheGrid) {
+  write_study(grid, R"(, { x = "drive.voltage", y = ["eps_x"], group = "honeycomb.angle" })");
   const Ended ended = dielast(into("out"));
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const auto rows = table_of(directory / "out/study.csv");
@@ -43,6 +47,12 @@ TEST_F(StudyCommand, RunsEveryPointOfTheGrid) {
     EXPECT_EQ(rows[p][5], "0");
   }
   EXPECT_NE(content("out/report.html").find("</html>"), std::string::npos);
+  const auto joins = [&](const char* figure) {
+    return content(figure).find("rgb( 37,  99, 168)'  d='M") !=
+           std::string::npos; // a line of the first curve
+  };
+  EXPECT_TRUE(joins("out/figure_eps_x.svg"));
+  EXPECT_FALSE(joins("out/figure_eps_y.svg")) << "from one angle's last point to the other's first";
   ASSERT_EQ(dielast({"run", "small.toml", "-o", "one", "-j", "1"}).exit_code, 0);
   EXPECT_EQ(json_of("out/point-0006/summary.json"), json_of("one/summary.json"));
   EXPECT_EQ(ended.out.find('\r'), std::string::npos); // plain lines in a pipe
