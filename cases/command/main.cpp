@@ -58,11 +58,17 @@ ExitCode check(const Arguments& arguments) {
         drive != one.drives.end() && drive->second.voltage)
       state.voltage[e] = drive->second.voltage->at(0);
   constexpr double tolerance = 1e-6;
-  const auto found = fem::check_tangent(equilibrium, state, 0.02 * device.model.length_scale, 5);
-  const bool passed = found.residual < tolerance && found.tangent < tolerance;
-  cases::say(
-      "derivatives against differences of the energy in {} directions: residual {:.1e}, tangent {:.1e}: {}\n",
-      found.directions, found.residual, found.tangent, passed ? "passed" : "FAILED");
+  const auto passes = [&](const fem::TangentCheck& check) {
+    return check.residual < tolerance && check.tangent < tolerance;
+  };
+  // Differences may reach through thin elements, or a barrier of contact: shorter ones tell whether they do.
+  double amplitude = 0.02 * device.model.length_scale;
+  fem::TangentCheck found = fem::check_tangent(equilibrium, state, amplitude, 5);
+  for (int shorter = 0; shorter < 4 && !passes(found); ++shorter)
+    found = fem::check_tangent(equilibrium, state, amplitude /= 8, 5);
+  const bool passed = passes(found);
+  cases::say("derivatives against differences in {} directions: residual {:.1e}, tangent {:.1e}: {}\n",
+             found.directions, found.residual, found.tangent, passed ? "passed" : "FAILED");
   return passed ? ExitCode::ok : ExitCode::check_failed;
 }
 

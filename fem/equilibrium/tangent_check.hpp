@@ -5,17 +5,16 @@
 
 namespace dielast::fem {
 
-/// Largest relative difference between derivatives and central differences of the energy, over random
-/// directions.
+/// Largest relative differences between derivatives and central differences, over random directions.
 struct TangentCheck {
-  double residual = 0; ///< dE/du . d
-  double tangent = 0;  ///< d . d2E/du2 d
+  double residual = 0; ///< r . d, r = dE/du, and differences of the energy E
+  double tangent = 0;  ///< d . K d, and differences of r . d
   int directions = 0;
 };
 
-/// Compares residual and tangent with differences of the energy along `directions` random directions at a
-/// randomly perturbed `state` (by `amplitude`, m; rotations by amplitude over the model's length scale).
-/// Seeded: repeatable.
+/// Compares the residual with differences of the energy, and the tangent with those of the residual, along
+/// `directions` random directions at a randomly perturbed `state` (by `amplitude`, m; rotations by amplitude
+/// over the model's length scale). Seeded: repeatable.
 TangentCheck check_tangent(Equilibrium& equilibrium, const State& state, double amplitude, int directions);
 
 } // namespace dielast::fem

@@ -200,6 +200,19 @@ TEST_F(Topics, TangentsPassTheirCheck) {
       }
 }
 
+TEST_F(Topics, TangentsOfThinSolidsAndOfContactThatBeginsPassTheirCheck) {
+  write("thin.toml", "title = \"Thin\"\nmodel = \"planar\"\n[film]\nthickness = \"20 um\"\n[film.material]\n"
+                     "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n"
+                     "[slab]\nlength = \"10 mm\"\nheight = \"0.1 mm\"\n[drive]\nvoltage = \"100 V\"\n");
+  const std::filesystem::path gallery = source_folder / "cases/gallery";
+  for (const std::string& file : {std::string("thin.toml"), (gallery / "gripper/ball.toml").string(),
+                                  (gallery / "rolled_muscle/roll_core.toml").string(),
+                                  (gallery / "stack_on_table/friction.toml").string()}) {
+    const Ended ended = dielast({"check", file, "--tangent"});
+    EXPECT_EQ(ended.exit_code, 0) << file << "\n" << ended.out << ended.err;
+  }
+}
+
 // A text of a thousand lines would run away on a terminal; elsewhere it goes straight on.
 TEST_F(Topics, LongTextsGoThroughThePagerOnATerminal) {
   if (std::system("script -qec true /dev/null > /dev/null 2>&1 < /dev/null") != 0)
