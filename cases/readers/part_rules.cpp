@@ -232,6 +232,9 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
   if (one.unnamed() && one.unnamed()->film && !one.unnamed()->has_mesh())
     reader.report(tree.find("film")->key_source, "film",
                   "a film without geometry; add one, or give each [part.NAME] its own [part.NAME.film]");
+  if (const Node* mesh = tree.find("mesh"); mesh && !(one.unnamed() && one.unnamed()->has_mesh()))
+    reader.report(mesh->key_source, "mesh",
+                  "a mesh without geometry; write [part.NAME.mesh] for each part that has one");
   if (reader.diagnostics().empty() && !one.any_film([](const Film&) { return true; })) {
     const Node* parts = tree.find("part");
     reader.report(parts ? parts->key_source : tree.source, "part",

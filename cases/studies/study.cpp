@@ -19,6 +19,7 @@
 #include <chrono>
 #include <csignal>
 #include <map>
+#include <set>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -121,6 +122,35 @@ bool all_answered(const Study& study, const std::vector<StudyPoint>& points,
       study.best, [&](const StudyBest& best) { return best_point(study, best, points).has_value(); });
 }
 
+/// Warnings of varied keys that have no effect at the points but those with one of their values, the default.
+std::vector<std::string> idle_keys(const Study& study, const std::vector<StudyPoint>& points) {
+  const std::vector<std::string> keys = study.varied();
+  std::vector<std::set<std::string>> not_told(keys.size()); // values at the other points
+  std::vector<std::string> reasons(keys.size());
+  for (const StudyPoint& point : points) {
+    try {
+      const Case one = read_case(study.base, point.overrides);
+      for (std::size_t k = 0; k < keys.size(); ++k) {
+        const auto warning = std::ranges::find(one.warnings, keys[k], &Diagnostic::key);
+        if (warning == one.warnings.end())
+          not_told[k].insert(point.values[k]);
+        else
+          reasons[k] = warning->message;
+      }
+    } catch (const CaseError&) { // told where the point runs
+    }
+  }
+  std::vector<std::string> warnings;
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (!reasons[k].empty() && not_told[k].size() <= 1)
+      warnings.push_back(Diagnostic{{study.source.string()},
+                                    "study.vary",
+                                    fmt::format("\"{}\" {}", keys[k], reasons[k]),
+                                    Severity::warning}
+                             .text());
+  return warnings;
+}
+
 } // namespace
 
 ExitCode run_study(const Study& study, const StudySettings& settings) {
@@ -143,6 +173,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
       settings.directory.string());
   for (const Diagnostic& warning : base.warnings) say(stderr, "{}\n", warning.text());
+  for (const std::string& warning : idle_keys(study, points)) say(stderr, "{}\n", warning);
   ProgressLine progress(study, points.size());
   std::vector<WaitingPoint> waiting;
   for (const StudyPoint& point : points) {
@@ -244,6 +275,7 @@ Trial try_point(const Study& study, StudyPoint point, double most_seconds) {
 
 ExitCode plan_study(const Study& study, const StudySettings& settings, double trial_seconds) {
   const std::vector<StudyPoint> points = study_points(study, settings.directory);
+  for (const std::string& warning : idle_keys(study, points)) say(stderr, "{}\n", warning);
   const StudyPoint* first = nullptr;
   std::size_t left = 0, impossible = 0;
   for (const StudyPoint& point : points) {

@@ -79,7 +79,11 @@ std::vector<Column> columns_of(const std::string& name, const std::vector<std::s
   bool alike = true;
   for (const auto& row : rows)
     for (const WrittenMeasure& one : row) alike = alike && one.unit == rows[0][0].unit;
-  const std::string si = name_of_unit(si_unit(rows[0][0].unit).powers);
+  std::string written; // a number without a unit is in SI
+  for (const auto& row : rows)
+    for (const WrittenMeasure& one : row)
+      if (written.empty()) written = one.unit;
+  const std::string si = name_of_unit(si_unit(written).powers);
   const std::string unit = alike ? rows[0][0].unit : si;
   std::vector<Column> columns;
   for (std::size_t i = 0; i < items; ++i) {

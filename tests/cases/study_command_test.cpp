@@ -58,6 +58,14 @@ TEST_F(StudyCommand, RunsEveryPointOfTheGrid) {
   EXPECT_EQ(ended.out.find('\r'), std::string::npos); // plain lines in a pipe
 }
 
+TEST_F(StudyCommand, NumbersWithoutUnitsAreInSI) {
+  write_study(R"({ "drive.voltage" = [2000, "4 kV"] })");
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  const auto rows = table_of(directory / "out/study.csv");
+  EXPECT_EQ(rows[0][1], "drive.voltage[V]");
+  EXPECT_EQ(rows[2][1], "4000");
+}
+
 TEST_F(StudyCommand, NumbersOfTheTableHaveOneUnitInTheHeader) {
   write("study.toml", R"toml(title = "Numbers"
 case = "small.toml"
@@ -104,6 +112,17 @@ TEST_F(StudyCommand, TakesSettingsOfTheStudyAndRefusesThoseWithoutEffect) {
   EXPECT_EQ(table_of(directory / "out/study.csv")[0],
             (std::vector<std::string>{"point", "drive.voltage[kV]", "eps_x[1]", "eps_y[1]", "max_field[V/m]",
                                       "exit_code", "events", "message"}));
+}
+
+TEST_F(StudyCommand, WarnsOfAVariedKeyWithoutEffect) {
+  write_study(R"({ "honeycomb.wall_print" = ["merged", "one face"] })");
+  const Ended idle = dielast(into("out"));
+  EXPECT_NE(idle.err.find("study.vary: \"honeycomb.wall_print\" has no effect here: it acts only with"),
+            std::string::npos)
+      << idle.err;
+  write_study(R"({ "honeycomb.wall_print" = ["merged", "one face"], "model" = ["planar", "3d"] })");
+  const Ended acting = dielast(into("out", {"--dry-run"}));
+  EXPECT_EQ(acting.err.find("has no effect"), std::string::npos) << acting.err;
 }
 
 // The best point under a bound must be what the table says: here the bound leaves out the point that is best
