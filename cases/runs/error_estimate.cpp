@@ -218,7 +218,7 @@ std::string threshold_remark(const Quantity& quantity, double value, double rise
   return "";
 }
 
-std::vector<EventRemark> event_remarks(const Case& one, const Solution& own,
+std::vector<EventRemark> event_remarks(const Case& one, const Device& device, const Solution& own,
                                        const std::vector<Solution>& others,
                                        const std::vector<ErrorEstimate>& estimates) {
   std::vector<EventRemark> remarks;
@@ -227,8 +227,7 @@ std::vector<EventRemark> event_remarks(const Case& one, const Solution& own,
       const Quantity& quantity = one.quantities[q];
       if (!quantity.kind->extreme || quantity.of != threshold.field ||
           quantity.extreme != threshold.extreme || !quantity.at.empty() || !std::isfinite(own.values[q]) ||
-          (one.any_film([](const Film& film) { return film.tension_field; }) &&
-           threshold.kind == "loss of tension"))
+          ((device.tension_field || device.bears_compression) && threshold.kind == "loss of tension"))
         continue;
       std::string remark = threshold_remark(quantity, own.values[q], own.rises[q], estimates[q],
                                             threshold.limit, unit_of(quantity, one.quantities));
@@ -327,7 +326,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
       estimates.quantities[q].error.reset();
       estimates.quantities[q].remark = "falls as the mesh is refined: no converged value";
     }
-  estimates.events = event_remarks(one, own, others, estimates.quantities);
+  estimates.events = event_remarks(one, own_run.device(), own, others, estimates.quantities);
   return estimates;
 }
 

@@ -53,6 +53,39 @@ TEST_F(Estimates, OfASingularExtremeAreNone) {
             std::string::npos);
 }
 
+// A clamped strip that is pushed together is compressed on every mesh, and bears it: nothing is said of its
+// tension.
+TEST_F(Estimates, OfShellsSayNothingOfTension) {
+  write("shell.toml", R"(model = "3d"
+[film]
+thickness = "1 mm"
+section = "shell"
+[film.material]
+shear_modulus = "100 kPa"
+relative_permittivity = 3
+[rectangle]
+length = "10 mm"
+[mesh]
+across = 4
+[[support]]
+place = "left"
+fix = ["x", "y", "z", "turn_y"]
+[[load]]
+place = "right"
+force = ["-1 mN", 0, 0]
+[[step]]
+kind = "force"
+[[quantity]]
+name = "least"
+kind = "extreme"
+of = "min_principal_stress"
+extreme = "minimum"
+)");
+  const nlohmann::json summary = summary_of(directory / "shell.toml");
+  EXPECT_LT(summary["quantities"]["least"]["value"], -50);
+  EXPECT_EQ(remark_on(summary, "loss of tension"), "");
+}
+
 // A diaphragm whose mesh is coarse where its field is largest: on finer ones the margins come to 0.9534 and
 // 0.9626 (0.95335 and 0.96256 by shooting).
 TEST_F(Estimates, OfMarginsHoldWhatFinerMeshesTell) {
