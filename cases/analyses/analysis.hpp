@@ -31,10 +31,8 @@ struct Analysis {
   std::vector<std::complex<double>> values(std::size_t magnitude) const;
 };
 
-/// What is said of responses that are zero.
-inline constexpr std::string_view no_response = "nothing moves: a film feels the square of its voltage, and "
-                                                "here it has none about which small sines could "
-                                                "swing; take a step of kind \"voltage\" before";
+/// What is said of responses of a quantity that are zero, though the device may move; `key` names it.
+std::string no_response(const std::string& quantity, std::string_view key, bool device_moves);
 
 /// Equal ratios from the lowest to the highest frequency, Hz.
 std::vector<double> frequencies(const Sweep& sweep);

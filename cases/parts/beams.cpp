@@ -4,6 +4,8 @@
 #include "fem/elements/beam_block.hpp"
 #include "meshing/bars/bars.hpp"
 
+#include <cmath>
+
 namespace dielast::cases {
 
 AlikeBars beams_of(const materials::BeamSection& section, double offset) {
@@ -18,11 +20,26 @@ AlikeBars beams_of(const materials::BeamSection& section, double offset) {
           }};
 }
 
+namespace {
+
+/// The normal of its section is z.
+void check_beam(const WrittenPart& written) {
+  const auto* line = std::get_if<Line>(&written.part.geometry);
+  if (!line) return;
+  const double across = std::hypot(line->to[0] - line->from[0], line->to[1] - line->from[1]);
+  if (across < 1e-6 * std::abs(line->to[2] - line->from[2]))
+    written.report("line",
+                   "a [beam] cannot run along z, the direction of its height: draw it in another one");
+}
+
+} // namespace
+
 PartKind beam_kind() {
   return {.word = "beam",
           .plural = "beams",
           .table = beam_section,
           .is = [](const Part& part) { return part.beam.has_value(); },
+          .check = check_beam,
           .bars =
               [](const Part& part) {
                 const Beam& beam = *part.beam;

@@ -32,6 +32,10 @@ void check_stressed_patch(const WrittenPart& written) {
   if (!patch || !part.film || (part.film->material.branches.empty() && part.film->material.viscosity == 0) ||
       (!one.steps.empty() && one.steps.front().kind == StepKind::release))
     return;
+  // Of a path along which branches have relaxed it does not matter that it begins free.
+  if (const auto& steps = one.steps; !steps.empty() && steps.front().kind == StepKind::force &&
+                                     !steps.front().duration && steps.front().response == Response::relaxed)
+    return;
   const auto flows = [](const Step& step) {
     return step.duration || (!step.is_analysis() && step.response == Response::instantaneous);
   };

@@ -166,8 +166,12 @@ void check_leaks(SectionReader& reader, const Node& tree, const Case& one) {
 void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
   const Node* written = tree.find("body");
   if (one.chamber && !one.bodies.empty())
-    reader.report(written->source, "body",
-                  "the chamber's volume under a body that tilts is not known; use [plate]");
+    reader.report(
+        tree.find("chamber")->key_source, "chamber",
+        fmt::format("its volume under a [[body]], which may tilt or close it, is not known; here is "
+                    "\"{}\"{}. A [plate] may take its place",
+                    one.bodies.front().name,
+                    written->items.front().source.is_written() ? "" : ", which the geometry brings"));
   for (std::size_t f = 0; f < one.fins.size(); ++f)
     if (!fem::moves(one.dimension, one.fins[f].along))
       reader.report(tree.find("fin")->items[f].source, fmt::format("fin[{}].along", f + 1),
@@ -182,7 +186,10 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
                               : fmt::format("body[{}].places", b + 1),
                       fmt::format("\"{}\" is {}; fix the body instead", place,
                                   brought ? fmt::format("on the body \"{}\"", body.name)
-                                          : std::string("held by a [[support]]")));
+                                  : tree.find("support")->items[s].source.is_written()
+                                      ? std::string("held by a [[support]]")
+                                      : std::string("held by a [[support]] that the geometry brings where "
+                                                    "the case has none")));
       }
     const bool spatial = one.dimension == fem::Dimension::spatial;
     const auto& moment = body.inertia;

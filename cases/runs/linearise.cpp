@@ -78,10 +78,13 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   std::vector<double> omega = result.frequency;
   for (double& w : omega) w *= 2 * std::numbers::pi;
   const fem::Linearisation full(simulation.equilibrium(), state);
-  for (const auto& at : fem::harmonic_response(full, drive, omega))
+  bool moves = false;
+  for (const auto& at : fem::harmonic_response(full, drive, omega)) {
     result.full.push_back((channels.rows.row(0) * at.displacement).value());
+    moves = moves || !at.displacement.isZero(0);
+  }
   if (std::ranges::all_of(result.full, [](const Complex& y) { return y == 0.0; }))
-    throw AnalysisError(std::string(no_response));
+    throw AnalysisError(no_response(output.name, "linearise.output", moves));
   for (const double band : bands) {
     if (band != bands.front() && result.error < good) break;
     fem::StateSpace large = fem::state_space(simulation.equilibrium(), state, channels,

@@ -90,8 +90,12 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
                fmt::join(analysis.driven, ", "), analysis.columns[1], analysis.rows.front()[1],
                analysis.rows.back()[1]);
     if (analysis.kind == StepKind::harmonic &&
-        std::ranges::all_of(analysis.rows, [](const auto& row) { return row[1] == 0; }))
-      log.warn("    {}", no_response);
+        std::ranges::all_of(analysis.rows, [](const auto& row) { return row[1] == 0; })) {
+      const bool moves = std::ranges::any_of(analysis.shapes, [](const Analysis::Shape& shape) {
+        return std::ranges::any_of(shape.displacement, [](const auto& u) { return !u.isZero(0); });
+      });
+      log.warn("    {}", no_response(analysis.of, "response_of", moves));
+    }
     recorder.record_analysis(analysis, state);
   };
   observer.on_pass = [] { return !interrupted(); };

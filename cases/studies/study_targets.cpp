@@ -237,7 +237,10 @@ std::vector<std::string> target_lines(const Study& study, const std::vector<Stud
                             unit, post::engineering(solution.value, quantity_unit, post::Ratio::plain, 6))
               : fmt::format("{}: not solved: {}", wanted, solution.problem));
     }
-    if (!any) lines.push_back(wanted + ": not within the values varied");
+    if (!any)
+      lines.push_back(wanted +
+                      ": not within the values varied: between no two points beside each other "
+                      "does the quantity pass it (where it turns back between two, more points find it)");
   }
   return lines;
 }

@@ -180,6 +180,8 @@ TEST_F(IdleKeys, PrestretchThatIsLetGoIsTold) {
   EXPECT_EQ(keys(film + flows + patch + "[[step]]\nkind = \"release\"\n" + at_once), Keys{});
   EXPECT_EQ(keys(film + flows + patch), Keys{"film.material.branch[1]"}); // relaxed: all the same
   EXPECT_EQ(keys(film + flows + patch + at_once, {"film.prestretch=1"}), Keys{});
+  const std::string flows_behind = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\n";
+  EXPECT_EQ(keys(film + flows + patch + "[[step]]\nkind = \"force\"\n" + flows_behind), Keys{}); // as advised
 }
 
 TEST_F(IdleKeys, SayingTheDefaultIsNoMistake) {

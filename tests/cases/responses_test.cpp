@@ -98,6 +98,21 @@ TEST_F(Responses, ALinearModelThatIsNoneIsToldSo) {
   EXPECT_NE(rings.err.find("ask for a larger linearise.order"), std::string::npos) << rings.err;
 }
 
+// The rim of a disc that its electrode covers to there.
+TEST_F(Responses, AQuantityThatIsHeldIsNamedWhereTheDeviceAnswers) {
+  std::string covered = disc;
+  covered.replace(covered.find("electrode_radius = \"20 mm\"\n"), 26, "");
+  write(
+      "covered.toml",
+      covered +
+          "[[quantity]]\nname = \"held\"\nkind = \"radius\"\nof = \"rim\"\n[chamber]\npressure = \"10 Pa\"\n"
+          "[[step]]\nkind = \"pressure\"\n[[step]]\nkind = \"harmonic\"\nresponse_of = \"held\"\n"
+          "from = \"1 Hz\"\nto = \"2 Hz\"\npoints = 2\n");
+  const Ended ended = dielast({"run", "covered.toml", "-o", "out"});
+  EXPECT_NE((ended.out + ended.err).find("held does not move, though the device does"), std::string::npos)
+      << ended.out << ended.err;
+}
+
 // The first mode lies above the highest frequency: that it follows statically is 11 % off there.
 TEST_F(Responses, ALinearModelHasTheModesLittleAboveItsFrequencies) {
   write("disc.toml", disc + "[linearise]\noutput = \"r\"\nfrom = \"0.1 Hz\"\nto = \"60 Hz\"\n");

@@ -370,7 +370,8 @@ TEST_F(StudyCommand, QuestionsWithoutAnAnswerAreToldByTheExitCode) {
   };
   const Ended target = asks("[[study.target]]\nquantity = \"eps_y\"\nvalue = 9\n");
   EXPECT_EQ(target.exit_code, 5) << target.out << target.err;
-  EXPECT_NE(target.out.find("not within the values varied"), std::string::npos) << target.out;
+  EXPECT_NE(target.out.find("not within the values varied: between no two points"), std::string::npos)
+      << target.out;
   const Ended best =
       asks("[[study.best]]\nlargest = \"eps_y\"\nwhere = [{ quantity = \"eps_y\", above = 9 }]\n");
   EXPECT_EQ(best.exit_code, 5) << best.out << best.err;
