@@ -259,7 +259,10 @@ Device build_device(const Case& one) {
       meshing::shares(mesh, dimension == fem::Dimension::axisymmetric);
   std::ranges::move(share_warnings(one, shares), std::back_inserter(warnings));
   const std::vector<fem::Tie> links = set_off_bars(one, mesh);
+  if (!mesh.film()) throw meshing::MeshError("the case has no film: neither triangles nor rods");
+  std::vector<int> parts = film_parts(one, mesh);
   const int without_arms = mesh.node_count();
+  const std::vector<MassOfShells> of_shells = add_mass_nodes(one, parts, mesh);
   const std::vector<fem::RelativeMass> rotary = add_rotary_nodes(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
   for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
@@ -268,8 +271,6 @@ Device build_device(const Case& one) {
   model.corners = fem::element_corners(mesh);
 
   const meshing::CellBlock* film = mesh.film();
-  if (!film) throw meshing::MeshError("the case has no film: neither triangles nor rods");
-  std::vector<int> parts = film_parts(one, mesh);
   std::ranges::move(thickness_warnings(one, mesh, parts), std::back_inserter(warnings));
   const bool of_solid = one.any_film([](const Film& f) { return f.is_solid(); });
   if (meshing::is_triangle(film->type) && !of_solid) require_flat_films(mesh, parts, model.extent);
@@ -277,13 +278,15 @@ Device build_device(const Case& one) {
   model.length_scale = model.extent / (meshing::is_meridian(film->type)      ? elements
                                        : meshing::is_tetrahedron(film->type) ? std::cbrt(elements)
                                                                              : std::sqrt(elements));
+  int films = 0;
   try {
     add_films(one, mesh, parts, model);
+    films = static_cast<int>(model.blocks.size());
+    add_masses_of_shells(of_shells, mesh, model);
+    add_bars(one, mesh, model);
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }
-  const auto films = static_cast<int>(model.blocks.size());
-  add_bars(one, mesh, model);
   if (!rotary.empty()) model.blocks.push_back(fem::make_relative_mass_block(rotary));
   add_contact(one, mesh, model);
 
@@ -302,6 +305,7 @@ Device build_device(const Case& one) {
   hold_radii(one, mesh, model.dofs);
   link_bars(links, dimension, model.dofs);
   tie_rotary_nodes(rotary, mesh, model.dofs);
+  tie_mass_nodes(of_shells, mesh, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   keep_spins(one, mesh, model.dofs);
   const bool free_body = one.supports.empty() && one.bodies.empty() && !one.table;

@@ -3,6 +3,7 @@
 
 #include "cases/devices/device.hpp"
 #include "fem/elements/point_mass_block.hpp"
+#include "fem/shells/shell_section.hpp"
 
 #include <vector>
 
@@ -46,6 +47,24 @@ std::vector<fem::RelativeMass> add_rotary_nodes(const Case& one, meshing::Mesh& 
 /// Ties these nodes to the bars'.
 void tie_rotary_nodes(const std::vector<fem::RelativeMass>& masses, const meshing::Mesh& mesh,
                       fem::DofMap& dofs);
+
+/// The mass of the shells of one part, and the nodes that carry it, see fem::make_shell_mass_block().
+struct MassOfShells {
+  fem::ShellMass mass;
+  std::vector<int> cells;    ///< of the film
+  std::vector<int> carriers; ///< for each of their nodes
+};
+
+/// Adds nodes to the mesh where the mass of a shell has its centre beside the drawn surface; none where
+/// nothing accelerates or weighs. `parts` are film_parts().
+std::vector<MassOfShells> add_mass_nodes(const Case& one, const std::vector<int>& parts, meshing::Mesh& mesh);
+
+/// Adds these masses.
+void add_masses_of_shells(const std::vector<MassOfShells>& shells, const meshing::Mesh& mesh,
+                          fem::Model& model);
+
+/// Ties the nodes that carry them to the shells'.
+void tie_mass_nodes(const std::vector<MassOfShells>& shells, const meshing::Mesh& mesh, fem::DofMap& dofs);
 
 /// The bar along each line of the mesh.
 Bars bars(const Case& one, const meshing::Mesh& mesh);

@@ -48,6 +48,8 @@ bool masses_accelerate(const Case& one) {
          has_step(one, {StepKind::modes});
 }
 
+bool film_weighs(const Case& one) { return one.gravity.film && has_step(one, {StepKind::weight}); }
+
 namespace {
 
 bool slides_with_friction(const Case& one) {
@@ -142,9 +144,8 @@ Condition weight() {
 }
 
 Condition masses_matter() {
-  return on_case("inertia, a step of kind \"modes\" or \"harmonic\", or a weight", [](const Case& one) {
-    return masses_accelerate(one) || (one.gravity.film && has_step(one, {StepKind::weight}));
-  });
+  return on_case("inertia, a step of kind \"modes\" or \"harmonic\", or a weight",
+                 [](const Case& one) { return masses_accelerate(one) || film_weighs(one); });
 }
 
 Condition point_masses_matter() {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/parts/shells.hpp"
 #include "cases/parts/part_kinds.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "fem/model/model.hpp"
@@ -11,32 +12,43 @@
 namespace dielast::cases {
 namespace {
 
+/// The layers from below, with their electrodes in the film's cells.
+struct LaidShell {
+  fem::ShellSection section;
+  std::vector<const std::vector<int>*> electrodes; ///< null: none
+};
+
+LaidShell lay(const Part& part, const PartFilm* film) {
+  const auto [along_x, along_y] = part.film->prestretch;
+  LaidShell shell{{.prestretch = part.film->prestretch, .offset = part.film->offset * along_x * along_y}, {}};
+  fem::ShellSection& section = shell.section;
+  const auto add = [&](fem::ShellLayer layer, const std::vector<int>* under, bool below) {
+    if (!(layer.thickness > 0)) return;
+    section.layers.insert(below ? section.layers.begin() : section.layers.end(), layer);
+    shell.electrodes.insert(below ? shell.electrodes.begin() : shell.electrodes.end(), under);
+  };
+  for (int layer = 0; layer < part.layers(); ++layer)
+    add({part.film->material, part.film->thickness}, film ? &film->electrodes : nullptr, false);
+  for (const bool below : {true, false})
+    add({.material = part.film->material, .thickness = cover_of(part), .number = 1}, nullptr, below);
+  for (std::size_t l = 0; l < part.film->further_layers.size(); ++l) {
+    const Layer& layer = part.film->further_layers[l];
+    add({layer.material, layer.thickness, layer.prestretch, static_cast<int>(l) + 1},
+        film ? &film->of_layers[l] : nullptr, layer.below);
+    section.offset += (layer.below ? -0.5 : 0.5) *
+                      section.depth_of(section.layers[layer.below ? 0 : section.layers.size() - 1]);
+  }
+  return shell;
+}
+
 void add_shells(const Case&, const meshing::Mesh& mesh, std::span<const PartFilm> films, fem::Model& model) {
   for (const PartFilm& film : films) {
-    const Part& part = *film.part;
-    const std::vector<int> none(film.cells.size(), fem::passive);
-    const auto [along_x, along_y] = part.film->prestretch;
-    fem::ShellSection section{.prestretch = part.film->prestretch,
-                              .offset = part.film->offset * along_x * along_y};
+    const LaidShell shell = lay(*film.part, &film);
     std::vector<std::vector<int>> electrodes;
-    const auto add = [&](fem::ShellLayer layer, const std::vector<int>& under, bool below) {
-      if (!(layer.thickness > 0)) return;
-      section.layers.insert(below ? section.layers.begin() : section.layers.end(), layer);
-      electrodes.insert(below ? electrodes.begin() : electrodes.end(), under);
-    };
-    for (int layer = 0; layer < part.layers(); ++layer)
-      add({part.film->material, part.film->thickness}, film.electrodes, false);
-    for (const bool below : {true, false})
-      add({.material = part.film->material, .thickness = cover_of(part), .number = 1}, none, below);
-    for (std::size_t l = 0; l < part.film->further_layers.size(); ++l) {
-      const Layer& layer = part.film->further_layers[l];
-      add({layer.material, layer.thickness, layer.prestretch, static_cast<int>(l) + 1}, film.of_layers[l],
-          layer.below);
-      section.offset += (layer.below ? -0.5 : 0.5) *
-                        section.depth_of(section.layers[layer.below ? 0 : section.layers.size() - 1]);
-    }
-    model.blocks.push_back(fem::make_shell_block(mesh, meshing::subset(*mesh.film(), film.cells), section,
-                                                 std::move(electrodes), film.cells));
+    for (const std::vector<int>* under : shell.electrodes)
+      electrodes.push_back(under ? *under : std::vector<int>(film.cells.size(), fem::passive));
+    model.blocks.push_back(fem::make_shell_block(mesh, meshing::subset(*mesh.film(), film.cells),
+                                                 shell.section, std::move(electrodes), film.cells));
   }
 }
 
@@ -71,6 +83,8 @@ void check_shell(const WrittenPart& written) {
 }
 
 } // namespace
+
+fem::ShellMass shell_mass(const Part& part) { return fem::ShellMass::of(lay(part, nullptr).section); }
 
 PartKind shell_kind() {
   return {.word = "shell",

@@ -301,8 +301,10 @@ Section film_section() {
           .above(0)
           .optional()
           .only_with(when::law_without_volume()),
-      measure("offset", "m", to(&Film::offset),
-              "of a shell: from the surface on which it is drawn, and held, up to the film's middle as drawn")
+      measure(
+          "offset", "m", to(&Film::offset),
+          "of a shell: from the surface on which it is drawn, held and measured, up to the film's middle as "
+          "drawn; stresses, mass and weight are where the layers are")
           .at_least(-0.1)
           .at_most(0.1)
           .otherwise("0 m")

@@ -68,19 +68,21 @@ void DofMap::share(int node, int component, int other, int other_component) {
 }
 
 void DofMap::tie(const Tie& tie) {
-  const auto of = [this](int node) { return std::ranges::find(ties_, node, &Tie::node); };
+  const auto of = [this](int node) -> int& { return tie_of_[static_cast<std::size_t>(node)]; };
   Tie root = tie;
-  if (const auto further = of(tie.master); further != ties_.end()) {
-    root.master = further->master;
-    root.arm += further->arm;
+  if (const int further = of(tie.master); further != absent) {
+    root.master = ties_[static_cast<std::size_t>(further)].master;
+    root.arm += ties_[static_cast<std::size_t>(further)].arm;
   }
-  if (root.node == root.master || of(tie.node) != ties_.end())
-    throw std::invalid_argument("a node is tied twice");
-  for (Tie& other : ties_)
-    if (other.master == root.node) {
-      other.master = root.master;
-      other.arm += root.arm;
-    }
+  if (root.node == root.master || of(tie.node) != absent) throw std::invalid_argument("a node is tied twice");
+  if (carries_[static_cast<std::size_t>(root.node)])
+    for (Tie& other : ties_)
+      if (other.master == root.node) {
+        other.master = root.master;
+        other.arm += root.arm;
+      }
+  carries_[static_cast<std::size_t>(root.master)] = 1;
+  of(root.node) = static_cast<int>(ties_.size());
   ties_.push_back(root);
 }
 
@@ -143,10 +145,20 @@ void DofMap::number() {
   }
 }
 
+/// It does not move where its master spins about the director. Precondition: it has no spins, which it would
+/// share with its master.
+bool DofMap::lies_along_director(const Tie& tie) const {
+  if (!tilt_axes_) return false;
+  const TiltAxes& axes = axes_of(static_cast<std::size_t>(tie.master));
+  return !axes.isZero(0) && (axes.transpose() * tie.arm).norm() <= parallel * tie.arm.norm();
+}
+
 /// Instead of spins, where nothing asks for these.
 void DofMap::choose_tilts() {
-  for (const Tie& tie : ties_)
-    for (const int node : {tie.node, tie.master}) keep_spins(node);
+  for (const Tie& tie : ties_) {
+    keep_spins(tie.node);
+    if (!lies_along_director(tie)) keep_spins(tie.master);
+  }
   for (const auto& [node, component, other, other_component] : shared_) {
     if (component >= 3) keep_spins(node);
     if (other_component >= 3) keep_spins(other);
@@ -207,14 +219,26 @@ void DofMap::gather(const State& state, Eigen::VectorXd& force) const {
     for (int c = 0; c < 3; ++c)
       if (const int e = equation(node, c); e != absent) on_node[c] = std::exchange(force[e], 0.0);
     const Eigen::Vector3d moment = (state.rotation[static_cast<std::size_t>(master)] * arm).cross(on_node);
-    for (int c = 0; c < components; ++c)
-      if (const int e = equation(master, c); e != absent) force[e] += c < 3 ? on_node[c] : moment[c - 3];
+    const Eigen::Vector3d on_turns = turn_axes(state, master).transpose() * moment;
+    const std::array<int, 3> turns = this->turns(master);
+    for (int c = 0; c < 3; ++c) {
+      if (const int e = equation(master, c); e != absent) force[e] += on_node[c];
+      if (const int e = turns[static_cast<std::size_t>(c)]; e != absent) force[e] += on_turns[c];
+    }
   }
 }
 
-Eigen::Vector3d DofMap::lever(const Tie& tie, const State& state, int component) {
+Eigen::Matrix3d DofMap::turn_axes(const State& state, int node) const {
+  if (!tilts(node)) return Eigen::Matrix3d::Identity();
+  const auto n = static_cast<std::size_t>(node);
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+  axes.leftCols<2>() = state.rotation[n].toRotationMatrix() * axes_of(n);
+  return axes;
+}
+
+Eigen::Vector3d DofMap::lever(const Tie& tie, const State& state, int component) const {
   const Eigen::Vector3d arm = state.rotation[static_cast<std::size_t>(tie.master)] * tie.arm;
-  return arm.cross(Eigen::Vector3d::Unit(component));
+  return turn_axes(state, tie.master).transpose() * arm.cross(Eigen::Vector3d::Unit(component));
 }
 
 Eigen::Vector3d DofMap::spin(const State& state, int node, const Eigen::VectorXd& values) const {
@@ -237,8 +261,9 @@ Eigen::SparseMatrix<double> DofMap::jacobian(const State& state) const {
       if (e == absent) continue;
       if (const int m = equation(tie.master, c); is_free(m)) entries.emplace_back(e, m, 1.0);
       const Eigen::Vector3d lever = this->lever(tie, state, c);
-      for (int k = 0; k < 3; ++k)
-        if (const int m = equation(tie.master, 3 + k); is_free(m)) entries.emplace_back(e, m, lever[k]);
+      const std::array<int, 3> turns = this->turns(tie.master);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (is_free(turns[k])) entries.emplace_back(e, turns[k], lever[static_cast<Eigen::Index>(k)]);
     }
   Eigen::SparseMatrix<double> all(count_, free_count_);
   all.setFromTriplets(entries.begin(), entries.end());

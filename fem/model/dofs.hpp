@@ -49,7 +49,8 @@ using TiltAxes = Eigen::Matrix<double, 3, 2>;
 /// A node of which nothing but a director counts (see add_director()) has two tilts (6, 7) instead of three
 /// spins: spin = R A a, with the tilts a, the drawn axes A perpendicular to the director, and the node's
 /// rotation R. They turn with the node, so that exp(spin) R = R exp(A a): no spin is ever about the director,
-/// and energies' second derivatives in tilts are those in spins, seen along these axes.
+/// and energies' second derivatives in tilts are those in spins, seen along these axes. Such a node may carry
+/// others that lie along its director and do not turn themselves.
 ///
 /// Behind the nodes' unknowns come scalars, numbers of State::scalar that move nothing: pressures that keep a
 /// volume, potentials of a field. They are multipliers: the energy is stationary in them, and largest, so
@@ -62,7 +63,9 @@ class DofMap {
 
   explicit DofMap(int node_count)
       : equation_(static_cast<std::size_t>(node_count), unset()),
-        turns_(static_cast<std::size_t>(node_count), Turns::by_spins) {}
+        turns_(static_cast<std::size_t>(node_count), Turns::by_spins),
+        tie_of_(static_cast<std::size_t>(node_count), absent),
+        carries_(static_cast<std::size_t>(node_count)) {}
 
   /// Gives the node this unknown, a displacement or a spin.
   void add(int node, int component);
@@ -93,6 +96,13 @@ class DofMap {
 
   int equation(int node, int unknown) const { return equation_[static_cast<std::size_t>(node)][unknown]; }
   bool tilts(int node) const { return equation(node, tilt) != absent; }
+  /// Equations of what turns the node, its spins or its tilts, absent where it does not have them.
+  std::array<int, 3> turns(int node) const {
+    return tilts(node) ? std::array{equation(node, tilt), equation(node, tilt + 1), absent}
+                       : std::array{equation(node, 3), equation(node, 4), equation(node, 5)};
+  }
+  /// About which they turn it, in columns: x, y and z, or R A and 0.
+  Eigen::Matrix3d turn_axes(const State& state, int node) const;
   int scalar_equation(int scalar) const { return scalars_[static_cast<std::size_t>(scalar)].equation; }
   double scalar_unit(int scalar) const { return scalars_[static_cast<std::size_t>(scalar)].unit; }
   int scalar_count() const { return static_cast<int>(scalars_.size()); }
@@ -117,9 +127,9 @@ class DofMap {
   Eigen::Vector3d spin(const State& state, int node, const Eigen::VectorXd& values) const;
   /// How all unknowns go with the free ones: count() x free_count().
   Eigen::SparseMatrix<double> jacobian(const State& state) const;
-  /// How displacement `component` (0..2) of a tied node goes with its master's spins; with the master's
+  /// How displacement `component` (0..2) of a tied node goes with what turns() its master; with the master's
   /// displacement it goes as one.
-  static Eigen::Vector3d lever(const Tie& tie, const State& state, int component);
+  Eigen::Vector3d lever(const Tie& tie, const State& state, int component) const;
   /// What forces that stay as they are (count() entries) do on the way of the tied nodes from one state to
   /// another, J.
   double work_on_tied(const Eigen::VectorXd& force, const State& from, const State& to) const;
@@ -134,6 +144,7 @@ class DofMap {
   }
   enum class Turns : char { by_spins, by_tilts };
   void choose_tilts();
+  bool lies_along_director(const Tie& tie) const;
   const TiltAxes& axes_of(std::size_t node) const { return (*tilt_axes_)[node]; }
 
   struct Scalar {
@@ -147,6 +158,8 @@ class DofMap {
   std::vector<Scalar> scalars_;
   std::vector<std::array<int, 4>> shared_; ///< node, component, other node, its component
   std::vector<Tie> ties_;
+  std::vector<int> tie_of_;   ///< of each node, its place in ties_, or absent
+  std::vector<char> carries_; ///< whether a node has been a master
   int free_count_ = 0, held_count_ = 0, count_ = 0;
 };
 

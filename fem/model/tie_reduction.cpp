@@ -21,8 +21,10 @@ TieReduction::TieReduction(const DofMap& dofs, const SparseSymmetric& full) : do
       const int place = e - free - dofs.held_count();
       auto& terms = of_tied_[static_cast<std::size_t>(place)];
       if (const int m = dofs.equation(tie.master, c); dofs.is_free(m)) terms.push_back({m, one});
+      const std::array<int, 3> turns = dofs.turns(tie.master);
       for (int k = 0; k < 3; ++k)
-        if (const int m = dofs.equation(tie.master, 3 + k); k != c && dofs.is_free(m))
+        if (const int m = turns[static_cast<std::size_t>(k)];
+            (k != c || dofs.tilts(tie.master)) && dofs.is_free(m))
           terms.push_back({m, 1 + 3 * place + k});
     }
 
@@ -76,7 +78,7 @@ std::vector<double> TieReduction::reduce(const State& state, const std::vector<d
   for (const Tie& tie : dofs_.ties())
     for (int c = 0; c < 3; ++c)
       if (const int e = dofs_.equation(tie.node, c); e != DofMap::absent) {
-        const Eigen::Vector3d lever = DofMap::lever(tie, state, c);
+        const Eigen::Vector3d lever = dofs_.lever(tie, state, c);
         const auto first = 1 + 3 * static_cast<std::size_t>(e - dofs_.free_count() - dofs_.held_count());
         for (int k = 0; k < 3; ++k) factor[first + static_cast<std::size_t>(k)] = lever[k];
       }
@@ -98,12 +100,15 @@ void TieReduction::add_geometric(const State& state, const Eigen::VectorXd& forc
       if (const int e = dofs_.equation(tie.node, c); e != DofMap::absent) f[c] = force[e];
     if (f.isZero(0)) continue;
     const Eigen::Vector3d arm = state.rotation[static_cast<std::size_t>(tie.master)] * tie.arm;
-    // d2(exp(theta) arm)/dtheta_k dtheta_l = (e_k arm_l + e_l arm_k)/2 - delta_kl arm
+    // d2(exp(theta) arm)/dtheta_k dtheta_l = (e_k arm_l + e_l arm_k)/2 - delta_kl arm, along its axes
+    const Eigen::Matrix3d axes = dofs_.turn_axes(state, tie.master);
     const Eigen::Matrix3d G =
-        (f * arm.transpose() + arm * f.transpose()) / 2 - f.dot(arm) * Eigen::Matrix3d::Identity();
+        axes.transpose() *
+        ((f * arm.transpose() + arm * f.transpose()) / 2 - f.dot(arm) * Eigen::Matrix3d::Identity()) * axes;
+    const std::array<int, 3> turns = dofs_.turns(tie.master);
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l <= k; ++l) {
-        const int p = dofs_.equation(tie.master, 3 + k), q = dofs_.equation(tie.master, 3 + l);
+        const int p = turns[static_cast<std::size_t>(k)], q = turns[static_cast<std::size_t>(l)];
         if (dofs_.is_free(p) && dofs_.is_free(q))
           values[static_cast<std::size_t>(pattern_.place(std::min(p, q), std::max(p, q)))] += G(k, l);
       }

@@ -12,11 +12,25 @@ namespace {
 
 constexpr double stiffer = 1e8; ///< the inertia that holds a mass, over the stiffness
 
-/// Of the free equations, those of tied nodes moved to their masters, kg and kg m^2.
+/// Of the free equations, those of tied nodes moved to their masters, kg and kg m^2. What turns a mass on an
+/// arm and leaves it where it is, by moving the node, has none.
 Eigen::VectorXd masses(const Model& model, const State& state) {
-  const Eigen::SparseMatrix<double> jacobian = model.dofs.jacobian(state);
+  constexpr double round_off = 1e-9;
+  const DofMap& dofs = model.dofs;
+  const Eigen::SparseMatrix<double> jacobian = dofs.jacobian(state);
   const Eigen::SparseMatrix<double> reduced = jacobian.transpose() * model.inertia.mass * jacobian;
-  return reduced.diagonal();
+  const Eigen::VectorXd diagonal = reduced.diagonal();
+  Eigen::VectorXd masses = diagonal;
+  for (const Tie& tie : dofs.ties())
+    for (const int turn : dofs.turns(tie.master)) {
+      if (!dofs.is_free(turn) || !(masses[turn] > 0)) continue;
+      double about_centre = diagonal[turn];
+      for (int c = 0; c < 3; ++c)
+        if (const int e = dofs.equation(tie.master, c); dofs.is_free(e) && diagonal[e] > 0)
+          about_centre -= std::pow(reduced.coeff(e, turn), 2) / diagonal[e];
+      if (about_centre <= round_off * diagonal[turn]) masses[turn] = 0;
+    }
+  return masses;
 }
 
 } // namespace

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/films/triangle.hpp"
 #include "fem/shells/shell_elements.hpp"
 
 #include <Eigen/LU>
@@ -41,18 +40,15 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e)
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));
-  for (const ShellLayer& layer : section.layers) height_ += section.depth_of(layer);
-  double bottom = section.offset - height_ / 2;
-  for (std::size_t l = 0; l < section.layers.size(); ++l) {
-    const ShellLayer& layer = section.layers[l];
-    const double H = section.depth_of(layer), middle = bottom + H / 2;
-    electrodes[l].resize(static_cast<std::size_t>(packs * lanes), electrodes[l].back());
+  section.for_each_layer([&](const ShellLayer& layer, double middle) {
+    const double H = section.depth_of(layer);
+    std::vector<int>& over = electrodes[layers_.size()];
+    over.resize(static_cast<std::size_t>(packs * lanes), over.back());
     layers_.push_back({FilmLayer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
-                       layer.number, std::move(electrodes[l])});
+                       layer.number, std::move(over)});
     shear_.add_layer(layer.material, H);
-    surface_density_ += layer.material.density * H;
-    bottom += H;
-  }
+    height_ += H;
+  });
   geometry_.assign(static_cast<std::size_t>(packs * points), ShellPoint{});
   areas_.assign(static_cast<std::size_t>(packs), Lanes{});
   for (int e = 0; e < packs * lanes; ++e) place_element(e);
@@ -148,31 +144,6 @@ void ShellBlock::element_equations(int element, const DofMap& dof_map, std::span
                             : k < 2           ? dof_map.equation(n, DofMap::tilt + k)
                                               : DofMap::absent;
   }
-}
-
-/// Consistent.
-void ShellBlock::add_mass(int element, std::span<double> packed) const {
-  const Matrix36 X = drawn(element);
-  const double undrawn = areas_[static_cast<std::size_t>(element / lanes)][element % lanes];
-  double area = 0;
-  for (int pass = 0; pass < 2;
-       ++pass) // the drawn area first: its ratio to the undeformed one is everywhere alike
-    for (const TrianglePoint& at : triangle_rule(6)) {
-      const Matrix32 t = X * shape_gradients<6>(at.xi, at.eta);
-      const double here = at.weight * t.col(0).cross(t.col(1)).norm();
-      if (pass == 0) {
-        area += here;
-        continue;
-      }
-      const Eigen::Vector<double, 6> N = shape_values<6>(at.xi, at.eta);
-      for (int a = 0; a < Nodes; ++a)
-        for (int b = 0; b <= a; ++b)
-          for (int c = 0; c < 3; ++c) {
-            const int row = ShellSum<false, 3>::moved(a, c), column = ShellSum<false, 3>::moved(b, c);
-            packed[static_cast<std::size_t>(row * (row + 1) / 2 + column)] +=
-                surface_density_ * undrawn / area * here * N[a] * N[b];
-          }
-    }
 }
 
 ShellNodes ShellBlock::gather(const State& state, int pack) const {

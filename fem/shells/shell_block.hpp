@@ -21,9 +21,7 @@ namespace dielast::fem {
 /// that are more than 30 thicknesses long (h, the root of twice the drawn area) the shear is resisted by (30
 /// H/h)^2 of that only: still a thousand times stiffer than the shortest waves that they can bend in, while
 /// thinner ones would let directors buckle against each other where the film turns. As drawn, the shell is
-/// free of stress, but for its prestretch. Mass: that of the drawn surface. Rotations have none: a section's
-/// own moment of inertia lowers the frequency of waves 2 pi/k long by (k H)^2/24 of it only, and one about
-/// the directors would vibrate against the soft stiffness that holds them.
+/// free of stress, but for its prestretch. It has no mass: see make_shell_mass_block().
 ///
 /// `electrodes`: for each layer, the electrode over each element, or `passive`. `numbers`: of the elements in
 /// the mesh's own block, for samples and messages; empty: in their order here. Throws std::invalid_argument
@@ -33,5 +31,15 @@ std::unique_ptr<ElementBlock> make_shell_block(const meshing::Mesh& mesh, const 
                                                const ShellSection& section,
                                                std::vector<std::vector<int>> electrodes,
                                                std::vector<int> numbers = {});
+
+/// The mass of such elements, consistent: all of it in the surface of its centres, where `carriers` are the
+/// nodes, one for each of `cells.nodes`. Where the centre is not in the drawn surface these are nodes of
+/// their own, which are tied to the drawn ones and lie along their directors: then the mass has its place,
+/// its weight turns the shell, and the layers move as 1/2 int rho |d(x + Z d)/dt|^2 has it, but for what a
+/// section's moment of inertia about its own centre adds: that lowers the frequency of waves 2 pi/k long by
+/// (k H)^2/24 of it only. The lever is that of the drawing: how it follows the thickness is left out.
+std::unique_ptr<ElementBlock> make_shell_mass_block(const meshing::Mesh& mesh,
+                                                    const meshing::CellBlock& cells, const ShellMass& mass,
+                                                    std::vector<int> carriers);
 
 } // namespace dielast::fem

@@ -48,7 +48,6 @@ class ShellBlock final : public ElementBlock {
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const override;
   void sample(const State& state, Samples& samples) const override;
-  void add_mass(int element, std::span<double> packed) const override;
   void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
   void add_energies(const State& state, EnergyParts& parts) const override;
   void add_relaxation(const State& state, const RateWeight& weight, const Scatter& scatter) const override;
@@ -155,8 +154,7 @@ class ShellBlock final : public ElementBlock {
   std::array<double, 2> prestretch_;
   double height_ = 0; ///< of the layers before the prestretch, m
   ShellShear shear_;
-  double surface_density_ = 0; ///< sum rho H, kg/m^2
-  double drilling_;            ///< see ShellSection
+  double drilling_; ///< see ShellSection
   int count_ = 0;
   std::vector<int> nodes_;   ///< padded to whole packs by repeating the last element
   std::vector<int> numbers_; ///< of the elements, in the mesh's block

@@ -37,6 +37,27 @@ struct ShellSection {
     const auto [x, y] = extra_stretch(layer);
     return layer.thickness / (x * y);
   }
+  /// What a function of a layer and of the place of its middle, m above the drawn surface before
+  /// `prestretch`, says of all layers, from below.
+  template<class Visitor>
+  void for_each_layer(const Visitor& visit) const {
+    double height = 0;
+    for (const ShellLayer& layer : layers) height += depth_of(layer);
+    double bottom = offset - height / 2;
+    for (const ShellLayer& layer : layers) {
+      const double depth = depth_of(layer);
+      visit(layer, bottom + depth / 2);
+      bottom += depth;
+    }
+  }
+};
+
+/// The mass of a shell's section: of its drawn surface, kg/m^2, and where its centre lies above that as
+/// drawn, m; 0 where that is a rounding of the thickness.
+struct ShellMass {
+  double per_area = 0, lever = 0;
+
+  static ShellMass of(const ShellSection& section);
 };
 
 } // namespace dielast::fem

@@ -57,6 +57,27 @@ inline std::unique_ptr<Model> shell_model(const meshing::Mesh& mesh, const Shell
   return model;
 }
 
+/// A flat shell whose mass is carried by nodes on its directors, behind those of `mesh`, to which they are
+/// added.
+inline std::unique_ptr<Model> shell_with_mass(meshing::Mesh& mesh, const ShellSection& section) {
+  const ShellMass mass = ShellMass::of(section);
+  const int drawn = mesh.node_count();
+  for (int n = 0; n < drawn; ++n)
+    mesh.nodes.emplace_back(mesh.nodes[static_cast<std::size_t>(n)] + mass.lever * Eigen::Vector3d::UnitZ());
+  std::vector<int> carriers = mesh.blocks[0].nodes;
+  for (int& node : carriers) node += drawn;
+  const std::vector<std::vector<int>> electrodes(
+      section.layers.size(), std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive));
+  auto model =
+      unnumbered_model(mesh.node_count(), false, make_shell_block(mesh, mesh.blocks[0], section, electrodes));
+  model->blocks.push_back(make_shell_mass_block(mesh, mesh.blocks[0], mass, carriers));
+  model->blocks.back()->claim_dofs(model->dofs, Dimension::spatial);
+  for (int n = 0; n < drawn; ++n) model->dofs.tie({drawn + n, n, {0, 0, mass.lever}});
+  model->dofs.number();
+  model->inertia = Inertia::of(model->blocks, model->dofs);
+  return model;
+}
+
 /// Stretched, turned and shaken.
 inline State random_state(const Model& model, const meshing::Mesh& mesh, std::mt19937& random) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();

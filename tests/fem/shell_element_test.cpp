@@ -134,22 +134,37 @@ TEST(Shell, charges_are_the_slopes_of_the_energy_and_its_parts_add_up) {
   EXPECT_NEAR(parts.elastic - parts.electric, energy, 1e-12 * parts.elastic);
 }
 
-TEST(Shell, has_the_mass_of_its_layers_and_turns_without) {
-  const meshing::Mesh mesh = test::distorted_square(2, 2);
+// 1/2 int rho |w x (x, y, Z)|^2 of rigid rotations about the origin, the layers' mass in its centre, and of
+// translations. The nodes tilt, for all that they carry.
+TEST(Shell, has_the_mass_of_its_layers_where_their_centre_is) {
+  meshing::Mesh mesh = test::distorted_square(2, 2);
+  const int drawn = mesh.node_count();
   const ShellSection section = two_layers();
-  const auto model = shell_model(mesh, section);
-  const Eigen::SparseMatrix<double> mass = Inertia::of(model->blocks, model->dofs).mass;
-  std::array<double, 3> sum{};
-  for (int a = 0; a < mesh.node_count(); ++a)
-    for (int b = 0; b < mesh.node_count(); ++b)
-      for (int c = 0; c < 3; ++c)
-        sum[static_cast<std::size_t>(c)] +=
-            mass.coeff(model->dofs.equation(a, c), model->dofs.equation(b, c));
-  const double own = 960 * (0.05 / (1.5 * 1.1) + 0.1 / (1.2 * 0.9)); // density, thickness, undeformed area
-  for (const double along : sum) EXPECT_NEAR(along, own, 1e-9);
-  EXPECT_NEAR(mass.sum(), 3 * own, 1e-9);
-  for (int a = 0; a < mesh.node_count(); ++a)
-    for (int c = 6; c < 8; ++c) EXPECT_EQ(mass.col(model->dofs.equation(a, c)).nonZeros(), 0);
+  const auto model = test::shell_with_mass(mesh, section);
+  const double lower = 0.05 / (1.5 * 1.1), upper = 0.1 / (1.2 * 0.9), mass = 960 * (lower + upper);
+  const double lever = 0.02 / (1.2 * 0.9); // all have one density
+  EXPECT_NEAR(ShellMass::of(section).per_area, mass, 1e-12 * mass);
+  EXPECT_NEAR(ShellMass::of(section).lever, lever, 1e-15);
+  const Eigen::SparseMatrix<double> J = model->dofs.jacobian(model->initial_state());
+  const Eigen::SparseMatrix<double> M = J.transpose() * model->inertia.mass * J;
+  const auto energy = [&](const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
+    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(model->dofs.free_count());
+    for (int n = 0; n < drawn; ++n) {
+      EXPECT_TRUE(model->dofs.tilts(n));
+      const auto at = static_cast<std::size_t>(n);
+      for (int c = 0; c < 3; ++c) velocity[model->dofs.equation(n, c)] = (v + w.cross(mesh.nodes[at]))[c];
+      for (int k = 0; k < 2; ++k)
+        velocity[model->dofs.equation(n, DofMap::tilt + k)] = w.dot(model->dofs.tilt_axes()->at(at).col(k));
+    }
+    return velocity.dot(M * velocity) / 2;
+  };
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(energy(Eigen::Vector3d::Unit(c), none), mass / 2, 1e-12 * mass);
+  const Eigen::Vector3d w(0.7, -0.4, 0.5);
+  Eigen::Matrix3d second; // moments of the unit square at height `lever`
+  second << 1.0 / 3, 1.0 / 4, lever / 2, 1.0 / 4, 1.0 / 3, lever / 2, lever / 2, lever / 2, lever * lever;
+  const double expected = mass / 2 * (w.squaredNorm() * second.trace() - w.dot(second * w));
+  EXPECT_NEAR(energy(none, w), expected, 1e-12 * expected);
 }
 
 TEST(Shell, refuses_what_it_cannot_be) {

@@ -5,6 +5,7 @@
 #include "meshing/rings.hpp"
 #include "tests/fem/sample_meshes.hpp"
 #include "tests/fem/sample_models.hpp"
+#include "tests/fem/sample_shells.hpp"
 #include "tests/fem/timed_run.hpp"
 
 #include <cmath>
@@ -160,6 +161,56 @@ INSTANTIATE_TEST_SUITE_P(All, Ties, ::testing::Values(Dimension::planar, Dimensi
                          [](const auto& tested) {
                            return std::string(tested.param == Dimension::planar ? "planar" : "spatial");
                          });
+
+// Tied to nodes that tilt: a shell whose layers have their mass beside the drawn surface.
+TEST(Tie, along_a_director_has_forces_and_tangent_of_one_energy) {
+  meshing::Mesh mesh = test::flat_mesh();
+  const int drawn = mesh.node_count();
+  const auto model = test::shell_with_mass(mesh, test::two_layers());
+  const DofMap& dofs = model->dofs;
+  std::mt19937 random(3);
+  const auto anywhere = [&] {
+    State state = test::random_state(*model, mesh, random);
+    dofs.carry(state);
+    return state;
+  };
+  State state = anywhere();
+  for (int n = drawn; n < mesh.node_count(); ++n) {
+    EXPECT_TRUE(dofs.tilts(n - drawn));
+    for (int c = 0; c < 3; ++c)
+      state.dead_force[dofs.equation(n, c)] = test::random_vector(random, 1, 1e5)[0];
+  }
+  Motion motion{.position = position(anywhere(), dofs)};
+  motion.velocity = test::random_vector(random, dofs.count(), 0.1);
+  motion.acceleration = test::random_vector(random, dofs.count(), 1);
+  motion.unbalanced = Eigen::VectorXd::Zero(dofs.count());
+  state.motion = std::make_shared<Motion>(std::move(motion));
+  state.motion_scheme = GeneralisedAlpha::of(0.01, 0.8);
+
+  Equilibrium equilibrium(*model, 1);
+  Balance here;
+  equilibrium.balance(state, here);
+  equilibrium.assembler().tangent(state);
+  const Eigen::MatrixXd K = test::dense(equilibrium.assembler().matrix());
+  for (int sample = 0; sample < 4; ++sample) {
+    const Eigen::VectorXd direction = test::random_vector(random, dofs.free_count(), 0.02);
+    const auto energy = [&](double s) {
+      State there = state;
+      dofs.advance(there, direction, s);
+      Balance balance;
+      equilibrium.balance(there, balance);
+      return balance.energy - state.dead_force.dot(position(there, dofs));
+    };
+    const double h = 1e-2;
+    const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
+    const double curvature =
+        (16 * (energy(h) + energy(-h)) - (energy(2 * h) + energy(-2 * h)) - 30 * energy(0)) / (12 * h * h);
+    const double told = here.force.head(direction.size()).dot(direction);
+    const double scale = std::abs(told) + std::abs(direction.dot(K * direction));
+    EXPECT_NEAR(told, slope, 1e-8 * scale);
+    EXPECT_NEAR(direction.dot(K * direction), curvature, 1e-7 * scale);
+  }
+}
 
 TEST(Tie, to_a_tied_node_leads_to_its_master) {
   DofMap dofs(4);
