@@ -38,7 +38,8 @@ fem::SolidSection solid_section(const Case& one, const Part& part) {
   if (film.bulk_modulus) section.bulk_modulus = *film.bulk_modulus;
   const bool along_z = one.dimension == fem::Dimension::axisymmetric ||
                        (one.dimension == fem::Dimension::spatial && !one.any_geometry<Slab>());
-  section.normal = Eigen::Vector3d::Unit(film.stacked_along.value_or(along_z ? 2 : 1));
+  section.normal = Eigen::AngleAxisd(part.turned, Eigen::Vector3d::UnitZ()) *
+                   Eigen::Vector3d::Unit(film.stacked_along.value_or(along_z ? 2 : 1));
   return section;
 }
 

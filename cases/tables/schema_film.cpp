@@ -288,8 +288,8 @@ Section film_section() {
           .otherwise("layers")
           .only_with(when::solid()),
       word("stacked_along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Film::stacked_along),
-           "direction in which the layers of a solid are stacked; without it along the height: y in plane "
-           "strain and in a [slab], z otherwise")
+           "direction in which the layers of a solid are stacked, as it is drawn (they turn with a part that "
+           "is `turned`); without it along the height: y in plane strain and in a [slab], z otherwise")
           .optional()
           .only_with(when::layers()),
       measure("width", "m", to(&Film::width), "of a solid in plane strain: across the plane")

@@ -324,5 +324,37 @@ TEST_F(Solids, that_pull_in_are_not_told_to_jump) {
   EXPECT_TRUE(stopped.outcome.message.ends_with("on_instability = \"follow\"")) << stopped.outcome.message;
 }
 
+// The layers of a stack lie in their part: one that is turned shrinks and swells along its own axes, where
+// `stacked_along` names the axis, too.
+TEST_F(Solids, layers_turn_with_their_part) {
+  const auto stack = [&](const char* turned, const char* along, const char* supports) {
+    return values(std::string("[part.a]\nturned = \"") + turned +
+                  "\"\n[part.a.film]\nthickness = \"1 mm\"\nsection = \"solid\"\nwidth = \"10 mm\"\n" +
+                  along +
+                  "[part.a.film.material]\nshear_modulus = \"30 kPa\"\npermittivity = \"4e-11 F/m\"\n"
+                  "[part.a.slab]\nlength = \"10 mm\"\nheight = \"5 mm\"\n[part.a.mesh]\nacross = 2\n"
+                  "[[electrode]]\nname = \"e\"\nplace = \"a.film\"\n[drive]\nvoltage = \"8 kV\"\n"
+                  "[[step]]\nkind = \"voltage\"\n" +
+                  supports +
+                  "[[quantity]]\nname = \"gx\"\nkind = \"growth\"\nof = \"a.film\"\nalong = \"x\"\n"
+                  "[[quantity]]\nname = \"gy\"\nkind = \"growth\"\nof = \"a.film\"\nalong = \"y\"\n"
+                  "[[quantity]]\nname = \"C\"\nkind = \"capacitance\"\nof = \"e\"\n");
+  };
+  const auto drawn = stack("0 deg", "",
+                           "[[support]]\nplace = \"a.bottom\"\nfix = [\"y\"]\n"
+                           "[[support]]\nplace = \"a.left\"\nfix = [\"x\"]\n");
+  EXPECT_GT(drawn.at("gx"), 0.02);
+  for (const char* along : {"", "stacked_along = \"y\"\n"}) {
+    const auto turned = stack("90 deg", along,
+                              "[[support]]\nplace = \"a.bottom\"\nfix = [\"x\"]\n"
+                              "[[support]]\nplace = \"a.left\"\nfix = [\"y\"]\n");
+    EXPECT_NEAR(turned.at("gx"), drawn.at("gy"), 1e-9) << along;
+    EXPECT_NEAR(turned.at("gy"), drawn.at("gx"), 1e-9) << along;
+  }
+  const char* clamped = "[[support]]\nplace = \"a.bottom\"\nfix = [\"x\", \"y\"]\n";
+  const double straight = stack("0 deg", "", clamped).at("C");
+  EXPECT_NEAR(stack("30 deg", "", clamped).at("C"), straight, 1e-9 * straight);
+}
+
 } // namespace
 } // namespace dielast::cases
