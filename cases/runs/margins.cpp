@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <ranges>
 
 namespace dielast::cases {
 
@@ -20,10 +21,15 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 struct Passed {
   double factor = 0; ///< its voltages over those at the end of the run
   double breakdown = unknown, least_stress = unknown, yield = unknown;
-  double slack = unknown;         ///< of film that may wrinkle: its tension_state
-  std::vector<std::string> kinds; ///< of its events
-  bool on_the_way_back = false;   ///< to no voltage, from the end of the run
-  int record = -1;                ///< of the run; -1: none
+  double slack = unknown;       ///< of film that may wrinkle: its tension_state
+  bool on_the_way_back = false; ///< to no voltage, from the end of the run
+  int record = -1;              ///< of the run; -1: none
+};
+
+/// A critical point that was located on such a way.
+struct Critical {
+  std::string kind; ///< see is_critical()
+  double factor = 0;
 };
 
 /// The value of a standard or written quantity of that kind; NaN where the case has none.
@@ -38,14 +44,19 @@ double extreme_of(const Case& one, const std::vector<double>& values, const char
 }
 
 /// The factor of a state's voltages; nothing where they are not in proportion to those at the end.
-std::optional<double> factor_of(const post::StepRecord& record, const post::StepRecord& end) {
+std::optional<double> factor_of(const std::vector<double>& voltages, const post::StepRecord& end) {
   const double largest = end.largest_voltage();
   const auto lead = static_cast<std::size_t>(std::ranges::find(end.voltages, largest) - end.voltages.begin());
-  const double factor = record.voltages[lead] / largest;
+  const double factor = voltages[lead] / largest;
   for (std::size_t e = 0; e < end.voltages.size(); ++e)
-    if (std::abs(record.voltages[e] - factor * end.voltages[e]) > 1e-6 * std::abs(largest))
-      return std::nullopt;
+    if (std::abs(voltages[e] - factor * end.voltages[e]) > 1e-6 * std::abs(largest)) return std::nullopt;
   return factor;
+}
+
+/// Whether voltages, and nothing else, have led to a state.
+bool is_led_by_voltages(const Case& one, const post::StepRecord& record) {
+  const auto step = std::ranges::find(one.steps, record.step, &Step::name);
+  return step != one.steps.end() && step->kind == StepKind::voltage;
 }
 
 /// What a run has passed on its way to its end: its last states with rising voltages, and nothing else that
@@ -55,23 +66,36 @@ std::vector<Passed> way_of(const Case& one, const Journal& journal) {
   const post::StepRecord& end = journal.records.back();
   for (std::size_t r = journal.records.size(); r-- > 0;) {
     const post::StepRecord& record = journal.records[r];
-    const auto factor = factor_of(record, end);
+    const auto factor = factor_of(record.voltages, end);
     if (!factor || *factor < 0 || (!way.empty() && *factor >= way.back().factor)) break;
     const auto& values = journal.values[r];
-    Passed& passed = way.emplace_back(
-        Passed{.factor = *factor,
-               .breakdown = extreme_of(one, values, "breakdown_ratio", post::Extreme::maximum),
-               .least_stress = extreme_of(one, values, "min_principal_stress", post::Extreme::minimum),
-               .yield = extreme_of(one, values, "yield_ratio", post::Extreme::maximum),
-               .slack = extreme_of(one, values, "tension_state", post::Extreme::maximum),
-               .record = record.index});
-    for (const post::Event& event : record.events) passed.kinds.push_back(event.kind);
-    const auto step = std::ranges::find(one.steps, record.step, &Step::name);
-    const bool voltage = step != one.steps.end() && step->kind == StepKind::voltage;
-    if (*factor == 0 || !voltage) break;
+    way.push_back({.factor = *factor,
+                   .breakdown = extreme_of(one, values, "breakdown_ratio", post::Extreme::maximum),
+                   .least_stress = extreme_of(one, values, "min_principal_stress", post::Extreme::minimum),
+                   .yield = extreme_of(one, values, "yield_ratio", post::Extreme::maximum),
+                   .slack = extreme_of(one, values, "tension_state", post::Extreme::maximum),
+                   .record = record.index});
+    if (*factor == 0 || !is_led_by_voltages(one, record)) break;
   }
   std::ranges::reverse(way);
   return way;
+}
+
+/// Where critical points were located to which voltages in proportion to those of the end have led.
+std::vector<Critical> critical_points(const Case& one, const Journal& journal) {
+  const post::StepRecord& end = journal.records.back();
+  std::vector<Critical> all; // the last one first
+  for (const post::StepRecord& record : journal.records | std::views::reverse) {
+    const auto factor = factor_of(record.voltages, end);
+    if (!factor || !is_led_by_voltages(one, record)) break;
+    for (const post::Event& event : record.events | std::views::reverse) {
+      const auto at = event.before ? factor_of(event.before->voltages, end) : std::nullopt;
+      if (is_critical(event.kind) && at && *at > 0) all.push_back({event.kind, *at});
+    }
+    if (*factor <= 0) break;
+  }
+  std::ranges::reverse(all);
+  return all;
 }
 
 /// Where the voltages of the end of a run can be changed in proportion, everything else staying as it is.
@@ -108,8 +132,9 @@ class FurtherWay {
     return true;
   }
 
-  /// The states up to those with `factor` times the voltages of the end; `stopped` says why it ends earlier.
-  std::vector<Passed> to(double factor, std::string& stopped) {
+  /// The states up to those with `factor` times the voltages of the end; `stopped` says why it ends earlier,
+  /// `located` has the critical points on it.
+  std::vector<Passed> to(double factor, std::string& stopped, std::vector<Critical>& located) {
     constexpr int increments_per_voltage = 20;
     const Place& from =
         *std::ranges::min_element(places_, {}, [&](const Place& p) { return std::abs(p.factor - factor); });
@@ -130,18 +155,13 @@ class FurtherWay {
         way.push_back(state_of(frame));
         return !interrupted();
       };
-      std::vector<std::string> located; // at the state that comes next, or after the last
       observer.on_pass = [] { return !interrupted(); };
-      observer.on_critical = [&](const fem::CriticalPoint&, const post::Event& event) {
-        located.push_back(event.kind);
+      observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event& event) {
+        if (const auto at = factor_of(critical.state.voltage, end_)) located.push_back({event.kind, *at});
       };
       const Outcome outcome = simulation.run(observer);
       if (outcome.ending == Ending::gave_up) stopped = outcome.kind;
       if (outcome.ending == Ending::interrupted) stopped = "interrupted";
-      if (!way.empty() && !located.empty()) {
-        way.back().kinds.push_back(located.back());
-        stopped = located.back();
-      }
       if (outcome.ending == Ending::complete && !way.empty() && stopped.empty()) {
         SimulationProgress progress = simulation.progress();
         progress.step = places_.front().progress.step; // the same step leads on
@@ -156,7 +176,8 @@ class FurtherWay {
   /// That state alone; nothing where it is not reached.
   std::optional<Passed> at(double factor) {
     std::string stopped;
-    std::vector<Passed> way = to(factor, stopped);
+    std::vector<Critical> unused;
+    std::vector<Passed> way = to(factor, stopped, unused);
     if (way.empty() || !stopped.empty() || std::abs(way.back().factor - factor) > 1e-9) return std::nullopt;
     return way.back();
   }
@@ -167,13 +188,11 @@ class FurtherWay {
       const auto found = frame.measured.extremes.find(field, which);
       return found ? found->value : unknown;
     };
-    Passed passed{.factor = factor_of(frame.record, end_).value_or(unknown),
-                  .breakdown = value("breakdown_ratio", post::Extreme::maximum),
-                  .least_stress = value("min_principal_stress", post::Extreme::minimum),
-                  .yield = value("yield_ratio", post::Extreme::maximum),
-                  .slack = value("tension_state", post::Extreme::maximum)};
-    for (const post::Event& event : frame.record.events) passed.kinds.push_back(event.kind);
-    return passed;
+    return {.factor = factor_of(frame.record.voltages, end_).value_or(unknown),
+            .breakdown = value("breakdown_ratio", post::Extreme::maximum),
+            .least_stress = value("min_principal_stress", post::Extreme::minimum),
+            .yield = value("yield_ratio", post::Extreme::maximum),
+            .slack = value("tension_state", post::Extreme::maximum)};
   }
 
   void begin(SimulationProgress progress, double factor) {
@@ -274,18 +293,12 @@ Margin crossing(const std::vector<Passed>& way, const Value& value, FurtherWay& 
   return {};
 }
 
-/// At the state to which an event belongs.
-Margin event(const std::vector<Passed>& way, const std::string& kind) {
-  for (const Passed& passed : way)
-    if (std::ranges::count(passed.kinds, kind) > 0) return {.factor = passed.factor};
-  return {};
-}
-
-/// Why nothing is known of a limit in this model; empty where something is.
-std::string unknown_limit(const Case& one, const Simulation& run, const std::string& limit) {
+/// Why nothing is known of a limit in this model; empty where something is. `branches`: a bifurcation was
+/// met.
+std::string unknown_limit(const Case& one, const Simulation& run, const std::string& limit, bool branches) {
   const bool walls = run.device().mesh.walls() != nullptr;
   if (limit == "wall yield" && !walls) return "there are no walls";
-  if (limit == "buckling" && one.dimension != fem::Dimension::spatial && !walls)
+  if (limit == "buckling" && !branches && one.dimension != fem::Dimension::spatial && !walls)
     return "film does not leave its plane, or its meridian's, in this model";
   return "";
 }
@@ -304,33 +317,36 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   else if (std::ranges::any_of(state.supply, [](fem::Supply supply) { return fem::is_isolated(supply); }))
     unknown_because = "an electrode is isolated: its voltage follows";
   std::vector<Passed> way;
+  std::vector<Critical> criticals;
   std::optional<FurtherWay> further;
   std::string stopped = outcome.kind;
   double up_to = 1;
   if (unknown_because.empty()) {
     further.emplace(one, simulation, journal.records.back(), threads);
     way = way_of(one, journal);
+    criticals = critical_points(one, journal);
     const bool complete = outcome.ending == Ending::complete;
     // Something else than the voltages has led there, or they were not in proportion.
     if (complete && way.front().factor > 0 && is_beyond(way.front(), simulation.device().tension_field)) {
       std::string unused;
+      std::vector<Critical> not_taken; // by the run
       const double least = way.front().factor;
-      for (Passed& passed : further->to(0, unused))
+      for (Passed& passed : further->to(0, unused, not_taken))
         if (passed.factor < least) {
-          passed.kinds.clear(); // of a path that the run did not take
           way.insert(way.begin(), std::move(passed));
           way.front().on_the_way_back = true;
           if (way.size() > 1) way[1].on_the_way_back = true;
         }
     }
     if (one.margins_up_to > 1 && complete) {
-      for (Passed& passed : further->to(one.margins_up_to, stopped)) way.push_back(std::move(passed));
+      std::ranges::move(further->to(one.margins_up_to, stopped, criticals), std::back_inserter(way));
       up_to = way.back().factor;
     }
   }
+  const bool branches = std::ranges::count(criticals, "bifurcation", &Critical::kind) > 0;
   const auto add = [&](const std::string& limit, const auto& find) {
     const std::string why_not =
-        unknown_because.empty() ? unknown_limit(one, simulation, limit) : unknown_because;
+        unknown_because.empty() ? unknown_limit(one, simulation, limit, branches) : unknown_because;
     Margin margin;
     if (why_not.empty()) {
       margin = find();
@@ -339,9 +355,11 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
         margin.remark =
             fmt::format("not reached up to {:.6g} times the voltage of the end{}", up_to,
                         stopped.empty() ? "" : fmt::format(", where the path ends ({})", stopped));
-      if (limit == "buckling" && one.dimension == fem::Dimension::planar)
-        margin.remark += fmt::format("{}in its plane: a planar model does not leave it",
-                                     margin.remark.empty() ? "" : ", ");
+      if (limit == "buckling" && one.dimension != fem::Dimension::spatial)
+        margin.remark += std::string(margin.remark.empty() ? "" : ", ") +
+                         (one.dimension == fem::Dimension::planar
+                              ? "in its plane: a planar model does not leave it"
+                              : "of revolution: its model does not leave that symmetry");
     } else {
       margin.remark = "not known: " + why_not;
     }
@@ -361,10 +379,9 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
         way, [](const Passed& p) { return -smallest_stress - p.least_stress; }, *further);
   });
   const auto critical = [&](const char* kind) {
-    Margin found = event(way, kind);
-    const bool told = std::ranges::any_of(way.back().kinds, is_critical); // by the event that located it
-    if (!found.factor && !told && stopped == kind) found.factor = way.back().factor;
-    return found;
+    const auto first = std::ranges::find(criticals, kind, &Critical::kind);
+    if (first != criticals.end()) return Margin{.factor = first->factor};
+    return stopped == kind ? Margin{.factor = way.back().factor} : Margin{}; // an end that was not located
   };
   add("pull-in", [&] { return critical("limit point"); });
   add("buckling", [&] { return critical("bifurcation"); });

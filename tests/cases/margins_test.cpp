@@ -188,5 +188,31 @@ TEST_F(Margins, WithoutAVoltageOrInTimeNothingIsKnown) {
             "not known: time passes: a run tells of its own course of the voltage only");
 }
 
+// A clamped plate of film buckles under its own widening at 14.68 D / a^2 of compression (Timoshenko, Gere,
+// Theory of Elastic Stability, art. 9.2), D of the incompressible film: eps V^2 / H = 14.68 D / a^2. Nobody
+// pulls in there, and what follows does not move the point: the margin was that of the next state, and
+// pull-in.
+TEST_F(Margins, BucklingIsWhereThePathsPart) {
+  const std::string plate =
+      "model = \"3d\"\n[film]\nthickness = \"0.1 mm\"\nsection = \"shell\"\n[film.material]\nshear_modulus = "
+      "\"300 kPa\"\nrelative_permittivity = 3\n[disc]\nradius = \"10 mm\"\n[mesh]\nrings = 4\n"
+      "[[step]]\nkind = \"voltage\"\n";
+  const auto buckling = [&](double volt, const std::string& more, const std::vector<std::string>& overrides) {
+    std::vector<std::string> all = overrides;
+    all.push_back(fmt::format("drive.voltage={} V", volt));
+    const auto found = margins(plate + more, all);
+    EXPECT_FALSE(found.at("pull-in").factor) << more << *found.at("pull-in").factor;
+    EXPECT_NE(found.at("pull-in").remark.find("not reached"), std::string::npos);
+    return found.at("buckling").factor.value_or(0) * volt;
+  };
+  const double closed = 235.09;
+  const double jumps = buckling(250, "on_instability = \"jump\"\n", {});
+  EXPECT_NEAR(jumps, closed, 0.01 * closed);
+  EXPECT_NEAR(buckling(250, "on_bifurcation = \"switch\"\n", {"step.voltage.increments=4"}), jumps,
+              1e-4 * jumps);
+  EXPECT_NEAR(buckling(250, "", {}), 250, 1e-9 * jumps); // ends there
+  EXPECT_NEAR(buckling(200, "", {"output.margins_up_to=3"}), jumps, 1e-4 * jumps);
+}
+
 } // namespace
 } // namespace dielast::cases
