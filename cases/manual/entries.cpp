@@ -46,6 +46,12 @@ std::span<const Term> terms() {
       Term{"arclength", "how a path is followed past a limit point: each increment goes a given length along "
                         "the path in displacements and load together, so that the load may fall "
                         "(on_instability = \"follow\")"},
+      Term{"at rest", "what vibrations and stiffnesses need of a state: nothing has a speed, no charge "
+                      "flows, and dashpots "
+                      "either are done (1e-4 of their strains), or what is left neither moves the device by "
+                      "more than 1e-3 "
+                      "of its largest displacement (1e-6 of its size), nor changes its lowest stiffness by "
+                      "more than 2e-3"},
       Term{"meridian", "the curve that makes a film of revolution when it is turned about the z axis; with "
                        "model = \"axisymmetric\" it alone is meshed, x the radius"},
   };

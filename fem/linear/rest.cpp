@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/linear/rest.hpp"
 
+#include "fem/paths/instability.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,15 +12,52 @@ namespace {
 /// Change that counts as none, over what is of order one: internal variables, voltages, the extent.
 constexpr double still = 1e-4;
 
-bool flows(const Model& model, const State& state) {
-  if (!state.history) return false;
-  State rest = state;
-  rest.scheme = materials::TimeScheme::relaxed();
+/// Change of internal variables that is rounding, or what Newton's method leaves.
+constexpr double resolved = 1e-9;
+/// Displacement still to come that counts as none, over the largest one so far, and over the extent where the
+/// device is nearly back where it was drawn.
+constexpr double still_to_come = 1e-3, still_to_come_at_all = 1e-6;
+/// Likewise change of the lowest eigenvalue of the tangent (twice that of a frequency), and one that is of
+/// rounding, over the stiffness as drawn.
+constexpr double as_stiff = 2e-3, no_stiffness = 1e-10;
+
+/// By how much the internal variables change until they rest at this shape.
+double flow_left(const Model& model, const State& state) {
+  double largest = 0;
   const std::vector<double>& now = state.history->now;
-  const std::vector<double> end = model.advanced_history(rest)->now;
+  const std::vector<double> end = model.advanced_history(fem::relaxed(state))->now;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (std::abs(end[i] - now[i]) > still * std::max(1.0, std::abs(now[i]))) return true;
-  return false;
+    largest = std::max(largest, std::abs(end[i] - now[i]) / std::max(1.0, std::abs(now[i])));
+  return largest;
+}
+
+/// What flows is little of what is of order one, but much of a stiff branch's stress may be beside a soft
+/// film, and small stresses make thin ones stiffer or softer in bending: so that is judged by how far the
+/// stresses that dashpots carry would move the device if they were let go, and by its lowest stiffness there.
+bool matters(Equilibrium& equilibrium, const State& state) {
+  const Model& model = equilibrium.model();
+  if (model.dofs.free_count() == 0) return false;
+  State at = fem::relaxed(state);
+  const auto here = lowest_mode(equilibrium, at);
+  Balance balance;
+  equilibrium.balance(at, balance);
+  if (!here || !equilibrium.factor(at)) return true;
+  Eigen::VectorXd step;
+  equilibrium.tangent().solve(-balance.force.head(model.dofs.free_count()), step);
+  double moved = 0;
+  for (const Eigen::Vector3d& u : state.displacement) moved = std::max(moved, u.norm());
+  if (equilibrium.step_size(step) > std::max(still_to_come * moved / model.extent, still_to_come_at_all))
+    return true;
+  model.dofs.advance(at, step, 1);
+  const auto there = lowest_mode(equilibrium, at);
+  return !there || std::abs(there->eigenvalue - here->eigenvalue) >
+                       as_stiff * std::max(std::abs(here->eigenvalue), no_stiffness);
+}
+
+bool flows(Equilibrium& equilibrium, const State& state) {
+  if (!state.history) return false;
+  const double left = flow_left(equilibrium.model(), state);
+  return left > still || (left > resolved && matters(equilibrium, state));
 }
 
 bool conducts(Equilibrium& equilibrium, const State& state) {
@@ -72,7 +111,7 @@ bool moves_on(Equilibrium& equilibrium, const State& state) {
 }
 
 std::string unrest(Equilibrium& equilibrium, const State& state) {
-  if (flows(equilibrium.model(), state)) return "dashpots flow";
+  if (flows(equilibrium, state)) return "dashpots flow";
   if (conducts(equilibrium, state)) return "current flows along an electrode";
   if (std::string found = charges(equilibrium.model(), state); !found.empty()) return found;
   if (moves_on(equilibrium, state)) return "the device moves";
