@@ -66,7 +66,7 @@ increments = {}
 )toml",
                                         increments),
                             "pressure");
-    EXPECT_EQ(stopped.outcome.kind, "limit point") << increments;
+    EXPECT_EQ(stopped.outcome.kind, "bifurcation") << increments;
     ends.push_back(stopped.rows.back().load_factor);
     EXPECT_NEAR(ends.back(), ends.front(), 1e-6) << increments;
   }
