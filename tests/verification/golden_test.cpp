@@ -12,9 +12,9 @@ namespace {
 ///   "set":        what makes the case short;
 ///   "bound":      allowed difference over the scale of a value, by default 1e-12, which holds for the linear
 ///                 algebra of every processor (OPENBLAS_CORETYPE) and for both compilers; 1e-11 where
-///                 stresses of MPa cancel, 1e-9 where they do so after a jump, where thin shells bend (the last digit
-///                 decides on one iteration more), and where time passes: its steps are chosen by their errors,
-///                 and the last digit may decide on one;
+///                 stresses of MPa cancel, 1e-9 where they do so after a jump, where thin shells bend (the
+///                 last digit decides on one iteration more), and where time passes: its steps are chosen by
+///                 their errors, and the last digit may decide on one;
 ///   "quantities": values and units, as in summary.json.
 /// What changes numbers on purpose makes the files again and says so in its commit:
 ///   DIELAST_REMAKE_GOLDEN=1 build/bin/golden_test
