@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace dielast::cases {
 namespace {
@@ -15,14 +17,65 @@ bool at_rest(const Measured& measured) {
   return measured.may_rest && fem::unrest(measured.equilibrium, measured.state).empty();
 }
 
-/// What a unit force along an axis, spread evenly over a place, moves at a relaxed state: per free unknown,
-/// and its mean over the place, m/N; NaN where what is measured is not at rest.
-struct Flexibility {
+/// How a relaxed device goes along with a place along an axis: per unknown, free ones first, then held ones,
+/// over the mean of the place's displacement, and the force on the place that this takes, N/m; NaN where the
+/// state is not at rest, or the place is held otherwise than in all of its nodes alike.
+struct Give {
   Eigen::VectorXd displacement;
-  double own;
+  double force = no_value;
 };
-Flexibility flexibility(const Probing& probing, const std::string& place, const Measured& measured,
-                        const fem::State& state) {
+
+/// The nodes by which supports hold all of a place along an axis: its own, or those of bodies that carry them
+/// and do not turn; empty where they do not.
+std::vector<int> holders(const fem::DofMap& dofs, const std::vector<int>& place,
+                         const Eigen::Vector3d& axis) {
+  std::map<int, int> carried;
+  for (const fem::Tie& tie : dofs.ties()) carried[tie.node] = tie.master;
+  std::set<int> found;
+  for (int node : place) {
+    const bool is_carried = carried.contains(node);
+    for (auto by = carried.find(node); by != carried.end(); by = carried.find(node)) node = by->second;
+    for (int c = 0; c < fem::DofMap::components; ++c) {
+      const int e = dofs.equation(node, c);
+      const bool asked = c < 3 ? axis[c] != 0 : is_carried;
+      if (asked && e != fem::DofMap::absent && !dofs.is_held(e)) return {};
+      if (c < 3 && asked && e == fem::DofMap::absent) return {};
+    }
+    found.insert(node);
+  }
+  return {found.begin(), found.end()};
+}
+
+/// As the supports of a place move, by differences of the forces and the tangent of what is free.
+Give give_of_held(fem::Equilibrium& equilibrium, const fem::State& state, const std::vector<int>& nodes,
+                  const Eigen::Vector3d& axis) {
+  constexpr double step = 3e-7; // of the extent
+  const fem::Model& model = equilibrium.model();
+  const Eigen::Index free = model.dofs.free_count(), all = free + model.dofs.held_count();
+  Give give{Eigen::VectorXd::Zero(all)};
+  for (const int node : nodes)
+    for (int c = 0; c < 3; ++c)
+      if (axis[c] != 0) give.displacement[model.dofs.equation(node, c)] = axis[c];
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(all);
+  for (const double way : {step * model.extent, -step * model.extent}) {
+    fem::State moved = state;
+    for (const int node : nodes) moved.displacement[static_cast<std::size_t>(node)] += way * axis;
+    model.dofs.carry(moved);
+    fem::Balance balance;
+    equilibrium.balance(moved, balance);
+    change += balance.force.head(all) / (2 * way);
+  }
+  Eigen::VectorXd follows;
+  if (!equilibrium.factor(state)) return {};
+  equilibrium.tangent().solve(-change.head(free), follows);
+  give.displacement.head(free) = follows;
+  give.force = give.displacement.dot(change);
+  return give;
+}
+
+/// Where the place is free a force, spread evenly over it, moves it.
+Give give_of(const Probing& probing, const std::string& place, const Measured& measured,
+             const fem::State& state) {
   const int along = *probing.quantity.along;
   const Eigen::Vector3d axis =
       along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(along);
@@ -34,11 +87,16 @@ Flexibility flexibility(const Probing& probing, const std::string& place, const 
     for (int c = 0; c < 3; ++c)
       if (const int e = dofs.equation(nodes[n], c); e != fem::DofMap::absent) unit[e] += shares[n] * axis[c];
   unit = (dofs.jacobian(state).transpose() * unit).eval();
-  Flexibility found{{}, no_value};
-  if (unit.isZero() || !at_rest(measured) || !measured.equilibrium.factor(state)) return found;
-  measured.equilibrium.tangent().solve(unit, found.displacement);
-  found.own = unit.dot(found.displacement);
-  return found;
+  const std::vector<int> held = unit.isZero() ? holders(dofs, nodes, axis) : std::vector<int>{};
+  if ((unit.isZero() && held.empty()) || !at_rest(measured)) return {};
+  if (!held.empty()) return give_of_held(measured.equilibrium, state, held, axis);
+  if (!measured.equilibrium.factor(state)) return {};
+  Give give;
+  measured.equilibrium.tangent().solve(unit, give.displacement);
+  const double own = unit.dot(give.displacement);
+  give.displacement /= own;
+  give.force = 1 / own;
+  return give;
 }
 
 /// With the charge Q = C(u) Phi the electrode pulls with Phi^2/2 dC/du; that moves the place by Phi^2/2 times
@@ -49,15 +107,14 @@ double coupling(const Probing& probing, const Measured& measured) {
   const std::size_t e = probing.electrode();
   fem::State connected = fem::relaxed(measured.state);
   connected.supply[e] = fem::Supply::voltage; // which the force is per square of, whoever has charged it
-  const Flexibility give = flexibility(probing, probing.quantity.place, measured, connected);
-  if (std::isnan(give.own)) return no_value;
+  const Give give = give_of(probing, probing.quantity.place, measured, connected);
+  if (std::isnan(give.force)) return no_value;
   fem::State one_volt = measured.state;
   one_volt.voltage[e] = 1;
   one_volt.sheet_drop.setZero();
   fem::Charges charges = model.charges(one_volt, true);
   model.dofs.gather(one_volt, charges.coupling[e]);
-  const double force =
-      charges.coupling[e].head(give.displacement.size()).dot(give.displacement) / 2 / give.own;
+  const double force = charges.coupling[e].head(give.displacement.size()).dot(give.displacement) / 2;
   const double drawn = model.charges(model.initial_state(), false).capacitance[e];
   return force * probing.quantity.length / drawn;
 }
@@ -96,8 +153,9 @@ std::string without_mass(const Case& one, const Quantity&) {
 std::vector<QuantityKind> stiffness_kinds() {
   return {
       {.word = "stiffness",
-       .meaning = "force on a place per displacement along an axis, branches relaxed; none where the "
-                  "state is not at rest (N/m)",
+       .meaning =
+           "force on a place per displacement along an axis, branches relaxed; of one that supports hold as "
+           "they move; none where the state is not at rest (N/m)",
        .unit = "N/m",
        .keys =
            [] {
@@ -109,7 +167,7 @@ std::vector<QuantityKind> stiffness_kinds() {
            },
        .probe = [](const Probing& probing) -> Probe {
          return [probing](const Measured& measured) {
-           return 1 / flexibility(probing, probing.quantity.of, measured, fem::relaxed(measured.state)).own;
+           return give_of(probing, probing.quantity.of, measured, fem::relaxed(measured.state)).force;
          };
        }},
       {.word = "coupling",

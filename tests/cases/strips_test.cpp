@@ -61,6 +61,18 @@ TEST_F(Strips, CouplingIsThatOfTheStateHoweverItWasCharged) {
   EXPECT_GT(charged.at("stiffness"), 1.01 * connected.at("stiffness")); // as its charge stays
 }
 
+// What a support holds has the stiffness that it has where its weight holds it; it had none.
+TEST_F(Strips, WhatIsHeldIsAsStiffAsWhatHangsThere) {
+  const auto hangs = values(stack);
+  const auto held =
+      values(stack, {fmt::format("support=[{{place='upper_end', fix=['x','y','z']}}, {{place='bar', "
+                                 "displacement={{y={:.17g}}}}}]",
+                                 -hangs.at("extension")),
+                     "step=[{kind='move'}, {kind='voltage'}]"});
+  EXPECT_NEAR(held.at("stiffness"), hangs.at("stiffness"), 1e-6 * hangs.at("stiffness"));
+  EXPECT_NEAR(held.at("coupling"), hangs.at("coupling"), 1e-6 * hangs.at("coupling"));
+}
+
 TEST_F(Strips, AnElectrodeInTheClampsHasACapacitanceOnly) {
   const auto even = values(stack, {"strip.electrode_width=10 mm"});
   const auto longer = values(stack, {"strip.electrode_width=10 mm", "strip.electrode_length=16 mm"});
