@@ -52,13 +52,13 @@ void add_patch_sides(Case& one) {
 
 void add_solid_defaults(Node& tree) {
   const Source source{tree.source.file, 0, 0};
-  const bool sphere = tree.find("hollow_sphere");
-  if (!sphere && !tree.find("slab")) return;
-  const auto complete = [&](Node& part) {
+  const bool sphere = tree.find("hollow_sphere"), slab_on_top = tree.find("slab");
+  const auto complete = [&](Node& part) { // which may be a place of what stands at the top
     Node* film = part.is(Node::Kind::table) ? part.find("film") : nullptr;
-    if (!film || !film->is(Node::Kind::table)) return;
+    const bool of_sphere = sphere || part.find("hollow_sphere");
+    if (!film || !film->is(Node::Kind::table) || !(of_sphere || slab_on_top || part.find("slab"))) return;
     if (!film->find("section")) film->add("section", parse_value("\"solid\"", source));
-    if (sphere && !film->find("field")) film->add("field", parse_value("\"potential\"", source));
+    if (of_sphere && !film->find("field")) film->add("field", parse_value("\"potential\"", source));
     const Node* slab = part.find("slab");
     if (!slab || !slab->is(Node::Kind::table) || !slab->find("width")) return;
     if (!tree.find("model")) tree.add("model", parse_value("\"3d\"", source));

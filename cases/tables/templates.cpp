@@ -294,7 +294,7 @@ void add_part_defaults(Node& tree, const std::string& key, const TemplatePart& p
   const Node* brought = defaults.find(key);
   if (!brought) return;
   for (Node item : brought->items) {
-    prefix(item.find("place"), part.name);
+    for (const char* of : {"place", "ground"}) prefix(item.find(of), part.name);
     if (Node* name = item.find("name")) name->text = part.name;
     list_at(tree, key).items.push_back(std::move(item));
   }

@@ -329,7 +329,7 @@ TEST_F(Solids, that_pull_in_are_not_told_to_jump) {
 TEST_F(Solids, layers_turn_with_their_part) {
   const auto stack = [&](const char* turned, const char* along, const char* supports) {
     return values(std::string("[part.a]\nturned = \"") + turned +
-                  "\"\n[part.a.film]\nthickness = \"1 mm\"\nsection = \"solid\"\nwidth = \"10 mm\"\n" +
+                  "\"\n[part.a.film]\nthickness = \"1 mm\"\nwidth = \"10 mm\"\n" + // of solid, as a part, too
                   along +
                   "[part.a.film.material]\nshear_modulus = \"30 kPa\"\npermittivity = \"4e-11 F/m\"\n"
                   "[part.a.slab]\nlength = \"10 mm\"\nheight = \"5 mm\"\n[part.a.mesh]\nacross = 2\n"
