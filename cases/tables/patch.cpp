@@ -50,6 +50,18 @@ void add_patch_sides(Case& one) {
       add_sides(one, part, *patch);
 }
 
+std::string step_before_voltages(const Node& tree) {
+  std::string before;
+  const Node* steps = tree.find("step");
+  for (std::size_t s = 0; steps && steps->is(Node::Kind::list) && s < steps->items.size(); ++s) {
+    const Node& step = steps->items[s];
+    const std::string kind = text_at(step, "kind");
+    if (kind == "voltage" || kind == "charge" || kind == "transient") return before;
+    if (kind != "modes" && kind != "harmonic") before = step.find("name") ? text_at(step, "name") : kind;
+  }
+  return "";
+}
+
 void add_solid_defaults(Node& tree) {
   const Source source{tree.source.file, 0, 0};
   const bool sphere = tree.find("hollow_sphere"), slab_on_top = tree.find("slab");

@@ -370,6 +370,8 @@ std::vector<Node> standard_quantities(const Node& tree, const Template* device) 
   for (Node& quantity : standard) {
     for (const char* key : {"at", "since"})
       if (Node* step = quantity.find(key)) step->text = name_of_step(tree, step->text);
+    if (Node* since = quantity.find("since"); since && since->text.empty())
+      since->text = step_before_voltages(tree);
     if (text_at(quantity, "since").empty()) quantity.remove("since");
   }
   const bool patch =

@@ -47,12 +47,16 @@ void add_defaults(Node& tree);
 /// Thick geometries are of solid; between the surfaces of a sphere there is a potential.
 void add_solid_defaults(Node& tree);
 
+/// Name of the last step before the first that changes a voltage or charge; empty: there is none.
+std::string step_before_voltages(const Node& tree);
+
 /// Standard quantities of a case whose top is that device (null: of none), with those of its parts.
 std::vector<Node> standard_quantities(const Node& tree, const Template* device);
 
 /// Puts the standard quantities in front of the user's; returns how many. Those of a part are called
-/// "<part>_<name>". Quantities of the release step are left out of a case without one, and elongations start
-/// at the mesh as drawn there.
+/// "<part>_<name>". Quantities of the release step are left out of a case without one. What counts since the
+/// release or the weight does so since step_before_voltages() where there is no such step, or from the mesh
+/// as drawn.
 int add_standard_quantities(Node& tree);
 
 } // namespace dielast::cases

@@ -73,6 +73,17 @@ TEST_F(Strips, WhatIsHeldIsAsStiffAsWhatHangsThere) {
   EXPECT_NEAR(held.at("coupling"), hangs.at("coupling"), 1e-6 * hangs.at("coupling"));
 }
 
+// The motion by the voltage counts from where it sets out, whatever the step before is called.
+TEST_F(Strips, StrokeCountsFromBeforeTheVoltage) {
+  const auto since = [&](const std::string& steps) {
+    const Case one = read(stack, {"step=" + steps});
+    return std::ranges::find(one.quantities, "stroke", &Quantity::name)->since;
+  };
+  EXPECT_EQ(since("[{kind='weight', name='hang'}, {kind='voltage'}]"), "hang");
+  EXPECT_EQ(since("[{kind='hold', name='wait', duration=1}, {kind='modes'}, {kind='voltage'}]"), "wait");
+  EXPECT_EQ(since("[{kind='voltage'}, {kind='hold', duration=1}]"), "");
+}
+
 TEST_F(Strips, AnElectrodeInTheClampsHasACapacitanceOnly) {
   const auto even = values(stack, {"strip.electrode_width=10 mm"});
   const auto longer = values(stack, {"strip.electrode_width=10 mm", "strip.electrode_length=16 mm"});
