@@ -25,6 +25,36 @@ bool holds_against_loads(const Case& one, const Support& support) {
 
 } // namespace
 
+std::vector<std::string> carrying_warnings(const Case& one) {
+  std::vector<std::string> warnings;
+  if (one.contact || one.table || one.pivot || std::ranges::any_of(one.steps, &Step::inertia))
+    return warnings;
+  for (std::size_t s = 0; s < one.supports.size(); ++s)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Support& support = one.supports[s];
+      const bool across = one.dimension == fem::Dimension::axisymmetric && axis == 0; // it widens
+      if (!support.motion[axis] || across) continue;
+      const auto holds = [&](const auto& other) { return other.fixed[axis]; };
+      const auto pivots = [](const Body& body) { return body.pivot.has_value(); };
+      if (std::ranges::count_if(one.supports, holds) > 1 || std::ranges::any_of(one.bodies, holds) ||
+          std::ranges::any_of(one.bodies, pivots))
+        continue;
+      const bool own = std::ranges::none_of(one.supports, &Support::standard);
+      const std::string key = fmt::format("support[{}].displacement.{}", s + 1, "xyz"[axis]);
+      warnings.push_back(
+          Diagnostic{one.where(key), key,
+                     fmt::format("nothing else holds the device along {}: it is carried along with \"{}\" as "
+                                 "it is{}",
+                                 "xyz"[axis], support.place,
+                                 own ? "; the [[support]] of a case stand instead of those that its geometry "
+                                       "brings (dielast info tells these), hold such places, too"
+                                     : ""),
+                     Severity::warning}
+              .text());
+    }
+  return warnings;
+}
+
 std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& mesh,
                                           const fem::DofMap& dofs) {
   const HeldPlaces held(one, mesh, dofs);

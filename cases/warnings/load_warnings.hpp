@@ -14,6 +14,10 @@ namespace dielast::cases {
 /// place are held in every step in which it acts. `dofs` numbered, with the supports of `one`.
 std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs);
 
+/// A sentence where a support moves the device as it is, as nothing else holds it along that axis. Empty with
+/// inertia, which resists.
+std::vector<std::string> carrying_warnings(const Case& one);
+
 /// A sentence for every [[point_mass]], [[spring]] and [[linkage]] that has no effect, as nothing moves its
 /// places in any step, or both are one. `dofs` as above.
 std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& mesh,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Strips and stacks: what layers, covers, margins and strays must do, whatever the numbers.
+#include "cases/devices/device.hpp"
 #include "tests/cases/case_test.hpp"
 
 namespace dielast::cases {
@@ -82,6 +83,23 @@ TEST_F(Strips, StrokeCountsFromBeforeTheVoltage) {
   EXPECT_EQ(since("[{kind='weight', name='hang'}, {kind='voltage'}]"), "hang");
   EXPECT_EQ(since("[{kind='hold', name='wait', duration=1}, {kind='modes'}, {kind='voltage'}]"), "wait");
   EXPECT_EQ(since("[{kind='voltage'}, {kind='hold', duration=1}]"), "");
+}
+
+// Its own [[support]] stands instead of the clamp of a strip, which then goes along as it is.
+TEST_F(Strips, WhatOneSupportCarriesAlongIsTold) {
+  const auto told = [&](const std::string& supports, const std::string& step) {
+    const Case one = read(stack, {"support=[" + supports + "]", "step=[{" + step + "}]"});
+    return std::ranges::count_if(build_device(one).warnings, [](const std::string& warning) {
+      return warning.find("nothing else holds the device along y: it is carried along with \"bar\"") !=
+             std::string::npos;
+    });
+  };
+  const std::string pulled = "{place='bar', displacement={y='-1 mm'}}",
+                    clamp = "{place='upper_end', fix=['x','y']}";
+  EXPECT_EQ(told(pulled, "kind='move'"), 1);
+  EXPECT_EQ(told(pulled + ", " + clamp, "kind='move'"), 0);
+  EXPECT_EQ(told(clamp, "kind='weight'"), 0);
+  EXPECT_EQ(told(pulled, "kind='move'}, {kind='hold', duration=1, inertia=true"), 0);
 }
 
 TEST_F(Strips, AnElectrodeInTheClampsHasACapacitanceOnly) {
