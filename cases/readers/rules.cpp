@@ -87,6 +87,15 @@ void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
+/// Whether a support held until the step before.
+bool lets_go(const Case& one, std::size_t step) {
+  while (step-- > 0) {
+    if (std::ranges::count(one.supports, one.steps[step].name, &Support::until) > 0) return true;
+    if (!one.steps[step].is_analysis()) return false;
+  }
+  return false;
+}
+
 void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
   for (std::size_t s = 0; s < one.steps.size(); ++s) {
     const Step& step = one.steps[s];
@@ -100,7 +109,8 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
       reader.report(
           at.source, at.key,
           "nothing has a weight; add [plate], a [[point_mass]], a [[body]] or [gravity] with film = true");
-    if (step.kind == StepKind::relax && !when::branches().met(one, nullptr) && one.circuits.empty())
+    if (step.kind == StepKind::relax && !when::branches().met(one, nullptr) && one.circuits.empty() &&
+        !lets_go(one, s))
       reader.warn(
           at.source, at.key,
           "has no effect here: without a [[film.material.branch]], a viscosity or a [circuit] nothing "

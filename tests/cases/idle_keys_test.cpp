@@ -231,6 +231,18 @@ TEST_F(IdleKeys, RowsThatAStepLeavesBehindAreTold) {
   EXPECT_EQ(keys(film + disc + drive + transient), (Keys{"drive.voltage", "drive.voltage"}));
 }
 
+// Nothing creeps, but the support's forces go.
+TEST_F(IdleKeys, AStepThatLetsASupportGoHasAnEffect) {
+  const std::string relax = "[[step]]\nkind = \"relax\"\n";
+  const auto held = [](const char* until) {
+    return std::string("[[support]]\nplace = \"rim\"\nfix = [\"x\", \"y\", \"z\"]\n[[support]]\nplace = "
+                       "\"electrode\"\nfix = [\"x\", \"y\"]\n") +
+           until;
+  };
+  EXPECT_EQ(keys(film + disc + ramp + relax + held("")), Keys{"step[2]"});
+  EXPECT_EQ(keys(film + disc + ramp + relax + held("until = \"voltage\"\n")), Keys{});
+}
+
 TEST_F(IdleKeys, TheGalleryHasNone) {
   for (const char* folder : {"cases/gallery", "tests/cases/valid"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder / folder)) {
