@@ -243,51 +243,6 @@ kind = "weight"
   }
 }
 
-// A stiff branch that has carried the field for an instant gives way by strains of 1e-4 only; but their
-// stresses make a thin film buckle (k was -5.2 mN/m), and a bender goes half of its way yet.
-TEST_F(Drives, AFilmWhoseSmallFlowMattersIsNotAtRest) {
-  const std::string film = R"(
-model = "3d"
-output.error_estimate = false
-rectangle = { length = "10 mm", width = "4 mm" }
-mesh = { across = 2 }
-drive.voltage = "200 V"
-support = [{ place = "left", fix = ["x", "y", "z", "turn_x", "turn_y", "turn_z"] }]
-quantity = [{ name = "k", kind = "stiffness", of = "right", along = "z" },
-            { name = "f", kind = "natural frequency" }]
-)";
-  const std::string flat = R"(
-[film]
-thickness = "100 um"
-section = "shell"
-[film.material]
-shear_modulus = "300 kPa"
-relative_permittivity = 3
-branch = [{ shear_modulus = "30 MPa", relaxation_time = "1 s" }]
-)";
-  const std::string bender = flat +
-                             "[[film.layer]]\nthickness = \"50 um\"\nmaterial = { shear_modulus = \"300 "
-                             "kPa\", density = 1000 }\n";
-  const std::string at_once = "[[step]]\nkind = \"voltage\"\nresponse = \"instantaneous\"\n";
-  const std::string modes = "[[step]]\nkind = \"modes\"\ncount = 1\n";
-  const auto hold = [](const char* duration) {
-    return fmt::format("[[step]]\nkind = \"hold\"\nduration = \"{}\"\n", duration);
-  };
-  for (const std::string& moving : {flat + at_once, bender + at_once + hold("100 s")}) {
-    const Outcome outcome = run(film + moving + modes);
-    EXPECT_NE(outcome.message.find("dashpots flow"), std::string::npos) << outcome.message;
-    EXPECT_TRUE(std::isnan(last("k")));
-    EXPECT_TRUE(std::isnan(last("f")));
-  }
-  for (const std::string& of : {flat, bender}) {
-    ASSERT_EQ(run(film + of + "[[step]]\nkind = \"voltage\"\n" + modes).ending, Ending::complete);
-    const double k = last("k"), f = last("f");
-    ASSERT_EQ(run(film + of + at_once + hold("3000 s") + modes).ending, Ending::complete);
-    EXPECT_NEAR(last("k"), k, 1e-3 * k);
-    EXPECT_NEAR(last("f"), f, 1e-3 * f);
-  }
-}
-
 // A swinging plate is out of balance or has a velocity, at any moment: no small vibration goes about it.
 TEST_F(Drives, WhatMovesHasNeitherStiffnessNorModes) {
   const std::string swings = R"(
