@@ -174,8 +174,11 @@ Eigen::VectorXd Simulation::frame_force() {
 
 void Simulation::lead_to(const std::vector<double>& voltages, int increments) {
   steps_.back().increments = increments;
-  for (std::size_t e = 0; e < voltages.size(); ++e)
-    now_.drives[case_.electrodes[e].name].voltage = Waveform::constant_at(voltages[e]);
+  for (std::size_t e = 0; e < voltages.size(); ++e) {
+    const fem::Circuit* circuit = device_.model.circuit_of(e); // what leaks divides the source's voltage
+    now_.drives[case_.electrodes[e].name].voltage =
+        Waveform::constant_at(circuit ? circuit->holding_source(voltages[e]) : voltages[e]);
+  }
 }
 
 /// The state is the last one that is accounted for.

@@ -181,6 +181,19 @@ TEST_F(Margins, WhatHoldsAtTheEndGoesOnHolding) {
   EXPECT_NEAR(*found.factor, 2, 1e-4);
 }
 
+// A leak behind a resistance takes a fifth of the source's voltage, there as here: margins were looked for up
+// to four fifths of what was asked for, and no state between was found again.
+TEST_F(Margins, ALeakTakesItsPartBehindTheEndToo) {
+  const double stretch = 1.15, field = stretch * stretch * voltage_at(stretch) / thickness;
+  const double end = 0.5 * pull_in; // of the source
+  const auto found = margins(patch(end, field, "[circuit]\nresistance = 1e9\nleakage_resistance = 4e9\n"),
+                             {"output.margins_up_to=2.6"});
+  ASSERT_TRUE(found.at("breakdown").factor && found.at("pull-in").factor);
+  EXPECT_NEAR(*found.at("breakdown").factor, voltage_at(stretch) / (0.8 * end), 1e-5);
+  EXPECT_EQ(found.at("breakdown").remark, "");
+  EXPECT_NEAR(*found.at("pull-in").factor, 2.5, 1e-3);
+}
+
 TEST_F(Margins, WithoutAVoltageOrInTimeNothingIsKnown) {
   EXPECT_EQ(margins(patch(0, 1e9)).at("pull-in").remark, "not known: no voltage is applied at the end");
   const auto timed = margins(patch(500, 1e9, "duration = \"1 s\"\n"));
