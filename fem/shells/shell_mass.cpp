@@ -16,7 +16,7 @@ ShellMass ShellMass::of(const ShellSection& section) {
     height += depth;
   });
   const double drawn = section.prestretch[0] * section.prestretch[1]; // times as wide and as thin
-  if (!(std::abs(moment) > 1e-9 * mass * height)) return {mass / drawn, 0};
+  if (!(std::abs(moment) > 1e-6 * mass * height)) return {mass / drawn, 0};
   return {mass / drawn, moment / mass / drawn};
 }
 

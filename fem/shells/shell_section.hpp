@@ -53,7 +53,7 @@ struct ShellSection {
 };
 
 /// The mass of a shell's section: of its drawn surface, kg/m^2, and where its centre lies above that as
-/// drawn, m; 0 where that is a rounding of the thickness.
+/// drawn, m; 0 where that is a rounding of the thickness, below 1e-6 of it.
 struct ShellMass {
   double per_area = 0, lever = 0;
 

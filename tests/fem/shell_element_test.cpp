@@ -145,6 +145,9 @@ TEST(Shell, has_the_mass_of_its_layers_where_their_centre_is) {
   const double lever = 0.02 / (1.2 * 0.9); // all have one density
   EXPECT_NEAR(ShellMass::of(section).per_area, mass, 1e-12 * mass);
   EXPECT_NEAR(ShellMass::of(section).lever, lever, 1e-15);
+  ShellSection rounded = section;
+  rounded.offset = 1e-8;
+  EXPECT_EQ(ShellMass::of(rounded).lever, 0);
   const Eigen::SparseMatrix<double> J = model->dofs.jacobian(model->initial_state());
   const Eigen::SparseMatrix<double> M = J.transpose() * model->inertia.mass * J;
   const auto energy = [&](const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
