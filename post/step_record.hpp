@@ -22,6 +22,7 @@ struct Event {
   std::string place;              ///< named place, e.g. "cell[2,3]"; empty when it is everywhere
   std::string message;            ///< one sentence with numbers and units
   std::optional<Moment> before{}; ///< where it was on the way to the record that tells of it
+  bool branches_off = false;      ///< a critical point that is a bifurcation, whatever `kind` calls it
 };
 
 /// The value of the largest magnitude that a quantity has had, and when.

@@ -25,7 +25,7 @@ namespace {
 /// The normal of its section is z.
 void check_beam(const WrittenPart& written) {
   const auto* line = std::get_if<Line>(&written.part.geometry);
-  if (!line) return;
+  if (!line || !written.part.beam) return;
   const double across = std::hypot(line->to[0] - line->from[0], line->to[1] - line->from[1]);
   if (across < 1e-6 * std::abs(line->to[2] - line->from[2]))
     written.report("line",

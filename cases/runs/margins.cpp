@@ -28,9 +28,11 @@ struct Passed {
 
 /// A critical point that was located on such a way.
 struct Critical {
-  std::string kind; ///< see is_critical()
+  bool branches_off; ///< a bifurcation, otherwise a limit point
   double factor = 0;
 };
+
+const char* critical_word(bool branches_off) { return branches_off ? "bifurcation" : "limit point"; }
 
 /// The value of a standard or written quantity of that kind; NaN where the case has none.
 double extreme_of(const Case& one, const std::vector<double>& values, const char* field,
@@ -90,7 +92,7 @@ std::vector<Critical> critical_points(const Case& one, const Journal& journal) {
     if (!factor || !is_led_by_voltages(one, record)) break;
     for (const post::Event& event : record.events | std::views::reverse) {
       const auto at = event.before ? factor_of(event.before->voltages, end) : std::nullopt;
-      if (is_critical(event.kind) && at && *at > 0) all.push_back({event.kind, *at});
+      if (is_critical(event.kind) && at && *at > 0) all.push_back({event.branches_off, *at});
     }
     if (*factor <= 0) break;
   }
@@ -156,8 +158,9 @@ class FurtherWay {
         return !interrupted();
       };
       observer.on_pass = [] { return !interrupted(); };
-      observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event& event) {
-        if (const auto at = factor_of(critical.state.voltage, end_)) located.push_back({event.kind, *at});
+      observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event&) {
+        if (const auto at = factor_of(critical.state.voltage, end_))
+          located.push_back({critical.kind == fem::Instability::bifurcation, *at});
       };
       const Outcome outcome = simulation.run(observer);
       if (outcome.ending == Ending::gave_up) stopped = outcome.kind;
@@ -343,7 +346,8 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
       up_to = way.back().factor;
     }
   }
-  const bool branches = std::ranges::count(criticals, "bifurcation", &Critical::kind) > 0;
+  const bool branches = std::ranges::any_of(criticals, &Critical::branches_off);
+  if (is_critical(stopped) && !criticals.empty()) stopped = critical_word(criticals.back().branches_off);
   const auto add = [&](const std::string& limit, const auto& find) {
     const std::string why_not =
         unknown_because.empty() ? unknown_limit(one, simulation, limit, branches) : unknown_because;
@@ -378,13 +382,14 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     return crossing(
         way, [](const Passed& p) { return -smallest_stress - p.least_stress; }, *further);
   });
-  const auto critical = [&](const char* kind) {
-    const auto first = std::ranges::find(criticals, kind, &Critical::kind);
+  const auto critical = [&](bool branches_off) {
+    const auto first = std::ranges::find(criticals, branches_off, &Critical::branches_off);
     if (first != criticals.end()) return Margin{.factor = first->factor};
-    return stopped == kind ? Margin{.factor = way.back().factor} : Margin{}; // an end that was not located
+    return stopped == critical_word(branches_off) ? Margin{.factor = way.back().factor}
+                                                  : Margin{}; // an end that was not located
   };
-  add("pull-in", [&] { return critical("limit point"); });
-  add("buckling", [&] { return critical("bifurcation"); });
+  add("pull-in", [&] { return critical(false); });
+  add("buckling", [&] { return critical(true); });
   add("wall yield", [&] {
     return crossing(
         way, [](const Passed& p) { return p.yield - 1; }, *further);

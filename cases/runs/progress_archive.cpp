@@ -21,7 +21,10 @@ Eigen::VectorXd unpack(const json& packed, const post::StateSizes& sizes) {
 } // namespace
 
 json archive(const post::Event& event) {
-  json archived{{"kind", event.kind}, {"place", event.place}, {"message", event.message}};
+  json archived{{"kind", event.kind},
+                {"place", event.place},
+                {"message", event.message},
+                {"branches_off", event.branches_off}};
   if (event.before)
     archived["before"] = {event.before->load_factor, event.before->time, event.before->voltages};
   return archived;
@@ -31,6 +34,7 @@ post::Event restore_event(const json& archived) {
   post::Event event{archived.at("kind"), archived.at("place"), archived.at("message")};
   if (const auto before = archived.find("before"); before != archived.end())
     event.before = {before->at(0), before->at(1), before->at(2)};
+  event.branches_off = archived.at("branches_off");
   return event;
 }
 

@@ -192,8 +192,13 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                         {"voltages", event.before ? event.before->voltages : record.voltages},
                         {"place", event.place},
                         {"message", message_of(event, results)}});
+  // The bifurcation at which a run ends as at a limit point is told by the event that located it.
+  const auto tells = [&](const post::Event& event) {
+    return event.kind == results.outcome.kind ||
+           (is_critical(event.kind) && is_critical(results.outcome.kind));
+  };
   if (!results.outcome.kind.empty() && !journal.records.empty() &&
-      std::ranges::count(journal.records.back().events, results.outcome.kind, &post::Event::kind) == 0) {
+      std::ranges::none_of(journal.records.back().events, tells)) {
     const auto& last = journal.records.back();
     events.push_back({{"kind", results.outcome.kind},
                       {"step", last.step},

@@ -61,12 +61,18 @@ std::string StepRun::load_text(double s) const {
   return load_text(at, s);
 }
 
+/// A critical point at which the step ends is called what the step's failure() is.
 void StepRun::announce(const fem::CriticalPoint& critical, bool ends) {
   if (!observer_.on_critical) return;
+  const bool branches_off = critical.kind == fem::Instability::bifurcation;
   const double s = critical.load_factor;
   const std::string load = timed() ? load_text(critical.state, s) : load_text(s);
-  observer_.on_critical(critical, {word(critical.kind), "",
-                                   fmt::format("{} {} {}", word(critical.kind), ends ? "near" : "at", load)});
+  post::Event event{word(critical.kind), "", fmt::format("{} at {}", word(critical.kind), load)};
+  if (ends)
+    event = {word(fem::Instability::limit_point), "",
+             fmt::format("limit point near {}{}", load, branches_off ? " (a bifurcation)" : "")};
+  event.branches_off = branches_off;
+  observer_.on_critical(critical, event);
 }
 
 /// The last equilibrium before stability is lost is a result of its own. An interrupt waits for what comes of
@@ -361,14 +367,15 @@ Outcome StepRun::failure(const Trouble& trouble) const {
           fmt::format(
               "limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of the step.{}",
               load_text(last(), reached), last().time, more)};
-    return {Ending::gave_up, word(trouble.critical->kind),
-            fmt::format("{} near {}: equilibrium found {}, none {}at {}{}.{}", word(trouble.critical->kind),
-                        load_text(trouble.critical->load_factor),
-                        reached > 0 ? "up to " + load_text(reached) : "at the beginning of the step",
-                        trouble.unstable_modes > 0 ? "that is stable " : "",
-                        load_text(trouble.ramp.failed_at),
-                        branches_off ? "; a mode that the load does no work on makes it unstable" : "",
-                        more + (branches_off ? of_edges : ""))};
+    return {
+        Ending::gave_up, "limit point",
+        fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}",
+                    load_text(trouble.critical->load_factor),
+                    reached > 0 ? "up to " + load_text(reached) : "at the beginning of the step",
+                    trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
+                    branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable"
+                                 : "",
+                    more + (branches_off ? of_edges : ""))};
   }
   if (trouble.unstable_modes > 0 && moves_freely()) return singular();
   if (trouble.unstable_modes > 0)

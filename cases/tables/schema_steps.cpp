@@ -147,7 +147,7 @@ Section step_section() {
           .only_with(when::has_mass())
           .only(timed),
       word("on_instability",
-           {{"stop", "the step ends at a limit point or a bifurcation", OnInstability::stop},
+           {{"stop", "the step ends at a limit point", OnInstability::stop},
             {"follow", "along the unstable path, by arclength", OnInstability::follow},
             {"jump", "to the next stable state, by damped motion", OnInstability::jump}},
            to(&Step::on_instability), "what happens where the equilibrium ends or loses its stability")

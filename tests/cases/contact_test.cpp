@@ -214,7 +214,7 @@ TEST_F(Contacts, tell_of_edges_that_slip_off_each_other) {
                 "[[quantity]]\nname = \"held\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"z\"\n",
             "held");
     if (wider == 0) {
-      EXPECT_EQ(pressed.outcome.kind, "bifurcation");
+      EXPECT_EQ(pressed.outcome.kind, "limit point");
       EXPECT_NE(pressed.outcome.message.find("reach over the other by contact.thickness"), std::string::npos)
           << pressed.outcome.message;
     } else {
