@@ -16,7 +16,7 @@ std::vector<int> corners_of(const std::vector<meshing::OuterSide>& sides) {
   for (const meshing::OuterSide& side : sides)
     nodes.insert(nodes.end(), side.corners().begin(), side.corners().end());
   std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 

@@ -9,10 +9,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <ranges>
+#include <utility>
 
 namespace dielast::cases {
-
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -30,9 +29,8 @@ struct Passed {
 struct Critical {
   bool branches_off; ///< a bifurcation, otherwise a limit point
   double factor = 0;
+  const char* kind() const { return branches_off ? "bifurcation" : "limit point"; }
 };
-
-const char* critical_word(bool branches_off) { return branches_off ? "bifurcation" : "limit point"; }
 
 /// The value of a standard or written quantity of that kind; NaN where the case has none.
 double extreme_of(const Case& one, const std::vector<double>& values, const char* field,
@@ -87,12 +85,12 @@ std::vector<Passed> way_of(const Case& one, const Journal& journal) {
 std::vector<Critical> critical_points(const Case& one, const Journal& journal) {
   const post::StepRecord& end = journal.records.back();
   std::vector<Critical> all; // the last one first
-  for (const post::StepRecord& record : journal.records | std::views::reverse) {
-    const auto factor = factor_of(record.voltages, end);
-    if (!factor || !is_led_by_voltages(one, record)) break;
-    for (const post::Event& event : record.events | std::views::reverse) {
-      const auto at = event.before ? factor_of(event.before->voltages, end) : std::nullopt;
-      if (is_critical(event.kind) && at && *at > 0) all.push_back({event.branches_off, *at});
+  for (auto record = journal.records.rbegin(); record != journal.records.rend(); ++record) {
+    const auto factor = factor_of(record->voltages, end);
+    if (!factor || !is_led_by_voltages(one, *record)) break;
+    for (auto event = record->events.rbegin(); event != record->events.rend(); ++event) {
+      const auto at = event->before ? factor_of(event->before->voltages, end) : std::nullopt;
+      if (is_critical(event->kind) && at && *at > 0) all.push_back({event->branches_off, *at});
     }
     if (*factor <= 0) break;
   }
@@ -134,9 +132,9 @@ class FurtherWay {
     return true;
   }
 
-  /// The states up to those with `factor` times the voltages of the end; `stopped` says why it ends earlier,
-  /// `located` has the critical points on it.
-  std::vector<Passed> to(double factor, std::string& stopped, std::vector<Critical>& located) {
+  /// The states up to those with `factor` times the voltages of the end; `stopped` says why it ends earlier.
+  std::vector<Passed> to(double factor, std::string& stopped) {
+    located_.clear();
     constexpr int increments_per_voltage = 20;
     const Place& from =
         *std::ranges::min_element(places_, {}, [&](const Place& p) { return std::abs(p.factor - factor); });
@@ -160,7 +158,7 @@ class FurtherWay {
       observer.on_pass = [] { return !interrupted(); };
       observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event&) {
         if (const auto at = factor_of(critical.state.voltage, end_))
-          located.push_back({critical.kind == fem::Instability::bifurcation, *at});
+          located_.push_back({critical.kind == fem::Instability::bifurcation, *at});
       };
       const Outcome outcome = simulation.run(observer);
       if (outcome.ending == Ending::gave_up) stopped = outcome.kind;
@@ -176,11 +174,12 @@ class FurtherWay {
     return way;
   }
 
+  const std::vector<Critical>& located() const { return located_; } ///< on the last way
+
   /// That state alone; nothing where it is not reached.
   std::optional<Passed> at(double factor) {
     std::string stopped;
-    std::vector<Critical> unused;
-    std::vector<Passed> way = to(factor, stopped, unused);
+    std::vector<Passed> way = to(factor, stopped);
     if (way.empty() || !stopped.empty() || std::abs(way.back().factor - factor) > 1e-9) return std::nullopt;
     return way.back();
   }
@@ -220,7 +219,8 @@ class FurtherWay {
   std::vector<Step> steps_; ///< of the run
   const post::StepRecord& end_;
   int threads_;
-  std::vector<Place> places_;            ///< that where it begins first
+  std::vector<Place> places_; ///< that where it begins first
+  std::vector<Critical> located_;
   std::optional<Simulation> simulation_; ///< of further_, for all that is solved from these places
 };
 
@@ -250,9 +250,7 @@ std::optional<double> root_between(const Passed& before, const Passed& after, co
   int kept = 0; // the end: -1 is a, 1 is b
   for (int i = 0; i < most_states && b - a > accuracy * b; ++i) {
     const double next = std::lerp(a, b, at_a / (at_a - at_b));
-    const bool settled = std::abs(next - root) <= accuracy / 10 * b;
-    root = next;
-    if (settled) break;
+    if (std::abs(next - std::exchange(root, next)) <= accuracy / 10 * b) break;
     const std::optional<Passed> state = further.at(root);
     if (!state || std::isnan(value(*state))) return std::nullopt;
     const double now = value(*state);
@@ -265,8 +263,7 @@ std::optional<double> root_between(const Passed& before, const Passed& after, co
       a = root, at_a = now, kept = 1;
     }
   }
-  if (!is_on_the_way(before)) return std::nullopt;
-  return root;
+  return is_on_the_way(before) ? std::optional(root) : std::nullopt;
 }
 
 /// Where a value passes zero from below.
@@ -296,8 +293,7 @@ Margin crossing(const std::vector<Passed>& way, const Value& value, FurtherWay& 
   return {};
 }
 
-/// Why nothing is known of a limit in this model; empty where something is. `branches`: a bifurcation was
-/// met.
+/// Why nothing is known of a limit; empty where something is. `branches`: a bifurcation was met.
 std::string unknown_limit(const Case& one, const Simulation& run, const std::string& limit, bool branches) {
   const bool walls = run.device().mesh.walls() != nullptr;
   if (limit == "wall yield" && !walls) return "there are no walls";
@@ -332,22 +328,21 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     // Something else than the voltages has led there, or they were not in proportion.
     if (complete && way.front().factor > 0 && is_beyond(way.front(), simulation.device().tension_field)) {
       std::string unused;
-      std::vector<Critical> not_taken; // by the run
       const double least = way.front().factor;
-      for (Passed& passed : further->to(0, unused, not_taken))
+      for (Passed& passed : further->to(0, unused))
         if (passed.factor < least) {
           way.insert(way.begin(), std::move(passed));
-          way.front().on_the_way_back = true;
-          if (way.size() > 1) way[1].on_the_way_back = true;
+          way[0].on_the_way_back = way[1].on_the_way_back = true;
         }
     }
     if (one.margins_up_to > 1 && complete) {
-      std::ranges::move(further->to(one.margins_up_to, stopped, criticals), std::back_inserter(way));
+      std::ranges::move(further->to(one.margins_up_to, stopped), std::back_inserter(way));
+      criticals.insert(criticals.end(), further->located().begin(), further->located().end());
       up_to = way.back().factor;
     }
   }
   const bool branches = std::ranges::any_of(criticals, &Critical::branches_off);
-  if (is_critical(stopped) && !criticals.empty()) stopped = critical_word(criticals.back().branches_off);
+  if (is_critical(stopped) && !criticals.empty()) stopped = criticals.back().kind();
   const auto add = [&](const std::string& limit, const auto& find) {
     const std::string why_not =
         unknown_because.empty() ? unknown_limit(one, simulation, limit, branches) : unknown_because;
@@ -385,8 +380,8 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   const auto critical = [&](bool branches_off) {
     const auto first = std::ranges::find(criticals, branches_off, &Critical::branches_off);
     if (first != criticals.end()) return Margin{.factor = first->factor};
-    return stopped == critical_word(branches_off) ? Margin{.factor = way.back().factor}
-                                                  : Margin{}; // an end that was not located
+    return stopped == Critical{branches_off}.kind() ? Margin{.factor = way.back().factor}
+                                                    : Margin{}; // an end that was not located
   };
   add("pull-in", [&] { return critical(false); });
   add("buckling", [&] { return critical(true); });

@@ -67,11 +67,10 @@ void StepRun::announce(const fem::CriticalPoint& critical, bool ends) {
   const bool branches_off = critical.kind == fem::Instability::bifurcation;
   const double s = critical.load_factor;
   const std::string load = timed() ? load_text(critical.state, s) : load_text(s);
-  post::Event event{word(critical.kind), "", fmt::format("{} at {}", word(critical.kind), load)};
-  if (ends)
-    event = {word(fem::Instability::limit_point), "",
-             fmt::format("limit point near {}{}", load, branches_off ? " (a bifurcation)" : "")};
-  event.branches_off = branches_off;
+  post::Event event{.kind = word(ends ? fem::Instability::limit_point : critical.kind),
+                    .branches_off = branches_off};
+  event.message = fmt::format("{} {} {}{}", event.kind, ends ? "near" : "at", load,
+                              ends && branches_off ? " (a bifurcation)" : "");
   observer_.on_critical(critical, event);
 }
 
