@@ -13,8 +13,8 @@ namespace {
 ///   "bound":      allowed difference over the scale of a value, by default 1e-12, which holds for the linear
 ///                 algebra of every processor (OPENBLAS_CORETYPE) and for both compilers; 1e-11 where
 ///                 stresses of MPa cancel, 1e-9 where they do so after a jump, where thin shells bend (the
-///                 last digit decides on one iteration more), and where time passes: its steps are chosen by
-///                 their errors, and the last digit may decide on one;
+///                 last digit decides on one iteration more), for stiffnesses of wrinkled film, and where
+///                 time passes: its steps are chosen by their errors, and the last digit may decide on one;
 ///   "quantities": values and units, as in summary.json.
 /// What changes numbers on purpose makes the files again and says so in its commit:
 ///   DIELAST_REMAKE_GOLDEN=1 build/bin/golden_test
