@@ -17,7 +17,7 @@ constexpr double resolved = 1e-9;
 /// Displacement still to come that counts as none, over the largest one so far, and over the extent where the
 /// device is nearly back where it was drawn.
 constexpr double still_to_come = 1e-3, still_to_come_at_all = 1e-6;
-/// Likewise change of the lowest eigenvalue of the tangent (twice that of a frequency), and one that is of
+/// Change of the lowest eigenvalue of the tangent (twice that of a frequency) that counts as none, and one of
 /// rounding, over the stiffness as drawn.
 constexpr double as_stiff = 2e-3, no_stiffness = 1e-10;
 
