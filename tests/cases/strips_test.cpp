@@ -3,6 +3,8 @@
 #include "cases/devices/device.hpp"
 #include "tests/cases/case_test.hpp"
 
+#include <fmt/format.h>
+
 namespace dielast::cases {
 namespace {
 
