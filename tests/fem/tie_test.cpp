@@ -97,6 +97,40 @@ TEST_P(Ties, have_forces_and_tangent_that_are_derivatives_of_the_energy) {
   EXPECT_LT(check.tangent, 1e-7);
 }
 
+/// Lets the state come from another one, with inertia.
+void set_in_motion(State& state, const State& from, const DofMap& dofs, std::mt19937& random) {
+  Motion motion{.position = position(from, dofs)};
+  motion.velocity = test::random_vector(random, dofs.count(), 0.1);
+  motion.acceleration = test::random_vector(random, dofs.count(), 1);
+  motion.unbalanced = Eigen::VectorXd::Zero(dofs.count());
+  state.motion = std::make_shared<Motion>(std::move(motion));
+  state.motion_scheme = GeneralisedAlpha::of(0.01, 0.8);
+}
+
+/// Forces and tangent, those of dead forces and inertia with them, against differences of their energy.
+void expect_derivatives(Equilibrium& equilibrium, State state, const Eigen::VectorXd& direction) {
+  const DofMap& dofs = equilibrium.model().dofs;
+  Balance here;
+  equilibrium.balance(state, here);
+  equilibrium.assembler().tangent(state);
+  const Eigen::MatrixXd K = test::dense(equilibrium.assembler().matrix());
+  const auto energy = [&](double s) {
+    State there = state;
+    dofs.advance(there, direction, s);
+    Balance balance;
+    equilibrium.balance(there, balance);
+    return balance.energy - state.dead_force.dot(position(there, dofs));
+  };
+  const double h = 1e-2;
+  const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
+  const double curvature =
+      (16 * (energy(h) + energy(-h)) - (energy(2 * h) + energy(-2 * h)) - 30 * energy(0)) / (12 * h * h);
+  const double told = here.force.head(direction.size()).dot(direction);
+  const double scale = std::abs(told) + std::abs(direction.dot(K * direction));
+  EXPECT_NEAR(told, slope, 1e-8 * scale);
+  EXPECT_NEAR(direction.dot(K * direction), curvature, 1e-7 * scale);
+}
+
 // The energy check does not see dead forces and inertia: these act on tied nodes here, and turn with the
 // body.
 TEST_P(Ties, have_a_tangent_that_is_the_derivative_of_all_forces) {
@@ -109,38 +143,15 @@ TEST_P(Ties, have_a_tangent_that_is_the_derivative_of_all_forces) {
     for (int c = 0; c < 3; ++c)
       if (const int e = dofs.equation(a, c); e != DofMap::absent)
         state.dead_force[e] = test::random_vector(random, 1, 0.3)[0];
-  Motion motion{.position = position(film.anywhere(7), dofs)};
-  motion.velocity = test::random_vector(random, dofs.count(), 0.1);
-  motion.acceleration = test::random_vector(random, dofs.count(), 1);
-  motion.unbalanced = Eigen::VectorXd::Zero(dofs.count());
-  state.motion = std::make_shared<Motion>(std::move(motion));
-  state.motion_scheme = GeneralisedAlpha::of(0.01, 0.8);
+  set_in_motion(state, film.anywhere(7), dofs, random);
 
-  equilibrium.assembler().tangent(state);
-  const Eigen::MatrixXd K = test::dense(equilibrium.assembler().matrix());
   for (int sample = 0; sample < 4; ++sample) {
     Eigen::VectorXd direction(dofs.free_count());
     for (int n = 0; n < film.mesh.node_count(); ++n)
       for (int c = 0; c < 6; ++c)
         if (const int e = dofs.equation(n, c); dofs.is_free(e))
           direction[e] = test::random_vector(random, 1, c < 3 ? 1e-3 : 0.1)[0];
-    const auto energy = [&](double s) {
-      State there = state;
-      dofs.advance(there, direction, s);
-      Balance balance;
-      equilibrium.balance(there, balance);
-      return balance.energy - state.dead_force.dot(position(there, dofs));
-    };
-    Balance here;
-    equilibrium.balance(state, here);
-    const double h = 1e-2;
-    const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
-    const double curvature =
-        (16 * (energy(h) + energy(-h)) - (energy(2 * h) + energy(-2 * h)) - 30 * energy(0)) / (12 * h * h);
-    const double told = here.force.head(direction.size()).dot(direction);
-    const double scale = std::abs(told) + std::abs(direction.dot(K * direction));
-    EXPECT_NEAR(told, slope, 1e-8 * scale);
-    EXPECT_NEAR(direction.dot(K * direction), curvature, 1e-7 * scale);
+    expect_derivatives(equilibrium, state, direction);
   }
 }
 
@@ -180,35 +191,12 @@ TEST(Tie, along_a_director_has_forces_and_tangent_of_one_energy) {
     for (int c = 0; c < 3; ++c)
       state.dead_force[dofs.equation(n, c)] = test::random_vector(random, 1, 1e5)[0];
   }
-  Motion motion{.position = position(anywhere(), dofs)};
-  motion.velocity = test::random_vector(random, dofs.count(), 0.1);
-  motion.acceleration = test::random_vector(random, dofs.count(), 1);
-  motion.unbalanced = Eigen::VectorXd::Zero(dofs.count());
-  state.motion = std::make_shared<Motion>(std::move(motion));
-  state.motion_scheme = GeneralisedAlpha::of(0.01, 0.8);
+  set_in_motion(state, anywhere(), dofs, random);
 
   Equilibrium equilibrium(*model, 1);
-  Balance here;
-  equilibrium.balance(state, here);
-  equilibrium.assembler().tangent(state);
-  const Eigen::MatrixXd K = test::dense(equilibrium.assembler().matrix());
   for (int sample = 0; sample < 4; ++sample) {
     const Eigen::VectorXd direction = test::random_vector(random, dofs.free_count(), 0.02);
-    const auto energy = [&](double s) {
-      State there = state;
-      dofs.advance(there, direction, s);
-      Balance balance;
-      equilibrium.balance(there, balance);
-      return balance.energy - state.dead_force.dot(position(there, dofs));
-    };
-    const double h = 1e-2;
-    const double slope = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h);
-    const double curvature =
-        (16 * (energy(h) + energy(-h)) - (energy(2 * h) + energy(-2 * h)) - 30 * energy(0)) / (12 * h * h);
-    const double told = here.force.head(direction.size()).dot(direction);
-    const double scale = std::abs(told) + std::abs(direction.dot(K * direction));
-    EXPECT_NEAR(told, slope, 1e-8 * scale);
-    EXPECT_NEAR(direction.dot(K * direction), curvature, 1e-7 * scale);
+    expect_derivatives(equilibrium, state, direction);
   }
 }
 
