@@ -3,11 +3,12 @@
 
 #include "fem/contact/contact_sums.hpp"
 #include "fem/contact/face.hpp"
+#include "fem/contact/face_ends.hpp"
+#include "fem/contact/face_gap.hpp"
 #include "fem/contact/face_motion.hpp"
 #include "fem/contact/surface_sliders.hpp"
 #include "fem/films/triangle.hpp"
 
-#include <Eigen/LU>
 #include <unsupported/Eigen/BVH>
 
 #include <algorithm>
@@ -21,7 +22,6 @@ namespace dielast::fem {
 
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Box = Eigen::AlignedBox3d;
 
@@ -32,6 +32,7 @@ constexpr double closest =
     1e-3;                      ///< of the barrier's thickness: nearer faces are not told from ones that cross
 constexpr double nearly = 0.1; ///< of it: how near edges are that meet
 constexpr int few_tests = 100; ///< that are cheaper than looking at points
+constexpr double ramp_sizes = 0.5; ///< of the coarser surface's faces: so far from an end both count
 
 const std::vector<FacePoint>& rule = face_rule();
 
@@ -63,6 +64,8 @@ class FaceContactBlock final : public ContactBlock {
     require_apart(contact_.faces[0], contact_.faces[1]);
     share_ = {mean[1] / (mean[0] + mean[1]), mean[0] / (mean[0] + mean[1])};
     margin_ = margin * std::sqrt(std::min(mean[0], mean[1]));
+    const double over = ramp_sizes * std::sqrt(2 * std::max(mean[0], mean[1]));
+    for (std::size_t k = 0; k < 2; ++k) ends_[k] = FaceEnds(contact_.faces[k], drawn_, over);
     std::vector<double> areas(drawn_.size(), 0);
     for_each_point([&](const Pair& pair, std::size_t q) {
       share(pair, q, share_[pair.surface] * area(pair, q), areas);
@@ -143,8 +146,8 @@ class FaceContactBlock final : public ContactBlock {
   }
   double contact_force(const State& state) const override {
     double sum = 0;
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const BarrierEnergy& energy) {
-      sum -= share_[pair.surface] * area(pair, q) * energy.slope;
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      sum -= touching.share * area(pair, q) * touching.energy.slope;
     });
     return sum;
   }
@@ -153,13 +156,16 @@ class FaceContactBlock final : public ContactBlock {
   }
   void add_pressure(const State& state, NodalPressure& pressure) const override {
     for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const BarrierEnergy& energy) {
-      share(pair, q, -area(pair, q) * energy.slope, pressure.force);
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      // A point that counts little is held off by little: it may be very near.
+      const double counts = std::min(1.0, touching.share / share_[pair.surface]);
+      share(pair, q, -counts * area(pair, q) * touching.energy.slope, pressure.force);
+      share(pair, q, (counts - 1) * touching.factor * area(pair, q), pressure.area);
     });
   }
   void add_energies(const State& state, EnergyParts& parts) const override {
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const BarrierEnergy& energy) {
-      parts.elastic += share_[pair.surface] * area(pair, q) * energy.value;
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      parts.elastic += touching.share * area(pair, q) * touching.energy.value;
     });
     parts.elastic += sliders_.energy(state);
   }
@@ -182,8 +188,14 @@ class FaceContactBlock final : public ContactBlock {
     int own, other;
     auto operator<=>(const Pair&) const = default;
   };
+  using Shape = Eigen::Vector<double, 6>;
   using Sums = ContactSums<dofs>;
   using Sliders = SurfaceSliders<6>;
+  /// What a point feels of a face or, negatively, of an edge.
+  struct Touching {
+    BarrierEnergy energy; ///< as often as it counts
+    double factor, share; ///< how often; of this surface's integral there
+  };
   /// All faces in a state.
   struct Moved {
     std::array<std::vector<FaceNodes>, 2> faces;
@@ -268,16 +280,18 @@ class FaceContactBlock final : public ContactBlock {
           use(q, place, factor);
     }
   }
-  /// use(pair, point, the barrier as often as it counts).
+  /// use(pair, point, what it feels).
   template<class Use>
   void for_each_touching(const State& state, const Use& use) const {
     const Moved now = moved(state);
     for (const Pair& pair : meeting(now, now, contact_.barrier.reach()))
-      for_each_near(pair, now.of(pair, 0), now.of(pair, 1),
-                    [&](std::size_t q, const FacePlace& place, double factor) {
-                      const BarrierEnergy energy = contact_.barrier.at(place.distance);
-                      use(pair, q, {factor * energy.value, factor * energy.slope, factor * energy.curvature});
-                    });
+      for_each_near(
+          pair, now.of(pair, 0), now.of(pair, 1), [&](std::size_t q, const FacePlace& place, double factor) {
+            const BarrierEnergy energy = contact_.barrier.at(place.distance);
+            use(pair, q,
+                Touching{
+                    {factor * energy.value, factor * energy.slope}, factor, share_at(pair, q, place).value});
+          });
   }
   /// What presses each slider's node.
   std::vector<Sliders::Pressed> pressed(const State& state) const {
@@ -289,8 +303,8 @@ class FaceContactBlock final : public ContactBlock {
         return all[static_cast<std::size_t>(sliders_.number(pair.surface, pair.own, a))];
       };
       for_each_near(pair, own, other, [&](std::size_t q, const FacePlace& place, double factor) {
-        const double size =
-            -factor * share_[pair.surface] * area(pair, q) * contact_.barrier.at(place.distance).slope;
+        const double size = -factor * share_at(pair, q, place).value * area(pair, q) *
+                            contact_.barrier.at(place.distance).slope;
         for (int a = 0; a < 6; ++a) at(a).force += rule[q].share[a] * size * place.normal;
       });
       for (int a = 0; a < 6; ++a) {
@@ -300,51 +314,21 @@ class FaceContactBlock final : public ContactBlock {
     }
     return all;
   }
-  /// The gap's derivatives in what goes with the nodes: the way from the place to the point, r, and its
-  /// slopes along the directions in which the place may move; these follow, as the gap is the least.
   void add(const Pair& pair, std::size_t q, const FaceNodes& other, const FacePlace& place, double factor,
            const Scatter& scatter, Sums& sums) const {
     if (!(place.distance > 0)) {
       sums.feasible = false;
       return;
     }
-    const double area = factor * share_[pair.surface] * this->area(pair, q);
-    const BarrierEnergy energy = contact_.barrier.at(place.distance);
-    sums.any = true;
-    sums.energy += area * energy.value;
-    if (!scatter.residual && !scatter.tangent) return;
-    Eigen::Matrix<double, 12, 3> weight = Eigen::Matrix<double, 12, 3>::Zero(); // of nodes in r, its slopes
-    weight.col(0) << rule[q].shape, -place.shape;
-    for (int k = 0; k < place.free; ++k)
-      weight.col(1 + k).tail<6>() = -place.slope[static_cast<std::size_t>(k)];
-    const Vector3d& n = place.normal;
-    for (int a = 0; a < 12; ++a) sums.first.segment<3>(3 * a) += (area * energy.slope * weight(a, 0)) * n;
-    if (!scatter.tangent) return;
-    const Matrix3d across = (Matrix3d::Identity() - n * n.transpose()) / place.distance;
-    Eigen::Matrix<double, 9, 9> second = Eigen::Matrix<double, 9, 9>::Zero(); // of the gap
-    second.topLeftCorner<3, 3>() = across;
-    Eigen::Matrix2d stiff = Eigen::Matrix2d::Identity();
-    Eigen::Matrix<double, 9, 2> mixed = Eigen::Matrix<double, 9, 2>::Zero();
-    for (int k = 0; k < place.free; ++k) {
-      const Vector3d slope = -(other * place.slope[static_cast<std::size_t>(k)]);
-      mixed.col(k).head<3>() = across * slope;
-      mixed.col(k).segment<3>(3 + 3 * k) = n;
-      for (int l = 0; l < place.free; ++l)
-        stiff(k, l) = -slope.dot(across * (other * place.slope[static_cast<std::size_t>(l)])) -
-                      n.dot(other * place.bend[static_cast<std::size_t>(k + l)]);
-    }
-    if (place.free > 0) second -= mixed * stiff.inverse() * mixed.transpose();
-    second *= area * energy.slope;
-    second.topLeftCorner<3, 3>() += area * energy.curvature * n * n.transpose();
-    Eigen::Matrix<double, 9, dofs> of_nodes; // second, with nodes
-    for (int b = 0; b < 12; ++b)
-      of_nodes.middleCols<3>(3 * b) = weight(b, 0) * second.leftCols<3>() +
-                                      weight(b, 1) * second.middleCols<3>(3) +
-                                      weight(b, 2) * second.rightCols<3>();
-    for (int a = 0; a < 12; ++a)
-      sums.second.middleRows<3>(3 * a) += weight(a, 0) * of_nodes.topRows<3>() +
-                                          weight(a, 1) * of_nodes.middleRows<3>(3) +
-                                          weight(a, 2) * of_nodes.bottomRows<3>();
+    add_pressed(rule[q].shape, other, place, other_end(pair), factor * area(pair, q),
+                contact_.barrier.at(place.distance), share_at(pair, q, place), scatter, sums);
+  }
+  const Shape& other_end(const Pair& pair) const { return ends_[1 - pair.surface].at(pair.other); }
+  /// The part of the integral of a point's surface, with its derivatives by what other_end() is at the place.
+  Ramp share_at(const Pair& pair, std::size_t q, const FacePlace& place) const {
+    const double own = end_ramp(rule[q].shape.dot(ends_[pair.surface].at(pair.own))).value;
+    return shared(share_[pair.surface], own, share_[1 - pair.surface],
+                  end_ramp(place.shape.dot(other_end(pair))));
   }
   /// Adds what lies at a point to the face's nodes, linearly between neighbours.
   void share(const Pair& pair, std::size_t q, double amount, std::vector<double>& of_nodes) const {
@@ -376,6 +360,7 @@ class FaceContactBlock final : public ContactBlock {
   FaceContact contact_;
   std::vector<Vector3d> drawn_;
   std::array<std::vector<std::vector<CountedPart>>, 2> parts_; ///< of the faces, besides themselves
+  std::array<FaceEnds, 2> ends_;
   std::array<double, 2> share_{};            ///< of the two integrals: the finer surface has the greater one
   std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' faces
   Sliders sliders_;

@@ -29,8 +29,8 @@ struct FaceContact {
 /// keeps it away or not (edges that cross between points do not feel it): see way_apart(). Friction: see
 /// SurfaceSliders.
 ///
-/// Where points of one surface pass below a free edge of the other one what presses them ends within the
-/// barrier's thickness: the fewer points there are for that, the shorter are Newton's steps.
+/// Towards where one surface ends its own integral counts alone, so that no point of the other catches on its
+/// edge: see FaceEnds.
 ///
 /// Elements are the pairs of faces that are nearer than the barrier reaches and a margin, found with trees of
 /// boxes, anew when the surfaces have gone that margin towards one another.

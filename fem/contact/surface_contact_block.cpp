@@ -142,8 +142,10 @@ class SurfaceContactBlock final : public ContactBlock {
   void add_pressure(const State& state, NodalPressure& pressure) const override {
     for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      const double part = std::min(1.0, touching.share / share_[pair.surface]); // a corner may be very near
-      share(pair, q, -part * area(pair, q) * touching.energy.slope, pressure.force);
+      // A point that counts little is held off by little: it may be very near.
+      const double counts = std::min(1.0, touching.share / share_[pair.surface]);
+      share(pair, q, -counts * area(pair, q) * touching.energy.slope, pressure.force);
+      share(pair, q, (counts - 1) * touching.factor * area(pair, q), pressure.area);
     });
   }
   void add_energies(const State& state, EnergyParts& all) const override {
@@ -174,9 +176,9 @@ class SurfaceContactBlock final : public ContactBlock {
   using Sliders = SurfaceSliders<3>;
   /// What a point feels of a side or, negatively, of an end.
   struct Touching {
-    BarrierEnergy energy;
-    Vector2d normal; ///< unit vector towards the point
-    double share;    ///< of this surface's integral there
+    BarrierEnergy energy; ///< as often as it counts
+    Vector2d normal;      ///< unit vector towards the point
+    double factor, share; ///< how often; of this surface's integral there
   };
   /// All sides in a state.
   struct Moved {
@@ -292,6 +294,7 @@ class SurfaceContactBlock final : public ContactBlock {
             use(pair, q,
                 Touching{{factor * energy.value, factor * energy.slope},
                          way.normalized(),
+                         factor,
                          share_at(pair, q, other_ends(pair).at(pair.other, nearest)).value});
         };
         add(parabola, 1);

@@ -10,10 +10,19 @@
 
 namespace dielast::fem {
 
-/// A function of the place s = 0..1 on a side, with its derivatives.
+/// A function of a place on a surface, with its derivatives by one coordinate.
 struct Ramp {
   double value = 1, first = 0, second = 0;
 };
+
+/// By the distance t from where a surface ends, in lengths over which the ramp rises: nearly 0 at the end, 1
+/// from t = 1 on, a quintic between.
+inline Ramp end_ramp(double t) {
+  if (!(t < 1)) return {};
+  constexpr double least = 1e-3, high = 1 - least; // nothing gets through where the other one counts alone
+  return {least + high * t * t * t * (10 - 15 * t + 6 * t * t), high * 30 * t * t * (1 - t) * (1 - t),
+          high * 60 * t * (1 - t) * (1 - 2 * t)};
+}
 
 /// Where a surface of 3-node sides ends, as drawn. The contact of two surfaces is the mean of two integrals,
 /// of either over the distance to the other. A point of the one that an end of the other passes would take
@@ -54,17 +63,13 @@ class SurfaceEnds {
     }
   }
 
-  /// Nearly 0 at an end, 1 farther than `over` from it: a quintic between.
+  /// At a place of a side, by its s = 0..1.
   Ramp at(int side, double s) const {
     const auto& [before, length, behind, over] = sides_[static_cast<std::size_t>(side)];
     const double from_first = before + s * length, from_last = behind + (1 - s) * length;
-    const double t = std::min(from_first, from_last) / over;
-    if (!(t < 1)) return {};
-    constexpr double least = 1e-3, high = 1 - least; // nothing gets through where the other one counts alone
+    const Ramp ramp = end_ramp(std::min(from_first, from_last) / over);
     const double rate = (from_first < from_last ? 1 : -1) * length / over;
-    return {least + high * t * t * t * (10 - 15 * t + 6 * t * t),
-            high * 30 * t * t * (1 - t) * (1 - t) * rate,
-            high * 60 * t * (1 - t) * (1 - 2 * t) * rate * rate};
+    return {ramp.value, ramp.first * rate, ramp.second * rate * rate};
   }
 
  private:

@@ -11,7 +11,7 @@
 namespace dielast::fem {
 
 /// Per node of the mesh: the normal force on it, N, and the area as drawn of the surface that may touch for
-/// which it stands, m^2.
+/// which it stands, m^2; both of points as far as they count, see SurfaceEnds.
 struct NodalPressure {
   std::vector<double> force, area;
 };

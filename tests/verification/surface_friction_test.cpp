@@ -109,8 +109,8 @@ TEST(SurfaceFriction, block_slides_with_the_coefficient_times_its_force_in_space
 
 /// A block's edges pass over points and nodes of a coarser surface: none of them catches on an edge, and all
 /// of the way the force is the coefficient times that across (points that did took it 20 % beyond it).
-TEST(SurfaceFriction, edges_pass_over_nodes_without_catching) {
-  Blocks blocks(Dimension::planar, true, true);
+void passes_over_nodes(Dimension dimension) {
+  Blocks blocks(dimension, true, true);
   Equilibrium equilibrium(blocks.model, 1);
   constexpr double down = 0.025, along = 0.5;
   const auto move = [&](double from, double to, double way) {
@@ -143,6 +143,11 @@ TEST(SurfaceFriction, edges_pass_over_nodes_without_catching) {
   ::testing::Test::RecordProperty("least of the friction", std::to_string(least));
   EXPECT_LT(most, 1.005);
   EXPECT_GT(least, 0.995);
+}
+
+TEST(SurfaceFriction, edges_pass_over_nodes_without_catching) { passes_over_nodes(Dimension::planar); }
+TEST(SurfaceFriction, edges_pass_over_nodes_without_catching_in_space) {
+  passes_over_nodes(Dimension::spatial);
 }
 
 /// Pressed on the lower block by a traction whose slope then grows: it sticks until the slope is the
