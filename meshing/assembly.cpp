@@ -2,12 +2,15 @@
 #include "meshing/assembly.hpp"
 
 #include "meshing/mesh_error.hpp"
+#include "meshing/solids/sides.hpp"
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace dielast::meshing {
 
@@ -48,6 +51,45 @@ void renumber(Mesh& mesh, const std::vector<int>& number) {
   }
 }
 
+/// Sides of the film whose nodes are all in a place.
+std::vector<OuterSide> sides_in(const Mesh& mesh, const std::vector<int>& place) {
+  if (!mesh.film() || mesh.film()->type == CellType::rod2) return {};
+  std::vector<OuterSide> sides = outer_sides(*mesh.film());
+  std::erase_if(sides, [&](const OuterSide& side) {
+    return !std::ranges::all_of(side.nodes(),
+                                [&](int node) { return std::ranges::binary_search(place, node); });
+  });
+  return sides;
+}
+
+/// Whether a point is on the inside of an edge or a triangle, or so near that this may be drawn as a chord.
+bool is_inside(const Mesh& mesh, const OuterSide& side, const Eigen::Vector3d& point) {
+  constexpr double nearly = 0.1, least_part = 0.01; // of the side
+  const auto corners = side.corners();
+  const auto at = [&](std::size_t i) { return mesh.nodes[static_cast<std::size_t>(corners[i])]; };
+  if (corners.size() < 2) return false;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2> along(3, static_cast<int>(corners.size()) - 1);
+  for (int i = 0; i < along.cols(); ++i) along.col(i) = at(static_cast<std::size_t>(i) + 1) - at(0);
+  const Eigen::Vector3d way = point - at(0);
+  const Eigen::VectorXd parts = along.colPivHouseholderQr().solve(way);
+  return parts.minCoeff() > least_part && parts.sum() < 1 - least_part &&
+         (way - along * parts).norm() < nearly * along.col(0).norm();
+}
+
+/// A node of a place's sides that is none of the `joined` ones, but inside a side of another place; -1: there
+/// is none.
+int hanging_node(const Mesh& mesh, const std::vector<int>& place, const std::vector<int>& other,
+                 const std::set<int>& joined) {
+  const std::vector<OuterSide> others = sides_in(mesh, other);
+  for (const OuterSide& side : sides_in(mesh, place))
+    for (const int node : side.nodes())
+      if (!joined.contains(node) && std::ranges::any_of(others, [&](const OuterSide& beside) {
+            return is_inside(mesh, beside, mesh.nodes[static_cast<std::size_t>(node)]);
+          }))
+        return node;
+  return -1;
+}
+
 } // namespace
 
 void append(Mesh& whole, const Mesh& part, const std::string& name) {
@@ -86,6 +128,7 @@ void join(Mesh& mesh, const std::string& place, const std::string& other) {
   };
   std::vector<int> kept(mesh.nodes.size());
   std::iota(kept.begin(), kept.end(), 0);
+  std::set<int> joined;
   for (const int node : *fewer) {
     const int nearest =
         *std::ranges::min_element(*more, {}, [&](int n) { return (at(n) - at(node)).norm(); });
@@ -96,7 +139,13 @@ void join(Mesh& mesh, const std::string& place, const std::string& other) {
           "{:.3g} m from the nearest of the other; let their nodes coincide, or let a [[body]] carry both",
           place, other, at(node).x(), at(node).y(), at(node).z(), distance));
     kept[static_cast<std::size_t>(std::max(node, nearest))] = std::min(node, nearest);
+    joined.insert(nearest);
   }
+  if (const int hanging = hanging_node(mesh, *more, *fewer, joined); hanging >= 0)
+    throw MeshError(fmt::format("\"{}\" and \"{}\" cannot be tied: the node at ({:.6g}, {:.6g}, {:.6g}) m of "
+                                "the one is between nodes "
+                                "of the other, and would hang free; mesh both places alike (mesh.across)",
+                                place, other, at(hanging).x(), at(hanging).y(), at(hanging).z()));
   std::vector<int> number(mesh.nodes.size());
   std::vector<Eigen::Vector3d> nodes;
   for (std::size_t n = 0; n < number.size(); ++n) {

@@ -58,6 +58,38 @@ TEST(Assembly, WhatDoesNotMeetIsSaid) {
   }
 }
 
+/// Two patches of half the height beside one: the node between them would hang free. The lower one alone is
+/// as good as tied: its other node is beyond the end.
+TEST(Assembly, ANodeBetweenTiedOnesIsSaid) {
+  for (const double height : {1.0, 0.5}) {
+    Mesh whole = patch_mesh(1, height);
+    for (const char* name : {"b", "c"}) {
+      Mesh other = patch_mesh(1, 0.5);
+      for (auto& x : other.nodes) x += Eigen::Vector3d(1, name[0] == 'b' ? 0 : 0.5, 0);
+      append(whole, other, name);
+    }
+    join(whole, "b.top", "c.bottom");
+    std::vector<int>& both = whole.node_sets["both"];
+    std::ranges::set_union(whole.node_sets.at("b.left"), whole.node_sets.at("c.left"),
+                           std::back_inserter(both));
+    ASSERT_EQ(both.size(), 3u);
+    if (height == 1) {
+      try {
+        join(whole, "right", "both");
+        FAIL();
+      } catch (const MeshError& error) {
+        EXPECT_NE(std::string(error.what())
+                      .find("the node at (1, 0.5, 0) m of the one is between nodes of the other"),
+                  std::string::npos)
+            << error.what();
+      }
+    } else {
+      join(whole, "right", "both");
+      EXPECT_EQ(whole.node_count(), 4 + 6 - 2);
+    }
+  }
+}
+
 TEST(Assembly, ATieThatJoinsNothingIsSaid) {
   Mesh whole = pair_of_patches(0);
   join(whole, "right", "b.left");
