@@ -13,10 +13,15 @@ namespace {
 /// An estimate says nothing about digits that nobody reads.
 constexpr double smallest_relative_error = 1e-6;
 
+/// As far as it is shown.
+double shown_error(const QuantityRow& row) {
+  return std::max(std::abs(*row.error), smallest_relative_error * std::abs(row.value));
+}
+
 /// The error in the unit in which the value is shown, to the two digits that it deserves.
 std::string error_text(const QuantityRow& row, const ScaledUnit& scaled) {
   if (!row.error) return row.error_remark.empty() ? "-" : row.error_remark;
-  const double shown = std::max(std::abs(*row.error), smallest_relative_error * std::abs(row.value));
+  const double shown = shown_error(row);
   return (shown > std::abs(*row.error) ? "< " : "") + significant(shown * scaled.factor, 2);
 }
 
@@ -24,9 +29,9 @@ std::string error_text(const QuantityRow& row, const ScaledUnit& scaled) {
 std::string value_text(const QuantityRow& row, const ScaledUnit& scaled) {
   constexpr int fewest = 4, most = 8;
   int digits = fewest;
-  if (row.error && *row.error > 0)
+  if (row.error && shown_error(row) > 0)
     digits = static_cast<int>(
-        std::clamp(std::log10(std::abs(row.value / *row.error)) + 2, 1.0 * fewest, 1.0 * most));
+        std::clamp(std::log10(std::abs(row.value) / shown_error(row)) + 2, 1.0 * fewest, 1.0 * most));
   return significant(row.value * scaled.factor, digits);
 }
 

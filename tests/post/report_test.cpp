@@ -134,6 +134,7 @@ TEST(ReportTables, ShowErrorsInTheUnitOfTheValue) {
   const QuantityRow length{"released_length_x", 0.08397, "m", Ratio::plain, 2.1e-5, "length"};
   EXPECT_EQ(with_error(length), "83.970 ± 0.021 mm");
   EXPECT_EQ(with_error({"eps_y", 0.3319, "1", Ratio::percent, {}, ""}), "33.19 %");
+  EXPECT_EQ(with_error({"loss", 1.290948, "1", Ratio::plain, 0.0, ""}), "1.2909480 ± < 1.3e-06");
   EXPECT_EQ(with_error({"eps_y", NAN, "1", Ratio::percent, 0.1, ""}), "-");
   const auto row = quantity_table(std::vector{length}).rows.at(0);
   EXPECT_EQ(row[1].text, "83.970");
