@@ -3,10 +3,12 @@
 #include "cases/runs/phases.hpp"
 #include "cases/runs/results.hpp"
 
+#include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -236,34 +238,25 @@ using Value = std::function<double(const Passed&)>;
 /// where these are not on that way.
 std::optional<double> root_between(const Passed& before, const Passed& after, const Value& value,
                                    FurtherWay& further) {
-  constexpr double accuracy = 1e-5; // of the factor
-  constexpr int most_states = 30;
-  double a = before.factor, b = after.factor, at_a = value(before), at_b = value(after);
-  const double same = 1e-4 * (at_b - at_a);
+  constexpr double accuracy = 1e-6; // of the factor
+  std::uintmax_t states = 50;
+  const double at_before = value(before), at_after = value(after), same = 1e-4 * (at_after - at_before);
   const auto is_on_the_way = [&](const Passed& known) {
     const std::optional<Passed> again = further.at(known.factor);
     return again && std::abs(value(*again) - value(known)) <= same;
   };
   if (!is_on_the_way(after) && !(further.begin_at(before) && is_on_the_way(after))) return std::nullopt;
-  // Regula falsi, with half the value at an end that stays (Illinois).
-  double root = b;
-  int kept = 0; // the end: -1 is a, 1 is b
-  for (int i = 0; i < most_states && b - a > accuracy * b; ++i) {
-    const double next = std::lerp(a, b, at_a / (at_a - at_b));
-    if (std::abs(next - std::exchange(root, next)) <= accuracy / 10 * b) break;
-    const std::optional<Passed> state = further.at(root);
-    if (!state || std::isnan(value(*state))) return std::nullopt;
-    const double now = value(*state);
-    if (now == 0) break;
-    if (now > 0) {
-      if (kept == -1) at_a /= 2;
-      b = root, at_b = now, kept = -1;
-    } else {
-      if (kept == 1) at_b /= 2;
-      a = root, at_a = now, kept = 1;
-    }
-  }
-  return is_on_the_way(before) ? std::optional(root) : std::nullopt;
+  bool lost = false; // a state that is not reached ends the search
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      [&](double factor) {
+        const std::optional<Passed> state = lost ? std::nullopt : further.at(factor);
+        lost = lost || !state || std::isnan(value(*state));
+        return lost ? 0 : value(*state);
+      },
+      before.factor, after.factor, at_before, at_after,
+      [](double from, double to) { return to - from <= accuracy * to; }, states);
+  if (lost || !is_on_the_way(before)) return std::nullopt;
+  return (low + high) / 2;
 }
 
 /// Where a value passes zero from below.

@@ -130,6 +130,23 @@ TEST_F(Margins, HeldFilmLosesItsTensionWhereTheFieldBalancesIt) {
   EXPECT_NEAR(*ahead.at("loss of tension").factor, 2, 1e-4);
 }
 
+// The least principal stress of film held along x, with free sides, is theirs, 0, until its own is none: it
+// is stretched equally then, and eps E^2 = mu (a^2 - a^-4).
+TEST_F(Margins, FilmWithFreeSidesLosesItsTensionWhereItsForceIsNone) {
+  const double stretch = 1.3;
+  const double lost = thickness / (stretch * stretch) *
+                      std::sqrt(modulus / permittivity * (stretch * stretch - std::pow(stretch, -4)));
+  const std::string held = "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+                           "permittivity = \"4e-11 F/m\"\n[patch]\nstretch_x = 1.3\n[[step]]\nkind = "
+                           "\"move\"\n[[step]]\nkind = \"voltage\"\nincrements = 7\n";
+  const auto passed = margins(held, {fmt::format("drive.voltage={} V", 1.05 * lost)});
+  ASSERT_TRUE(passed.at("loss of tension").factor) << passed.at("loss of tension").remark;
+  EXPECT_NEAR(*passed.at("loss of tension").factor, 1 / 1.05, 1e-6);
+  const auto ahead = margins(held, {fmt::format("drive.voltage={} V", 0.7 * lost), "output.margins_up_to=3"});
+  ASSERT_TRUE(ahead.at("loss of tension").factor) << ahead.at("loss of tension").remark;
+  EXPECT_NEAR(*ahead.at("loss of tension").factor, 1 / 0.7, 1e-6);
+}
+
 // A force that comes last stretches the film l times under 3 kV and the stress 60 kPa: at the factor f on the
 // voltage the true field l^2 f V / H is the breakdown field where 60 kPa l = mu (l^2 - l^-4) - eps E^2.
 TEST_F(Margins, WhatAForcePassesIsTheFactorOnTheVoltage) {
