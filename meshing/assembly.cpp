@@ -51,10 +51,17 @@ void renumber(Mesh& mesh, const std::vector<int>& number) {
   }
 }
 
-/// Sides of the film whose nodes are all in a place.
+/// Sides of the film, and walls, whose nodes are all in a place.
 std::vector<OuterSide> sides_in(const Mesh& mesh, const std::vector<int>& place) {
-  if (!mesh.film() || mesh.film()->type == CellType::rod2) return {};
-  std::vector<OuterSide> sides = outer_sides(*mesh.film());
+  std::vector<OuterSide> sides;
+  if (mesh.film() && mesh.film()->type != CellType::rod2) sides = outer_sides(*mesh.film());
+  if (const CellBlock* walls = mesh.walls())
+    for (int i = 0; i < walls->size(); ++i) {
+      const auto nodes = walls->cell(i);
+      OuterSide& side =
+          sides.emplace_back(OuterSide{.cell = i, .corner_count = 2, .node_count = nodes.size()});
+      std::ranges::copy(nodes, side.own.begin());
+    }
   std::erase_if(sides, [&](const OuterSide& side) {
     return !std::ranges::all_of(side.nodes(),
                                 [&](int node) { return std::ranges::binary_search(place, node); });
@@ -142,10 +149,11 @@ void join(Mesh& mesh, const std::string& place, const std::string& other) {
     joined.insert(nearest);
   }
   if (const int hanging = hanging_node(mesh, *more, *fewer, joined); hanging >= 0)
-    throw MeshError(fmt::format("\"{}\" and \"{}\" cannot be tied: the node at ({:.6g}, {:.6g}, {:.6g}) m of "
-                                "the one is between nodes "
-                                "of the other, and would hang free; mesh both places alike (mesh.across)",
-                                place, other, at(hanging).x(), at(hanging).y(), at(hanging).z()));
+    throw MeshError(
+        fmt::format("\"{}\" and \"{}\" cannot be tied: the node at ({:.6g}, {:.6g}, {:.6g}) m of "
+                    "the one is between nodes "
+                    "of the other, and would hang free; mesh both places alike (mesh.across, mesh.order)",
+                    place, other, at(hanging).x(), at(hanging).y(), at(hanging).z()));
   std::vector<int> number(mesh.nodes.size());
   std::vector<Eigen::Vector3d> nodes;
   for (std::size_t n = 0; n < number.size(); ++n) {
