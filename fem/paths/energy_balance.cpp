@@ -101,22 +101,24 @@ void EnergyBalance::account(const EnergyPoint& point) {
   const double change = total(point.energy) - stored();
   double heat = point.friction - record_.points.back().friction, leak_through_sheet = 0, doubt = 0;
   const bool flows = point.flow != 0 || point.sheet.coordinate != record_.points.back().sheet.coordinate;
+  const Integral resisted = interval.over(&EnergyPoint::resistance);
+  double resistance = resisted.value;
   if (interval.duration() > 0) {
     const Integral flow = interval.over(EnergyPoint::dashpots);
     const bool fine = std::abs(flow.value - point.flow) <= agreement * point.flow;
     const Integral damped = interval.over(EnergyPoint::dampers);
     const Integral conducted = interval.over(&EnergyPoint::sheet);
-    const Integral resisted = interval.over(&EnergyPoint::resistance);
     const Integral leaked = interval.over(EnergyPoint::leak);
     leak_through_sheet = interval.over(EnergyPoint::leak_through_sheet).value;
     heat += (fine ? flow.value : std::max(0.0, point.flow)) + std::max(0.0, damped.value) +
             std::max(0.0, conducted.value + leak_through_sheet);
-    record_.work.resistance +=
-        std::max(0.0, resisted.value + interval.over(EnergyPoint::leak_through_resistance).value);
+    resistance += interval.over(EnergyPoint::leak_through_resistance).value;
     record_.work.leak += std::max(0.0, leaked.value);
     doubt = std::abs(flow.value - point.flow) * (fine ? one_order : 1) + std::abs(damped.curvature) +
-            std::abs(conducted.curvature) + std::abs(resisted.curvature) + std::abs(leaked.curvature);
+            std::abs(conducted.curvature) + std::abs(leaked.curvature);
   }
+  record_.work.resistance += std::max(0.0, resistance);
+  doubt += std::abs(resisted.curvature);
   Work& work = record_.work;
   const double rest = change + heat - electrical.value - leak_through_sheet - mechanical.value;
   const double range = electrical.range + mechanical.range;
@@ -268,14 +270,16 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   }
   point.electrical = {voltage.head(electrodes), charge.head(electrodes)};
   point.resistance = {Eigen::VectorXd::Zero(electrodes), point.electrical.coordinate};
-  for (const Circuit& circuit : model.circuits)
-    if (const auto e = static_cast<std::size_t>(circuit.electrode); flows(state.supply[e])) {
-      const double drop = is_isolated(state.supply[e]) ? 0 : state.source[e] - state.voltage[e];
-      point.resistance.force[circuit.electrode] = drop;
-      if (std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode)) continue;
-      point.power[EnergyPoint::leak] += circuit.leakage * state.voltage[e] * state.voltage[e];
-      point.power[EnergyPoint::leak_through_resistance] += circuit.leakage * state.voltage[e] * drop;
-    }
+  for (const Circuit& circuit : model.circuits) {
+    const auto e = static_cast<std::size_t>(circuit.electrode);
+    const double drop = is_isolated(state.supply[e]) ? 0 : state.source[e] - state.voltage[e];
+    // Without time, too: charges that follow a source that holds warm its resistance however long they take.
+    point.resistance.force[circuit.electrode] = drop;
+    if (!flows(state.supply[e]) || std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode))
+      continue;
+    point.power[EnergyPoint::leak] += circuit.leakage * state.voltage[e] * state.voltage[e];
+    point.power[EnergyPoint::leak_through_resistance] += circuit.leakage * state.voltage[e] * drop;
+  }
   if (!model.sheets.empty()) {
     point.sheet = {state.sheet_drop, sheet_charges(model, state)};
     if (state.sheet_drop.size() == 0) point.sheet.force.setZero(point.sheet.coordinate.size());
