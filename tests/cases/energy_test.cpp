@@ -350,8 +350,9 @@ TEST_F(Energy, without_time_the_source_gives_what_leaks) {
 
 // The patch is held as drawn: whatever the way, the source gives V Q, and half of that is heat in its
 // resistance.
-TEST_F(Energy, charges_that_flow_while_the_device_relaxes_warm_the_resistance) {
-  for (const char* last : {"kind = \"relax\"\nincrements = 3\n", "kind = \"hold\"\nduration = \"2 s\"\n"}) {
+TEST_F(Energy, charges_that_flow_without_time_or_in_it_warm_the_resistance) {
+  for (const char* last :
+       {"kind = \"relax\"\nincrements = 3\n", "kind = \"hold\"\nduration = \"2 s\"\n", "kind = \"move\"\n"}) {
     const auto rows = run(film(40e3) +
                           "[patch]\nstretch_x = 1\nstretch_y = 1\n[circuit]\nresistance = \"10 GOhm\"\n"
                           "[drive]\nvoltage = { wave = \"step\", to = \"4 kV\" }\n[[step]]\nkind = "
