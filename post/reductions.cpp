@@ -106,9 +106,12 @@ bool same_kind(const fem::BeamSample&, const fem::BeamSample&) { return true; }
 } // namespace
 
 double rise_at(const Extremum& extremum, const fem::Samples& samples, const meshing::Mesh& mesh,
-               std::string_view scalar) {
-  const meshing::CellBlock& block = extremum.part == Part::film ? *mesh.film() : *mesh.walls();
-  const std::vector<char> near = neighbourhood(block, extremum.cell);
+               std::span<const int> film_parts, std::string_view scalar) {
+  const bool film = extremum.part == Part::film;
+  const auto cell = static_cast<std::size_t>(extremum.cell);
+  std::vector<char> near = neighbourhood(film ? *mesh.film() : *mesh.walls(), extremum.cell);
+  for (std::size_t other = 0; film && other < near.size(); ++other)
+    if (film_parts[other] != film_parts[cell]) near[other] = 0;
   return with_scalar(samples, scalar,
                      [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field,
                                                     int component, Part) {

@@ -91,10 +91,10 @@ class Extremes {
 
 /// How steep a scalar is where it is extreme: the largest difference between the extremum and the values at
 /// the integration points of its cell and of the cells next to it, in the scalar's unit. Cells next to it are
-/// film cells of the same electrode and layer that share a side, walls that alone share an end. Throws
-/// std::invalid_argument for an unknown name.
+/// film cells of the same part (a number for each cell of the film), electrode and layer that share a side,
+/// walls that alone share an end. Throws std::invalid_argument for an unknown name.
 double rise_at(const Extremum& extremum, const fem::Samples& samples, const meshing::Mesh& mesh,
-               std::string_view scalar);
+               std::span<const int> film_parts, std::string_view scalar);
 
 /// Cell averages of one scalar. Throws std::invalid_argument for an unknown name.
 std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count);

@@ -62,7 +62,8 @@ void add_results(Solution& solution, const Case& one, const Simulation& simulati
     const auto extremum = quantity.kind->extreme && each.at.empty()
                               ? extremes.find(quantity.of, quantity.extreme)
                               : std::nullopt;
-    solution.rises.push_back(extremum ? post::rise_at(*extremum, samples, device.mesh, quantity.of) : 0);
+    solution.rises.push_back(
+        extremum ? post::rise_at(*extremum, samples, device.mesh, device.film_parts, quantity.of) : 0);
   }
 }
 

@@ -81,8 +81,9 @@ fem::Samples points_at(std::initializer_list<std::pair<int, double>> cells_and_v
   return samples;
 }
 
-double rise_of(const fem::Samples& samples, const meshing::Mesh& mesh, const char* scalar) {
-  return rise_at(*Extremes(samples).find(scalar, Extreme::maximum), samples, mesh, scalar);
+double rise_of(const fem::Samples& samples, const meshing::Mesh& mesh, const char* scalar,
+               std::vector<int> parts = {0, 0, 0}) {
+  return rise_at(*Extremes(samples).find(scalar, Extreme::maximum), samples, mesh, parts, scalar);
 }
 
 TEST(Reductions, RiseIsTheChangeOverTheCellAndItsNeighbours) {
@@ -96,6 +97,13 @@ TEST(Reductions, RiseDoesNotLeaveTheElectrode) {
   fem::Samples samples = points_at({{0, 4000}, {0, 3900}, {1, 0}});
   samples.film.back().electrode = -1;
   EXPECT_DOUBLE_EQ(rise_of(samples, square_mesh(), "electric_field"), 0.1e6);
+}
+
+// Nor are two films' fields of one drive.
+TEST(Reductions, RiseDoesNotLeaveTheFilm) {
+  const fem::Samples samples = points_at({{0, 4000}, {0, 3900}, {1, 0}});
+  EXPECT_DOUBLE_EQ(rise_of(samples, square_mesh(), "electric_field", {0, 1}), 0.1e6);
+  EXPECT_DOUBLE_EQ(rise_of(samples, square_mesh(), "electric_field", {1, 1}), 4e6);
 }
 
 TEST(Reductions, RiseNeedsACommonSide) {
