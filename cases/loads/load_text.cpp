@@ -32,4 +32,16 @@ std::string load_text(const fem::Model& model, const fem::LoadPath& path, const 
   return s > 0 ? fmt::format("load factor {:.5g}", s) : "the beginning of the step";
 }
 
+std::string endless_text(const std::string& step, double s, const fem::RampOptions& options) {
+  return fmt::format(
+      "step \"{}\" stopped at load factor {:.4g}: with more than {} increments for a tenth of it it "
+      "would hardly end. A larger solver.time_tolerance or solver.smallest_increment makes them "
+      "longer, or says where it fails{}",
+      step, s, options.most_tries,
+      options.inertia ? ". They follow every wave of what has a mass, film too, through which loads that "
+                        "jump send waves that nothing but a viscosity damps; beside a heavy plate or "
+                        "body film may be without density"
+                      : "");
+}
+
 } // namespace dielast::cases

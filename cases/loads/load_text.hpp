@@ -3,6 +3,7 @@
 
 #include "fem/model/model.hpp"
 #include "fem/paths/load_path.hpp"
+#include "fem/paths/ramp.hpp"
 
 #include <string>
 
@@ -12,5 +13,8 @@ namespace dielast::cases {
 /// beginning, in a timed step since the moment before it.
 std::string load_text(const fem::Model& model, const fem::LoadPath& path, const fem::State& at, double s,
                       bool timed);
+
+/// Why a step is stopped at load factor s that would hardly come to its end, and what helps.
+std::string endless_text(const std::string& step, double s, const fem::RampOptions& options);
 
 } // namespace dielast::cases

@@ -154,11 +154,7 @@ Outcome StepRun::run() {
     Trouble trouble{fem::ramp(equilibrium_, path_, options_, progress_.ramp, watcher)};
     if (trouble.ramp.end == fem::RampEnd::complete) break;
     if (trouble.ramp.end == fem::RampEnd::endless)
-      return {Ending::gave_up, "no end",
-              fmt::format("step \"{}\" stopped at load factor {:.4g}, after {} increments: they have become "
-                          "so small that it would not end. A larger solver.time_tolerance or "
-                          "solver.smallest_increment makes them longer, or says where it fails",
-                          step_.name, progress_.ramp.load_factor, options_.most_tries)};
+      return {Ending::gave_up, "no end", endless_text(step_.name, progress_.ramp.load_factor, options_)};
     if (trouble.ramp.end == fem::RampEnd::stopped) {
       if (!leaving_) return {Ending::interrupted};
       trouble = *std::exchange(leaving_, std::nullopt);

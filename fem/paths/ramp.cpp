@@ -23,6 +23,7 @@ constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
 constexpr double smallest_on_path = 1e-9;  ///< of the load factor, where other branches are found
 constexpr double longest_kinked = 1e-4;    ///< increment, see Steadiness
 constexpr double first_moment = 1e-3;      ///< of an increment in time: its start, with dashpots that flow
+constexpr double enough_progress = 0.1;    ///< of a step, within the most tries
 constexpr double farthest_slope = 100;     ///< of an increment, over the model's extent
 constexpr double tiny = 1e-300;
 
@@ -332,8 +333,10 @@ bool Ramp::notify(bool lands, double length, bool jumped) {
 RampResult Ramp::run() {
   progress_.points.back().parameter = parameter(progress_.load_factor);
   if (progress_.load_factor == 0 && !flow()) return {RampEnd::gave_up, 0, newton_};
-  for (int tries = 0; progress_.load_factor < 1; ++tries) {
-    if (tries == options_.most_tries) return {RampEnd::endless, progress_.load_factor, newton_};
+  const double from = progress_.load_factor;
+  for (double tries = 0; progress_.load_factor < 1; ++tries) {
+    if (tries >= options_.most_tries * std::max(1.0, (progress_.load_factor - from) / enough_progress))
+      return {RampEnd::endless, progress_.load_factor, newton_};
     if (timed() && progress_.at_break) {
       if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
       if (jumped_) {

@@ -15,7 +15,7 @@ struct RampOptions {
   NewtonOptions newton;
   int increments = 1;               ///< the largest increment is this part of the step
   double smallest_increment = 1e-3; ///< of the load factor; a step that needs less gives up
-  int most_tries = 1000000;         ///< increments, in vain or not; a step that needs more has no end
+  int most_tries = 1000000;  ///< increments, in vain or not; a step that needs more for a tenth has no end
   double landing = 0;        ///< load factors at whose multiples a result is wanted; 0: at every 1/increments
   std::vector<double> stops; ///< load factors where results are wanted instead, ascending, and at the end
   double duration = 0;       ///< s; 0: no time passes
