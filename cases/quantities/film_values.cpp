@@ -8,6 +8,7 @@
 #include "fem/solids/tetrahedron.hpp"
 
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -18,7 +19,8 @@ namespace {
 
 using meshing::CellType;
 
-constexpr double close_by = 1e-3; ///< of an element's size
+constexpr double close_by = 1e-3;   ///< of an element's size
+constexpr double no_further = 0.02; ///< of I1 - 3, that a law at its limit does not let grow
 
 /// Values of the shape functions at a place in an element and their derivatives there.
 struct LocalShape {
@@ -241,6 +243,35 @@ std::vector<char> films_of(const std::string& place, const Case& one, const Devi
     counted.push_back(parts.contains(part_of(points.film.front().cell)));
   }
   return counted;
+}
+
+std::string law_limit(const Case& one, const Device& device, const fem::State& state) {
+  const auto& samples = device.model.sample(state).film;
+  int count = 0;
+  double largest = 0;
+  std::string of;
+  for (const fem::MembraneSample& at : samples) {
+    const Part& part =
+        one.parts[static_cast<std::size_t>(device.film_parts[static_cast<std::size_t>(at.cell)])];
+    const materials::ElasticLaw& law =
+        at.layer == 0 ? part.film->material.law
+                      : part.film->further_layers[static_cast<std::size_t>(at.layer) - 1].material.law;
+    const Eigen::Matrix2d C = at.F.transpose() * at.F;
+    const double I1 = at.solid ? at.solid->F.squaredNorm() : C.trace() + 1 / C.determinant();
+    if (!std::isfinite(I1) || materials::admits(law, I1 + no_further * (I1 - 3))) continue;
+    ++count;
+    if (I1 - 3 <= largest) continue;
+    largest = I1 - 3;
+    of = fmt::format("law \"{}\"{}", std::visit([](const auto& it) { return it.name; }, law),
+                     part.name.empty() ? "" : fmt::format(" of part \"{}\"", part.name));
+  }
+  if (count == 0) return "";
+  return fmt::format(
+      "the film is at the limit of its {}, beyond which nothing stretches it (I1 - 3 = {:.4g}; within {:g} "
+      "% of the limit in {} of {} integration points). Move or load it less, prestretch it less, or take a "
+      "law "
+      "with a higher limit",
+      of, largest, 100 * no_further, count, samples.size());
 }
 
 } // namespace dielast::cases

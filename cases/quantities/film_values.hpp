@@ -52,6 +52,10 @@ fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state);
 /// Which of a device's blocks of film have elements at a place, or beside them in the same part.
 std::vector<char> films_of(const std::string& place, const Case& one, const Device& device);
 
+/// Where film is so near the limit of stretch of its law (Gent, Arruda-Boyce) that it takes the whole device
+/// no further, in words, with what to do; empty where none is.
+std::string law_limit(const Case& one, const Device& device, const fem::State& state);
+
 /// Mean of `value(sample, reading)`; NaN without readings.
 template<class Value>
 double mean(const std::vector<FilmReading>& readings, const fem::Samples& samples, Value&& value) {

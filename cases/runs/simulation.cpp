@@ -3,6 +3,7 @@
 
 #include "cases/case/sudden_motion.hpp"
 #include "cases/language/conditions.hpp"
+#include "cases/quantities/film_values.hpp"
 #include "cases/runs/phases.hpp"
 #include "fem/linear/rest.hpp"
 #include "fem/paths/homotopy.hpp"
@@ -378,6 +379,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
           if (observer.on_critical) observer.on_critical(critical, event);
         },
         [&](double s, const fem::State& state) { return admits(step, s, state); },
+        [this](const fem::State& state) { return law_limit(case_, device_, state); },
         [&](const fem::State& state, const fem::Increment& increment, Reached reached) {
           return accept(observer, step, state, increment, reached);
         }};

@@ -160,6 +160,10 @@ Outcome StepRun::run() {
       trouble = *std::exchange(leaving_, std::nullopt);
     } else if (trouble.ramp.failure.outcome == fem::Outcome::refused) {
       return {Ending::gave_up}; // whoever refuses says why
+    } else if (const std::string limit = observer_.law_limit(last()); !limit.empty()) {
+      return {Ending::gave_up, "stretch limit",
+              fmt::format("step \"{}\" stopped at {}: {}", step_.name, load_text(progress_.ramp.load_factor),
+                          limit)};
     } else if (timed()) {
       trouble.critical = limit_in_time();
     } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows() &&

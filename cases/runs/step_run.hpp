@@ -33,6 +33,8 @@ struct StepObserver {
   std::function<void(const fem::CriticalPoint&, const post::Event&)> on_critical;
   /// Whether physics allows a state under load control; a step that gets to no other one gives up.
   std::function<bool(double load_factor, const fem::State&)> admits;
+  /// Says where the film cannot stretch any more in the state at which load control ends; empty: nowhere.
+  std::function<std::string(const fem::State&)> law_limit;
   /// Returns false to stop here (interrupt). Dashpots of the state are frozen.
   std::function<bool(const fem::State&, const fem::Increment&, Reached)> on_accept;
 };

@@ -48,6 +48,25 @@ TEST_F(Events, WallsTouchOnReleaseOfNearlyClosedCells) {
     EXPECT_FALSE(contact_on_release(angle)) << angle;
 }
 
+// Nothing stretches a Gent film beyond its limit, whatever the step may do at instabilities.
+TEST_F(Events, FilmAtTheLimitOfItsLawIsNoLimitPoint) {
+  for (const char* law :
+       {"law = \"gent\"\nstretch_limit = 5", "law = \"arruda-boyce\"\nlocking_stretch = 1.6"})
+    for (const char* then : {"stop", "jump"}) {
+      write("locks.toml",
+            std::string("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+                        "permittivity = \"4e-11 F/m\"\n") +
+                law + "\n[patch]\nstretch_x = 4\n[[step]]\nkind = \"move\"\non_instability = \"" + then +
+                "\"\n[output]\nerror_estimate = false\nfields = false\n");
+      EXPECT_EQ(dielast({"run", "locks.toml", "-o", "out", "-q"}).exit_code, 4);
+      const auto all = json_of("out/summary.json")["events"];
+      ASSERT_TRUE(of_kind(all, "stretch limit")) << law << all.dump(1);
+      EXPECT_FALSE(of_kind(all, "limit point")) << law << all.dump(1);
+      EXPECT_NE((*of_kind(all, "stretch limit"))["message"].get<std::string>().find("the limit of its law"),
+                std::string::npos);
+    }
+}
+
 // Newton's method that is not let go on finds nothing, but no stiffness vanishes there.
 TEST_F(Events, TooFewIterationsAreNoCriticalPoint) {
   for (const char* most : {"1", "2", "3"}) {
