@@ -25,6 +25,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <malloc.h>
 #include <map>
 
@@ -83,7 +84,8 @@ ExitCode mesh(const Arguments& arguments) {
       .write({0, "drawn"}, {drawn.displacement, drawn.rotation, samples});
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
   const std::string gmsh_name = one.source.stem().string() + ".msh";
-  if (!of_revolution) folder.write(gmsh_name, meshing::gmsh_text(device.mesh));
+  // Bars beside their lines are linked to them by what no mesh file can say: there they are the lines.
+  if (!of_revolution) folder.write(gmsh_name, meshing::gmsh_text(cases::build_mesh(one)));
   folder.set_complete(static_cast<int>(ExitCode::ok));
   cases::say("{}places:\n", meshing::format(meshing::quality(device.mesh)));
   for (const auto& [name, nodes] : device.mesh.node_sets) {
@@ -93,7 +95,15 @@ ExitCode mesh(const Arguments& arguments) {
         cells == device.mesh.cell_sets.end() ? "" : fmt::format(" {:>6} cells", cells->second.cells.size()));
   }
   cases::say("written to {}\n", (folder / (one.source.stem().string() + "-mesh.pvd")).string());
-  if (!of_revolution) cases::say("and, for gmsh and [mesh] file, to {}\n", (folder / gmsh_name).string());
+  const bool set_off = std::ranges::any_of(one.parts, [](const cases::Part& part) {
+    const auto* lattice = std::get_if<cases::Honeycomb>(&part.geometry);
+    return (lattice && lattice->print == cases::WallPrint::one_face) || (part.beam && part.beam->offset != 0);
+  });
+  if (!of_revolution)
+    cases::say("and, for gmsh and [mesh] file, to {}{}\n", (folder / gmsh_name).string(),
+               set_off
+                   ? "; bars above or below the film are lines of it there: a [beam] of them needs its offset"
+                   : "");
   return ExitCode::ok;
 }
 

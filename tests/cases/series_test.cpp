@@ -146,6 +146,20 @@ TEST_F(Series, ModesAndCriticalModesReadBack) {
   EXPECT_NEAR(critical[0].blocks.at("film")->GetPointData()->GetArray("mode")->GetMaxNorm(), 1, 1e-6);
 }
 
+// Walls that are printed on one face are linked to the film by what a mesh file cannot say: there they lie in
+// it.
+TEST_F(Series, MeshFilesHaveNoLooseWalls) {
+  const auto written = [&](const char* print) {
+    const Ended ended = dielast({"mesh", "small.toml", "-o", "out", "--set", "model=3d", "--set",
+                                 std::string("honeycomb.wall_print=") + print});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(ended.out.find("needs its offset") != std::string::npos, std::string(print) == "one face")
+        << ended.out;
+    return content("out/small.msh");
+  };
+  EXPECT_EQ(written("one face"), written("merged"));
+}
+
 // Films and bars of a device of several parts can be told apart.
 TEST_F(Series, PartsAreNumbered) {
   const std::string slider = (source_folder / "cases/gallery/own_mesh/slider.toml").string();
