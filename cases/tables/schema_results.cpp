@@ -153,9 +153,8 @@ Section output_section() {
            {{"all", "every row of the history", true},
             {"last", "the last of each step, on much less disk", false}},
            to(&Case::all_states),
-           "what the series has, and whether the page has slides and its figures files of their own; points "
-           "of a "
-           "study have the last ones unless it is written")
+           "what the series has, and, with fields = false too, whether the page has slides and its figures "
+           "files of their own; points of a study have the last ones unless it is written")
           .otherwise("all"),
   };
   return section;
