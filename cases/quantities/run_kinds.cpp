@@ -101,6 +101,19 @@ double mean(References& references, const Quantity& quantity, double now, double
   return known > 0 ? integral / known : now;
 }
 
+/// Where all of the time of a run is before the mean begins it is no mean, but the value at the end.
+std::string idle_mean(const Case& one, const Quantity& quantity) {
+  bool begun = quantity.since.empty(), timed = false;
+  for (const Step& step : one.steps) {
+    timed = timed || (begun && step.duration);
+    begun = begun || step.name == quantity.since;
+  }
+  if (timed) return "";
+  return fmt::format("no time passes{}: it is the value of {} at the end; give steps a duration",
+                     quantity.since.empty() ? "" : fmt::format(" behind step \"{}\"", quantity.since),
+                     quantity.of);
+}
+
 Key subject_key() { return of_key("the quantity").refers_to(Reference::quantity); }
 
 std::string unit_of_subject(const Quantity& quantity, const std::vector<Quantity>& all) {
@@ -161,7 +174,8 @@ std::vector<QuantityKind> run_kinds() {
            },
        .so_far = mean,
        .unit_by = unit_of_subject,
-       .begin = begin_mean},
+       .begin = begin_mean,
+       .idle = idle_mean},
       {.word = "margin",
        .meaning = "factor on all voltages at the end of the run that leads to a limit, below 1 where it was "
                   "passed; none where the run does not tell (-)",

@@ -231,6 +231,27 @@ TEST_F(IdleKeys, RowsThatAStepLeavesBehindAreTold) {
   EXPECT_EQ(keys(film + disc + drive + transient), (Keys{"drive.voltage", "drive.voltage"}));
 }
 
+TEST_F(IdleKeys, AMeanOverNoTimeHasNoEffect) {
+  const auto mean = [](const char* since) {
+    return std::string("[[quantity]]\nname = \"m\"\nkind = \"mean\"\nof = \"capacitance\"\n") + since;
+  };
+  const std::string drive = "[drive]\nvoltage = \"1 kV\"\n";
+  const std::string hold = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\n";
+  write("mean.toml", film + disc + drive + ramp + mean(""));
+  const auto warnings = read_case(directory / "mean.toml").warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].key, "quantity[1]");
+  EXPECT_NE(warnings[0].message.find("no time passes"), std::string::npos) << warnings[0].message;
+  for (const auto& [steps, since] : {std::pair{ramp + hold, ""}, {ramp + hold, "since = \"voltage\"\n"}}) {
+    write("mean.toml", film + disc + drive + steps + mean(since));
+    for (const Diagnostic& warning : read_case(directory / "mean.toml").warnings)
+      EXPECT_EQ(warning.message.find("no time passes"), std::string::npos) << warning.message;
+  }
+  write("mean.toml", film + disc + drive + ramp + hold + mean("since = \"hold\"\n"));
+  EXPECT_NE(read_case(directory / "mean.toml").warnings.at(0).message.find("behind step \"hold\""),
+            std::string::npos);
+}
+
 // Nothing creeps, but the support's forces go.
 TEST_F(IdleKeys, AStepThatLetsASupportGoHasAnEffect) {
   const std::string relax = "[[step]]\nkind = \"relax\"\n";
