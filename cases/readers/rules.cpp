@@ -178,10 +178,14 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
   if (one.chamber && !one.bodies.empty())
     reader.report(
         tree.find("chamber")->key_source, "chamber",
-        fmt::format("its volume under a [[body]], which may tilt or close it, is not known; here is "
-                    "\"{}\"{}. A [plate] may take its place",
-                    one.bodies.front().name,
-                    written->items.front().source.is_written() ? "" : ", which the geometry brings"));
+        fmt::format(
+            "its volume under a [[body]], which may tilt or close it, is not known; here is "
+            "\"{}\"{}",
+            one.bodies.front().name,
+            written->items.front().source.is_written()
+                ? ". A [plate] may take its place"
+                : ", which the geometry brings: leave [chamber] out. A tube with a pressure inside may be a "
+                  "[slab] of solid, of revolution, with chamber.at = \"left\""));
   for (std::size_t f = 0; f < one.fins.size(); ++f)
     if (!fem::moves(one.dimension, one.fins[f].along))
       reader.report(tree.find("fin")->items[f].source, fmt::format("fin[{}].along", f + 1),
