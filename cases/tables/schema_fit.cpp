@@ -45,7 +45,10 @@ Section test_section() {
       word("kind",
            {{"uniaxial", "one axis is pulled, the others are free", materials::Mode::uniaxial},
             {"pure shear", "one axis is pulled, the width is held", materials::Mode::pure_shear},
-            {"equal-biaxial", "two axes are pulled alike", materials::Mode::equal_biaxial}},
+            {"equal-biaxial",
+             "two axes are pulled alike; where nominal dashpots flow along one of them alone, the stress is "
+             "the mean of both",
+             materials::Mode::equal_biaxial}},
            to(&FitTest::kind), "how the film is held"),
       text("stretch", to(&FitTest::stretch_column),
            "column of the stretch, a number that is 1 in the undeformed film; without it \"stretch\"")
