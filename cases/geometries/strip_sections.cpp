@@ -12,7 +12,8 @@ Section strip_section() {
   };
   Section section;
   section.name = "strip";
-  section.meaning = "a strip of film, or a stack of layers, clamped at both ends, that hangs along -y";
+  section.meaning = "a strip of film, or a stack of layers, clamped at both ends, that hangs along -y; a "
+                    "case of its own, no part";
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<Strip>();
   section.keys = {
@@ -47,7 +48,7 @@ Section roll_section() {
   Section section;
   section.name = "roll";
   section.meaning = "film wound around a core: a cylinder of layers about z, with one prestretch along it "
-                    "and one around it";
+                    "and one around it; a case of its own, no part";
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<Roll>();
   section.keys = {
