@@ -130,7 +130,8 @@ PartKind solid_kind() {
           .meaning =
               "it is meshed: in plane strain (model = \"planar\") or of revolution of 6-node triangles, in "
               "space "
-              "of 10-node tetrahedra; the default of a [slab] and a [hollow_sphere]",
+              "of 10-node tetrahedra; the default of a [slab] and a [hollow_sphere]. All films of a case are "
+              "solids, or none",
           .section = FilmSection::solid,
           .is = is_film_of<FilmSection::solid>,
           .check = check_solid,

@@ -139,7 +139,9 @@ void check_surfaces(SectionReader& reader, const Node& tree, const Case& one) {
     return;
   }
   if (one.any_film([](const Film& film) { return !film.is_solid(); }))
-    reader.report(tree.source, "part", "solids and other films cannot be in one case");
+    reader.report(tree.source, "part",
+                  "solids and other films (membranes, shells, rods) cannot be in one case: give all films "
+                  "section = \"solid\", or none");
   const auto has_potential = [](const Film& film) { return film.potential; };
   if (one.any_film(has_potential) && one.any_film(std::not_fn(has_potential)))
     reader.report(tree.source, "part", "give all solids of a case the same field");
