@@ -142,7 +142,8 @@ Section beam_section() {
 Section rolls_section() {
   Section section;
   section.name = "antagonistic_rolls";
-  section.meaning = "two rolls of film, beside a hinge, that turn a tip by ribbons; of the film in [film]";
+  section.meaning = "two rolls of film, beside a hinge, that turn a tip by ribbons; of the film in [film]; "
+                    "a case of its own, no part";
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<AntagonisticRolls>();
   section.keys = rod_keys<AntagonisticRolls>([](auto& rolls) -> auto& { return rolls.roll; });
