@@ -104,7 +104,7 @@ Section controller_section() {
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& controller = *static_cast<const Controller*>(object);
     if (controller.lowest < controller.highest) return std::nullopt;
-    return Conflict{"highest", "must be above lowest"};
+    return Conflict{"highest", "must be above lowest, 0 where nothing else is written"};
   };
   section.acts = {"a step of kind \"transient\" in which what it drives is given: electrodes connected, the "
                   "chamber open to a pressure or pumped up",

@@ -3,6 +3,8 @@
 
 #include "cases/language/schema.hpp"
 
+#include <fmt/format.h>
+
 namespace dielast::cases {
 
 inline constexpr const char* driven_meaning = "electrodes whose sources swing together, by 1 V each; without "
@@ -30,7 +32,10 @@ std::vector<Key> sweep_keys(Sweep T::*sweep, const std::string& purpose, std::st
 
 inline std::optional<Conflict> sweep_conflict(const Sweep& sweep) {
   if (sweep.from < sweep.to) return std::nullopt;
-  return Conflict{"from", "must be below the highest frequency"};
+  return Conflict{"from",
+                  fmt::format("must be below the highest frequency: to is {:.6g} Hz, its default where "
+                              "nothing else is written",
+                              sweep.to)};
 }
 
 } // namespace dielast::cases
