@@ -127,8 +127,11 @@ void SectionReader::read_table(const Section& section, const Node& node, void* o
   if (section.check && diagnostics_.size() + unread_ == errors_before)
     if (const auto conflict = section.check(object)) {
       const Node* blamed = node.find(conflict->key);
+      const Key* key = blamed ? nullptr : section.find_key(conflict->key, section.selected_in(object));
       report(blamed ? blamed->source : node.source, joined(path, conflict->key),
-             blamed ? fmt::format("found {}: {}", text_of(*blamed), conflict->message) : conflict->message);
+             blamed                 ? fmt::format("found {}: {}", text_of(*blamed), conflict->message)
+             : key && key->fallback ? fmt::format("{} by default: {}", *key->fallback, conflict->message)
+                                    : conflict->message);
     }
 }
 
@@ -180,8 +183,9 @@ void SectionReader::set(const Key& key, const Node& node, const Node& table, voi
         convert(key, node, *unit, [&](const Node& inner) { return read_wave(key, inner, path); });
     key.binding.set(object, value);
     keys_[path] = node.source;
+    const std::string named = table.find(key.name) ? path : path + " (default)";
     for (const Scalar& scalar : value)
-      if (key.refers != Reference::none) mentions_[key.refers].push_back({scalar.text, path, node.source});
+      if (key.refers != Reference::none) mentions_[key.refers].push_back({scalar.text, named, node.source});
   } catch (const Mismatch& wrong) {
     report(wrong.source, path, wrong.message);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/parts/part_kinds.hpp"
 
+#include "cases/language/schema.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,10 +41,14 @@ void WrittenPart::report(const std::string& table, const std::string& message) c
 
 void WrittenPart::report_film(const char* key, const std::string& message) const {
   const Node& film = *top().find("film");
-  const Node* written = film.find(key);
-  if (written && !written->source.is_written()) written = nullptr; // the geometry has brought it
-  reader.report(written ? written->source : film.source, path(fmt::format("film.{}", key)),
-                written ? fmt::format("found {}: {}", text_of(*written), message) : message);
+  const Node* there = film.find(key);
+  const bool written = there && there->source.is_written(); // otherwise the geometry has brought it
+  const Key* known = there ? nullptr : case_schema().find_section("film")->find_key(key, "");
+  const std::string value = there ? text_of(*there) : known && known->fallback ? *known->fallback : "";
+  reader.report(written ? there->source : film.source, path(fmt::format("film.{}", key)),
+                written         ? fmt::format("found {}: {}", value, message)
+                : value.empty() ? message
+                                : fmt::format("{} by default: {}", value, message));
 }
 
 const Part* WrittenPart::meshed() const { return part.has_mesh() ? &part : one.unnamed(); }

@@ -312,6 +312,29 @@ TEST(Places, UnknownOnesAreReportedWhereTheyWereWritten) {
   }
 }
 
+TEST(Places, ThoseThatNobodyWroteAreCalledDefaults) {
+  const test::ScratchFolder folder;
+  std::ofstream(folder / "case.toml") << R"([film]
+thickness = "1 mm"
+[film.material]
+shear_modulus = "40 kPa"
+permittivity = "4e-11 F/m"
+[disc]
+radius = "20 mm"
+electrode_radius = "10 mm"
+[plate]
+mass = "1 g"
+)";
+  try {
+    check_places(read_case(folder / "case.toml"),
+                 {"centre", "electrode", "electrode_edge", "film", "passive", "rim"});
+    FAIL();
+  } catch (const CaseError& error) {
+    ASSERT_EQ(error.diagnostics().size(), 1u);
+    EXPECT_EQ(error.diagnostics()[0].key, "plate.at (default)");
+  }
+}
+
 // Smaller increments lead to the same state: what is checked there holds.
 TEST(Reader, ChecksStayWhereOnlyTheWayThereIsSet) {
   const std::filesystem::path file =
