@@ -16,21 +16,27 @@ constexpr double same_break = 2e-9;
 /// Where ramps lead: a wave that jumps at t = 0 jumps in the transient that follows it.
 constexpr Instant just_before_start{0, true};
 
-/// Shortest relaxation time of the film's branches, of its circuits and of its sheets, s; infinite without.
-double shortest_relaxation(const materials::Material& material, const fem::Model& model) {
-  double shortest = std::numeric_limits<double>::infinity();
+/// Of all that flows, s.
+struct RelaxationTimes {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+
+  void add(double time) {
+    shortest = std::min(shortest, time);
+    if (std::isfinite(time)) longest = std::max(longest, time);
+  }
+};
+
+/// Adds those of the film's branches, of its circuits and of its sheets.
+void add_relaxation(const materials::Material& material, const fem::Model& model, RelaxationTimes& times) {
   for (const materials::Branch& branch : material.branches)
-    shortest = std::min(shortest, branch.viscosity / materials::initial_shear_modulus(branch.law));
-  if (material.viscosity > 0)
-    shortest = std::min(shortest, material.viscosity / materials::initial_shear_modulus(material.law));
+    times.add(branch.viscosity / materials::initial_shear_modulus(branch.law));
+  if (material.viscosity > 0) times.add(material.viscosity / materials::initial_shear_modulus(material.law));
   const fem::Charges drawn = model.charges(model.initial_state(), false);
   for (const fem::Circuit& circuit : model.circuits)
-    shortest = std::min(shortest, std::min(circuit.resistance, 1 / circuit.leakage) *
-                                      drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
+    times.add(std::min(circuit.resistance, 1 / circuit.leakage) *
+              drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
   for (const fem::Sheet& sheet : model.sheets)
-    shortest =
-        std::min(shortest, sheet.resistance * drawn.capacitance[static_cast<std::size_t>(sheet.electrode)]);
-  return shortest;
+    times.add(sheet.resistance * drawn.capacitance[static_cast<std::size_t>(sheet.electrode)]);
 }
 
 } // namespace
@@ -272,15 +278,17 @@ fem::RampOptions StepLoads::options(int number) const {
       .stops = step.stops,
       .instantaneous = step.response == Response::instantaneous,
       .time_tolerance = case_.solver.time_tolerance};
+  RelaxationTimes times;
+  for (const materials::Material* material : case_.film_materials())
+    add_relaxation(*material, device_.model, times);
+  // One backward Euler step of h errs by (h / tau)^2 / 2 of what is left to relax.
+  if (std::isfinite(times.shortest))
+    options.first_time_step = std::sqrt(2 * options.time_tolerance) * times.shortest;
+  options.longest_relaxation = times.longest;
   if (!step.duration) return options;
   options.duration = *step.duration;
   options.inertia = step.inertia && device_.model.inertia.mass.nonZeros() > 0;
   if (step.record) options.landing = *step.record / *step.duration;
-  // One backward Euler step of h errs by (h / tau)^2 / 2 of what is left to relax.
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const materials::Material* material : case_.film_materials())
-    shortest = std::min(shortest, shortest_relaxation(*material, device_.model));
-  if (std::isfinite(shortest)) options.first_time_step = std::sqrt(2 * options.time_tolerance) * shortest;
   return options;
 }
 

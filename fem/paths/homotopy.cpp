@@ -8,11 +8,13 @@ namespace dielast::fem {
 
 namespace {
 
-constexpr double fading_part = 1e-3;   ///< of forces, at least
-constexpr int back_parts = 8;          ///< of loads that are taken back
-constexpr double almost_none = 0.02;   ///< of the loads
-constexpr double same_state = 1e-3;    ///< of the way
-constexpr double rounded_state = 1e-7; ///< mean displacement over the extent, where nothing moves
+constexpr double fading_part = 1e-3;    ///< of forces, at least
+constexpr int back_parts = 8;           ///< of loads that are taken back
+constexpr double almost_none = 0.02;    ///< of the loads
+constexpr double same_state = 1e-3;     ///< of the way
+constexpr double relaxation_times = 30; ///< after which little is left that flows
+constexpr double coarse_in_time = 1e-4; ///< of internal variables, where only the end is wanted
+constexpr double rounded_state = 1e-7;  ///< mean displacement over the extent, where nothing moves
 
 } // namespace
 
@@ -41,6 +43,23 @@ std::optional<State> at_rest(Equilibrium& equilibrium, State state, const RampOp
   RampProgress progress = RampProgress::begin(state, equilibrium.model().dofs, fading);
   if (ramp(equilibrium, path, fading, progress, {}).end != RampEnd::complete) return std::nullopt;
   return progress.points.back().state;
+}
+
+std::optional<State> flown(Equilibrium& equilibrium, const State& state, const RampOptions& options) {
+  if (!(options.longest_relaxation > 0)) return std::nullopt;
+  const RampOptions in_time{.newton = options.newton,
+                            .smallest_increment = options.smallest_increment,
+                            .duration = relaxation_times * options.longest_relaxation,
+                            .time_tolerance = std::max(options.time_tolerance, coarse_in_time),
+                            .first_time_step = options.first_time_step};
+  LoadPath still;
+  still.apply = [](State&, double) {};
+  RampProgress progress = RampProgress::begin(state, equilibrium.model().dofs, in_time);
+  if (ramp(equilibrium, still, in_time, progress, {}).end != RampEnd::complete) return std::nullopt;
+  State end = progress.points.back().state;
+  end.time = state.time;
+  end.history = std::make_shared<const History>(History{end.history->now, {}, {}});
+  return end;
 }
 
 bool is_reached_continuously(Equilibrium& equilibrium, const State& from, const State& to,

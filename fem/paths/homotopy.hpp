@@ -15,6 +15,11 @@ LoadPath fading_imbalance(Equilibrium& equilibrium, const State& state);
 /// its dashpots as they are, along a path on which the missing forces fade. Nothing where there is none.
 std::optional<State> at_rest(Equilibrium& equilibrium, State state, const RampOptions& options);
 
+/// The state in which dashpots, and charges along sheets, have flowed for many of their longest relaxation
+/// times (options.longest_relaxation) at the loads as they are: a path in time without inertia, coarse in
+/// time; its end has the time of `state`. Nothing where that path ends before, or without such times.
+std::optional<State> flown(Equilibrium& equilibrium, const State& state, const RampOptions& options);
+
 /// Whether a state that one increment in time has led to is also reached from the last state by a stable,
 /// continuous path: at the loads and with the time scheme of the increment, while the forces fade that the
 /// last state lacks for equilibrium. So dashpots and charges that flow much faster than the smallest

@@ -280,23 +280,28 @@ bool Ramp::flow() {
   Balance relaxed;
   equilibrium_.balance(state, relaxed);
   if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
-    State flown = equilibrium_.model().settled(std::move(state));
+    State end = equilibrium_.model().settled(std::move(state));
     const auto alike = [](double a, double b) {
       return std::abs(a - b) <= round_off * std::max(1.0, std::abs(b));
     };
-    if (std::ranges::equal(flown.history->now, last().history->now, alike)) return true;
-    progress_.points = {{parameter(progress_.load_factor), std::move(flown)}}; // the shape is held
-    newton_ = {};
-    newton_.unstable_modes = std::max(0, progress_.unstable_modes);
+    if (std::ranges::equal(end.history->now, last().history->now, alike)) return true;
+    progress_.points = {{parameter(progress_.load_factor), std::move(end)}}; // the shape is held
+    newton_ = {.unstable_modes = std::max(0, progress_.unstable_modes)};
     notify(false, 1);
     progress_.turns = true;
     return true;
   }
-  const LoadPath path = fading_imbalance(equilibrium_, state);
-  path.apply(state, 0);
-  const bool flows =
-      detour(path, std::move(state),
-             {.newton = options_.newton, .smallest_increment = options_.smallest_increment}, false);
+  const auto fades = [&](State from) {
+    from.scheme = scheme(0);
+    equilibrium_.conduct(from);
+    const LoadPath path = fading_imbalance(equilibrium_, from);
+    path.apply(from, 0);
+    return detour(path, std::move(from),
+                  {.newton = options_.newton, .smallest_increment = options_.smallest_increment}, false);
+  };
+  const State start = last(); // a detour that fails leaves its own
+  bool flows = fades(start);
+  if (const auto end = flows ? std::nullopt : flown(equilibrium_, start, options_)) flows = fades(*end);
   if (flows) notify(false, 1);
   progress_.turns = true;
   return flows;

@@ -22,7 +22,8 @@ struct RampOptions {
   bool instantaneous = false;   ///< no time passes: dashpots stay as they are; otherwise they flow to the end
   double time_tolerance = 1e-6; ///< local error of internal variables and motion per increment, relative
   double first_time_step = 0;   ///< s, after every break; 0: the largest increment
-  bool inertia = false;         ///< what has a mass moves by generalised-alpha; otherwise without inertia
+  double longest_relaxation = 0; ///< s, of all that flows; 0: unknown, or nothing flows
+  bool inertia = false;          ///< what has a mass moves by generalised-alpha; otherwise without inertia
   double high_frequencies = 0.8; ///< what generalised-alpha leaves of the highest ones after a step, 0..1
 
   /// Where behind the load factor s a result is wanted.
@@ -102,7 +103,9 @@ struct RampResult {
 /// parts, so that their work can be told. An increment that is as small as may be, and still too long for
 /// what flows in it, is accepted where is_reached_continuously(). Where no time passes and dashpots flow that
 /// have not flowed before, or charge that has not spread along its sheet, they do so first, at the loads that
-/// the step starts from.
+/// the step starts from: while the forces fade that are missing once they have flowed, or, where that leads
+/// to no equilibrium (such forces leave a slender shell under the compression that its branches bore), in
+/// time.
 ///
 /// `progress.points.back().state` is the last accepted state.
 RampResult ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options,

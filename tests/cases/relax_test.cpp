@@ -286,6 +286,44 @@ TEST_F(RelaxTest, WithoutAnythingThatFlowsItHasNoEffect) {
   EXPECT_NE(one.warnings[0].text().find("nothing flows"), std::string::npos) << one.warnings[0].text();
 }
 
+// The branches of both layers keep the bender from growing; the forces that stand for them press it together,
+// 400 times as long as thick, until it buckles ("limit point" where it sets out).
+TEST_F(RelaxTest, ASlenderBenderFlowsToWhereAHoldLeads) {
+  const std::string layer =
+      "thickness = \"50 um\"\nmaterial = { shear_modulus = \"350 kPa\", relative_permittivity = 2.8,"
+      " branch = [{ shear_modulus = \"350 kPa\", relaxation_time = \"1 s\" }] }\n";
+  const std::string bender = R"(
+model = "3d"
+output.error_estimate = false
+rectangle = { length = "40 mm", width = "4 mm" }
+mesh = { across = 2 }
+drive.voltage = "600 V"
+support = [{ place = "left", fix = ["x", "z", "turn_y"] },
+           { place = "film", fix = ["y", "turn_x", "turn_z"] }]
+quantity = [{ name = "tip", kind = "displacement", of = "right", along = "z" }]
+[film]
+section = "shell"
+)" + layer + "[[film.layer]]\nside = \"below\"\n" +
+                             layer + "[[step]]\nkind = \"voltage\"\nincrements = 8\n";
+  double tip = 0;
+  const auto run = [&](const std::string& steps) {
+    const Case one = read(bender + steps);
+    Simulation simulation(one, 1);
+    const Outcome outcome = simulation.run({});
+    tip = last(one, simulation, "tip");
+    EXPECT_EQ(simulation.state().time > 0, steps.find("hold") != std::string::npos);
+    return outcome;
+  };
+  ASSERT_EQ(run("").ending, Ending::complete);
+  const double relaxed = tip;
+  const std::string at_once = "response = \"instantaneous\"\n[[step]]\n";
+  ASSERT_EQ(run(at_once + "kind = \"hold\"\nduration = \"40 s\"\n").ending, Ending::complete);
+  EXPECT_NEAR(tip, relaxed, 1e-5 * std::abs(relaxed));
+  const Outcome outcome = run(at_once + "kind = \"relax\"\n");
+  ASSERT_EQ(outcome.ending, Ending::complete) << outcome.message;
+  EXPECT_NEAR(tip, relaxed, 1e-8 * std::abs(relaxed));
+}
+
 // A stiff branch that has carried the field for an instant gives way by strains of 1e-4 only; but their
 // stresses make a thin film buckle (k was -5.2 mN/m), and a bender goes half of its way yet.
 TEST_F(RelaxTest, AFilmWhoseSmallFlowMattersIsNotAtRest) {
