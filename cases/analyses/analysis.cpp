@@ -65,6 +65,18 @@ double common_bias(const Device& device, const fem::State& at_rest, const std::v
   return std::ranges::all_of(driven, [&](std::size_t port) { return source(port) == bias; }) ? bias : 0;
 }
 
+/// About an unstable state what is disturbed grows: no sine answers a sine there, whatever the linear
+/// equations give. A tangent that cannot be factored is that of what nothing holds but its inertia.
+void require_stable(fem::Equilibrium& equilibrium, const fem::State& state) {
+  fem::State at = fem::relaxed(state);
+  if (!equilibrium.factor(at)) return;
+  if (const int unstable = equilibrium.tangent().unstable_modes(); unstable > 0)
+    throw AnalysisError(fmt::format("small sines go about a stable state, and this one has {} unstable "
+                                    "mode{} at the voltages of its sources: "
+                                    "a device would leave it; a step of kind \"modes\" shows how",
+                                    unstable, unstable == 1 ? "" : "s"));
+}
+
 Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
                   const fem::State& state, const Step& step) {
   const Quantity& quantity = *response_quantity(one, step.response_of);
@@ -87,6 +99,7 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
     analysis.columns.emplace_back(of_all);
   const fem::State at_rest = operating_point(device, state, driven);
   require_rest(equilibrium, at_rest);
+  require_stable(equilibrium, at_rest);
   const double bias = common_bias(device, at_rest, driven);
   if (bias != 0)
     analysis.columns.push_back(

@@ -172,6 +172,27 @@ TEST_F(Paths, the_modal_stiffness_of_a_disc_passes_zero_where_it_buckles) {
   EXPECT_LT(flat.rows.back().value, -0.1 * drawn);
 }
 
+// Beyond it the linear equations have a response still, in which nothing says that the disc would leave its
+// plane.
+TEST_F(Paths, an_unstable_disc_answers_no_small_sine) {
+  const auto ends = [&](double voltage) {
+    const Case one =
+        read(beyond_buckling("on_instability = \"follow\"\n[[step]]\nkind = \"harmonic\"\nfrom = "
+                             "\"1 Hz\"\nto = \"2 Hz\"\npoints = 2"),
+             {fmt::format("drive.voltage={} V", voltage)});
+    Simulation simulation(one, 1);
+    SimulationObserver observer;
+    observer.on_analysis = [](const Analysis&, const fem::State&) {};
+    return simulation.run(observer);
+  };
+  const Outcome stable = ends(0.9 * buckling_voltage()), unstable = ends(1.1 * buckling_voltage());
+  EXPECT_EQ(stable.ending, Ending::complete) << stable.message;
+  EXPECT_EQ(unstable.ending, Ending::gave_up);
+  EXPECT_NE(unstable.message.find("small sines go about a stable state, and this one has 1 unstable mode at"),
+            std::string::npos)
+      << unstable.message;
+}
+
 // The branch on which it buckles leaves the flat one tangentially: next to the critical voltage the two are
 // one but for round-off, and the disc has to be charged on until there is somewhere to jump to.
 TEST_F(Paths, a_disc_jumps_from_where_it_buckles_onto_its_dome) {
