@@ -24,7 +24,7 @@ std::vector<int> corners_of(const std::vector<meshing::OuterSide>& sides) {
 
 std::vector<int> bonded_corners(const Device& device) {
   const meshing::CellBlock* film = device.mesh.film();
-  if (!device.solid || !film ||
+  if (!device.bears_compression || !film ||
       (film->type != meshing::CellType::triangle6 && film->type != meshing::CellType::tetrahedron10))
     return {};
   const fem::DofMap& dofs = device.model.dofs;

@@ -22,8 +22,9 @@ namespace dielast::cases {
 namespace {
 
 constexpr int most_to_refine = 20000; ///< triangles of a user's own mesh
-/// Cells of solids with bonded corners that are refined unasked: triangles, tetrahedra.
-constexpr int most_triangles = 6000, most_tetrahedra = 300;
+/// Cells that are refined unasked where larger ones tell nothing: triangles of a plane, of shells (which have
+/// five unknowns a node), tetrahedra.
+constexpr int most_triangles = 6000, most_of_shells = 1500, most_tetrahedra = 300;
 
 /// What has become of the case on one discretisation.
 struct Solution {
@@ -122,21 +123,26 @@ bool has_fringes(const Case& one) {
   });
 }
 
-/// Where a solid's held sides end displacements go as r^0.5 (along a flat side) or r^0.6 (at a right angle),
-/// and no number on a mesh that does not grade towards the place is known to converge faster.
+/// Where the held sides of a solid or a shell end displacements go as r^0.5 (along a flat side) or r^0.6 (at
+/// a right angle), and no number on a mesh that does not grade towards the place is known to converge faster.
 constexpr OrderRange next_to_a_bonded_corner{0.5, 1};
+/// The corner of a shell is in its plane only, and most of what it does bends: between larger elements its
+/// numbers converge as elsewhere.
+constexpr double order_of_large_shells = 2;
 
-/// The solids' corners, and whether there is a field in the cells around them.
+/// The corners of solids and shells; whether they are a solid's, whose extremes are there, and whether there
+/// is a field in the cells around these. (A shell's layers are strained by bending, too, and most often
+/// elsewhere.)
 struct BondedCorners {
-  bool any = false, charged = false;
+  bool any = false, of_solid = false, charged = false;
 };
 
 BondedCorners corners_of(const Simulation& run) {
   const std::vector<int> nodes = bonded_corners(run.device());
-  if (nodes.empty()) return {};
+  if (nodes.empty() || !run.device().solid) return {.any = !nodes.empty()};
   const meshing::CellBlock& film = *run.device().mesh.film();
   const fem::Samples samples = run.device().model.sample(run.state());
-  return {true, std::ranges::any_of(samples.film, [&](const fem::MembraneSample& at) {
+  return {true, true, std::ranges::any_of(samples.film, [&](const fem::MembraneSample& at) {
             return at.solid && at.solid->field.norm() > 0 &&
                    std::ranges::any_of(film.cell(at.cell),
                                        [&](int node) { return std::ranges::binary_search(nodes, node); });
@@ -150,13 +156,23 @@ bool is_singular_with_strain(const std::string& field, const BondedCorners& corn
   return std::ranges::find(bounded, field) == bounded.end();
 }
 
-/// The other discretisations. Where solids have bonded corners larger elements tell nothing of what all of
-/// them do not resolve: smaller ones are compared with, too, as long as these are not too many.
+/// Whether elements half as large are not too many to be computed unasked.
+bool may_be_refined(const Simulation& own) {
+  const meshing::CellBlock* film = own.device().mesh.film();
+  if (!film) return true;
+  if (meshing::is_tetrahedron(film->type)) return film->size() <= most_tetrahedra;
+  return film->size() <=
+         (own.device().bears_compression && !own.device().solid ? most_of_shells : most_triangles);
+}
+
+/// The other discretisations. Where there are bonded corners larger elements tell nothing of what all of them
+/// do not resolve, and the meshes of several parts cannot always be made coarser alike: smaller ones are
+/// compared with, too, as long as these are not too many.
 std::vector<Discretisation> compared_with(const Case& one, const Simulation& own, bool corners) {
   std::vector<Discretisation> all = other_discretisations(one);
-  if (!corners || (!all.empty() && all.front().size < 1)) return all;
-  const meshing::CellBlock& film = *own.device().mesh.film();
-  if (film.size() > (meshing::is_tetrahedron(film.type) ? most_tetrahedra : most_triangles)) return all;
+  const bool none_of_parts = all.empty() && one.parts.size() > 1;
+  if ((!corners && !none_of_parts) || (!all.empty() && all.front().size < 1) || !may_be_refined(own))
+    return all;
   std::optional<Discretisation> finer = finer_discretisation(one);
   if (!finer) return all;
   if (all.size() > 1) all.resize(1);
@@ -165,11 +181,13 @@ std::vector<Discretisation> compared_with(const Case& one, const Simulation& own
 }
 
 /// Orders that the elements may have, measured on the cases of docs/verification.md.
-OrderRange orders_of(const Quantity& quantity, const Case& one, bool smooth, bool bonded) {
-  if (bonded)
-    return {std::min(next_to_a_bonded_corner.least, orders_of(quantity, one, smooth, false).least),
-            next_to_a_bonded_corner.most};
-  const QuantityKind& kind = *quantity.kind;
+OrderRange orders_of(const QuantityKind& kind, const Case& one, bool smooth, const BondedCorners& corners) {
+  if (corners.any) {
+    OrderRange orders = next_to_a_bonded_corner;
+    orders.least = std::min(orders.least, orders_of(kind, one, smooth, {}).least);
+    if (!corners.of_solid) orders.of_larger = order_of_large_shells;
+    return orders;
+  }
   if (has_fringes(one) && (kind.fields || !kind.orders)) return {0.5, 1};
   if (kind.orders) return {(*kind.orders)[0], (*kind.orders)[1]};
   return {1, smooth && !takes_time(one) ? 3.0 : 2.0};
@@ -307,7 +325,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
     } else if (quantity.kind->extreme && has_fringes(one)) {
       estimate.singular = true;
       estimate.remark = "singular where an electrode ends: no converged value";
-    } else if (quantity.kind->extreme && bonded.any && quantity.at.empty() &&
+    } else if (quantity.kind->extreme && bonded.of_solid && quantity.at.empty() &&
                is_singular_with_strain(quantity.of, bonded)) {
       estimate.singular = true;
       estimate.remark = "singular where a held side ends: no converged value";
@@ -316,7 +334,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
       for (const Solution& other : others) sampled.push_back({other.size, other.values[q], other.rises[q]});
       estimate =
           estimate_error({1, own.values[q], own.rises[q]}, sampled,
-                         orders_of(one.quantities[q], one, smooth, bonded.any), direction_of(quantity));
+                         orders_of(*one.quantities[q].kind, one, smooth, bonded), direction_of(quantity));
       if (estimate.error && takes_time(one)) // the steps were chosen to be no better than that
         estimate.error = std::max(*estimate.error, one.solver.time_tolerance * std::abs(own.values[q]));
     }

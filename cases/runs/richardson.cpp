@@ -75,7 +75,9 @@ ErrorEstimate estimate_error(const Sampled& own, std::span<const Sampled> others
     const Difference step = difference(next, own);
     estimate.error = safety * (std::abs(step.value) + step.error(orders.least));
     if (others.size() > 1 && std::isfinite(others[1].value)) { // what both of them do not resolve yet
-      estimate.error = std::max(*estimate.error, safety * difference(own, others[1]).error(orders.least));
+      estimate.error =
+          std::max(*estimate.error,
+                   safety * difference(own, others[1]).error(orders.of_larger.value_or(orders.least)));
       solutions.push_back(others[1]);
     }
   } else {

@@ -17,6 +17,7 @@ struct ErrorEstimate {
 /// Orders of convergence between which an observed one is believed.
 struct OrderRange {
   double least = 1, most = 2;
+  std::optional<double> of_larger = {}; ///< for a coarser solution beside a finer one, instead of `least`
 };
 
 /// A number as one discretisation gives it.
@@ -30,8 +31,8 @@ struct Sampled {
 /// of them may be finer than `own`: Richardson's estimate times a safety factor. From three sizes the order
 /// is observed; from two it is the least of `orders`. Where the differences change their sign no order can be
 /// seen, and they are the estimate themselves. From a finer one and a coarser one it is the larger that
-/// either tells at the least order. (Roache's grid convergence index as in Celik et al., J. Fluids Eng. 130,
-/// 078001, 2008.)
+/// either tells at the least order, the coarser at the order of larger elements. (Roache's grid convergence
+/// index as in Celik et al., J. Fluids Eng. 130, 078001, 2008.)
 ///
 /// `direction`: 1 for a maximum of a field, -1 for a minimum, otherwise 0. An extreme is read at integration
 /// points, so that its error is no less than its rise; one that grows from mesh to mesh while its rise does
