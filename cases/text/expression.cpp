@@ -16,7 +16,7 @@
 namespace dielast::cases {
 namespace {
 
-/// Sizes of the base units, for the value in SI and for those that tell its unit: see unit_of_value(). An
+/// Sizes of the base units, for the value in SI and for those that tell its unit, see powers_of_value(). An
 /// angle's is known to functions that have no other argument.
 using BaseSizes = std::array<double, base_units.size()>;
 constexpr std::size_t angle = base_units.size() - 1;

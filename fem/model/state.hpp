@@ -52,9 +52,9 @@ struct State {
   std::vector<double> scalar;         ///< pressures (Pa) and potentials (V) of solids: see DofMap::add_scalar
   std::vector<double> voltage;        ///< per electrode, V; then per chamber, its pressure, Pa
   Eigen::VectorXd dead_force;         ///< per equation (see DofMap): N, or N m for rotations
-  std::vector<Supply> supply;         ///< likewise: what is given
-  std::vector<double> charge;         ///< likewise: the given charge, C, or pumped volume, m^3
-  std::vector<double> source;         ///< likewise: voltage of the source, before its circuit, V
+  std::vector<Supply> supply;         ///< per electrode and chamber: what is given
+  std::vector<double> charge;         ///< of each the given charge, C, or pumped volume, m^3
+  std::vector<double> source;         ///< of each the voltage of the source, before its circuit, V
   Eigen::VectorXd sheet_drop; ///< per Model::sheet_points, the electrode's voltage less the sheet's there, V;
                               ///< empty: none
   double time = 0;            ///< s
@@ -81,9 +81,9 @@ struct PathPoint {
   State state;
 };
 
-/// Polynomial through all `points` (1 to 4, distinct parameters), taken at `parameter`: displacements
-/// directly, rotations through their vectors relative to the last point. Voltages and forces are those of the
-/// last point.
+/// Polynomial through all `points` (one or more, of distinct parameters), taken at `parameter`: displacements
+/// and scalars directly, rotations through their vectors relative to the last point. Voltages and forces are
+/// those of the last point.
 State extrapolate(std::span<const PathPoint> points, double parameter);
 
 } // namespace dielast::fem

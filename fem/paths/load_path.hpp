@@ -15,7 +15,7 @@ namespace dielast::fem {
 struct Loads {
   std::vector<double>
       voltage; ///< V, per electrode, and Pa, per chamber; where the charge is given it has no effect
-  std::vector<double> charge; ///< C, per electrode; of driven ones it has no effect
+  std::vector<double> charge; ///< C, per electrode, and m^3, per chamber; of driven ones it has no effect
   std::vector<double> source; ///< V, per electrode, of the source of its circuit
   Eigen::VectorXd dead_force; ///< per equation, N
   Eigen::VectorXd held;       ///< displacements of the held equations, m (rad for rotations: 0)

@@ -83,7 +83,7 @@ struct RampResult {
 /// Load control: the loads follow `path` while the load factor s grows from 0 to 1 and, if the step has a
 /// duration, time passes with it.
 ///
-/// Each solve starts from a polynomial in the path's parameter through up to four earlier states. An
+/// Each solve starts from a polynomial in the path's parameter through earlier states, see predict(). An
 /// increment that fails, or that lands on a less stable branch, is halved; after successes it grows back. A
 /// branch that is less stable even after the smallest increment is followed: the change of inertia is then a
 /// bifurcation, not a limit point.
