@@ -26,14 +26,8 @@ class TwoElectrodes : public ::testing::Test {
   std::unique_ptr<Model> model = [this] {
     std::vector<int> electrodes(18);
     for (std::size_t e = 0; e < electrodes.size(); ++e) electrodes[e] = e % 5 == 0 ? passive : e < 9 ? 0 : 1;
-    auto m = test::unnumbered_model(
-        mesh.node_count(), true,
-        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
+    auto m = test::square_film(mesh, side, test::Held::at_corners, electrodes);
     m->electrodes = {"left", "right"};
-    for (const int c : {0, 1}) m->dofs.hold(0, c);
-    m->dofs.hold(3, 1);
-    m->dofs.number();
-    m->length_scale = m->extent = side;
     return m;
   }();
   Equilibrium equilibrium{*model, 1};
@@ -128,13 +122,7 @@ TEST(BorderedTangent, charge_holds_a_film_whose_tangent_at_fixed_voltage_vanishe
 TEST(BorderedTangent, shifts_a_film_at_pull_in) {
   const double side = 0.01;
   const meshing::Mesh mesh = test::distorted_square(3, 1, side);
-  auto model = test::unnumbered_model(
-      mesh.node_count(), true,
-      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(18, 0), Dimension::planar, 1));
-  for (const int c : {0, 1}) model->dofs.hold(0, c);
-  model->dofs.hold(3, 1);
-  model->dofs.number();
-  model->length_scale = model->extent = side;
+  const auto model = test::square_film(mesh, side, test::Held::at_corners);
   Equilibrium equilibrium(*model, 1);
   const double l = std::cbrt(2.0);
   State state = test::homogeneous(*model, mesh, Eigen::Vector3d(l, l, 1).asDiagonal());

@@ -63,14 +63,8 @@ TEST(ChargeControl, gives_back_the_states_of_voltage_control_when_two_electrodes
   const meshing::Mesh mesh = test::distorted_square(4, 2, side);
   std::vector<int> electrodes(32);
   for (std::size_t e = 0; e < electrodes.size(); ++e) electrodes[e] = e % 7 == 0 ? passive : e < 16 ? 0 : 1;
-  auto model = test::unnumbered_model(
-      mesh.node_count(), true,
-      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
+  const auto model = test::square_film(mesh, side, test::Held::at_corners, electrodes);
   model->electrodes = {"left", "right"};
-  for (const int c : {0, 1}) model->dofs.hold(0, c);
-  model->dofs.hold(4, 1);
-  model->dofs.number();
-  model->length_scale = model->extent = side;
   Equilibrium equilibrium(*model, 1);
   State driven = model->initial_state();
   driven.voltage = {14e3, 17e3};

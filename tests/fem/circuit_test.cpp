@@ -21,21 +21,10 @@ struct ChargedFilm {
   explicit ChargedFilm(Circuit circuit, bool free = false) {
     circuit.resistance = resistance;
     circuit.charge_scale = capacitance * source;
-    model = test::unnumbered_model(mesh.node_count(), true,
-                                   make_membrane_block(mesh, mesh.blocks[0],
-                                                       free ? test::viscoelastic_vhb() : test::vhb(),
-                                                       std::vector<int>(8, 0), Dimension::planar, 1));
-    if (free) {
-      for (const int c : {0, 1}) model->dofs.hold(0, c);
-      model->dofs.hold(2, 1);
-    } else {
-      for (const int a : mesh.node_sets.at("edge"))
-        for (const int c : {0, 1}) model->dofs.hold(a, c);
-    }
-    model->dofs.number();
+    model = free ? test::square_film(mesh, side, test::Held::at_corners, {}, test::viscoelastic_vhb())
+                 : test::square_film(mesh, side, test::Held::along_edge);
     model->circuits = {circuit};
     model->place_histories();
-    model->length_scale = model->extent = side;
     equilibrium = std::make_unique<Equilibrium>(*model, 1);
   }
   /// From rest, the source at `volts` from the beginning.

@@ -113,13 +113,7 @@ TEST(Continuation, stopped_and_resumed_it_ends_in_the_same_bits) {
 TEST(Continuation, follows_a_free_film_past_pull_in) {
   const double side = 0.01;
   const meshing::Mesh mesh = test::distorted_square(3, 2, side);
-  auto model = test::unnumbered_model(
-      mesh.node_count(), true,
-      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(18, 0), Dimension::planar, 3));
-  for (const int c : {0, 1}) model->dofs.hold(0, c);
-  model->dofs.hold(3, 1);
-  model->dofs.number();
-  model->length_scale = model->extent = side;
+  const auto model = test::square_film(mesh, side, test::Held::at_corners);
   Equilibrium equilibrium(*model, 1);
   const LoadPath path = path_to(*model, 30e3, 0);
   auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, 1, {});

@@ -100,16 +100,10 @@ TEST_F(PureShear, an_unloaded_film_is_in_equilibrium) {
 
 TEST(Column, straight_equilibrium_beyond_its_buckling_load_has_a_negative_pivot_for_each_mode) {
   const meshing::Mesh mesh = test::line(10, 2, [](double s) { return Eigen::Vector3d(s, 0, 0); });
-  const double EI = 1;
   for (const bool planar : {true, false}) {
-    auto model = test::unnumbered_model(
-        mesh.node_count(), planar,
-        make_beam_block(mesh, mesh.blocks[0],
-                        {.EA = 1e6, .GA2 = 1e6, .GA3 = 1e6, .GJ = 1, .EI2 = EI, .EI3 = EI}));
-    for (int c = 0; c < DofMap::components; ++c) model->dofs.hold(0, c);
-    model->dofs.number();
+    const auto model = test::column(mesh, planar);
     Equilibrium equilibrium(*model, 1);
-    const double euler = std::numbers::pi * std::numbers::pi * EI / 4; // clamped and free end, unit length
+    const double euler = std::numbers::pi * std::numbers::pi / 4;
     for (const auto& [load, modes] : {std::pair{0.99, 0}, {1.01, 1}, {8.9, 1}, {9.1, 2}}) {
       State state = model->initial_state();
       state.dead_force[model->dofs.equation(mesh.node_count() - 1, 0)] = -load * euler;

@@ -14,14 +14,7 @@ using Complex = Linearisation::Complex;
 /// Square film, its edge pulled unevenly, under a voltage; relaxed.
 struct PulledSquare {
   explicit PulledSquare(const MembraneSection& film)
-      : model(test::unnumbered_model(
-            mesh.node_count(), true,
-            make_membrane_block(mesh, mesh.blocks[0], film, std::vector<int>(18, 0), Dimension::planar, 1))) {
-    for (const int a : mesh.node_sets.at("edge"))
-      for (const int c : {0, 1}) model->dofs.hold(a, c);
-    model->dofs.number();
-    model->length_scale = model->extent = 0.01;
-  }
+      : model(test::square_film(mesh, 0.01, test::Held::along_edge, {}, film)) {}
   State pulled(Equilibrium& equilibrium, double stretch) const {
     State state = model->initial_state();
     state.voltage = {8e3};

@@ -73,16 +73,7 @@ class PullIn : public ::testing::Test {
  protected:
   static constexpr double side = 0.01;
   const meshing::Mesh mesh = test::distorted_square(4, 2, side);
-  std::unique_ptr<Model> model = [this] {
-    auto m = test::unnumbered_model(mesh.node_count(), true,
-                                    make_membrane_block(mesh, mesh.blocks[0], test::vhb(),
-                                                        std::vector<int>(32, 0), Dimension::planar, 3));
-    for (const int c : {0, 1}) m->dofs.hold(0, c);
-    m->dofs.hold(4, 1);
-    m->dofs.number();
-    m->length_scale = m->extent = side;
-    return m;
-  }();
+  std::unique_ptr<Model> model = test::square_film(mesh, side, test::Held::at_corners);
   Equilibrium equilibrium{*model, 1};
   LoadPath path = voltage_path(*model, 30e3);
   /// Closed form (Zhao & Suo 2007).
@@ -115,14 +106,8 @@ class PartialElectrode : public ::testing::Test {
       const std::size_t row = e / 12, column = e / 2 % 6;
       if (row >= 1 && row < 5 && column >= 1 && column < 5) electrodes[e] = 0;
     }
-    auto m = test::unnumbered_model(
-        mesh.node_count(), true,
-        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
-    for (const int c : {0, 1}) m->dofs.hold(0, c);
-    m->dofs.hold(6, 1);
-    m->dofs.number();
+    auto m = test::square_film(mesh, side, test::Held::at_corners, electrodes);
     m->length_scale = side / 6;
-    m->extent = side;
     return m;
   }();
   Equilibrium equilibrium{*model, 1};
@@ -143,20 +128,11 @@ TEST_F(PartialElectrode, arc_length_and_load_control_find_the_same_critical_volt
   EXPECT_GT(along[0].load_factor * 40e3, 0.6873648184993013 * 1e-3 * std::sqrt(45e3 / 4e-11)); // stiffer
 }
 
-/// Clamped and free column, unit length, EI = 1, under a dead force: Euler's load pi^2/4, raised by a little
-/// shortening.
+/// A column under a dead force.
 class EulerColumn : public ::testing::Test {
  protected:
   const meshing::Mesh mesh = test::line(8, 2, [](double s) { return Eigen::Vector3d(s, 0, 0); });
-  std::unique_ptr<Model> model = [this] {
-    auto m = test::unnumbered_model(
-        mesh.node_count(), true,
-        make_beam_block(mesh, mesh.blocks[0],
-                        {.EA = 1e6, .GA2 = 1e6, .GA3 = 1e6, .GJ = 1, .EI2 = 1, .EI3 = 1}));
-    for (int c = 0; c < DofMap::components; ++c) m->dofs.hold(0, c);
-    m->dofs.number();
-    return m;
-  }();
+  std::unique_ptr<Model> model = test::column(mesh);
   Equilibrium equilibrium{*model, 1};
   const double euler = std::numbers::pi * std::numbers::pi / 4;
   const int tip = mesh.node_count() - 1;
@@ -244,12 +220,7 @@ TEST(Instability, of_twin_modes_one_is_chosen_by_the_order_of_the_unknowns) {
   for (const Eigen::Vector3d& along : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
                                        Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)}) {
     const meshing::Mesh mesh = test::line(8, 2, [&](double s) { return Eigen::Vector3d(s * along); });
-    auto model = test::unnumbered_model(
-        mesh.node_count(), false,
-        make_beam_block(mesh, mesh.blocks[0],
-                        {.EA = 1e6, .GA2 = 1e6, .GA3 = 1e6, .GJ = 1, .EI2 = 1, .EI3 = 1}));
-    for (int c = 0; c < DofMap::components; ++c) model->dofs.hold(0, c);
-    model->dofs.number();
+    const auto model = test::column(mesh, false);
     model->length_scale = 1.0 / 8;
     Equilibrium equilibrium(*model, 1);
     const int tip = mesh.node_count() - 1;

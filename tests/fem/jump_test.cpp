@@ -60,12 +60,7 @@ TEST(Jump, finds_nothing_to_land_on_without_a_stretch_limit) {
 // A column's straight state beyond its buckling load falls to the bent one.
 TEST(Jump, lets_a_column_buckle) {
   const meshing::Mesh mesh = test::line(8, 2, [](double s) { return Eigen::Vector3d(s, 0, 0); });
-  auto model = test::unnumbered_model(
-      mesh.node_count(), true,
-      make_beam_block(mesh, mesh.blocks[0],
-                      {.EA = 1e6, .GA2 = 1e6, .GA3 = 1e6, .GJ = 1, .EI2 = 1, .EI3 = 1}));
-  for (int c = 0; c < DofMap::components; ++c) model->dofs.hold(0, c);
-  model->dofs.number();
+  const auto model = test::column(mesh);
   Equilibrium equilibrium(*model, 1);
   const int tip = mesh.node_count() - 1;
   State state = model->initial_state();

@@ -18,16 +18,7 @@ class FreeFilm : public ::testing::Test {
   /// Phi/H sqrt(eps/mu) at the limit point (closed form, Zhao & Suo 2007), times H sqrt(mu/eps): 23.055 kV.
   static constexpr double pull_in = 0.6873648184993013 * 1e-3 * 33541019.66249685;
   const meshing::Mesh mesh = test::distorted_square(3, 1, side);
-  std::unique_ptr<Model> model = [this] {
-    auto m = test::unnumbered_model(mesh.node_count(), true,
-                                    make_membrane_block(mesh, mesh.blocks[0], test::vhb(),
-                                                        std::vector<int>(18, 0), Dimension::planar, 1));
-    for (const int c : {0, 1}) m->dofs.hold(0, c); // a corner, and another one's height
-    m->dofs.hold(3, 1);
-    m->dofs.number();
-    m->length_scale = m->extent = side;
-    return m;
-  }();
+  std::unique_ptr<Model> model = test::square_film(mesh, side, test::Held::at_corners);
   Equilibrium equilibrium{*model, 1};
   State state = model->initial_state();
 
@@ -153,12 +144,7 @@ TEST_F(FreeFilm, reversed_polarity_ends_in_the_same_stretch) {
 // bifurcation by halved increments before it accepts that branch.
 TEST(Ramp, closes_in_on_a_bifurcation) {
   const meshing::Mesh mesh = test::line(8, 2, [](double s) { return Eigen::Vector3d(s, 0, 0); });
-  auto model = test::unnumbered_model(
-      mesh.node_count(), true,
-      make_beam_block(mesh, mesh.blocks[0],
-                      {.EA = 1e5, .GA2 = 1e6, .GA3 = 1e6, .GJ = 1, .EI2 = 1, .EI3 = 1}));
-  for (int c = 0; c < DofMap::components; ++c) model->dofs.hold(0, c);
-  model->dofs.number();
+  const auto model = test::column(mesh, true, 1e5);
   Equilibrium equilibrium(*model, 1);
   Loads target = Loads::of(model->initial_state(), model->dofs);
   const double euler = std::numbers::pi * std::numbers::pi / 4, load = 1.7 * euler;

@@ -5,12 +5,16 @@
 #include "fem/films/membrane_block.hpp"
 #include "fem/model/assembler.hpp"
 #include "fem/model/model.hpp"
+#include "materials/laws/dual.hpp"
 
 #include <Eigen/Dense>
+#include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <random>
 #include <utility>
+#include <vector>
 
 namespace dielast::fem::test {
 
@@ -69,12 +73,61 @@ std::unique_ptr<Model> free_model(int nodes, bool planar, Blocks&&... blocks) {
   return free_model(nodes, dimension(planar), std::forward<Blocks>(blocks)...);
 }
 
+enum class Held { at_corners, along_edge };
+
+/// Film of a distorted_square() of `side` (m) in its plane, numbered: clamped along its edge, or free but for
+/// a corner and the height of the next one. `electrodes`: of its triangles; empty: all under the first one.
+inline std::unique_ptr<Model> square_film(const meshing::Mesh& mesh, double side, Held held,
+                                          std::vector<int> electrodes = {},
+                                          const MembraneSection& section = vhb()) {
+  const meshing::CellBlock& triangles = mesh.blocks[0];
+  if (electrodes.empty()) electrodes.resize(static_cast<std::size_t>(triangles.size()), 0);
+  auto model =
+      unnumbered_model(mesh.node_count(), Dimension::planar,
+                       make_membrane_block(mesh, triangles, section, std::move(electrodes), Dimension::planar,
+                                           triangles.type == meshing::CellType::triangle3 ? 1 : 3));
+  if (held == Held::along_edge)
+    for (const int a : mesh.node_sets.at("edge"))
+      for (const int c : {0, 1}) model->dofs.hold(a, c);
+  else
+    for (const auto& [a, c] :
+         {std::pair{0, 0}, {0, 1}, {static_cast<int>(std::sqrt(triangles.size() / 2)), 1}})
+      model->dofs.hold(a, c);
+  model->dofs.number();
+  model->length_scale = model->extent = side;
+  return model;
+}
+
+/// A straight beam of unit length and EI = 1 that is clamped at its first node, numbered; it buckles at
+/// pi^2/4 and a little more, by its shortening.
+inline std::unique_ptr<Model> column(const meshing::Mesh& mesh, bool planar = true, double EA = 1e6) {
+  auto model = unnumbered_model(
+      mesh.node_count(), planar,
+      make_beam_block(mesh, mesh.blocks[0], {.EA = EA, .GA2 = 1e6, .GA3 = 1e6, .GJ = 1, .EI2 = 1, .EI3 = 1}));
+  for (int c = 0; c < DofMap::components; ++c) model->dofs.hold(0, c);
+  model->dofs.number();
+  return model;
+}
+
 inline Eigen::MatrixXd dense(const SparseSymmetric& matrix) {
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(matrix.size, matrix.size);
   for (int c = 0; c < matrix.size; ++c)
     for (int k = matrix.column_start[c]; k < matrix.column_start[c + 1]; ++k)
       full(matrix.rows[k], c) = full(c, matrix.rows[k]) = matrix.values[k];
   return full;
+}
+
+/// Energy, residual and tangent of a model whose unknowns are all free are those of a dual number in these
+/// unknowns, to `tolerance` of its second derivatives, the tangent to 1e-12.
+template<int N>
+void expect_equal(Assembler& assembler, const State& state, const materials::Dual<N>& expected,
+                  double tolerance = 1e-12) {
+  const double scale = expected.hessian.norm();
+  Eigen::VectorXd residual;
+  EXPECT_NEAR(assembler.residual(state, residual).energy, expected.value, tolerance * scale);
+  EXPECT_LT((residual - expected.gradient).norm(), tolerance * scale);
+  assembler.tangent(state);
+  EXPECT_LT((dense(assembler.matrix()) - expected.hessian).norm(), 1e-12 * scale);
 }
 
 inline Eigen::VectorXd random_vector(std::mt19937& random, Eigen::Index size, double amplitude = 1) {

@@ -282,17 +282,11 @@ TEST_F(ResistingFilm, does_not_touch_electrodes_that_are_no_sheets) {
   std::fill(electrodes.begin() + 16, electrodes.end(), 1);
   std::vector<State> states;
   for (const bool sheet : {false, true}) {
-    auto model = test::unnumbered_model(
-        mesh.node_count(), true,
-        make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
+    const auto model = test::square_film(mesh, side, test::Held::along_edge, electrodes);
     model->electrodes = {"plain", "sheet"};
     if (sheet)
       model->sheets = {{.electrode = 1, .resistance = resistance, .terminal = mesh.node_sets.at("edge")}};
     model->place_histories();
-    for (const int a : mesh.node_sets.at("edge"))
-      for (const int c : {0, 1}) model->dofs.hold(a, c);
-    model->dofs.number();
-    model->length_scale = model->extent = side;
     Equilibrium equilibrium(*model, 1);
     states.push_back(model->initial_state());
     states.back().scheme = materials::TimeScheme::relaxed();

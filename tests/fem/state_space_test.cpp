@@ -89,16 +89,10 @@ TEST(StateSpace, of_an_isolated_electrode_that_leaks_is_the_response) {
   const meshing::Mesh mesh = test::distorted_square(4, 2, 0.01);
   std::vector<int> electrodes(32, 0);
   std::fill(electrodes.begin() + 16, electrodes.end(), 1);
-  auto model = test::unnumbered_model(
-      mesh.node_count(), true,
-      make_membrane_block(mesh, mesh.blocks[0], test::vhb(), electrodes, Dimension::planar, 3));
+  const auto model = test::square_film(mesh, 0.01, test::Held::along_edge, electrodes);
   model->electrodes = {"driven", "leaking"};
   model->circuits = {{.electrode = 1, .resistance = 1e6, .leakage = 1e-12}};
   model->place_histories();
-  for (const int a : mesh.node_sets.at("edge"))
-    for (const int c : {0, 1}) model->dofs.hold(a, c);
-  model->dofs.number();
-  model->length_scale = model->extent = 0.01;
   Equilibrium equilibrium(*model, 1);
   State state = model->initial_state();
   state.scheme = materials::TimeScheme::relaxed();

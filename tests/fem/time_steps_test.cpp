@@ -24,14 +24,7 @@ class CreepingFilm : public testing::Test {
     MembraneSection section = test::vhb();
     section.material.law = materials::Gent{22.5e3, 100};
     section.material.branches = {{materials::Gent{22.5e3, 100}, materials::Dashpot::log, 22.5e3}};
-    auto m = test::unnumbered_model(
-        mesh.node_count(), true,
-        make_membrane_block(mesh, mesh.blocks[0], section, {0, 0}, Dimension::planar, 1));
-    for (const int c : {0, 1}) m->dofs.hold(0, c);
-    m->dofs.hold(1, 1);
-    m->dofs.number();
-    m->length_scale = m->extent = side;
-    return m;
+    return test::square_film(mesh, side, test::Held::at_corners, {}, section);
   }();
   Equilibrium equilibrium{*model, 1};
   EnergyBalance balance;
