@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/contact/face_contact_block.hpp"
 
-#include "fem/contact/contact_sums.hpp"
 #include "fem/contact/face.hpp"
 #include "fem/contact/face_ends.hpp"
 #include "fem/contact/face_gap.hpp"
 #include "fem/contact/face_motion.hpp"
-#include "fem/contact/surface_sliders.hpp"
+#include "fem/contact/two_surfaces.hpp"
 #include "fem/films/triangle.hpp"
 
 #include <unsupported/Eigen/BVH>
@@ -48,35 +47,34 @@ struct Meeting {
   }
 };
 
-class FaceContactBlock final : public ContactBlock {
+class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
  public:
   FaceContactBlock(const meshing::Mesh& mesh, FaceContact contact)
-      : contact_(std::move(contact)), drawn_(mesh.nodes) {
+      : TwoSurfaces(mesh, std::move(contact), rule.size()) {
     std::array<double, 2> mean{};
     for (std::size_t k = 0; k < 2; ++k) {
-      const meshing::CellBlock& faces = contact_.faces[k];
+      const meshing::CellBlock& faces = contact_.surfaces[k];
       if (faces.type != meshing::CellType::triangle6)
         throw std::invalid_argument("surfaces in contact in space are made of 6-node triangles");
       add_areas(k);
       parts_[k] = parts_beside(faces);
       mean[k] = std::accumulate(areas_[k].begin(), areas_[k].end(), 0.0) / faces.size();
     }
-    require_apart(contact_.faces[0], contact_.faces[1]);
+    require_apart(contact_.surfaces[0], contact_.surfaces[1]);
     share_ = {mean[1] / (mean[0] + mean[1]), mean[0] / (mean[0] + mean[1])};
     margin_ = margin * std::sqrt(std::min(mean[0], mean[1]));
     const double over = ramp_sizes * std::sqrt(2 * std::max(mean[0], mean[1]));
-    for (std::size_t k = 0; k < 2; ++k) ends_[k] = FaceEnds(contact_.faces[k], drawn_, over);
+    for (std::size_t k = 0; k < 2; ++k) ends_[k] = FaceEnds(contact_.surfaces[k], drawn_, over);
     std::vector<double> areas(drawn_.size(), 0);
     for_each_point([&](const Pair& pair, std::size_t q) {
       share(pair, q, share_[pair.surface] * area(pair, q), areas);
     });
-    sliders_ = Sliders(contact_.friction, contact_.barrier, contact_.faces, areas, drawn_);
+    sliders_ = Sliders(contact_.friction, contact_.barrier, contact_.surfaces, areas, drawn_);
     FaceContactBlock::choose_elements(as_drawn());
   }
 
   int element_count() const override { return static_cast<int>(pairs_.size()); }
   int dofs_per_element() const override { return dofs; }
-  void claim_dofs(DofMap& /*those of the solids*/, Dimension /*dimension*/) override {}
   void element_equations(int element, const DofMap& map, std::span<int> equations) const override {
     const Pair& pair = pairs_[static_cast<std::size_t>(element)];
     std::size_t at = 0;
@@ -151,9 +149,6 @@ class FaceContactBlock final : public ContactBlock {
     });
     return sum;
   }
-  bool is_between(std::string_view place) const override {
-    return std::ranges::find(contact_.places, place) != contact_.places.end();
-  }
   void add_pressure(const State& state, NodalPressure& pressure) const override {
     for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
@@ -169,50 +164,15 @@ class FaceContactBlock final : public ContactBlock {
     });
     parts.elastic += sliders_.energy(state);
   }
-  bool has_friction() const override { return sliders_.any(); }
-  double friction_heat(const State& state) const override { return sliders_.heat(state); }
-  int history_size() const override { return sliders_.history_size(); }
-  void place_history(int first) override { sliders_.place_history(first); }
-  void start_history(std::vector<double>& all) const override {
-    if (sliders_.any()) sliders_.start(pressed(as_drawn()), all);
-  }
-  void advance_history(const State& state, std::vector<double>& all) const override {
-    if (sliders_.any()) sliders_.advance(state, pressed(state), all);
-  }
-  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
 
  private:
-  /// A face that is integrated, of the surface 0 or 1, and one of the other surface.
-  struct Pair {
-    std::size_t surface;
-    int own, other;
-    auto operator<=>(const Pair&) const = default;
-  };
-  using Shape = Eigen::Vector<double, 6>;
   using Sums = ContactSums<dofs>;
-  using Sliders = SurfaceSliders<6>;
   /// What a point feels of a face or, negatively, of an edge.
   struct Touching {
     BarrierEnergy energy; ///< as often as it counts
     double factor, share; ///< how often; of this surface's integral there
   };
-  /// All faces in a state.
-  struct Moved {
-    std::array<std::vector<FaceNodes>, 2> faces;
-    const FaceNodes& of(const Pair& pair, std::size_t k) const {
-      return faces[k == 0 ? pair.surface : 1 - pair.surface]
-                  [static_cast<std::size_t>(k == 0 ? pair.own : pair.other)];
-    }
-  };
-
-  std::span<const int> nodes(const Pair& pair, std::size_t k) const {
-    return k == 0 ? contact_.faces[pair.surface].cell(pair.own)
-                  : contact_.faces[1 - pair.surface].cell(pair.other);
-  }
-  double area(const Pair& pair, std::size_t q) const {
-    return areas_[pair.surface][static_cast<std::size_t>(pair.own) * rule.size() + q];
-  }
-  FaceNodes face(const State& state, std::span<const int> own) const {
+  FaceNodes face(const State& state, std::span<const int> own) const override {
     FaceNodes x;
     for (std::size_t a = 0; a < 6; ++a) {
       const auto n = static_cast<std::size_t>(own[a]);
@@ -220,21 +180,14 @@ class FaceContactBlock final : public ContactBlock {
     }
     return x;
   }
-  Moved moved(const State& state) const {
-    Moved all;
-    for (std::size_t k = 0; k < 2; ++k)
-      for (int i = 0; i < contact_.faces[k].size(); ++i)
-        all.faces[k].push_back(face(state, contact_.faces[k].cell(i)));
-    return all;
-  }
   /// Whether what may touch in a state is among the elements.
   bool covers(const State& state) const {
     double way = 0;
     for (std::size_t k = 0; k < 2; ++k) {
       double farthest = 0;
-      for (int i = 0; i < contact_.faces[k].size(); ++i)
+      for (int i = 0; i < contact_.surfaces[k].size(); ++i)
         farthest = std::max(farthest, way_of(chosen_.faces[k][static_cast<std::size_t>(i)],
-                                             face(state, contact_.faces[k].cell(i))));
+                                             face(state, contact_.surfaces[k].cell(i))));
       way += farthest;
     }
     return way <= margin_;
@@ -293,8 +246,7 @@ class FaceContactBlock final : public ContactBlock {
                     {factor * energy.value, factor * energy.slope}, factor, share_at(pair, q, place).value});
           });
   }
-  /// What presses each slider's node.
-  std::vector<Sliders::Pressed> pressed(const State& state) const {
+  std::vector<Sliders::Pressed> pressed(const State& state) const override {
     std::vector<Sliders::Pressed> all(static_cast<std::size_t>(sliders_.count()));
     const Moved now = moved(state);
     for (const Pair& pair : meeting(now, now, contact_.barrier.reach())) {
@@ -323,7 +275,9 @@ class FaceContactBlock final : public ContactBlock {
     add_pressed(rule[q].shape, other, place, other_end(pair), factor * area(pair, q),
                 contact_.barrier.at(place.distance), share_at(pair, q, place), scatter, sums);
   }
-  const Shape& other_end(const Pair& pair) const { return ends_[1 - pair.surface].at(pair.other); }
+  const Eigen::Vector<double, 6>& other_end(const Pair& pair) const {
+    return ends_[1 - pair.surface].at(pair.other);
+  }
   /// The part of the integral of a point's surface, with its derivatives by what other_end() is at the place.
   Ramp share_at(const Pair& pair, std::size_t q, const FacePlace& place) const {
     const double own = end_ramp(rule[q].shape.dot(ends_[pair.surface].at(pair.own))).value;
@@ -336,34 +290,18 @@ class FaceContactBlock final : public ContactBlock {
     for (std::size_t a = 0; a < 6; ++a)
       of_nodes[static_cast<std::size_t>(own[a])] += rule[q].share[static_cast<int>(a)] * amount;
   }
-  State as_drawn() const {
-    State state;
-    state.displacement.assign(drawn_.size(), Vector3d::Zero());
-    return state;
-  }
-  /// use(face with any other one, point) for all that are integrated.
-  template<class Use>
-  void for_each_point(const Use& use) const {
-    for (std::size_t k = 0; k < 2; ++k)
-      for (int i = 0; i < contact_.faces[k].size(); ++i)
-        for (std::size_t q = 0; q < rule.size(); ++q) use(Pair{k, i, 0}, q);
-  }
   void add_areas(std::size_t k) {
     const State drawn = as_drawn();
-    for (int i = 0; i < contact_.faces[k].size(); ++i)
+    for (int i = 0; i < contact_.surfaces[k].size(); ++i)
       for (const FacePoint& at : rule) {
         const Eigen::Matrix<double, 3, 2> slope =
-            face(drawn, contact_.faces[k].cell(i)) * shape_gradients<6>(at.xi, at.eta);
+            face(drawn, contact_.surfaces[k].cell(i)) * shape_gradients<6>(at.xi, at.eta);
         areas_[k].push_back(at.weight * slope.col(0).cross(slope.col(1)).norm());
       }
   }
-  FaceContact contact_;
-  std::vector<Vector3d> drawn_;
+
   std::array<std::vector<std::vector<CountedPart>>, 2> parts_; ///< of the faces, besides themselves
   std::array<FaceEnds, 2> ends_;
-  std::array<double, 2> share_{};            ///< of the two integrals: the finer surface has the greater one
-  std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' faces
-  Sliders sliders_;
   double margin_ = 0;       ///< m
   std::vector<Pair> pairs_; ///< the elements
   Moved chosen_;            ///< the state that they were chosen for

@@ -13,10 +13,10 @@ namespace dielast::fem {
 
 /// Two surfaces of solids in space that may touch one another.
 struct FaceContact {
-  std::array<std::string, 2> places;       ///< their names
-  std::array<meshing::CellBlock, 2> faces; ///< 6-node triangles, as meshing::faces_at() gives them
-  Barrier barrier;                         ///< its stiffness in Pa/m
-  double friction = 0;                     ///< Coulomb's coefficient; 0: they slide freely
+  std::array<std::string, 2> places;          ///< their names
+  std::array<meshing::CellBlock, 2> surfaces; ///< 6-node triangles, as meshing::faces_at() gives them
+  Barrier barrier;                            ///< its stiffness in Pa/m
+  double friction = 0;                        ///< Coulomb's coefficient; 0: they slide freely
 };
 
 /// Keeps two deformable surfaces apart, in space, without adhesion: see

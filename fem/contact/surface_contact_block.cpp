@@ -2,9 +2,8 @@
 #include "fem/contact/surface_contact_block.hpp"
 
 #include "fem/contact/centreline.hpp"
-#include "fem/contact/contact_sums.hpp"
 #include "fem/contact/surface_ends.hpp"
-#include "fem/contact/surface_sliders.hpp"
+#include "fem/contact/two_surfaces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -50,12 +49,12 @@ struct Side {
   Vector2d at(const std::array<double, 3>& N) const { return N[0] * x[0] + N[1] * x[1] + N[2] * x[2]; }
 };
 
-class SurfaceContactBlock final : public ContactBlock {
+class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
  public:
   SurfaceContactBlock(const meshing::Mesh& mesh, SurfaceContact contact)
-      : contact_(std::move(contact)), drawn_(mesh.nodes), up_(contact_.width ? 1 : 2) {
+      : TwoSurfaces(mesh, std::move(contact), rule_size), up_(contact_.width ? 1 : 2) {
     for (std::size_t k = 0; k < 2; ++k) {
-      const meshing::CellBlock& sides = contact_.sides[k];
+      const meshing::CellBlock& sides = contact_.surfaces[k];
       if (sides.type != meshing::CellType::line3 && sides.type != meshing::CellType::meridian3)
         throw std::invalid_argument("surfaces in contact are made of 3-node sides");
       std::set<int> last;
@@ -67,29 +66,28 @@ class SurfaceContactBlock final : public ContactBlock {
     }
     const auto mean_side = [&](std::size_t k) {
       double length = 0;
-      for (int i = 0; i < contact_.sides[k].size(); ++i) {
-        const auto own = contact_.sides[k].cell(i);
+      for (int i = 0; i < contact_.surfaces[k].size(); ++i) {
+        const auto own = contact_.surfaces[k].cell(i);
         length +=
             (drawn_[static_cast<std::size_t>(own[0])] - drawn_[static_cast<std::size_t>(own[1])]).norm();
       }
-      return length / contact_.sides[k].size();
+      return length / contact_.surfaces[k].size();
     };
     const double finer = std::pow(mean_side(1) / mean_side(0), 2);
     share_ = {finer / (1 + finer), 1 / (1 + finer)};
     const double over = ramp_spacings * std::max(mean_side(0), mean_side(1)) / (2 * parts);
     for (std::size_t k = 0; k < 2; ++k)
-      ends_[k] = SurfaceEnds(contact_.sides[k], drawn_, !contact_.width, over);
-    require_apart(contact_.sides[0], contact_.sides[1]);
+      ends_[k] = SurfaceEnds(contact_.surfaces[k], drawn_, !contact_.width, over);
+    require_apart(contact_.surfaces[0], contact_.surfaces[1]);
     std::vector<double> areas(drawn_.size(), 0);
     for_each_point([&](const Pair& pair, std::size_t q) {
       share(pair, q, share_[pair.surface] * area(pair, q), areas);
     });
-    sliders_ = Sliders(contact_.friction, contact_.barrier, contact_.sides, areas, drawn_, up_);
+    sliders_ = Sliders(contact_.friction, contact_.barrier, contact_.surfaces, areas, drawn_, up_);
   }
 
-  int element_count() const override { return 2 * contact_.sides[0].size() * contact_.sides[1].size(); }
+  int element_count() const override { return 2 * contact_.surfaces[0].size() * contact_.surfaces[1].size(); }
   int dofs_per_element() const override { return dofs; }
-  void claim_dofs(DofMap& /*those of the solids*/, Dimension /*dimension*/) override {}
   void element_equations(int element, const DofMap& map, std::span<int> equations) const override {
     const Pair pair = this->pair(element);
     for (std::size_t k = 0; k < 2; ++k)
@@ -136,9 +134,6 @@ class SurfaceContactBlock final : public ContactBlock {
     });
     return sum;
   }
-  bool is_between(std::string_view place) const override {
-    return std::ranges::find(contact_.places, place) != contact_.places.end();
-  }
   void add_pressure(const State& state, NodalPressure& pressure) const override {
     for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
@@ -154,41 +149,15 @@ class SurfaceContactBlock final : public ContactBlock {
     });
     all.elastic += sliders_.energy(state);
   }
-  bool has_friction() const override { return sliders_.any(); }
-  double friction_heat(const State& state) const override { return sliders_.heat(state); }
-  int history_size() const override { return sliders_.history_size(); }
-  void place_history(int first) override { sliders_.place_history(first); }
-  void start_history(std::vector<double>& all) const override {
-    if (sliders_.any()) sliders_.start(pressed(as_drawn()), all);
-  }
-  void advance_history(const State& state, std::vector<double>& all) const override {
-    if (sliders_.any()) sliders_.advance(state, pressed(state), all);
-  }
-  void sample(const State& /*state*/, Samples& /*samples*/) const override {}
 
  private:
-  /// A side that is integrated, of the surface 0 or 1, and one of the other surface.
-  struct Pair {
-    std::size_t surface;
-    int own, other;
-  };
   using Sums = ContactSums<dofs>;
-  using Sliders = SurfaceSliders<3>;
   /// What a point feels of a side or, negatively, of an end.
   struct Touching {
     BarrierEnergy energy; ///< as often as it counts
     Vector2d normal;      ///< unit vector towards the point
     double factor, share; ///< how often; of this surface's integral there
   };
-  /// All sides in a state.
-  struct Moved {
-    std::array<std::vector<Side>, 2> sides;
-    const Side& of(const Pair& pair, std::size_t k) const {
-      return sides[k == 0 ? pair.surface : 1 - pair.surface]
-                  [static_cast<std::size_t>(k == 0 ? pair.own : pair.other)];
-    }
-  };
-
   const SurfaceEnds& other_ends(const Pair& pair) const { return ends_[1 - pair.surface]; }
   /// The part of the integral of a point's surface, where the other one's ramp is `other`: a function of the
   /// same s.
@@ -197,22 +166,15 @@ class SurfaceContactBlock final : public ContactBlock {
     return shared(share_[pair.surface], own, share_[1 - pair.surface], other);
   }
   Pair pair(int element) const {
-    const int a = contact_.sides[0].size(), b = contact_.sides[1].size();
+    const int a = contact_.surfaces[0].size(), b = contact_.surfaces[1].size();
     if (element < a * b) return {0, element / b, element % b};
     return {1, (element - a * b) / a, (element - a * b) % a};
-  }
-  std::span<const int> nodes(const Pair& pair, std::size_t k) const {
-    return k == 0 ? contact_.sides[pair.surface].cell(pair.own)
-                  : contact_.sides[1 - pair.surface].cell(pair.other);
   }
   /// Whether the other side's first end is also that of the side before it.
   bool is_shared(const Pair& pair) const {
     return shared_[1 - pair.surface][static_cast<std::size_t>(pair.other)];
   }
-  double area(const Pair& pair, std::size_t q) const {
-    return areas_[pair.surface][static_cast<std::size_t>(pair.own) * rule_size + q];
-  }
-  Side side_of(const State& state, std::span<const int> own) const {
+  Side face(const State& state, std::span<const int> own) const override {
     Side side;
     for (std::size_t a = 0; a < 3; ++a) {
       const auto n = static_cast<std::size_t>(own[a]);
@@ -223,16 +185,7 @@ class SurfaceContactBlock final : public ContactBlock {
     side.radius = std::max((side.x[0] - side.x[1]).norm(), 4 * (side.x[2] - side.centre).norm()) / 2;
     return side;
   }
-  Side side(const State& state, const Pair& pair, std::size_t k) const {
-    return side_of(state, nodes(pair, k));
-  }
-  Moved moved(const State& state) const {
-    Moved all;
-    for (std::size_t k = 0; k < 2; ++k)
-      for (int i = 0; i < contact_.sides[k].size(); ++i)
-        all.sides[k].push_back(side_of(state, contact_.sides[k].cell(i)));
-    return all;
-  }
+  Side side(const State& state, const Pair& pair, std::size_t k) const { return face(state, nodes(pair, k)); }
   /// No more than the distance of two sides, m.
   static double clearance(const Side& one, const Side& other) {
     return (one.centre - other.centre).norm() - one.radius - other.radius;
@@ -302,8 +255,7 @@ class SurfaceContactBlock final : public ContactBlock {
       }
     }
   }
-  /// What presses each slider's node.
-  std::vector<Sliders::Pressed> pressed(const State& state) const {
+  std::vector<Sliders::Pressed> pressed(const State& state) const override {
     std::vector<Sliders::Pressed> all(static_cast<std::size_t>(sliders_.count()));
     const auto in_space = [this](const Vector2d& x) {
       return Eigen::Vector3d(x.x() * Eigen::Vector3d::UnitX() + x.y() * Eigen::Vector3d::Unit(up_));
@@ -341,20 +293,8 @@ class SurfaceContactBlock final : public ContactBlock {
     for (std::size_t a = 0; a < 3; ++a)
       of_nodes[static_cast<std::size_t>(own[a])] += node_share(q)[a] * amount;
   }
-  State as_drawn() const {
-    State state;
-    state.displacement.assign(drawn_.size(), Eigen::Vector3d::Zero());
-    return state;
-  }
-  /// use(side with any other one, point) for all that are integrated.
-  template<class Use>
-  void for_each_point(const Use& use) const {
-    for (std::size_t k = 0; k < 2; ++k)
-      for (int i = 0; i < contact_.sides[k].size(); ++i)
-        for (std::size_t q = 0; q < rule_size; ++q) use(Pair{k, i, 0}, q);
-  }
   void add_areas(std::size_t surface, int number) {
-    const Side own = side_of(as_drawn(), contact_.sides[surface].cell(number));
+    const Side own = face(as_drawn(), contact_.surfaces[surface].cell(number));
     const double mean = (own.x[0].x() + own.x[1].x()) / 2;
     for (const SidePoint& at : rule) {
       const Vector2d slope =
@@ -365,14 +305,9 @@ class SurfaceContactBlock final : public ContactBlock {
     }
   }
 
-  SurfaceContact contact_;
-  std::vector<Eigen::Vector3d> drawn_;
   int up_; ///< the second direction: y, of revolution z
-  Sliders sliders_;
   std::array<std::vector<char>, 2> shared_;
   std::array<SurfaceEnds, 2> ends_;
-  std::array<double, 2> share_;              ///< of the two integrals: the finer surface has the greater one
-  std::array<std::vector<double>, 2> areas_; ///< of all points of the surfaces' sides
 };
 
 } // namespace

@@ -14,11 +14,11 @@ namespace dielast::fem {
 
 /// Two surfaces of solids that may touch one another.
 struct SurfaceContact {
-  std::array<std::string, 2> places;       ///< their names
-  std::array<meshing::CellBlock, 2> sides; ///< of 3-node cells, as meshing::sides_at() gives them
-  std::optional<double> width;             ///< of plane strain, m; nothing: of revolution about x = 0
-  Barrier barrier;                         ///< its stiffness in Pa/m
-  double friction = 0;                     ///< Coulomb's coefficient; 0: they slide freely
+  std::array<std::string, 2> places;          ///< their names
+  std::array<meshing::CellBlock, 2> surfaces; ///< of 3-node cells, as meshing::sides_at() gives them
+  std::optional<double> width;                ///< of plane strain, m; nothing: of revolution about x = 0
+  Barrier barrier;                            ///< its stiffness in Pa/m
+  double friction = 0;                        ///< Coulomb's coefficient; 0: they slide freely
 };
 
 /// Keeps two deformable surfaces apart, in plane strain or of revolution, without adhesion. Friction: see
