@@ -5,12 +5,12 @@
 #include "cases/fits/device_model.hpp"
 #include "cases/fits/processes.hpp"
 #include "cases/fitting/fit_statistics.hpp"
+#include "cases/fitting/least_squares.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/readers/resolved.hpp"
 #include "post/files/report_files.hpp"
 #include "post/files/results_folder.hpp"
 
-#include <ceres/ceres.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,13 +23,11 @@ namespace {
 using Model = std::vector<std::vector<std::complex<double>>>; ///< for each test
 
 /// Models and residuals as functions of the coordinates q = ln(value/start).
-class DeviceMisfit : public ceres::CostFunction {
+class DeviceMisfit {
  public:
-  DeviceMisfit(const Identification& asked, int threads) : asked_(asked), device_(asked), threads_(threads) {
-    set_num_residuals(static_cast<int>(asked.fitted_numbers()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(asked.unknowns.size()));
-  }
+  DeviceMisfit(const Identification& asked, int threads) : asked_(asked), device_(asked), threads_(threads) {}
 
+  int rows() const { return static_cast<int>(asked_.fitted_numbers()); }
   std::vector<double> values(const Eigen::VectorXd& q) const {
     std::vector<double> all;
     for (std::size_t i = 0; i < asked_.unknowns.size(); ++i)
@@ -77,9 +75,9 @@ class DeviceMisfit : public ceres::CostFunction {
     return all;
   }
 
-  std::optional<Eigen::VectorXd> residuals(const std::optional<Model>& model) const {
+  LeastSquares::Residuals residuals(const std::optional<Model>& model) const {
     if (!model) return std::nullopt;
-    Eigen::VectorXd r(num_residuals());
+    Eigen::VectorXd r(rows());
     Eigen::Index row = 0;
     for (std::size_t t = 0; t < asked_.tests.size(); ++t) {
       const DeviceTest& test = asked_.tests[t];
@@ -92,73 +90,18 @@ class DeviceMisfit : public ceres::CostFunction {
     return r.allFinite() ? std::optional(r) : std::nullopt;
   }
 
-  /// By central differences, one-sided where only one side has a model: `ends` says where. False where none
-  /// has.
-  bool jacobian(const Eigen::VectorXd& q, const Eigen::VectorXd& r, Eigen::MatrixXd& J,
-                std::vector<bool>* ends = nullptr) const {
-    constexpr double h = 2e-3;
-    std::vector<Eigen::VectorXd> points;
-    for (Eigen::Index i = 0; i < q.size(); ++i)
-      for (const double step : {h, -h}) {
-        points.push_back(q);
-        points.back()[i] += step;
-      }
-    const auto all = models(points);
-    J.resize(r.size(), q.size());
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      const auto ahead = residuals(all[static_cast<std::size_t>(2 * i)]),
-                 behind = residuals(all[static_cast<std::size_t>(2 * i + 1)]);
-      if (!ahead && !behind) return false;
-      if (ends) ends->push_back(!ahead || !behind);
-      J.col(i) = (ahead.value_or(r) - behind.value_or(r)) / (h * (ahead.has_value() + behind.has_value()));
-    }
-    return true;
-  }
-
-  bool Evaluate(const double* const* parameters, double* residuals_out, double** jacobians) const override {
-    const Eigen::VectorXd q =
-        Eigen::Map<const Eigen::VectorXd>(parameters[0], static_cast<Eigen::Index>(asked_.unknowns.size()));
-    if (!known_ || q != known_at_) {
-      known_ = residuals(models({q})[0]);
-      known_at_ = q;
-    }
-    if (!known_) return false;
-    std::copy(known_->begin(), known_->end(), residuals_out);
-    if (!jacobians || !jacobians[0]) return true;
-    Eigen::MatrixXd J;
-    if (!jacobian(q, *known_, J)) return false;
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::Map<RowMajor>(jacobians[0], J.rows(), J.cols()) = J;
-    return true;
+  Differences differences(const Eigen::VectorXd& q, const Eigen::VectorXd& r) const {
+    return central_differences(q, r, 2e-3, [&](const std::vector<Eigen::VectorXd>& points) {
+      std::vector<LeastSquares::Residuals> all;
+      for (const auto& model : models(points)) all.push_back(residuals(model));
+      return all;
+    });
   }
 
  private:
   const Identification& asked_;
   DeviceModel device_;
   int threads_;
-  mutable Eigen::VectorXd known_at_; ///< Ceres asks for residuals, and then for them and the Jacobian
-  mutable std::optional<Eigen::VectorXd> known_;
-};
-
-class Follower : public ceres::IterationCallback {
- public:
-  Follower(const std::function<bool(int, double)>& tell, int rows) : tell_(tell), rows_(rows) {}
-
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
-    if (now.iteration > 0) ++iterations;
-    if (tell_ && !tell_(iterations, std::sqrt(2 * now.cost / rows_))) {
-      stopped = true;
-      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-    }
-    return ceres::SOLVER_CONTINUE;
-  }
-
-  int iterations = 0;
-  bool stopped = false;
-
- private:
-  const std::function<bool(int, double)>& tell_;
-  int rows_;
 };
 
 [[noreturn]] void reject(const Identification& asked, const std::string& message) {
@@ -174,8 +117,8 @@ void require_start(const Identification& asked, const DeviceMisfit& misfit) {
     reject(asked, fmt::format("nothing to compare with at the start values: {}",
                               failure.empty() ? "a value is not finite" : failure));
   constexpr double nothing = 1e-9; // relative, of a change by a factor e
-  Eigen::MatrixXd J;
-  if (!misfit.jacobian(q, *start, J)) reject(asked, "the case does not run beside its start values");
+  const Eigen::MatrixXd J = misfit.differences(q, *start).slope;
+  if (J.size() == 0) reject(asked, "the case does not run beside its start values");
   for (Eigen::Index i = 0; i < q.size(); ++i)
     if (J.col(i).lpNorm<Eigen::Infinity>() < nothing)
       reject(asked, fmt::format("found \"{}\": it changes nothing that was measured",
@@ -191,46 +134,34 @@ IdentifyOutcome solve_identification(const Identification& asked, int threads,
   require_start(asked, misfit);
   const auto count = static_cast<Eigen::Index>(asked.unknowns.size());
   Eigen::VectorXd q = Eigen::VectorXd::Zero(count);
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
-  problem.AddResidualBlock(const_cast<DeviceMisfit*>(&misfit), nullptr, q.data());
   const double bound = std::log(asked.range);
-  for (int i = 0; i < static_cast<int>(count); ++i) {
-    problem.SetParameterLowerBound(q.data(), i, -bound);
-    problem.SetParameterUpperBound(q.data(), i, bound);
-  }
-  Follower follower(on_iteration, misfit.num_residuals());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.logging_type = ceres::SILENT;
-  options.num_threads = 1;
-  options.max_num_iterations = asked.max_iterations;
-  options.max_num_consecutive_invalid_steps = 30;
-  options.function_tolerance = options.parameter_tolerance = 1e-8; // runs are good to 1e-9
-  options.gradient_tolerance = 1e-12;
-  options.update_state_every_iteration = true;
-  options.callbacks.push_back(&follower);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const LeastSquaresEnd end =
+      minimise({.rows = misfit.rows(),
+                .residuals = [&](const auto& at) { return misfit.residuals(misfit.models({at})[0]); },
+                .jacobian = [&](const auto& at, const auto& r) { return misfit.differences(at, r).slope; },
+                .lower = Eigen::VectorXd::Constant(count, -bound),
+                .upper = Eigen::VectorXd::Constant(count, bound),
+                .max_iterations = asked.max_iterations,
+                .function_tolerance = 1e-8, // runs are good to 1e-9
+                .parameter_tolerance = 1e-8,
+                .gradient_tolerance = 1e-12,
+                .on_iteration = on_iteration},
+               q);
 
-  IdentifyOutcome outcome{.ending = follower.stopped                                 ? FitEnding::interrupted
-                                    : summary.termination_type == ceres::CONVERGENCE ? FitEnding::converged
-                                                                                     : FitEnding::gave_up,
-                          .iterations = follower.iterations};
-  std::vector<bool> ends; // where keys end on their own, or the case does not run beyond
+  IdentifyOutcome outcome{.ending = end.ending, .iterations = end.iterations};
+  Differences at_end; // its ends: where keys end on their own, or the case does not run beyond
   const auto at_bound = [&](Eigen::Index i) {
     const auto at = static_cast<std::size_t>(i);
-    return std::abs(q[i]) >= bound * (1 - 1e-6) || (at < ends.size() && ends[at]);
+    return std::abs(q[i]) >= bound * (1 - 1e-6) || (at < at_end.ends.size() && at_end.ends[at]);
   };
   outcome.model = misfit.models({q})[0].value_or(Model(asked.tests.size()));
   const auto r = misfit.residuals(outcome.model);
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(misfit.num_residuals(), count);
-  if (r && outcome.ending != FitEnding::interrupted && !misfit.jacobian(q, *r, J, &ends)) J.setZero();
+  if (r && outcome.ending != FitEnding::interrupted) at_end = misfit.differences(q, *r);
+  Eigen::MatrixXd& J = at_end.slope;
+  if (J.size() == 0) J.setZero(misfit.rows(), count);
   for (Eigen::Index i = 0; i < count; ++i)
     if (at_bound(i)) J.col(i).setZero();
-  const FitStatistics statistics =
-      fit_statistics(J, r.value_or(Eigen::VectorXd::Zero(misfit.num_residuals())));
+  const FitStatistics statistics = fit_statistics(J, r.value_or(Eigen::VectorXd::Zero(misfit.rows())));
   outcome.deviation = statistics.deviation;
   outcome.correlation = statistics.correlation;
   for (Eigen::Index i = 0; i < count; ++i) {

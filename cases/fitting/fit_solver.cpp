@@ -3,8 +3,6 @@
 
 #include "cases/fitting/fit_statistics.hpp"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -42,27 +40,25 @@ class Coordinate {
 };
 
 /// The residuals as a function of the coordinates.
-class Misfit : public ceres::CostFunction {
+class Misfit {
  public:
   Misfit(const FitTask& task, const std::vector<Coordinate>& coordinates, const std::vector<int>& steps)
-      : task_(task), coordinates_(coordinates), steps_(steps) {
-    int rows = 0;
-    for (const MeasuredTest& test : task.tests)
-      if (!test.predict) rows += static_cast<int>(test.stress.size());
-    set_num_residuals(rows);
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.size()));
-  }
+      : task_(task), coordinates_(coordinates), steps_(steps) {}
 
+  int rows() const {
+    int all = 0;
+    for (const MeasuredTest& test : task_.tests)
+      if (!test.predict) all += static_cast<int>(test.stress.size());
+    return all;
+  }
   materials::Material material(const Eigen::VectorXd& q) const {
     materials::Material changed = task_.start;
     for (std::size_t i = 0; i < coordinates_.size(); ++i)
       task_.parameters[i].set(changed, coordinates_[i].p(q[static_cast<Eigen::Index>(i)]));
     return changed;
   }
-
-  /// False where the model has no stress.
-  bool residuals(const Eigen::VectorXd& q, Eigen::VectorXd& r) const {
-    r.resize(num_residuals());
+  LeastSquares::Residuals residuals(const Eigen::VectorXd& q) const {
+    Eigen::VectorXd r(rows());
     const materials::Material changed = material(q);
     Eigen::Index row = 0;
     for (std::size_t f = 0; f < task_.tests.size(); ++f) {
@@ -72,69 +68,20 @@ class Misfit : public ceres::CostFunction {
       const double scale = test.weight / test.largest_stress();
       for (std::size_t i = 0; i < model.size(); ++i) r[row++] = scale * (model[i] - test.stress[i]);
     }
-    return r.allFinite();
+    return r.allFinite() ? std::optional(r) : std::nullopt;
   }
-
-  /// By central differences, one-sided where only one side has a stress: `ends` says where. False where none
-  /// has.
-  bool jacobian(const Eigen::VectorXd& q, const Eigen::VectorXd& r, Eigen::MatrixXd& J,
-                std::vector<bool>* ends = nullptr) const {
-    constexpr double h = 1e-4;
-    J.resize(r.size(), q.size());
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      Eigen::VectorXd there = q, ahead, behind;
-      there[i] = q[i] + h;
-      const bool has_ahead = residuals(there, ahead);
-      there[i] = q[i] - h;
-      const bool has_behind = residuals(there, behind);
-      if (!has_ahead && !has_behind) return false;
-      if (ends) ends->push_back(!has_ahead || !has_behind);
-      J.col(i) = ((has_ahead ? ahead : r) - (has_behind ? behind : r)) / (h * (has_ahead + has_behind));
-    }
-    return true;
-  }
-
-  bool Evaluate(const double* const* parameters, double* residuals_out, double** jacobians) const override {
-    const Eigen::VectorXd q =
-        Eigen::Map<const Eigen::VectorXd>(parameters[0], static_cast<Eigen::Index>(coordinates_.size()));
-    Eigen::VectorXd r;
-    if (!residuals(q, r)) return false;
-    std::copy(r.begin(), r.end(), residuals_out);
-    if (!jacobians || !jacobians[0]) return true;
-    Eigen::MatrixXd J;
-    if (!jacobian(q, r, J)) return false;
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::Map<RowMajor>(jacobians[0], J.rows(), J.cols()) = J;
-    return true;
+  Differences differences(const Eigen::VectorXd& q, const Eigen::VectorXd& r) const {
+    return central_differences(q, r, 1e-4, [&](const std::vector<Eigen::VectorXd>& points) {
+      std::vector<LeastSquares::Residuals> all;
+      for (const Eigen::VectorXd& point : points) all.push_back(residuals(point));
+      return all;
+    });
   }
 
  private:
   const FitTask& task_;
   const std::vector<Coordinate>& coordinates_;
   const std::vector<int>& steps_;
-};
-
-/// Tells how the fit goes on, and stops it.
-class Follower : public ceres::IterationCallback {
- public:
-  Follower(const FitTask& task, int rows, int& iterations)
-      : task_(task), rows_(rows), iterations_(iterations) {}
-
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
-    if (now.iteration > 0) ++iterations_;
-    if (task_.on_iteration && !task_.on_iteration(iterations_, std::sqrt(2 * now.cost / rows_))) {
-      stopped = true;
-      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-    }
-    return ceres::SOLVER_CONTINUE;
-  }
-
-  bool stopped = false;
-
- private:
-  const FitTask& task_;
-  int rows_;
-  int& iterations_;
 };
 
 /// Where the solver has come to.
@@ -144,35 +91,31 @@ struct Attempt {
   FitEnding ending{};
 };
 
-Attempt minimise(const FitTask& task, const std::vector<Coordinate>& coordinates,
-                 const std::vector<int>& steps, Eigen::VectorXd q, int& iterations) {
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  Misfit misfit(task, coordinates, steps);
-  ceres::Problem problem(ownership);
-  problem.AddResidualBlock(&misfit, nullptr, q.data());
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    problem.SetParameterLowerBound(q.data(), static_cast<int>(i), coordinates[i].lower);
-    problem.SetParameterUpperBound(q.data(), static_cast<int>(i), coordinates[i].upper);
+Attempt attempt_from(Eigen::VectorXd q, const FitTask& task, const std::vector<Coordinate>& coordinates,
+                     const std::vector<int>& steps, int& iterations) {
+  const Misfit misfit(task, coordinates, steps);
+  LeastSquares problem{
+      .rows = misfit.rows(),
+      .residuals = [&](const auto& at) { return misfit.residuals(at); },
+      .jacobian = [&](const auto& at, const auto& r) { return misfit.differences(at, r).slope; },
+      .lower = Eigen::VectorXd(q.size()),
+      .upper = Eigen::VectorXd(q.size()),
+      .max_iterations = task.max_iterations,
+      .first_radius = 10, // a full first step may leave the neighbourhood of the start
+      .function_tolerance = 1e-10,
+      .parameter_tolerance = 1e-10,
+      .gradient_tolerance = 1e-14};
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    problem.lower[i] = coordinates[static_cast<std::size_t>(i)].lower;
+    problem.upper[i] = coordinates[static_cast<std::size_t>(i)].upper;
   }
-  Follower follower(task, misfit.num_residuals(), iterations);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.logging_type = ceres::SILENT;
-  options.num_threads = 1;
-  options.max_num_iterations = task.max_iterations;
-  options.initial_trust_region_radius = 10; // a full first step may leave the neighbourhood of the start
-  options.max_num_consecutive_invalid_steps = 30; // beyond a law's limit
-  options.function_tolerance = options.parameter_tolerance = 1e-10;
-  options.gradient_tolerance = 1e-14;
-  options.update_state_every_iteration = true; // the best so far survives an interrupt
-  options.callbacks.push_back(&follower);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  const FitEnding ending = follower.stopped                                 ? FitEnding::interrupted
-                           : summary.termination_type == ceres::CONVERGENCE ? FitEnding::converged
-                                                                            : FitEnding::gave_up;
-  return {std::move(q), summary.final_cost, ending};
+  if (task.on_iteration)
+    problem.on_iteration = [&, before = iterations](int iteration, double rms) {
+      return task.on_iteration(before + iteration, rms);
+    };
+  const LeastSquaresEnd end = minimise(problem, q);
+  iterations += end.iterations;
+  return {std::move(q), end.cost, end.ending};
 }
 
 /// Verifies the steps of time at the solution and goes on with finer ones; `steps` are those of the end.
@@ -180,7 +123,7 @@ Attempt minimise_in_time(const FitTask& task, const std::vector<Coordinate>& coo
                          std::vector<int>& steps, const Eigen::VectorXd& start, int& iterations) {
   Attempt attempt{start};
   for (int round = 0; round < 4; ++round) {
-    attempt = minimise(task, coordinates, steps, attempt.q, iterations);
+    attempt = attempt_from(attempt.q, task, coordinates, steps, iterations);
     const materials::Material reached = Misfit(task, coordinates, steps).material(attempt.q);
     std::vector<int> finer = steps;
     for (std::size_t f = 0; f < steps.size(); ++f)
@@ -240,10 +183,10 @@ bool any_at_bound(const std::vector<Coordinate>& coordinates, const Eigen::Vecto
 
 void add_statistics(const Misfit& misfit, const std::vector<Coordinate>& coordinates,
                     const Eigen::VectorXd& q, FitOutcome& outcome) {
-  Eigen::VectorXd r;
-  Eigen::MatrixXd J;
-  std::vector<bool> ends; // where the model has a stress on one side only
-  if (!misfit.residuals(q, r) || !misfit.jacobian(q, r, J, &ends)) J.setZero(r.size(), q.size());
+  const LeastSquares::Residuals found = misfit.residuals(q);
+  const Eigen::VectorXd r = found.value_or(Eigen::VectorXd::Constant(misfit.rows(), NAN));
+  auto [J, ends] = found ? misfit.differences(q, r) : Differences{};
+  if (J.size() == 0) J.setZero(r.size(), q.size());
   ends.resize(coordinates.size());
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     if (ends[i] || coordinates[i].at_bound(q[static_cast<Eigen::Index>(i)]))

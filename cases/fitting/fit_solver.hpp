@@ -3,6 +3,7 @@
 
 #include "cases/fitting/fit_model.hpp"
 #include "cases/fitting/fit_parameters.hpp"
+#include "cases/fitting/least_squares.hpp"
 
 #include <Eigen/Core>
 
@@ -37,8 +38,6 @@ struct FittedParameter {
 
   bool determined() const;
 };
-
-enum class FitEnding { converged, gave_up, interrupted };
 
 struct FitOutcome {
   FitEnding ending{};

@@ -2,9 +2,9 @@
 #include "cases/fitting/rational.hpp"
 
 #include "cases/fitting/fit_statistics.hpp"
+#include "cases/fitting/least_squares.hpp"
 #include "fem/algebra/dense_algebra.hpp"
 
-#include <ceres/ceres.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,39 +26,6 @@ struct Response {
 };
 using ResponseModel = std::function<Response(Complex s, const VectorXd& q)>;
 
-/// Relative errors as residuals, real and imaginary parts by turns.
-class RelativeErrors : public ceres::CostFunction {
- public:
-  RelativeErrors(const FrequencyTable& table, const ResponseModel& model, double unit, Index count)
-      : table_(table), model_(model), unit_(unit), count_(count) {
-    set_num_residuals(2 * static_cast<int>(table.hertz.size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(count));
-  }
-  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
-    const VectorXd q = Eigen::Map<const VectorXd>(parameters[0], count_);
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::Map<VectorXd> r(residuals, num_residuals());
-    for (std::size_t i = 0; i < table_.hertz.size(); ++i) {
-      const Response at = model_(Complex(0, 2 * std::numbers::pi * table_.hertz[i] / unit_), q);
-      const double size = std::abs(table_.value[i]);
-      const Complex error = (at.value - table_.value[i]) / size;
-      const auto row = static_cast<Index>(2 * i);
-      r.segment<2>(row) = Eigen::Vector2d(error.real(), error.imag());
-      if (!jacobians || !jacobians[0]) continue;
-      Eigen::Map<RowMajor> J(jacobians[0], num_residuals(), count_);
-      J.row(row) = at.slope.real().transpose() / size;
-      J.row(row + 1) = at.slope.imag().transpose() / size;
-    }
-    return r.allFinite();
-  }
-
- private:
-  const FrequencyTable& table_;
-  const ResponseModel& model_;
-  double unit_;
-  Index count_;
-};
-
 /// The solution in the coordinates, their covariance, and what of the outcome does not depend on the model.
 struct Solution {
   VectorXd q;
@@ -66,45 +33,55 @@ struct Solution {
   RationalOutcome outcome;
 };
 
-/// `unit`: rad/s, by which s is divided for the model.
+/// Relative errors as residuals, real and imaginary parts by turns. `unit`: rad/s, by which s is divided for
+/// the model.
 Solution solve(const FrequencyTable& table, const ResponseModel& model, double unit, VectorXd q,
                int max_iterations) {
-  RelativeErrors errors(table, model, unit, q.size());
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
-  problem.AddResidualBlock(&errors, nullptr, q.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.logging_type = ceres::SILENT;
-  options.num_threads = 1;
-  options.max_num_iterations = max_iterations;
-  options.function_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-12;
-  options.gradient_tolerance = 1e-14;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const auto response = [&](std::size_t i, const VectorXd& at) {
+    return model(Complex(0, 2 * std::numbers::pi * table.hertz[i] / unit), at);
+  };
+  const LeastSquares problem{.rows = 2 * static_cast<int>(table.hertz.size()),
+                             .residuals = [&](const VectorXd& at) -> LeastSquares::Residuals {
+                               VectorXd r(2 * std::ssize(table.hertz));
+                               for (std::size_t i = 0; i < table.hertz.size(); ++i) {
+                                 const Complex error =
+                                     (response(i, at).value - table.value[i]) / std::abs(table.value[i]);
+                                 r.segment<2>(static_cast<Index>(2 * i)) =
+                                     Eigen::Vector2d(error.real(), error.imag());
+                               }
+                               return r.allFinite() ? std::optional(r) : std::nullopt;
+                             },
+                             .jacobian =
+                                 [&](const VectorXd& at, const VectorXd& r) {
+                                   MatrixXd J(r.size(), at.size());
+                                   for (std::size_t i = 0; i < table.hertz.size(); ++i) {
+                                     const VectorXcd slope = response(i, at).slope / std::abs(table.value[i]);
+                                     J.row(static_cast<Index>(2 * i)) = slope.real().transpose();
+                                     J.row(static_cast<Index>(2 * i + 1)) = slope.imag().transpose();
+                                   }
+                                   return J;
+                                 },
+                             .max_iterations = max_iterations,
+                             .max_invalid_steps = 5,
+                             .function_tolerance = 1e-14,
+                             .parameter_tolerance = 1e-12,
+                             .gradient_tolerance = 1e-14};
+  const LeastSquaresEnd end = minimise(problem, q);
 
   Solution found{q, {}, {}};
   RationalOutcome& outcome = found.outcome;
-  outcome.ending = summary.termination_type == ceres::CONVERGENCE ? FitEnding::converged : FitEnding::gave_up;
-  outcome.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
-  VectorXd r(errors.num_residuals());
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(r.size(), q.size());
-  const double* at = q.data();
-  double* slopes = J.data();
-  if (!errors.Evaluate(&at, r.data(), &slopes)) {
-    r.setConstant(std::numeric_limits<double>::quiet_NaN());
-    J.setZero();
-  }
+  outcome.ending = end.ending;
+  outcome.iterations = end.iterations;
+  const LeastSquares::Residuals residuals = problem.residuals(q);
+  const VectorXd r = residuals.value_or(VectorXd::Constant(problem.rows, NAN));
+  const MatrixXd J = residuals ? problem.jacobian(q, r) : MatrixXd::Zero(r.size(), q.size());
   const FitStatistics statistics = fit_statistics(J, r);
   outcome.deviation = statistics.deviation;
   outcome.error = std::sqrt(r.squaredNorm() / static_cast<double>(table.hertz.size()));
   const VectorXd& half = statistics.half_widths;
   found.covariance = half.asDiagonal() * statistics.correlation * half.asDiagonal();
   for (Index i = 0; i < q.size(); ++i) found.covariance(i, i) = half[i] * half[i];
-  for (std::size_t i = 0; i < table.hertz.size(); ++i)
-    outcome.model.push_back(model(Complex(0, 2 * std::numbers::pi * table.hertz[i] / unit), q).value);
+  for (std::size_t i = 0; i < table.hertz.size(); ++i) outcome.model.push_back(response(i, q).value);
   return found;
 }
 
