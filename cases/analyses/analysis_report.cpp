@@ -42,7 +42,7 @@ post::Section analysis_section(const Analysis& analysis) {
       plots.push_back(std::move(plot));
   }
   post::Section section{analysis.step, {}};
-  for (post::Image& image : post::draw(plots)) section.blocks.push_back(std::move(image));
+  section.add(post::draw(plots));
   if (section.blocks.empty())
     section.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
   return section;

@@ -69,6 +69,14 @@ Json correlation_json(const Eigen::MatrixXd& correlation) {
   return rows;
 }
 
+void add_warnings(post::Report& report, const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return;
+  post::Table table{{"warning"}, {}};
+  for (const std::string& warning : warnings)
+    table.rows.push_back({post::Cell{warning, post::Tone::warning}});
+  report.sections.push_back({"Warnings", {std::move(table)}});
+}
+
 Json fit_json(const FitResults& results) {
   const FitOutcome& outcome = results.outcome;
   Json json{{"title", results.fit.title},

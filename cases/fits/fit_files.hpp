@@ -2,18 +2,21 @@
 #pragma once
 
 #include "cases/fits/fit_results.hpp"
+#include "post/pictures/report.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace dielast::cases {
 
-// What fit.json and identify.json share.
+// What fits of materials and of devices share.
 /// Null where it is no number.
 nlohmann::ordered_json finite_json(double value);
 const char* word(FitEnding ending);
 /// Adds value, interval, start and whether it is at a bound.
 void append_value(nlohmann::ordered_json& named, const FittedParameter& one);
 nlohmann::ordered_json correlation_json(const Eigen::MatrixXd& correlation);
+/// Adds their section, where there are any.
+void add_warnings(post::Report& report, const std::vector<std::string>& warnings);
 
 /// fit.json: ending, parameters with intervals (null where there is none), correlation, errors of the tests,
 /// warnings. SI.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/fits/fit_report.hpp"
 
+#include "cases/fits/fit_files.hpp"
 #include "post/engineering.hpp"
 #include "post/pictures/plot.hpp"
 
@@ -38,7 +39,6 @@ post::Table parameter_table(const FitResults& results) {
 }
 
 post::Table correlation_table(const FitResults& results) {
-  constexpr double dependent = 0.95;
   post::Table table{{""}, {}};
   for (Eigen::Index i = 0; i < results.outcome.correlation.rows(); ++i) {
     const std::string& name = results.task.parameters[static_cast<std::size_t>(i)].name;
@@ -137,17 +137,11 @@ post::Report fit_report(const FitResults& results) {
                                  post::engineering(one.value, results.task.parameters[i].unit),
                                  interval(one, results.task.parameters[i].unit)});
   }
-  if (const auto warnings = results.warnings(); !warnings.empty()) {
-    post::Table table{{"warning"}, {}};
-    for (const std::string& warning : warnings) table.rows.push_back({Cell{warning, Tone::warning}});
-    report.sections.push_back({"Warnings", {std::move(table)}});
-  }
-  post::Section drawn{"Measured and modelled", {}};
+  add_warnings(report, results.warnings());
   std::vector<post::Plot> plots;
   for (std::size_t t = 0; t < results.errors.size(); ++t)
     plots.push_back(plot_of(results.fit.tests[t], outcome.stress[t], results.errors[t]));
-  for (post::Image& image : post::draw(plots)) drawn.blocks.push_back(std::move(image));
-  if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
+  report.add("Measured and modelled", post::draw(plots));
   report.sections.push_back(
       {"Parameters",
        {parameter_table(results),

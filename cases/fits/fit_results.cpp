@@ -48,7 +48,7 @@ std::string FitResults::ending() const {
 }
 
 std::vector<std::string> FitResults::warnings() const {
-  constexpr double dependent = 0.95, systematic = 0.5;
+  constexpr double systematic = 0.5;
   constexpr double rounding = 1e-6, time_steps = 1e-4; // errors that are none of the model's
   std::vector<std::string> all;
   for (std::size_t i = 0; i < outcome.parameters.size(); ++i) {

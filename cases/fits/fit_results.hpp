@@ -5,6 +5,9 @@
 
 namespace dielast::cases {
 
+/// Numbers of a fit of which this is the correlation can hardly be told apart.
+inline constexpr double dependent = 0.95;
+
 /// How far the model is from a test.
 struct FitError {
   double rms = 0, largest = 0; ///< relative to the largest measured stress; NaN where the model has no stress

@@ -77,7 +77,6 @@ void append_plots(std::vector<post::Plot>& plots, const DeviceTest& test,
 } // namespace
 
 std::vector<std::string> identify_warnings(const Identification& asked, const IdentifyOutcome& outcome) {
-  constexpr double dependent = 0.95;
   std::vector<std::string> all;
   for (std::size_t i = 0; i < outcome.unknowns.size(); ++i) {
     const std::string& key = asked.unknowns[i].key;
@@ -148,17 +147,11 @@ post::Report identify_report(const Identification& asked, const IdentifyOutcome&
           fmt::format("{} unknowns of {} identified", asked.unknowns.size(), asked.base.filename().string()),
       .status = {ending(outcome), outcome.ending == FitEnding::converged ? Tone::good : Tone::warning},
       .footer = "dielast " DIELAST_VERSION};
-  if (const auto warnings = identify_warnings(asked, outcome); !warnings.empty()) {
-    post::Table table{{"warning"}, {}};
-    for (const std::string& warning : warnings) table.rows.push_back({Cell{warning, Tone::warning}});
-    report.sections.push_back({"Warnings", {std::move(table)}});
-  }
+  add_warnings(report, identify_warnings(asked, outcome));
   std::vector<post::Plot> plots;
   for (std::size_t t = 0; t < asked.tests.size(); ++t)
     if (!outcome.model[t].empty()) append_plots(plots, asked.tests[t], outcome.model[t]);
-  post::Section drawn{"Measured and modelled", {}};
-  for (post::Image& image : post::draw(plots)) drawn.blocks.push_back(std::move(image));
-  if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
+  report.add("Measured and modelled", post::draw(plots));
   report.sections.push_back({"Unknowns", {unknown_table(asked, outcome)}});
   report.sections.push_back({"Tests", {test_table(asked, outcome)}});
   return report;

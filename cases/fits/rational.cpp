@@ -102,9 +102,8 @@ post::Report report_of(const RationalFits& asked, const std::vector<RationalOutc
     const std::array both{post::FrequencyResponse{"measured", table.hertz, table.value, Style::points},
                           post::FrequencyResponse{"fitted", table.hertz, outcomes[i].model, Style::line}};
     post::Section section{fit.name(), {}};
-    for (post::Image& image :
-         post::draw(post::bode(fit.name(), fmt::format("magnitude ({})", unit_of(fit.response)), both)))
-      section.blocks.push_back(std::move(image));
+    section.add(
+        post::draw(post::bode(fit.name(), fmt::format("magnitude ({})", unit_of(fit.response)), both)));
     section.blocks.push_back(number_table(fit, outcomes[i]));
     section.blocks.push_back(post::Paragraph{
         fmt::format("({}) / ({})", polynomial(outcomes[i].numerator), polynomial(outcomes[i].denominator))});

@@ -185,9 +185,7 @@ post::Report report_of(const Case& one, const Linearised& found) {
   for (std::size_t c = 0; c < found.compared.size(); ++c)
     curves.push_back({one.linearise->compare[c].name, found.frequency, found.compared[c]});
   post::Section plots{"Response", {}};
-  for (post::Image& image :
-       post::draw(post::bode(found.output, fmt::format("{} [{}/V]", found.output, found.unit), curves)))
-    plots.blocks.push_back(std::move(image));
+  plots.add(post::draw(post::bode(found.output, fmt::format("{} [{}/V]", found.output, found.unit), curves)));
   post::Table gains{{"model", fmt::format("static gain [{}/V]", found.unit)}, {}};
   for (const post::FrequencyResponse& curve : curves)
     gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::abs(curve.value.front()))});

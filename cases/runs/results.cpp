@@ -253,19 +253,17 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   for (post::Section& section : picture_sections(one, device, journal))
     report.sections.push_back(std::move(section));
 
-  post::Section profiles{"Profiles", {}};
   std::vector<post::Plot> profile_plots;
   for (std::size_t p = 0; p < one.profiles.size(); ++p)
     if (results.profiles[p]) profile_plots.push_back(results.profiles[p]->plot(one.profiles[p]));
-  for (post::Image& image : post::draw(profile_plots)) profiles.blocks.push_back(std::move(image));
-  if (!profiles.blocks.empty()) report.sections.push_back(std::move(profiles));
+  report.add("Profiles", post::draw(profile_plots));
 
   for (const Analysis& analysis : journal.analyses) report.sections.push_back(analysis_section(analysis));
 
   post::Section plots{"Curves", {}};
   std::vector<std::string> left_out;
   const std::vector<post::Plot> drawn = curves(one, journal, left_out);
-  for (post::Image& image : post::draw(drawn)) plots.blocks.push_back(std::move(image));
+  plots.add(post::draw(drawn));
   if (plots.blocks.empty() && !drawn.empty())
     plots.blocks.push_back(post::Paragraph{"No plots: gnuplot is not installed."});
   if (!left_out.empty())

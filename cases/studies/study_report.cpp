@@ -234,9 +234,7 @@ post::Report study_report(const Study& study, const std::vector<StudyPoint>& poi
   for (const StudyPlot& spec : study.plots)
     for (const StudyPlot& alike : by_unit(study, spec, collected))
       plots.push_back(make_plot(study, alike, points, collected));
-  post::Section drawn{"Plots", {}};
-  for (post::Image& image : post::draw(plots)) drawn.blocks.push_back(std::move(image));
-  if (!drawn.blocks.empty()) report.sections.push_back(std::move(drawn));
+  report.add("Plots", post::draw(plots));
 
   std::vector<std::pair<std::size_t, std::string>> best; // point and quantity
   for (const StudyBest& one : study.best)

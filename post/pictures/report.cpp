@@ -188,6 +188,12 @@ std::string html_of(const Section& section, std::size_t number) {
 
 } // namespace
 
+void Report::add(std::string section, std::vector<Image> images) {
+  if (images.empty()) return;
+  sections.push_back({std::move(section), {}});
+  sections.back().add(std::move(images));
+}
+
 std::string Report::html() const {
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"

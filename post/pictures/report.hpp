@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -55,6 +56,10 @@ struct Highlight {
 struct Section {
   std::string title;
   std::vector<Block> blocks;
+
+  void add(std::vector<Image> images) {
+    for (Image& image : images) blocks.emplace_back(std::move(image));
+  }
 };
 
 /// A file beside a page.
@@ -73,6 +78,8 @@ struct Report {
   std::vector<Section> sections{};
   std::string footer{}; ///< program, version
 
+  /// Adds a section of images, where there are any.
+  void add(std::string section, std::vector<Image> images);
   std::string html() const;
   /// Its images that have a name, as files for elsewhere: no two of one name.
   std::vector<Figure> figures() const;
