@@ -35,7 +35,7 @@ std::string overview() {
       "A case file is TOML. Quantities are texts with units: \"0.8 mm\"; a bare number is SI.\n"
       "Sections:\n";
   for (const Section& section : case_schema().sections)
-    text += fmt::format("  {:<14}{}\n", section.heading(section.name), section.meaning);
+    text += fmt::format("  {:<13} {}\n", section.heading(section.name), section.meaning);
   text += fmt::format(
       "Topics: {}\nAny name is explained, too: dielast info disc, gent, film.thickness, voltage\n",
       fmt::join(topics(), ", "));

@@ -24,7 +24,7 @@ std::string values_text(const Section& section, const void* object) {
   for (const Key& key : section.keys)
     if (key.applies_to(selected))
       if (const auto value = key.binding.get(object))
-        text += fmt::format("    {:<24}{}\n", key.name, shown_value(key, *value));
+        text += fmt::format("    {:<23} {}\n", key.name, shown_value(key, *value));
   for (const Section& inner : section.sections)
     for (const Access::Entry& entry : inner.access.entries(object))
       text += fmt::format("    {}\n", inner.name) + values_text(inner, entry.object);
@@ -73,7 +73,7 @@ std::string rules_text(const Key& key) {
 }
 
 std::string key_text(const Key& key) {
-  std::string text = fmt::format("  {:<22}{}\n{:24}{}\n", key.name, key.meaning, "", rules_text(key));
+  std::string text = fmt::format("  {:<21} {}\n{:24}{}\n", key.name, key.meaning, "", rules_text(key));
   if (key.type == Type::word)
     for (const Choice& choice : key.choices)
       if (!choice.meaning.empty()) text += fmt::format("{:26}{}: {}\n", "", choice.word, choice.meaning);
@@ -132,7 +132,8 @@ std::string device_text(const Template& device) {
   for (const Key& key : mesh.keys)
     if (key.applies_to(name)) text += key_text(key);
   if (!device.places.empty()) text += "\nplaces\n";
-  for (const PlaceName& place : device.places) text += fmt::format("  {:<22}{}\n", place.name, place.meaning);
+  for (const PlaceName& place : device.places)
+    text += fmt::format("  {:<21} {}\n", place.name, place.meaning);
   text += "\nunless the case has its own\n";
   const Node defaults = parse_tree(device.defaults, "");
   for (std::size_t i = 0; i < defaults.items.size(); ++i)

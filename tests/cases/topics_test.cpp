@@ -62,6 +62,13 @@ TEST_F(Topics, InfoExplainsAnyName) {
   EXPECT_NE(wrong.err.find("did you mean \"film.thickness\"?"), std::string::npos) << wrong.err;
 }
 
+TEST_F(Topics, LongNamesStandApartFromWhatTheyMean) {
+  for (const char* line :
+       {"[antagonistic_rolls] two rolls", "[hollow_sphere] sphere", "[[point_mass]] a mass"})
+    EXPECT_NE(dielast({"info", "overview"}).out.find(line), std::string::npos) << line;
+  EXPECT_NE(dielast({"info", "fin"}).out.find("added_mass_coefficient added"), std::string::npos);
+}
+
 TEST_F(Topics, MaterialsAreToldWithoutRoundOff) {
   const std::string out = dielast({"info", "materials"}).out;
   EXPECT_FALSE(std::regex_search(out, std::regex("[0-9]{14}"))) << out;
