@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -97,6 +98,20 @@ TEST(ElectrodeLine, errors_are_of_second_order_in_space_and_time) {
   EXPECT_NEAR(std::log2((values[0] - values[1]) / (values[1] - values[2])), 2, 0.25);
 }
 
+/// Voltages V(x) over the terminal's in steady flow are as said.
+void expect_steady(const Model& model, const meshing::Mesh& mesh,
+                   const std::function<double(double x)>& expected) {
+  Equilibrium equilibrium(model, 1);
+  State state = model.initial_state();
+  state.scheme = materials::TimeScheme::relaxed();
+  state.voltage = {1.0};
+  ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
+  for (std::size_t a = 0; a < model.sheet_points.size(); ++a) {
+    const double x = mesh.nodes[static_cast<std::size_t>(model.sheet_points[a].node)].x();
+    EXPECT_NEAR(1 - state.sheet_drop[static_cast<Eigen::Index>(a)], expected(x), 1e-4);
+  }
+}
+
 TEST(ElectrodeLine, what_leaks_in_steady_flow_leaves_less_voltage_far_away) {
   // V = V0 cosh((L - x)/l)/cosh(L/l), l^2 = 1/(Rs leakage per area)
   const meshing::Mesh mesh = test::strip(100, 1, length, length / 100);
@@ -104,16 +119,7 @@ TEST(ElectrodeLine, what_leaks_in_steady_flow_leaves_less_voltage_far_away) {
   const double per_area = 4 / (resistance * length * length);
   model->circuits = {{.electrode = 0, .resistance = 1, .leakage = per_area * length * length / 100}};
   model->place_histories();
-  Equilibrium equilibrium(*model, 1);
-  State state = model->initial_state();
-  state.scheme = materials::TimeScheme::relaxed();
-  state.voltage = {1.0};
-  ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
-  for (std::size_t a = 0; a < model->sheet_points.size(); ++a) {
-    const double x = mesh.nodes[static_cast<std::size_t>(model->sheet_points[a].node)].x();
-    EXPECT_NEAR(1 - state.sheet_drop[static_cast<Eigen::Index>(a)],
-                std::cosh(2 * (1 - x / length)) / std::cosh(2), 1e-4);
-  }
+  expect_steady(*model, mesh, [](double x) { return std::cosh(2 * (1 - x / length)) / std::cosh(2); });
 }
 
 TEST(ElectrodeLine, a_disc_connected_at_its_rim_is_one_of_bessel_functions) {
@@ -137,16 +143,8 @@ TEST(ElectrodeLine, a_disc_connected_at_its_rim_is_one_of_bessel_functions) {
       if (a != 1 || c == 2) model->dofs.hold(a, c);
   model->dofs.number();
   model->length_scale = model->extent = length;
-  Equilibrium equilibrium(*model, 1);
-  State state = model->initial_state();
-  state.scheme = materials::TimeScheme::relaxed();
-  state.voltage = {1.0};
-  ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
-  for (std::size_t a = 0; a < model->sheet_points.size(); ++a) {
-    const double r = mesh.nodes[static_cast<std::size_t>(model->sheet_points[a].node)].x();
-    EXPECT_NEAR(1 - state.sheet_drop[static_cast<Eigen::Index>(a)],
-                std::cyl_bessel_i(0, 2 * r / length) / std::cyl_bessel_i(0, 2.0), 1e-4);
-  }
+  expect_steady(*model, mesh,
+                [](double r) { return std::cyl_bessel_i(0, 2 * r / length) / std::cyl_bessel_i(0, 2.0); });
 }
 
 } // namespace

@@ -127,6 +127,21 @@ struct Bent {
   double field, angle, x, z; // Phi/H sqrt(eps/mu); of the tip, rad; its place, mm
 };
 
+/// A strip of two layers of a Gent film, clamped at one end, that bends in plane strain; `offset` as in
+/// ShellSection, m.
+ShellProblem bilayer(double offset) {
+  const materials::Material gent{materials::Gent{1e5, 7}, acrylic, 960, {}};
+  ShellProblem strip(
+      10, 1, [](double u, double v) { return Eigen::Vector3d(20e-3 * u, 2e-3 * v, 0); },
+      ShellSection{.layers = {{gent, 1e-3}, {gent, 1e-3}}, .offset = offset}, 1);
+  strip.hold(strip.side(0, 0), {0, 4, 5});
+  strip.hold(strip.side(1, 0), {1, 3, 5});
+  strip.hold(strip.side(1, 1), {1, 3, 5});
+  strip.hold({strip.node(0, 0)}, {2});
+  strip.number();
+  return strip;
+}
+
 // Exact finite flexure of two layers of a Gent film in plane strain, the lower one passive; the tip's x and z
 // are those of the interface. The field is taken as even across a layer: 0.5 % of the bending at the last
 // one.
@@ -134,16 +149,8 @@ TEST(Bilayer, bends_as_exact_finite_flexure) {
   constexpr Bent table[] = {{0.05, 0.009389695233999911, 20.005965312299058, 0.09392564866353768},
                             {0.1, 0.0377357556639739, 20.020397052553818, 0.3777872371503829},
                             {0.2, 0.15383996434054878, 20.02323218540957, 1.543231468041405}};
-  const materials::Material gent{materials::Gent{1e5, 7}, acrylic, 960, {}};
   for (const Bent& exact : table) {
-    ShellProblem strip(
-        10, 1, [](double u, double v) { return Eigen::Vector3d(20e-3 * u, 2e-3 * v, 0); },
-        ShellSection{.layers = {{gent, 1e-3}, {gent, 1e-3}}}, 1);
-    strip.hold(strip.side(0, 0), {0, 4, 5});
-    strip.hold(strip.side(1, 0), {1, 3, 5});
-    strip.hold(strip.side(1, 1), {1, 3, 5});
-    strip.hold({strip.node(0, 0)}, {2});
-    strip.number();
+    ShellProblem strip = bilayer(0);
     const double voltage = exact.field * 1e-3 * std::sqrt(1e5 / acrylic.permittivity);
     ASSERT_EQ(strip.raise(1, 2, voltage).end, RampEnd::complete);
     const int tip = strip.node(1, 0);
@@ -156,17 +163,9 @@ TEST(Bilayer, bends_as_exact_finite_flexure) {
 
 // The offset moves the drawn surface out of the middle; a neutral load along the middle would not bend it.
 TEST(Bilayer, does_not_care_which_of_its_surfaces_is_drawn) {
-  const materials::Material gent{materials::Gent{1e5, 7}, acrylic, 960, {}};
   std::vector<double> angles;
   for (const double offset : {-1e-3, 0.0, 1e-3}) {
-    ShellProblem strip(
-        10, 1, [](double u, double v) { return Eigen::Vector3d(20e-3 * u, 2e-3 * v, 0); },
-        ShellSection{.layers = {{gent, 1e-3}, {gent, 1e-3}}, .offset = offset}, 1);
-    strip.hold(strip.side(0, 0), {0, 4, 5});
-    strip.hold(strip.side(1, 0), {1, 3, 5});
-    strip.hold(strip.side(1, 1), {1, 3, 5});
-    strip.hold({strip.node(0, 0)}, {2});
-    strip.number();
+    ShellProblem strip = bilayer(offset);
     ASSERT_EQ(strip.raise(1, 2, 5000 / std::sqrt(2.0)).end, RampEnd::complete);
     angles.push_back(spin_of(strip.state().rotation[static_cast<std::size_t>(strip.node(1, 0))]).y());
   }

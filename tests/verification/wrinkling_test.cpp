@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 // Bending of a stretched strip whose compressed edge wrinkles (Stein & Hedgepeth 1961, NASA TN D-813): a
 // strip of height h and thickness t under the axial tension P and the in-plane moment M. Up to M/(Ph) = 1/6
@@ -45,6 +47,19 @@ meshing::Mesh strip(int n, int ratio = 2) {
   return mesh;
 }
 
+/// The membrane of all triangles of a mesh, without an electrode, that carries no compression. `law`: of E,
+/// Pa, and nu; thickness in m.
+std::unique_ptr<ElementBlock> wrinkling(const meshing::Mesh& mesh, const materials::StVenantKirchhoff& law,
+                                        double thickness, Dimension dimension,
+                                        std::array<double, 2> prestretch = {1, 1}) {
+  const MembraneSection section{.material = {.law = law, .dielectric = {.permittivity = 1e-12}},
+                                .thickness = thickness,
+                                .prestretch = prestretch,
+                                .tension_field = true};
+  const std::vector<int> electrodes(static_cast<std::size_t>(mesh.blocks[0].size()), passive);
+  return make_membrane_block(mesh, mesh.blocks[0], section, electrodes, dimension, 3);
+}
+
 struct Bending {
   double tension, moment; ///< P in N, M in N m about mid height
 };
@@ -53,15 +68,8 @@ struct Bending {
 /// height y.
 Bending bend(int n, double curvature, double b) {
   const meshing::Mesh mesh = strip(n);
-  MembraneSection section;
-  section.material.law = materials::StVenantKirchhoff{modulus, 0.3};
-  section.material.dielectric.permittivity = 1e-12;
-  section.thickness = thickness;
-  section.tension_field = true;
   Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {}};
-  model.blocks.push_back(make_membrane_block(
-      mesh, mesh.blocks[0], section,
-      std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::planar, 3));
+  model.blocks.push_back(wrinkling(mesh, {modulus, 0.3}, thickness, Dimension::planar));
   model.place_histories();
   model.blocks[0]->claim_dofs(model.dofs, Dimension::planar);
   const auto at_end = [&](int node) {
@@ -142,16 +150,9 @@ struct Airbag {
   explicit Airbag(int n) {
     meshing::Mesh mesh = strip(n); // length twice the height: to be a square
     for (Eigen::Vector3d& x : mesh.nodes) x = {x.x() * side / length, x.y() * side / height, 0};
-    MembraneSection section;
-    section.material.law = materials::StVenantKirchhoff{588e6, 0.4};
-    section.material.dielectric.permittivity = 1e-12;
-    section.thickness = 0.6e-3;
-    section.tension_field = true;
     model.dofs = DofMap(mesh.node_count());
     model.chambers = {{"inside"}};
-    model.blocks.push_back(make_membrane_block(
-        mesh, mesh.blocks[0], section,
-        std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::spatial, 3));
+    model.blocks.push_back(wrinkling(mesh, {588e6, 0.4}, 0.6e-3, Dimension::spatial));
     model.blocks.push_back(make_pressure_block(mesh, mesh.blocks[0], 0));
     model.place_histories();
     for (const auto& block : model.blocks) block->claim_dofs(model.dofs, Dimension::spatial);
@@ -188,16 +189,8 @@ TEST(SlackFilm, an_airbag_rises_from_flat_to_its_published_height) {
 TEST(SlackFilm, a_sheared_sheet_carries_its_tension_at_45_degrees) {
   constexpr int ratio = 4, rows = 8;
   const meshing::Mesh mesh = strip(rows, ratio);
-  MembraneSection section;
-  section.material.law = materials::StVenantKirchhoff{modulus, 0.31};
-  section.material.dielectric.permittivity = 1e-12;
-  section.thickness = thickness;
-  section.tension_field = true;
-  section.prestretch = {1, 1.00001};
   Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {}};
-  model.blocks.push_back(make_membrane_block(
-      mesh, mesh.blocks[0], section,
-      std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::planar, 3));
+  model.blocks.push_back(wrinkling(mesh, {modulus, 0.31}, thickness, Dimension::planar, {1, 1.00001}));
   model.place_histories();
   model.blocks[0]->claim_dofs(model.dofs, Dimension::planar);
   const auto at_top = [&](int node) {
