@@ -27,7 +27,7 @@ std::string film(const std::string& rest = "") {
       rest, mu, eps);
 }
 
-// ../shared/validation/thick_shells.json: radii by quadrature of the radial equilibrium.
+// Radii by quadrature of the radial equilibrium.
 TEST_F(Solids, thick_sphere_has_the_exact_radii_and_capacitance) {
   struct Exact {
     double voltage, a, b, capacitance;
@@ -206,7 +206,7 @@ TEST_F(Solids, two_layers_have_the_force_and_capacitance_of_the_closed_form) {
   EXPECT_NEAR(found.at("pull"), force, 1e-8 * std::abs(force));
 }
 
-// ../shared/systems/hung_stack.md: an independent solution with another program.
+// An independent solution with another program.
 TEST_F(Solids, stack_on_a_table_swells_beside_its_electrode) {
   std::string text = R"(
 [film]

@@ -30,7 +30,7 @@ std::string film(const std::string& thickness, const std::string& rest = "") {
       thickness, rest, mu, eps);
 }
 
-// ../shared/validation/thick_shells.json: an eighth of it.
+// Of the sphere of solids_test.cpp.
 TEST_F(Tetrahedra, eighth_of_a_thick_sphere_has_the_exact_radii_and_capacitance) {
   const Case one =
       read("model = \"3d\"\n" + film("2 mm") +
