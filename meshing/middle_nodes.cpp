@@ -2,7 +2,6 @@
 #include "meshing/middle_nodes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace dielast::meshing {

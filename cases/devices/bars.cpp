@@ -10,7 +10,6 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <utility>
 
 namespace dielast::cases {
 namespace {

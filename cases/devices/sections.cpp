@@ -12,7 +12,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <set>
 
 namespace dielast::cases {
 namespace {

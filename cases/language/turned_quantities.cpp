@@ -4,7 +4,6 @@
 #include "cases/text/units.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

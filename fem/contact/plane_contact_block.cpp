@@ -8,8 +8,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 

@@ -4,7 +4,6 @@
 #include "fem/elements/lower_triangle.hpp"
 #include "fem/films/meridian.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 

@@ -2,7 +2,6 @@
 #include "fem/paths/predictor.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace dielast::fem {
