@@ -33,7 +33,8 @@ struct Solution {
   std::vector<double> rises;    ///< of extremes at the end, otherwise 0
   std::vector<std::string> way; ///< what happened to the equilibrium, in order
   std::set<std::string> events; ///< kinds of whatever else happened
-  std::string trouble;          ///< why there are no values; empty otherwise
+  std::vector<Margin> margins;
+  std::string trouble; ///< why there are no values; empty otherwise
 };
 
 void note(Solution& solution, const post::StepRecord& record) {
@@ -51,10 +52,9 @@ const Quantity& measured(const Quantity& quantity, const std::vector<Quantity>& 
 }
 
 void add_results(Solution& solution, const Case& one, const Simulation& simulation,
-                 const std::vector<Margin>& margins) {
+                 std::vector<Margin> margins) {
   solution.values = simulation.results();
-  for (std::size_t q = 0; q < one.quantities.size(); ++q)
-    if (one.quantities[q].kind->of_run) solution.values[q] = factor_to(one.quantities[q].of, margins);
+  solution.margins = std::move(margins);
   const Device& device = simulation.device();
   const fem::Samples samples = device.model.sample(simulation.state());
   const post::Extremes extremes(samples);
@@ -68,7 +68,7 @@ void add_results(Solution& solution, const Case& one, const Simulation& simulati
   }
 }
 
-Solution solve(const Discretisation& discretisation, int threads) {
+Solution solve(const Discretisation& discretisation, bool with_margins, int threads) {
   Solution solution{.size = discretisation.size};
   try {
     Simulation simulation(discretisation.one, threads);
@@ -82,12 +82,10 @@ Solution solve(const Discretisation& discretisation, int threads) {
     };
     observer.on_pass = [] { return !interrupted(); };
     const Outcome outcome = simulation.run(observer);
-    const bool wanted = std::ranges::any_of(discretisation.one.quantities,
-                                            [](const Quantity& own) { return own.kind->of_run; });
     if (outcome.ending == Ending::complete)
       add_results(solution, discretisation.one, simulation,
-                  wanted ? margins_of(discretisation.one, simulation, journal, outcome, threads)
-                         : std::vector<Margin>{});
+                  with_margins ? margins_of(discretisation.one, simulation, journal, outcome, threads)
+                               : std::vector<Margin>{});
     else
       solution.trouble = outcome.kind;
   } catch (const std::exception& error) { // no mesh, a place that it lacks, no memory: the run itself is done
@@ -295,9 +293,11 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   Solution own;
   for (const post::StepRecord& record : records) note(own, record);
   add_results(own, one, own_run, margins);
+  const bool with_margins =
+      std::ranges::any_of(margins, [](const Margin& margin) { return margin.factor.has_value(); });
   std::vector<Solution> others;
   for (const Discretisation& discretisation : discretisations) {
-    Solution other = solve(discretisation, threads);
+    Solution other = solve(discretisation, with_margins, threads);
     if (interrupted()) {
       estimates.reason = "interrupted";
       break;
@@ -339,12 +339,21 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
         estimate.error = std::max(*estimate.error, one.solver.time_tolerance * std::abs(own.values[q]));
     }
   }
-  for (std::size_t q = 0; q < one.quantities.size(); ++q)
-    if (one.quantities[q].kind->of_run &&
-        is_singular_there(one, one.quantities[q].of, estimates.quantities)) {
-      estimates.quantities[q].error.reset();
-      estimates.quantities[q].remark = "falls as the mesh is refined: no converged value";
+  for (const Margin& margin : margins) {
+    ErrorEstimate& estimate = estimates.margins.emplace_back();
+    if (!margin.factor) continue;
+    if (is_singular_there(one, margin.limit, estimates.quantities)) {
+      estimate.remark = "falls as the mesh is refined: no converged value";
+      continue;
     }
+    std::vector<Sampled> sampled;
+    for (const Solution& other : others)
+      sampled.push_back({other.size, factor_to(margin.limit, other.margins)});
+    if (std::isfinite(sampled.front().value))
+      estimate = estimate_error({1, *margin.factor}, sampled, orders_of({}, one, smooth, bonded), 0);
+    else
+      estimate.remark = fmt::format("not reached with {}: no error estimate", size_text(others.front().size));
+  }
   estimates.events = event_remarks(one, own_run.device(), own, others, estimates.quantities);
   return estimates;
 }

@@ -20,7 +20,9 @@ struct EventRemark {
 
 /// What other discretisations tell of a run.
 struct Estimates {
-  std::vector<ErrorEstimate> quantities; ///< in the case's order; empty: none, for `reason`
+  std::vector<ErrorEstimate> quantities; ///< in the case's order; empty: none, for `reason`; none of margins
+  std::vector<ErrorEstimate>
+      margins; ///< of the factors, in the order of the margins; empty: none, for `reason`
   std::vector<EventRemark> events;
   std::string reason; ///< why no quantity has an estimate; empty otherwise
 };

@@ -67,11 +67,27 @@ std::vector<post::StepRecord> with_remarks(std::vector<post::StepRecord> records
   return records;
 }
 
+/// What is known of the errors of margins, added to them.
+std::vector<Margin> with_estimates(std::vector<Margin> margins, const std::vector<ErrorEstimate>& estimates) {
+  for (std::size_t m = 0; m < std::min(margins.size(), estimates.size()); ++m) {
+    margins[m].error = estimates[m].error;
+    if (estimates[m].remark.empty()) continue;
+    if (!margins[m].remark.empty()) margins[m].remark += "; ";
+    margins[m].remark += estimates[m].remark;
+  }
+  return margins;
+}
+
 post::Section margin_section(const std::vector<Margin>& margins) {
   post::Table table{{"limit", "factor on the voltage", ""}, {}};
-  for (const Margin& margin : margins)
-    table.rows.push_back(
-        {margin.limit, margin.factor ? fmt::format("{:.4g}", *margin.factor) : "-", margin.remark});
+  for (const Margin& margin : margins) {
+    const post::QuantityRow row{.name = margin.limit,
+                                .value = margin.factor.value_or(0),
+                                .unit = "1",
+                                .error = margin.error,
+                                .meaning = ""};
+    table.rows.push_back({margin.limit, margin.factor ? post::with_error(row) : "-", margin.remark});
+  }
   return {"Margins", {std::move(table)}};
 }
 
@@ -96,7 +112,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                   .no_errors_because = estimates.reason,
                   .event_remarks = estimates.events,
                   .time_error = simulation.time_error(),
-                  .margins = std::move(margins)};
+                  .margins = with_estimates(std::move(margins), estimates.margins)};
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,
@@ -112,7 +128,8 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
     const auto margin = std::ranges::find(results.margins, quantity.of, &Margin::limit);
     if (quantity.kind->of_run && margin != results.margins.end()) {
       row.value = factor_to(quantity.of, results.margins);
-      if (!margin->remark.empty()) row.error_remark = margin->remark;
+      row.error = margin->error;
+      row.error_remark = margin->remark;
     }
     results.quantities.push_back(std::move(row));
   }
@@ -177,6 +194,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
   nlohmann::ordered_json margins = nlohmann::ordered_json::object();
   for (const Margin& margin : results.margins)
     margins[margin.limit] = {{"factor", margin.factor ? number(*margin.factor) : json(nullptr)},
+                             {"error_estimate", margin.error ? number(*margin.error) : json(nullptr)},
                              {"up_to", margin.up_to},
                              {"remark", margin.remark}};
   summary["margins"] = margins;

@@ -15,7 +15,8 @@ struct Margin {
   std::string limit;            ///< "breakdown", "loss of tension", "pull-in", "buckling", "wall yield"
   std::optional<double> factor; ///< below 1: it was passed on the way; absent: see the remark
   double up_to = 1;             ///< factor up to which the run, or what was looked at beyond it, tells
-  std::string remark;           ///< why there is no factor, or what it does not tell
+  std::string remark;           ///< why there is no factor or no error of it, or what it does not tell
+  std::optional<double> error;  ///< of the factor: estimated discretisation error
 };
 
 /// What the states of a run tell of its limits, and with [output] margins_up_to those beyond its end, which

@@ -120,6 +120,29 @@ of = "loss of tension"
     EXPECT_NEAR(quantities[name]["value"], right, error) << name;
     EXPECT_LT(error, 5e-3) << name;
   }
+  // The list of margins says what the quantities say; those that no quantity asks for have their errors, too.
+  const nlohmann::json margins = json_of("out/summary.json")["margins"];
+  EXPECT_EQ(margins["breakdown"]["error_estimate"], quantities["breaks"]["error_estimate"]);
+  EXPECT_EQ(margins["loss of tension"]["error_estimate"], quantities["slackens"]["error_estimate"]);
+  for (const auto& [name, limit] : {std::pair{"breaks", "breakdown"}, {"slackens", "loss of tension"}})
+    EXPECT_EQ(margins[limit]["remark"], quantities[name]["error_remark"]);
+  EXPECT_TRUE(margins["pull-in"]["error_estimate"].is_null());
+  const std::string report = content("out/report.html");
+  const std::size_t section = report.find("<h2>Margins</h2>");
+  ASSERT_NE(section, std::string::npos);
+  EXPECT_NE(report.substr(section, 600).find(" ± "), std::string::npos) << report.substr(section, 600);
+}
+
+// A field that grows with the mesh: its margin falls, in the list as in a quantity of it.
+TEST_F(Estimates, OfMarginsToWhatIsSingularAreNone) {
+  const nlohmann::json summary =
+      summary_of(cases / "honeycomb.toml", {"honeycomb.angle=110 deg", "drive.voltage=7.5 kV",
+                                            "mesh.wall_elements=8", "film.material.breakdown_field=20 MV/m"});
+  const nlohmann::json& margin = summary["margins"]["breakdown"];
+  EXPECT_LT(margin["factor"], 1);
+  EXPECT_TRUE(margin["error_estimate"].is_null());
+  EXPECT_NE(margin["remark"].get<std::string>().find("falls as the mesh is refined: no converged value"),
+            std::string::npos);
 }
 
 // Its corners and the layers along its free sides are beyond larger elements: from these alone the tip had an
