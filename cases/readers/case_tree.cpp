@@ -110,6 +110,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   one.source = path;
   one.title = path.stem().string();
   add_defaults(tree);
+  add_inertia(tree);
   const int standard = give_way(tree, add_standard_quantities(tree));
 
   if (const std::string name = path.stem().string(); name.size() > longest_name)

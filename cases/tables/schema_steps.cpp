@@ -141,8 +141,9 @@ Section step_section() {
           .refers_to(Reference::electrode)
           .only({"harmonic"}),
       flag("inertia", to(&Step::inertia),
-           "what has a mass resists acceleration; with a [plate], a [[point_mass]], a [[fin]] or a [[body]] "
-           "of some mass the default is true")
+           "what has a mass resists acceleration; with a [plate], a [[point_mass]], a [[fin]], or a [weight] "
+           "or "
+           "[[body]] of some mass the default is true")
           .otherwise("false")
           .only_with(when::has_mass())
           .only(timed),

@@ -205,21 +205,13 @@ bool is_heavy(const Node& body) try {
   return false; // reported where it is read
 }
 
-/// A film of revolution is what a plate, a chamber or a balloon asks for, and inertia what a mass does.
-void add_motion_defaults(Node& tree) {
+/// A film of revolution is what a plate, a chamber or a balloon asks for.
+void add_model(Node& tree) {
   const Source source{tree.source.file, 0, 0};
   if (!tree.find("model") && tree.find("pivot")) tree.add("model", text_node("3d", source));
   if (!tree.find("model") && (tree.find("plate") || tree.find("chamber") || tree.find("balloon") ||
                               tree.find("roll") || tree.find("hollow_sphere")))
     tree.add("model", text_node("axisymmetric", source));
-  Node* steps = tree.find("step");
-  const bool moving = tree.find("plate") || tree.find("point_mass") || tree.find("fin") ||
-                      std::ranges::any_of(items_of(tree, "body"), is_heavy);
-  if (!moving || !steps || !steps->is(Node::Kind::list)) return;
-  for (Node& step : steps->items)
-    if (const std::string kind = text_at(step, "kind");
-        (kind == "transient" || kind == "hold") && !step.find("inertia"))
-      step.add("inertia", parse_value("true", source));
 }
 
 /// A strip hangs along -y, and so does its own weight.
@@ -322,7 +314,20 @@ void add_defaults(Node& tree) {
   if (!parts.empty() && !tree.find("step")) tree.add("step", parse_value("[{ kind = \"voltage\" }]", source));
   add_gravity_of_strip(tree);
   add_solid_defaults(tree);
-  add_motion_defaults(tree);
+  add_model(tree);
+}
+
+void add_inertia(Node& tree) {
+  Node* steps = tree.find("step");
+  const Node* weight = tree.find("weight");
+  const bool moving = tree.find("plate") || tree.find("point_mass") || tree.find("fin") ||
+                      (weight && is_heavy(*weight)) || std::ranges::any_of(items_of(tree, "body"), is_heavy);
+  if (!moving || !steps || !steps->is(Node::Kind::list)) return;
+  const Source source{tree.source.file, 0, 0};
+  for (Node& step : steps->items)
+    if (const std::string kind = text_at(step, "kind");
+        (kind == "transient" || kind == "hold") && !step.find("inertia"))
+      step.add("inertia", parse_value("true", source));
 }
 
 namespace {

@@ -44,6 +44,9 @@ std::string geometry_of(const Node& table);
 /// electrode are called after the part.
 void add_defaults(Node& tree);
 
+/// Steps that take time have inertia where something is heavy, as it is when all of the case is known.
+void add_inertia(Node& tree);
+
 /// Thick geometries are of solid; between the surfaces of a sphere there is a potential.
 void add_solid_defaults(Node& tree);
 

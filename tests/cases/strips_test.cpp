@@ -36,6 +36,15 @@ class Strips : public test::CaseTest {
   }
 };
 
+// As a [plate] or a [[body]] does: what jumps under a weight overshoots.
+TEST_F(Strips, TheirWeightHasInertiaByDefault) {
+  const std::string timed =
+      stack + "[[step]]\nkind = \"weight\"\n[[step]]\nkind = \"transient\"\nduration = \"1 ms\"\n";
+  EXPECT_TRUE(read(timed).steps.back().inertia);
+  EXPECT_FALSE(read(timed, {"weight.mass=0 g"}).steps.back().inertia);
+  EXPECT_FALSE(read(timed, {"step[2].inertia=false"}).steps.back().inertia);
+}
+
 TEST_F(Strips, LayersAreOneThickFilmUnderTheSameField) {
   const auto layers = values(stack);
   const auto thick = values(stack, {"strip.layers=1", "film.thickness=0.5 mm", "drive.voltage=10 kV"});
