@@ -186,6 +186,21 @@ TEST_F(RelaxTest, SourcesStandWhereTheyWereLed) {
   }
 }
 
+// The sheet has no drop while the electrode still charges, slowly, through its circuit.
+TEST_F(RelaxTest, AnElectrodeThatStillChargesIsNotAtRestUnderASheetEither) {
+  for (const bool spreads : {false, true}) {
+    const std::string sheet = spreads ? "sheet_resistance = \"1 kOhm\"\nterminal = \"left\"\n" : "";
+    const Case one = read(held + electrode + sheet + behind +
+                          driven(step("transient", "duration = \"0.1 s\"\n") + step("modes", "count = 1\n")));
+    Simulation simulation(one, 1);
+    SimulationObserver observer;
+    observer.on_analysis = [](const Analysis&, const fem::State&) {};
+    const Outcome outcome = simulation.run(observer);
+    EXPECT_NE(outcome.message.find("charge flows through the circuit"), std::string::npos)
+        << spreads << outcome.message;
+  }
+}
+
 // A sheet of Rs = 1 or 10 GOhm per square, 20 mm from its terminal to its end and 10 mm wide: with
 // m^2 = 2 Rs / Rl the terminal has V = I 2 Rs / (m tanh m).
 TEST_F(RelaxTest, WithoutTimeSheetsLeakByTheVoltageThatReachesThem) {
