@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 
 namespace dielast::fem {
 namespace {
@@ -31,6 +33,44 @@ double flow_left(const Model& model, const State& state) {
   return largest;
 }
 
+/// Largest change of the stiffness in any direction x, |x'(K_there - K_here)x| / |x' K_here x|, by the power
+/// method; infinite where there is none to compare with.
+double stiffness_change(Equilibrium& equilibrium, const State& here, const State& there) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr int powers = 12;
+  Assembler& assembler = equilibrium.assembler();
+  assembler.tangent(there);
+  SparseSymmetric change = assembler.matrix();
+  assembler.tangent(here);
+  const SparseSymmetric& K = assembler.matrix();
+  if (K.rows != change.rows) return none; // another contact
+  for (std::size_t i = 0; i < K.values.size(); ++i) change.values[i] -= K.values[i];
+  if (!equilibrium.factor(here)) return none;
+  const Eigen::VectorXd& D = equilibrium.stiffness();
+  std::mt19937 random(1);
+  Eigen::VectorXd x(D.size()), y;
+  for (double& entry : x)
+    entry = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  x = x.cwiseQuotient(D.cwiseSqrt());
+  double largest = 0;
+  for (int power = 0; power < powers; ++power) {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
+    for (int column = 0; column < change.size; ++column)
+      for (int i = change.column_start[static_cast<std::size_t>(column)];
+           i < change.column_start[static_cast<std::size_t>(column) + 1]; ++i) {
+        const int row = change.rows[static_cast<std::size_t>(i)];
+        force[row] += change.values[static_cast<std::size_t>(i)] * x[column];
+        if (row != column) force[column] += change.values[static_cast<std::size_t>(i)] * x[row];
+      }
+    equilibrium.tangent().solve(force, y);
+    const double before = std::sqrt(x.dot(D.cwiseProduct(x)));
+    largest = std::sqrt(y.dot(D.cwiseProduct(y))) / before;
+    if (!(largest > 0)) return 0;
+    x = y / (largest * before);
+  }
+  return largest;
+}
+
 /// What flows is little of what is of order one, but much of a stiff branch's stress may be beside a soft
 /// film, and small stresses make thin ones stiffer or softer in bending: so that is judged by how far the
 /// stresses that dashpots carry would move the device if they were let go, and by its lowest stiffness there.
@@ -48,7 +88,9 @@ bool matters(Equilibrium& equilibrium, const State& state) {
   for (const Eigen::Vector3d& u : state.displacement) moved = std::max(moved, u.norm());
   if (equilibrium.step_size(step) > std::max(still_to_come * moved / model.extent, still_to_come_at_all))
     return true;
+  const State from = at;
   model.dofs.advance(at, step, 1);
+  if (stiffness_change(equilibrium, from, at) > as_stiff) return true; // in any mode, of any part
   const auto there = lowest_mode(equilibrium, at);
   return !there || std::abs(there->eigenvalue - here->eigenvalue) >
                        as_stiff * std::max(std::abs(here->eigenvalue), no_stiffness);

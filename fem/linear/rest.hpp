@@ -10,10 +10,10 @@ namespace dielast::fem {
 /// What goes on in a state that is not at rest, so that no small vibration goes about it: dashpots that flow,
 /// by more than 1e-4 of their internal variables, which are of order one, until they rest at this shape, or
 /// so that the device would move by more than 1e-3 of its displacements so far (and 1e-6 of its extent) or
-/// its lowest stiffness change by more than 2e-3 until they rest; current along a sheet or through a circuit
-/// that will change voltages by more than 1e-4 of the largest; charge on an isolated electrode that leaks,
-/// above 1e-4 of its scale; what has a mass, which would go on by more than 1e-4 of the model's extent. Empty
-/// at rest.
+/// a stiffness of it, in any direction, change by more than 2e-3 until they rest; current along a sheet or
+/// through a circuit that will change voltages by more than 1e-4 of the largest; charge on an isolated
+/// electrode that leaks, above 1e-4 of its scale; what has a mass, which would go on by more than 1e-4 of the
+/// model's extent. Empty at rest.
 std::string unrest(Equilibrium& equilibrium, const State& state);
 
 /// Whether what has a mass would go on by more than that.

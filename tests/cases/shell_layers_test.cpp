@@ -155,5 +155,44 @@ TEST_F(Paths, an_electrode_charges_a_layer_only_where_it_lies) {
   EXPECT_THROW(device("electrode"), meshing::MeshError);
 }
 
+// The softer one has the lowest mode, and has been moved far: a stiffness of the other one was -5.2 mN/m
+// instead of 1.0.
+TEST_F(Paths, a_part_that_flows_is_not_at_rest_beside_a_softer_one) {
+  const std::string clamp = "fix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n";
+  const Run both = run(R"(model = "3d"
+[part.soft]
+at = [0, "50 mm", 0]
+film = { thickness = "5 um", section = "shell", material = { shear_modulus = "300 kPa", relative_permittivity = 3 } }
+rectangle = { length = "40 mm", width = "4 mm" }
+mesh = { across = 2 }
+[part.stiff]
+rectangle = { length = "10 mm", width = "4 mm" }
+mesh = { across = 2 }
+film = { thickness = "100 um", section = "shell", material = { shear_modulus = "300 kPa", relative_permittivity = 3, branch = [{ shear_modulus = "30 MPa", relaxation_time = "1 s" }] } }
+[[electrode]]
+name = "stiff"
+place = "stiff.film"
+[drive.stiff]
+voltage = "200 V"
+[[support]]
+place = "stiff.left"
+)" + clamp + "[[support]]\nplace = \"soft.left\"\ndisplacement = { x = \"20 mm\" }\n" +
+                           clamp + R"(
+[[step]]
+kind = "move"
+[[step]]
+kind = "voltage"
+response = "instantaneous"
+[[quantity]]
+name = "k"
+kind = "stiffness"
+of = "stiff.right"
+along = "z"
+)",
+                       "k");
+  EXPECT_EQ(both.outcome.ending, Ending::complete) << both.outcome.message;
+  EXPECT_TRUE(std::isnan(both.rows.back().value)) << both.rows.back().value;
+}
+
 } // namespace
 } // namespace dielast::cases
