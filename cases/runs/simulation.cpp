@@ -303,7 +303,7 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, Me
     if (at.empty() || (ends && at == step.name)) results_[q] = values[q];
   }
   const fem::NewtonResult& newton = increment.newton;
-  energy_.judge();
+  energy_.judge(equilibrium_->energy_scale());
   if (const auto energy = energy_.worst(); ends && energy.is_poor()) {
     std::string sudden; // in this step, or before
     const std::span<const Step> steps(steps_);

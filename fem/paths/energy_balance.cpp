@@ -18,6 +18,8 @@ constexpr double rounding = 1e-12;
 constexpr double agreement = 0.1, one_order = 1.0 / 3;
 /// Of stored energies, relative, as many increments add it up.
 constexpr double round_off = 1e-9;
+/// Of the energy of displacements as large as the model: what rounding makes of a device at rest.
+constexpr double nothing = 1e-14;
 /// Increments that are longer than this many times the one before know no curvature.
 constexpr double most_growth = 2.5;
 
@@ -194,11 +196,12 @@ double EnergyBalance::stored() const { return empty() ? 0 : total(parts()); }
 
 double EnergyBalance::error() const { return record_.doubt + std::abs(record_.rest); }
 
-void EnergyBalance::judge() {
+void EnergyBalance::judge(double scale) {
   const EnergyParts& parts = this->parts();
   // Differences of stored energies are no better known than these.
   const double known = round_off * (std::abs(parts.elastic) + std::abs(parts.branches) +
-                                    std::abs(parts.electric) + std::abs(record_.stored_at_start));
+                                    std::abs(parts.electric) + std::abs(record_.stored_at_start)) +
+                       nothing * scale;
   const Resolution now{std::max(0.0, error() - known), record_.exchanged};
   // What was exchanged never falls: a result before this one that is not worse can never be the worst again.
   std::erase_if(record_.poor, [&](const Resolution& former) {
@@ -217,7 +220,8 @@ EnergyBalance::Resolution EnergyBalance::worst() const {
   Resolution worst{0, record_.exchanged};
   for (const Resolution& result : record_.poor) {
     const Resolution here = weighed(result);
-    if (here.error * worst.exchanged > worst.error * here.exchanged) worst = here;
+    // One that has exchanged nothing for certain is worse than any but another such one.
+    if (worst.error == 0 || here.error * worst.exchanged > worst.error * here.exchanged) worst = here;
   }
   return worst;
 }

@@ -88,8 +88,8 @@ class EnergyBalance {
     /// Beyond 1 % of what was exchanged.
     bool is_poor() const { return error > 0.01 * exchanged; }
   };
-  /// Takes notice of the last state as a result.
-  void judge();
+  /// Takes notice of the last state as a result. `scale`: Equilibrium::energy_scale(), J.
+  void judge(double scale);
   /// Of the worst result so far. A result that has exchanged less than a thousandth of what the run has so
   /// far is compared with that thousandth: about an instant at which a wave sets in, every rule is poor.
   Resolution worst() const;

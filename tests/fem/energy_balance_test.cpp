@@ -191,7 +191,7 @@ TEST(EnergyBalance, a_result_beyond_one_percent_is_poor_unless_the_run_exchanges
     point.mechanical = pair(1, x);
     point.energy.elastic = x - error;
     balance.add(point);
-    balance.judge();
+    balance.judge(0);
     return balance.worst();
   };
   EXPECT_FALSE(worst_after(0, 0).is_poor());
@@ -203,6 +203,21 @@ TEST(EnergyBalance, a_result_beyond_one_percent_is_poor_unless_the_run_exchanges
   EXPECT_EQ(worst_after(2400, 0.04).exchanged, 3);   // the first is 0.03 of 2.4 by now
   EXPECT_EQ(EnergyBalance(balance.record()).worst().exchanged, 3);
   EXPECT_FALSE(worst_after(5000, 0.04).is_poor());
+}
+
+TEST(EnergyBalance, a_result_of_which_nothing_is_known_is_poor) {
+  EnergyBalance balance;
+  EnergyPoint point = point_at(0, 0, 0);
+  point.moves = true;
+  balance.add(point);
+  point.energy.elastic = 1; // from nowhere
+  balance.add(point);
+  balance.judge(1e15); // to which rounding makes more
+  EXPECT_FALSE(balance.worst().is_poor());
+  balance.judge(1);
+  EXPECT_TRUE(balance.worst().is_poor());
+  EXPECT_EQ(balance.worst().exchanged, 0);
+  EXPECT_NEAR(balance.worst().error, 1, 1e-8);
 }
 
 TEST(EnergyBalance, goes_on_from_its_record) {
