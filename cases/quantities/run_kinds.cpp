@@ -23,8 +23,9 @@ constexpr std::array energy_parts{
                [](Balance b) { return b.work().electrical; }},
     EnergyPart{
         "mechanical_work",
-        "done by loads, moved supports and the pressure in a chamber; where several loads jump at once "
-        "they do so along a straight line",
+        "done by loads, moved supports and the pressure in a chamber (on its walls: int p dV of its own "
+        "volume, without what it takes to compress the filling); where several loads jump at once they do "
+        "so along a straight line",
         [](Balance b) { return b.work().mechanical; }},
     EnergyPart{"stored", "elastic, branches, electric and kinetic together",
                [](Balance b) { return b.stored(); }},

@@ -263,10 +263,10 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   // What is given is known to the last digit; the rest follows.
   std::vector<double> charges = model.charges(state, false).charge;
   for (std::size_t e = 0; e < model.port_count(); ++e)
-    if (state.supply[e] == Supply::charge) charges[e] = state.charge[e];
+    if (state.supply[e] == Supply::charge) charges[e] = model.given_charge(state, e);
   const Eigen::Map<const Eigen::VectorXd> voltage(state.voltage.data(), electrodes + chambers);
   const Eigen::Map<const Eigen::VectorXd> charge(charges.data(), electrodes + chambers);
-  // What pumps do is mechanical work.
+  // What the pressure does is mechanical work: it moves the chamber's walls.
   for (auto [part, port] :
        {std::pair{&point.mechanical.force, &voltage}, {&point.mechanical.coordinate, &charge}}) {
     part->conservativeResize(dofs.count() + chambers);

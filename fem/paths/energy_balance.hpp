@@ -19,7 +19,7 @@ struct EnergyPoint {
   double time = 0;       ///< s
   bool moves = false;    ///< with inertia: external forces balance internal ones over the time steps only
   Conjugates mechanical; ///< per equation dead forces (reactions at held ones) and displacements; then per
-                         ///< chamber pressure and volume
+                         ///< chamber pressure and its own volume
   Conjugates electrical; ///< per electrode voltage and charge
   Conjugates resistance; ///< per electrode drop of voltage from its source and charge
   Conjugates sheet;      ///< per Model::sheet_points drop of voltage from the terminal and charge
