@@ -106,6 +106,13 @@ class Equilibrium {
     if (conduction_) conduction_->solve(state);
   }
 
+  /// Lets the voltages and pressures that are not given follow, those of sheets with them, at fixed
+  /// displacements (and scalars). False where there are none that do.
+  [[nodiscard]] bool follow(State& state) {
+    conduct(state);
+    return follow_charges(state, Pressure::follows);
+  }
+
   /// Internal forces, those on tied nodes moved to their masters (count() entries; reactions at the held
   /// equations, from free_count() on).
   Evaluation internal_force(const State& state, Eigen::VectorXd& force) {

@@ -310,6 +310,51 @@ TEST_F(Energy, a_support_that_sets_out_at_once_is_told_where_it_leaves_the_works
   EXPECT_TRUE(shaken("wave = \"unipolar sine\", amplitude = \"1 mm\", frequency = \"5 Hz\"").empty());
 }
 
+// Masses do not move at once: what a charge that jumps costs is stored by the film as it is.
+TEST_F(Energy, a_charge_that_jumps_while_masses_stand_does_its_work) {
+  const auto rows = run(film(50e3, "density = 1000\n") +
+                        "[patch]\nlength = \"20 mm\"\nmode = \"equal-biaxial\"\n"
+                        "[drive]\ncharge = { wave = \"step\", to = \"0.1 uC\", at = \"10 ms\" }\n"
+                        "[[step]]\nkind = \"transient\"\nduration = \"30 ms\"\ncontrol = \"charge\"\n"
+                        "inertia = true\n");
+  const double capacitance = rows.front().at("capacitance"), work = 1e-7 * 1e-7 / (2 * capacitance);
+  EXPECT_NEAR(rows.back().at("electrical_work"), work, 1e-6 * work);
+  EXPECT_LT(peaks.at("energy_error").value, 1e-6 * work);
+  EXPECT_NEAR(peaks.at("max_field").value, 1e-7 / capacitance / 1e-3, 1); // at the jump
+}
+
+// Nor does the potential within a solid, which has no mass, stay as it was.
+TEST_F(Energy, the_field_of_a_solid_follows_a_voltage_that_jumps_while_masses_stand) {
+  const auto rows = run(film(40e3, "density = 1000\n") +
+                        "[hollow_sphere]\ninner_radius = \"10 mm\"\nouter_radius = \"12 mm\"\n"
+                        "[drive]\nvoltage = { wave = \"step\", to = \"20 kV\", at = \"0.1 ms\" }\n"
+                        "[[step]]\nkind = \"transient\"\nduration = \"0.3 ms\"\nrecord = \"0.1 ms\"\n"
+                        "inertia = true\n");
+  const double work = rows.front().at("capacitance") * 20e3 * 20e3 / 2;
+  EXPECT_NEAR(rows[2].at("electrical_work"), work, 1e-6 * work); // behind the jump
+  EXPECT_LT(peaks.at("energy_error").value, 1e-5 * work);
+}
+
+// The pressure follows at once, the film later: what it does on it is int p dV, whatever the pump needed.
+TEST_F(Energy, a_gas_does_work_on_the_walls_of_its_chamber_only) {
+  const auto rows =
+      run("[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = \"50 kPa\"\n"
+          "permittivity = \"4e-11 F/m\"\ndensity = 1000\n[annulus]\ninner_radius = \"10 mm\"\n"
+          "outer_radius = \"30 mm\"\n[mesh]\nrings = 3\n[plate]\nmass = \"20 g\"\n[drive]\nvoltage = 0\n"
+          "[chamber]\nbulk_modulus = \"100 kPa\"\n"
+          "volume = { wave = \"step\", from = \"5 ml\", to = \"4 ml\", at = \"1 ms\" }\n"
+          "[[step]]\nkind = \"inflate\"\nto = \"5 ml\"\n"
+          "[[step]]\nkind = \"transient\"\nduration = \"3 ms\"\nrecord = \"0.5 ms\"\n");
+  const auto behind = std::ranges::find_if(
+      rows, [](const Row& row) { return row.at("time") > 0.9e-3 && row.at("pressure") < 0; });
+  ASSERT_NE(behind, rows.end());
+  const double volume = behind->at("volume");
+  EXPECT_NEAR(behind->at("time"), 1e-3, 1e-9);
+  EXPECT_NEAR(behind->at("pressure"), 1e5 * (4e-6 / volume - 1), 1);
+  EXPECT_NEAR(behind->at("mechanical_work"), std::prev(behind)->at("mechanical_work"), 1e-12);
+  EXPECT_LT(peaks.at("energy_error").value, 1e-3 * peaks.at("mechanical_work").value);
+}
+
 TEST_F(Energy, a_mean_begins_where_its_step_ends) {
   const auto rows =
       run(film(40e3) +
