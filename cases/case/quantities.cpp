@@ -12,7 +12,7 @@ std::string meaning_of(const Quantity& quantity) { return quantity.kind->in_word
 const Quantity* response_quantity(const Case& one, const std::string& name) {
   for (const QuantityKind& kind : quantity_kinds())
     for (const Quantity& quantity : one.quantities)
-      if (kind.gradient && quantity.kind == &kind && !quantity.point && (quantity.along || !kind.directed) &&
+      if (kind.gradient && quantity.kind == &kind && (quantity.along || !kind.directed) &&
           (name.empty() || quantity.name == name))
         return &quantity;
   return nullptr;

@@ -66,17 +66,20 @@ Shape stretch(const Probing& probing) {
           by = *prestretch](const fem::State& state) { return length(state) / drawn * by; };
 }
 
+ElementPoint element_at_point(const Probing& probing) {
+  const auto found = elements_at(Eigen::Vector3d(probing.quantity.point->data()), probing.device.mesh);
+  if (found.empty()) probing.refuse("point", "there is no film; coordinates are those of the film as drawn");
+  return found.front();
+}
+
 Shape displacement(const Probing& probing) {
   const Quantity& quantity = probing.quantity;
   const auto towards = [&quantity, down = probing.one.gravity.down()](const Eigen::Vector3d& moved) {
     return quantity.along == along_gravity ? moved.dot(down) : component(moved, quantity.along);
   };
   const meshing::Mesh& mesh = probing.device.mesh;
-  if (quantity.point) {
-    const auto found = elements_at(Eigen::Vector3d(quantity.point->data()), mesh);
-    if (found.empty())
-      probing.refuse("point", "there is no film; coordinates are those of the film as drawn");
-    return [&mesh, towards, at = found.front()](const fem::State& state) {
+  if (quantity.point)
+    return [&mesh, towards, at = element_at_point(probing)](const fem::State& state) {
       Eigen::Vector3d moved = Eigen::Vector3d::Zero();
       const auto nodes = mesh.film()->cell(at.cell);
       for (std::size_t a = 0; a < nodes.size(); ++a)
@@ -84,7 +87,6 @@ Shape displacement(const Probing& probing) {
             at.shape[static_cast<Eigen::Index>(a)] * state.displacement[static_cast<std::size_t>(nodes[a])];
       return towards(moved);
     };
-  }
   const Device& device = probing.device;
   return [&device, &quantity, towards, drawn = centroid(device, quantity.of, device.model.initial_state())](
              const fem::State& state) { return towards(centroid(device, quantity.of, state) - drawn); };
@@ -209,8 +211,16 @@ Eigen::VectorXd radius_gradient(const Probing& probing, const fem::State& state)
 Eigen::VectorXd displacement_gradient(const Probing& probing, const fem::State&) {
   const Quantity& quantity = probing.quantity;
   Row row(probing);
-  row.add_mean(quantity.of, quantity.along == along_gravity ? probing.one.gravity.down()
-                                                            : Eigen::Vector3d::Unit(*quantity.along));
+  const Eigen::Vector3d along =
+      quantity.along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along);
+  if (!quantity.point) {
+    row.add_mean(quantity.of, along);
+    return row.values;
+  }
+  const ElementPoint at = element_at_point(probing);
+  const auto nodes = probing.device.mesh.film()->cell(at.cell);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    row.add(nodes[a], at.shape[static_cast<Eigen::Index>(a)] * along);
   return row.values;
 }
 

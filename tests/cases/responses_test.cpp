@@ -208,5 +208,20 @@ TEST_F(Responses, OfADistanceInAHoneycomb) {
   }
 }
 
+// Between nodes, too.
+TEST_F(Responses, OfAPointIsItsSlope) {
+  const std::string point =
+      disc + "[[quantity]]\nname = \"u\"\nkind = \"displacement\"\npoint = [\"11.3 mm\", \"4 mm\", 0]\n"
+             "along = \"x\"\n";
+  write("disc.toml", point);
+  const std::vector<std::string> planar{"--set", "model=planar"};
+  const double slope = (at_end("4.01 kV", "u", planar) - at_end("3.99 kV", "u", planar)) / 20;
+  write("small.toml", point + "[[step]]\nkind = \"harmonic\"\nfrom = \"1e-4 Hz\"\nto = \"1e-3 Hz\"\n"
+                              "points = 2\nresponse_of = \"u\"\n");
+  const Ended ended = dielast({"run", "small.toml", "-o", "out", "--set", "model=planar"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+  EXPECT_NEAR(std::stod(table_of(directory / "out/harmonic.csv").at(1).at(1)), slope, 1e-4 * slope);
+}
+
 } // namespace
 } // namespace dielast::test
