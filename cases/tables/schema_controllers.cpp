@@ -7,6 +7,8 @@
 namespace dielast::cases {
 namespace {
 
+constexpr double most_gain = 1e18; ///< 1 kV for each fF
+
 bool has_transient(const Case& one, Control control) {
   return std::ranges::any_of(one.steps, [&](const Step& step) {
     return step.kind == StepKind::transient && step.control == control;
@@ -82,9 +84,13 @@ Section controller_section() {
           .refers_to(Reference::quantity),
       measure("target", "", to(&Controller::target), "what the quantity should be"),
       number("gain", to(&Controller::gain),
-             "V, Pa, m^3, N or m for each unit that the quantity lacks, in SI: V/m of a displacement"),
+             "V, Pa, m^3, N or m for each unit that the quantity lacks, in SI: V/m of a displacement")
+          .at_least(-most_gain)
+          .at_most(most_gain),
       number("integral_gain", to(&Controller::integral_gain),
              "the same for each unit that it lacks for a second")
+          .at_least(-most_gain)
+          .at_most(most_gain)
           .otherwise("0"),
       measure("every", "s", to(&Controller::every), "time between two measurements; the first is at t = 0")
           .above(0),

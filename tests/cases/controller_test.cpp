@@ -105,6 +105,13 @@ std::vector<double> stretches_of(const Loop& loop, double start, double duration
   return values;
 }
 
+// 3 kV for each mm, 40 kV for each mm and second.
+TEST_F(ControllerTest, GainsAreAsLargeAsKilovoltsForMillimetresMakeThem) {
+  const Case one = read({.gain = 3e6, .integral_gain = 4e7}, force + half_second);
+  EXPECT_EQ(one.controllers.at(0).gain, 3e6);
+  EXPECT_EQ(one.controllers.at(0).integral_gain, 4e7);
+}
+
 TEST_F(ControllerTest, AgreesWithAnIntegrationOfTheClosedLoop) {
   for (const Loop& loop : {Loop{}, Loop{.gain = 4e4, .integral_gain = 0}, Loop{.highest = 4e3}}) {
     const Case one = read(loop, force + half_second);
