@@ -189,16 +189,16 @@ along = "z"
   }
 }
 
-// Of two and of five elements: the meshes are not coarser alike, but finer.
+// Of four and of five elements: the meshes are not coarser alike, but finer.
 TEST_F(Estimates, OfPartsWhoseMeshesAreNotCoarserAlikeAreThoseOfFinerOnes) {
-  write("parts.toml", R"([part.upper]
+  write("parts.toml", R"(quantity = [{ name = "width", kind = "area", of = "upper.electrode" }]
+step = [{ kind = "voltage" }]
+[part.upper]
 at = [0, "1 m", 0]
 [part.upper.film]
 thickness = "1 mm"
 prestretch = 2
-[part.upper.film.material]
-shear_modulus = "40 kPa"
-relative_permittivity = 4
+material = { shear_modulus = "40 kPa", relative_permittivity = 4 }
 [part.upper.rectangle]
 length = "20 mm"
 electrode_length = "10 mm"
@@ -208,9 +208,7 @@ across = 4
 [part.lower.film]
 thickness = "1 mm"
 prestretch = 2
-[part.lower.film.material]
-shear_modulus = "40 kPa"
-relative_permittivity = 4
+material = { shear_modulus = "40 kPa", relative_permittivity = 4 }
 [part.lower.rectangle]
 length = "20 mm"
 electrode_length = "10 mm"
@@ -228,12 +226,6 @@ fix = ["x", "y"]
 [[support]]
 place = "lower.frame"
 fix = ["x", "y"]
-[[step]]
-kind = "voltage"
-[[quantity]]
-name = "width"
-kind = "area"
-of = "upper.electrode"
 )");
   const double coarse = summary_of("parts.toml")["quantities"]["width"]["value"],
                printed = json_of("out/summary.json")["quantities"]["width"]["error_estimate"];
