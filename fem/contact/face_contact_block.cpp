@@ -142,36 +142,9 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
              std::min(gap_of_points(own, other), gap_of_points(other, own)) > 2 * close;
     });
   }
-  double contact_force(const State& state) const override {
-    double sum = 0;
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      sum -= touching.share * area(pair, q) * touching.energy.slope;
-    });
-    return sum;
-  }
-  void add_pressure(const State& state, NodalPressure& pressure) const override {
-    for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      // A point that counts little is held off by little: it may be very near.
-      const double counts = std::min(1.0, touching.share / share_[pair.surface]);
-      share(pair, q, -counts * area(pair, q) * touching.energy.slope, pressure.force);
-      share(pair, q, (counts - 1) * touching.factor * area(pair, q), pressure.area);
-    });
-  }
-  void add_energies(const State& state, EnergyParts& parts) const override {
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      parts.elastic += touching.share * area(pair, q) * touching.energy.value;
-    });
-    parts.elastic += sliders_.energy(state);
-  }
 
  private:
   using Sums = ContactSums<dofs>;
-  /// What a point feels of a face or, negatively, of an edge.
-  struct Touching {
-    BarrierEnergy energy; ///< as often as it counts
-    double factor, share; ///< how often; of this surface's integral there
-  };
   FaceNodes face(const State& state, std::span<const int> own) const override {
     FaceNodes x;
     for (std::size_t a = 0; a < 6; ++a) {
@@ -233,18 +206,20 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
           use(q, place, factor);
     }
   }
-  /// use(pair, point, what it feels).
-  template<class Use>
-  void for_each_touching(const State& state, const Use& use) const {
+  void for_each_touching(
+      const State& state,
+      const std::function<void(const Pair&, std::size_t, const Touching&)>& use) const override {
     const Moved now = moved(state);
     for (const Pair& pair : meeting(now, now, contact_.barrier.reach()))
-      for_each_near(
-          pair, now.of(pair, 0), now.of(pair, 1), [&](std::size_t q, const FacePlace& place, double factor) {
-            const BarrierEnergy energy = contact_.barrier.at(place.distance);
-            use(pair, q,
-                Touching{
-                    {factor * energy.value, factor * energy.slope}, factor, share_at(pair, q, place).value});
-          });
+      for_each_near(pair, now.of(pair, 0), now.of(pair, 1),
+                    [&](std::size_t q, const FacePlace& place, double factor) {
+                      const BarrierEnergy energy = contact_.barrier.at(place.distance);
+                      use(pair, q,
+                          Touching{{factor * energy.value, factor * energy.slope},
+                                   place.normal,
+                                   factor,
+                                   share_at(pair, q, place).value});
+                    });
   }
   std::vector<Sliders::Pressed> pressed(const State& state) const override {
     std::vector<Sliders::Pressed> all(static_cast<std::size_t>(sliders_.count()));
@@ -284,12 +259,7 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
     return shared(share_[pair.surface], own, share_[1 - pair.surface],
                   end_ramp(place.shape.dot(other_end(pair))));
   }
-  /// Adds what lies at a point to the face's nodes, linearly between neighbours.
-  void share(const Pair& pair, std::size_t q, double amount, std::vector<double>& of_nodes) const {
-    const auto own = nodes(pair, 0);
-    for (std::size_t a = 0; a < 6; ++a)
-      of_nodes[static_cast<std::size_t>(own[a])] += rule[q].share[static_cast<int>(a)] * amount;
-  }
+  double part_of_node(int node, std::size_t q) const override { return rule[q].share[node]; }
   void add_areas(std::size_t k) {
     const State drawn = as_drawn();
     for (int i = 0; i < contact_.surfaces[k].size(); ++i)

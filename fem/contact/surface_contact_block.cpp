@@ -127,37 +127,9 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
     }
     return part;
   }
-  double contact_force(const State& state) const override {
-    double sum = 0;
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      sum -= touching.share * area(pair, q) * touching.energy.slope;
-    });
-    return sum;
-  }
-  void add_pressure(const State& state, NodalPressure& pressure) const override {
-    for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      // A point that counts little is held off by little: it may be very near.
-      const double counts = std::min(1.0, touching.share / share_[pair.surface]);
-      share(pair, q, -counts * area(pair, q) * touching.energy.slope, pressure.force);
-      share(pair, q, (counts - 1) * touching.factor * area(pair, q), pressure.area);
-    });
-  }
-  void add_energies(const State& state, EnergyParts& all) const override {
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      all.elastic += touching.share * area(pair, q) * touching.energy.value;
-    });
-    all.elastic += sliders_.energy(state);
-  }
 
  private:
   using Sums = ContactSums<dofs>;
-  /// What a point feels of a side or, negatively, of an end.
-  struct Touching {
-    BarrierEnergy energy; ///< as often as it counts
-    Vector2d normal;      ///< unit vector towards the point
-    double factor, share; ///< how often; of this surface's integral there
-  };
   const SurfaceEnds& other_ends(const Pair& pair) const { return ends_[1 - pair.surface]; }
   /// The part of the integral of a point's surface, where the other one's ramp is `other`: a function of the
   /// same s.
@@ -196,6 +168,9 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
     return std::max(
         {(to.x[0] - from.x[0]).norm(), (to.x[1] - from.x[1]).norm(), (control(to) - control(from)).norm()});
   }
+  Eigen::Vector3d in_space(const Vector2d& x) const {
+    return x.x() * Eigen::Vector3d::UnitX() + x.y() * Eigen::Vector3d::Unit(up_);
+  }
   static PointAndLine facing(const Side& own, const Side& other, std::size_t q) {
     return {own.at(parabola.shape(rule[q].s)), other.x[0], other.x[1], other.x[2]};
   }
@@ -230,9 +205,9 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
     sums.first += moves.transpose() * total.gradient;
     if (scatter.tangent) sums.second += moves.transpose() * total.hessian * moves;
   }
-  /// use(pair, point, what it feels) for all that touches.
-  template<class Use>
-  void for_each_touching(const State& state, const Use& use) const {
+  void for_each_touching(
+      const State& state,
+      const std::function<void(const Pair&, std::size_t, const Touching&)>& use) const override {
     const Moved now = moved(state);
     for (int e = 0; e < element_count(); ++e) {
       const Pair pair = this->pair(e);
@@ -246,7 +221,7 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
           if (contact_.barrier.touches(way.norm()))
             use(pair, q,
                 Touching{{factor * energy.value, factor * energy.slope},
-                         way.normalized(),
+                         in_space(way.normalized()),
                          factor,
                          share_at(pair, q, other_ends(pair).at(pair.other, nearest)).value});
         };
@@ -257,16 +232,12 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
   }
   std::vector<Sliders::Pressed> pressed(const State& state) const override {
     std::vector<Sliders::Pressed> all(static_cast<std::size_t>(sliders_.count()));
-    const auto in_space = [this](const Vector2d& x) {
-      return Eigen::Vector3d(x.x() * Eigen::Vector3d::UnitX() + x.y() * Eigen::Vector3d::Unit(up_));
-    };
     const auto at = [&](const Pair& pair, int a) -> Sliders::Pressed& {
       return all[static_cast<std::size_t>(sliders_.number(pair.surface, pair.own, a))];
     };
     for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
       const double size = -touching.share * area(pair, q) * touching.energy.slope;
-      for (int a = 0; a < 3; ++a)
-        at(pair, a).force += node_share(q)[static_cast<std::size_t>(a)] * size * in_space(touching.normal);
+      for (int a = 0; a < 3; ++a) at(pair, a).force += part_of_node(a, q) * size * touching.normal;
     });
     const Moved now = moved(state);
     for (int e = 0; e < element_count(); ++e) {
@@ -283,15 +254,9 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
     }
     return all;
   }
-  /// The shares of a side's nodes in what lies at a point: linear between neighbours.
-  static std::array<double, 3> node_share(std::size_t q) {
+  double part_of_node(int node, std::size_t q) const override {
     const double s = rule[q].s, middle = 1 - std::abs(2 * s - 1);
-    return {s < 0.5 ? 1 - middle : 0, s < 0.5 ? 0 : 1 - middle, middle};
-  }
-  void share(const Pair& pair, std::size_t q, double amount, std::vector<double>& of_nodes) const {
-    const auto own = nodes(pair, 0);
-    for (std::size_t a = 0; a < 3; ++a)
-      of_nodes[static_cast<std::size_t>(own[a])] += node_share(q)[a] * amount;
+    return node == 2 ? middle : (node == 0) == (s < 0.5) ? 1 - middle : 0;
   }
   void add_areas(std::size_t surface, int number) {
     const Side own = face(as_drawn(), contact_.surfaces[surface].cell(number));

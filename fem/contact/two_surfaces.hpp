@@ -10,6 +10,7 @@
 #include <array>
 #include <compare>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -26,6 +27,28 @@ class TwoSurfaces : public ContactBlock {
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
   bool is_between(std::string_view place) const override {
     return std::ranges::find(contact_.places, place) != contact_.places.end();
+  }
+  double contact_force(const State& state) const override {
+    double sum = 0;
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      sum -= touching.share * area(pair, q) * touching.energy.slope;
+    });
+    return sum;
+  }
+  void add_pressure(const State& state, NodalPressure& pressure) const override {
+    for_each_point([&](const Pair& pair, std::size_t q) { share(pair, q, area(pair, q), pressure.area); });
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      // A point that counts little is held off by little: it may be very near.
+      const double counts = std::min(1.0, touching.share / share_[pair.surface]);
+      share(pair, q, -counts * area(pair, q) * touching.energy.slope, pressure.force);
+      share(pair, q, (counts - 1) * touching.factor * area(pair, q), pressure.area);
+    });
+  }
+  void add_energies(const State& state, EnergyParts& parts) const override {
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      parts.elastic += touching.share * area(pair, q) * touching.energy.value;
+    });
+    parts.elastic += sliders_.energy(state);
   }
   bool has_friction() const override { return sliders_.any(); }
   double friction_heat(const State& state) const override { return sliders_.heat(state); }
@@ -55,11 +78,24 @@ class TwoSurfaces : public ContactBlock {
     }
   };
 
+  /// What a point feels of a face or, where what faces have in common is taken off, of an edge.
+  struct Touching {
+    BarrierEnergy energy;   ///< as often as it counts
+    Eigen::Vector3d normal; ///< unit vector towards the point
+    double factor, share;   ///< how often; of this surface's integral there
+  };
+
   /// `points`: at which a face is integrated.
   TwoSurfaces(const meshing::Mesh& mesh, Contact contact, std::size_t points)
       : contact_(std::move(contact)), drawn_(mesh.nodes), points_(points) {}
 
   virtual Shape face(const State& state, std::span<const int> nodes) const = 0;
+  /// The part that a node of a face takes of what lies at a point: linear between neighbours.
+  virtual double part_of_node(int node, std::size_t point) const = 0;
+  /// use(pair, point, what it feels) for all that touches.
+  virtual void
+  for_each_touching(const State& state,
+                    const std::function<void(const Pair&, std::size_t, const Touching&)>& use) const = 0;
   /// What presses each slider's node.
   virtual std::vector<typename Sliders::Pressed> pressed(const State& state) const = 0;
 
@@ -83,6 +119,12 @@ class TwoSurfaces : public ContactBlock {
   /// What a point of the pair's own face stands for, m^2.
   double area(const Pair& pair, std::size_t point) const {
     return areas_[pair.surface][static_cast<std::size_t>(pair.own) * points_ + point];
+  }
+  /// Adds what lies at a point to the nodes of the pair's own face.
+  void share(const Pair& pair, std::size_t point, double amount, std::vector<double>& of_nodes) const {
+    const auto own = nodes(pair, 0);
+    for (int a = 0; a < Nodes; ++a)
+      of_nodes[static_cast<std::size_t>(own[static_cast<std::size_t>(a)])] += part_of_node(a, point) * amount;
   }
   /// use(face with any other one, point) for all that are integrated.
   template<class Use>
