@@ -3,7 +3,7 @@
 
 #include "cases/case/part_kind.hpp"
 #include "cases/tables/regions.hpp"
-#include "meshing/assembly.hpp"
+#include "meshing/parts/assembly.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/regions/region_mesh.hpp"
 

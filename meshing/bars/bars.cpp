@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/bars/bars.hpp"
 
-#include "meshing/assembly.hpp"
+#include "meshing/parts/assembly.hpp"
 #include "meshing/middle_nodes.hpp"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "fem/films/membrane_block.hpp"
 #include "fem/paths/ramp.hpp"
 #include "fem/solids/solid_block.hpp"
-#include "meshing/assembly.hpp"
+#include "meshing/parts/assembly.hpp"
 #include "meshing/solids/grid.hpp"
 #include "meshing/solids/sides.hpp"
 

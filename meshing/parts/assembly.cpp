@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/assembly.hpp"
+#include "meshing/parts/assembly.hpp"
 
 #include "meshing/mesh_error.hpp"
 #include "meshing/solids/sides.hpp"
