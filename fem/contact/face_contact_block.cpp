@@ -2,9 +2,9 @@
 #include "fem/contact/face_contact_block.hpp"
 
 #include "fem/contact/face.hpp"
-#include "fem/contact/face_ends.hpp"
 #include "fem/contact/face_gap.hpp"
 #include "fem/contact/face_motion.hpp"
+#include "fem/contact/surface_ends.hpp"
 #include "fem/contact/two_surfaces.hpp"
 #include "fem/films/triangle.hpp"
 
