@@ -323,11 +323,10 @@ void add_inertia(Node& tree) {
   const bool moving = tree.find("plate") || tree.find("point_mass") || tree.find("fin") ||
                       (weight && is_heavy(*weight)) || std::ranges::any_of(items_of(tree, "body"), is_heavy);
   if (!moving || !steps || !steps->is(Node::Kind::list)) return;
-  const Source source{tree.source.file, 0, 0};
   for (Node& step : steps->items)
     if (const std::string kind = text_at(step, "kind");
         (kind == "transient" || kind == "hold") && !step.find("inertia"))
-      step.add("inertia", parse_value("true", source));
+      step.add("inertia", parse_value("true", {tree.source.file, 0, 0}));
 }
 
 namespace {

@@ -263,10 +263,8 @@ bool Ramp::pass_break() {
   last_part_ = 1.0 / jump_parts;
   for (int part = 1; part <= jump_parts; ++part) {
     jump.apply(state, part * last_part_);
-    if (!equilibrium_.follow(state)) {
-      newton_.outcome = Outcome::infeasible;
-      return false;
-    }
+    if (!equilibrium_.follow(state)) newton_.outcome = Outcome::infeasible;
+    if (newton_.outcome == Outcome::infeasible) return false;
     progress_.points = {{at, state}};
     if (part < jump_parts) notify(false, last_part_);
   }
@@ -280,20 +278,6 @@ bool Ramp::flow() {
   if (timed() || options_.instantaneous || !state.history || state.scheme.is_relaxed()) return true;
   state.scheme = scheme(0);
   equilibrium_.conduct(state);
-  Balance relaxed;
-  equilibrium_.balance(state, relaxed);
-  if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
-    State end = equilibrium_.model().settled(std::move(state));
-    const auto alike = [](double a, double b) {
-      return std::abs(a - b) <= round_off * std::max(1.0, std::abs(b));
-    };
-    if (std::ranges::equal(end.history->now, last().history->now, alike)) return true;
-    progress_.points = {{parameter(progress_.load_factor), std::move(end)}}; // the shape is held
-    newton_ = {.unstable_modes = std::max(0, progress_.unstable_modes)};
-    notify(false, 1);
-    progress_.turns = true;
-    return true;
-  }
   const auto fades = [&](State from) {
     from.scheme = scheme(0);
     equilibrium_.conduct(from);
@@ -302,12 +286,21 @@ bool Ramp::flow() {
     return detour(path, std::move(from),
                   {.newton = options_.newton, .smallest_increment = options_.smallest_increment}, false);
   };
-  const State start = last(); // a detour that fails leaves its own
-  bool flows = fades(start);
-  if (const auto end = flows ? std::nullopt : flown(equilibrium_, start, options_)) flows = fades(*end);
-  if (flows) notify(false, 1);
+  Balance relaxed;
+  equilibrium_.balance(state, relaxed);
+  if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
+    State end = equilibrium_.model().settled(std::move(state));
+    const auto alike = [](double x, double y) { return std::abs(x - y) <= round_off * (1 + std::abs(y)); };
+    if (std::ranges::equal(end.history->now, last().history->now, alike)) return true;
+    progress_.points = {{parameter(progress_.load_factor), std::move(end)}}; // the shape is held
+    newton_ = {.unstable_modes = std::max(0, progress_.unstable_modes)};
+  } else if (const State start = last(); !fades(start)) { // which leaves a state of its own
+    const auto end = flown(equilibrium_, start, options_);
+    if (!end || !fades(*end)) return false;
+  }
+  notify(false, 1);
   progress_.turns = true;
-  return flows;
+  return true;
 }
 
 bool Ramp::accept(State state, double s) {

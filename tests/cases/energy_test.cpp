@@ -393,25 +393,5 @@ TEST_F(Energy, without_time_the_source_gives_what_leaks) {
   EXPECT_NEAR(rows.back().at("i"), 1e-6, 1e-15);
 }
 
-// The patch is held as drawn: whatever the way, the source gives V Q, and half of that is heat in its
-// resistance.
-TEST_F(Energy, charges_that_flow_without_time_or_in_it_warm_the_resistance) {
-  for (const char* last :
-       {"kind = \"relax\"\nincrements = 3\n", "kind = \"hold\"\nduration = \"2 s\"\n", "kind = \"move\"\n"}) {
-    const auto rows = run(film(40e3) +
-                          "[patch]\nstretch_x = 1\nstretch_y = 1\n[circuit]\nresistance = \"10 GOhm\"\n"
-                          "[drive]\nvoltage = { wave = \"step\", to = \"4 kV\" }\n[[step]]\nkind = "
-                          "\"transient\"\nduration = \"20 ms\"\n[[step]]\n" +
-                          last +
-                          "[[quantity]]\nname = \"source\"\nkind = \"energy\"\nof = \"source_work\"\n"
-                          "[[quantity]]\nname = \"heat\"\nkind = \"energy\"\nof = \"resistance_heat\"\n");
-    const double given = 4e3 * rows.back().at("charge");
-    EXPECT_NEAR(rows.back().at("source"), given, 1e-6 * given) << last;
-    EXPECT_NEAR(rows.back().at("heat"), given / 2, 1e-6 * given) << last;
-    EXPECT_GT(rows.back().at("charge"), 1.2 * rows[rows.size() / 2].at("charge"))
-        << last; // it does flow then
-  }
-}
-
 } // namespace
 } // namespace dielast::cases

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-// Electrodes that are isolated and leak.
+// Electrodes that are isolated and leak, or charge through a resistance.
 
 namespace dielast::cases {
 namespace {
@@ -195,6 +195,26 @@ TEST_F(Leak, SmallSinesLeaveIsolatedElectrodesThatTheyDoNotDriveWithTheirCharges
   EXPECT_NEAR(per_volt(circuit), alone, 1e-12 * alone);
   EXPECT_GT(std::abs(per_volt(circuit + "[[step]]\nkind = \"hold\"\nduration = \"1 ms\"\n") - alone),
             0.01 * alone);
+}
+
+// The patch is held as drawn: whatever the way, the source gives V Q, and half of that is heat in its
+// resistance.
+TEST_F(Leak, WhatFlowsWithoutTimeOrInItWarmsTheResistance) {
+  for (const char* last :
+       {"kind = \"relax\"\nincrements = 3\n", "kind = \"hold\"\nduration = \"2 s\"\n", "kind = \"move\"\n"}) {
+    const Ran ran = run("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+                        "permittivity = \"4e-11 F/m\"\n[patch]\nstretch_x = 1\nstretch_y = 1\n[circuit]\n"
+                        "resistance = \"10 GOhm\"\n[drive]\nvoltage = { wave = \"step\", to = \"4 kV\" }\n"
+                        "[[step]]\nkind = \"transient\"\nduration = \"20 ms\"\n[[step]]\n" +
+                        std::string(last) +
+                        "[[quantity]]\nname = \"source\"\nkind = \"energy\"\nof = \"source_work\"\n"
+                        "[[quantity]]\nname = \"heat\"\nkind = \"energy\"\nof = \"resistance_heat\"\n");
+    const std::vector<double>& charge = ran.values.at("charge");
+    const double given = 4e3 * charge.back();
+    EXPECT_NEAR(ran.last("source"), given, 1e-6 * given) << last;
+    EXPECT_NEAR(ran.last("heat"), given / 2, 1e-6 * given) << last;
+    EXPECT_GT(charge.back(), 1.2 * charge[charge.size() / 2]) << last; // it does flow then
+  }
 }
 
 } // namespace
