@@ -3,8 +3,8 @@
 
 #include "cases/case/part_kind.hpp"
 #include "cases/tables/regions.hpp"
-#include "meshing/parts/assembly.hpp"
 #include "meshing/mesh_error.hpp"
+#include "meshing/parts/assembly.hpp"
 #include "meshing/regions/region_mesh.hpp"
 
 #include <algorithm>

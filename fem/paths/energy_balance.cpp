@@ -104,7 +104,8 @@ void EnergyBalance::account(const EnergyPoint& point) {
   double heat = point.friction - record_.points.back().friction, leak_through_sheet = 0, doubt = 0;
   const bool flows = point.flow != 0 || point.sheet.coordinate != record_.points.back().sheet.coordinate;
   const Integral resisted = interval.over(&EnergyPoint::resistance);
-  double resistance = resisted.value;
+  double resistance =
+      resisted.value; // without time what leaks is left out: less flows where charge goes back
   if (interval.duration() > 0) {
     const Integral flow = interval.over(EnergyPoint::dashpots);
     const bool fine = std::abs(flow.value - point.flow) <= agreement * point.flow;
@@ -114,12 +115,12 @@ void EnergyBalance::account(const EnergyPoint& point) {
     leak_through_sheet = interval.over(EnergyPoint::leak_through_sheet).value;
     heat += (fine ? flow.value : std::max(0.0, point.flow)) + std::max(0.0, damped.value) +
             std::max(0.0, conducted.value + leak_through_sheet);
-    resistance += interval.over(EnergyPoint::leak_through_resistance).value;
+    resistance = std::max(0.0, resistance + interval.over(EnergyPoint::leak_through_resistance).value);
     record_.work.leak += std::max(0.0, leaked.value);
     doubt = std::abs(flow.value - point.flow) * (fine ? one_order : 1) + std::abs(damped.curvature) +
             std::abs(conducted.curvature) + std::abs(leaked.curvature);
   }
-  record_.work.resistance += std::max(0.0, resistance);
+  record_.work.resistance += resistance;
   doubt += std::abs(resisted.curvature);
   Work& work = record_.work;
   const double rest = change + heat - electrical.value - leak_through_sheet - mechanical.value;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/bars/bars.hpp"
 
-#include "meshing/parts/assembly.hpp"
 #include "meshing/middle_nodes.hpp"
+#include "meshing/parts/assembly.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/parts/assembly.hpp"
 #include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/gmsh/gmsh_text.hpp"
 #include "meshing/honeycomb_mesh.hpp"
 #include "meshing/mesh_error.hpp"
+#include "meshing/parts/assembly.hpp"
 #include "meshing/patch.hpp"
 #include "meshing/rings.hpp"
 #include "tests/scratch_folder.hpp"
