@@ -24,7 +24,8 @@ class IdleKeys {
                                      : section.selected_in(object);
     for (const Key& key : section.keys) {
       const Node* node = key.applies_to(selected) ? table.find(key.name) : nullptr;
-      if (node && node->source.is_written() && is_idle(key.acts, object) && !is_default(key, object))
+      if (node && node->source.is_written() && is_idle(key.acts, object) && // a wave may begin with 0
+          (node->is(Node::Kind::table) || !is_default(key, object)))
         warn(node->source, joined(path, key.name), key.acts);
     }
     for (const Section& inner : section.sections)

@@ -58,6 +58,8 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
   const std::string point_mass = "[[point_mass]]\nplace = \"electrode\"\nmass = \"1 g\"\n";
   const std::string inflate = "[[step]]\nkind = \"inflate\"\n";
   const std::string charged_hold = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\ncontrol = \"charge\"\n";
+  const std::string breathes = // from 0
+      "[chamber]\nvolume = { wave = \"unipolar sine\", amplitude = \"1 ml\", frequency = \"1 Hz\" }\n";
   const auto slab = [](const std::string& keys, const std::string& law) {
     return "model = \"planar\"\n[film]\nthickness = \"0.1 mm\"\n" + keys +
            "[film.material]\npermittivity = \"4e-11 F/m\"\n" + law +
@@ -119,6 +121,8 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
        film + balloon + "[[step]]\nkind = \"pressure\"\n" + inflate},
       {"chamber.volume", film + balloon + "[[step]]\nkind = \"pressure\"\n",
        film + balloon + "[[step]]\nkind = \"pressure\"\n" + inflate},
+      {"chamber.volume", film + diaphragm + breathes + weight + transient,
+       film + diaphragm + breathes + weight + inflate + transient},
       {"chamber.bulk_modulus",
        film +
            "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = 500\nbulk_modulus = 1e6\n[[step]]\nkind = "
