@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -231,33 +230,6 @@ void try_axes(SectionReader& reader, const Node& base, const Study& study,
   }
 }
 
-/// A target is looked for between the values of the one key: such a value must be allowed, which of a whole
-/// number it is not.
-void try_between(SectionReader& reader, const Node& section, const Node& base, const Study& study) {
-  if (study.targets.empty() || study.axes.size() != 1 || study.axes[0].values.size() < 2) return;
-  const StudyAxis& axis = study.axes[0];
-  const auto first = written_measure(axis.values[0]), next = written_measure(axis.values[1]);
-  if (!first || !next || first->unit != next->unit) return; // told elsewhere
-  constexpr double part = 1 / std::numbers::pi;             // no whole number comes of it
-  const std::string number = fmt::format("{:.6g}", first->number + part * (next->number - first->number));
-  const std::string value =
-      first->unit.empty() ? number : toml_string(fmt::format("{} {}", number, first->unit));
-  const Source& source = section.find("target")->items[0].source;
-  try {
-    Node tree = base;
-    if (!study.is_parameter(axis.key)) apply_override(tree, axis.key, value, source);
-    const std::vector<std::string> derived = derived_values(study, {value});
-    for (std::size_t d = 0; d < derived.size(); ++d)
-      apply_override(tree, study.derived[d].key, derived[d], source);
-    interpret(std::move(tree), study.base);
-  } catch (const CaseError& error) {
-    reader.report(
-        source, "study.target[1]",
-        fmt::format("it is looked for between the values of \"{}\", where the case cannot be: {}: {}",
-                    axis.key, error.diagnostics().front().key, error.diagnostics().front().message));
-  }
-}
-
 } // namespace
 
 void read_axes(SectionReader& reader, const Node& section, const Node& base, Study& study) {
@@ -295,7 +267,6 @@ void read_axes(SectionReader& reader, const Node& section, const Node& base, Stu
     reader.report(derive->source, "study.derive", error.what());
   }
   try_axes(reader, base, study, written);
-  if (reader.diagnostics().size() == errors_before) try_between(reader, section, base, study);
 }
 
 } // namespace dielast::cases
