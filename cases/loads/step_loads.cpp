@@ -195,8 +195,8 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
     }
     if (const auto charge = goal_of(step, e, &Drive::charge, t); does(StepKind::charge) && charge && isolated)
       loads.charge[e] = *charge;
-    // What had not flown yet does, as without time an electrode is at its source's voltage.
-    if (const fem::Circuit* circuit = device_.model.circuit_of(e); circuit && !step.duration && !isolated)
+    if (const fem::Circuit* circuit = device_.model.circuit_of(e);
+        step.kind == StepKind::relax && circuit && !isolated)
       loads.voltage[e] = circuit->steady_voltage(loads.source[e]);
   }
   if (case_.chamber) {
