@@ -157,6 +157,31 @@ bool cross(const meshing::Mesh& mesh, const meshing::CellBlock& one, const meshi
   return false;
 }
 
+/// Nodes of two surfaces, ascending, in planes across which supports hold nodes of both for good: planes of
+/// symmetry.
+std::vector<int> mirrored(const Case& one, const meshing::Mesh& mesh,
+                          const std::array<meshing::CellBlock, 2>& surfaces) {
+  const double nearly = 1e-3 * one.contact->thickness;
+  std::set<int> all;
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::array<std::map<double, std::vector<int>>, 2> planes; // nodes by where they are held
+    for (const Support& support : one.supports) {
+      if (!support.fixed[c] || support.motion[c] || !support.from.empty() || !support.until.empty()) continue;
+      const std::vector<int>& held = mesh.node_sets.at(support.place);
+      for (std::size_t k = 0; k < 2; ++k)
+        for (const int node : surfaces[k].nodes)
+          if (std::ranges::binary_search(held, node))
+            planes[k][mesh.nodes[static_cast<std::size_t>(node)][static_cast<int>(c)]].push_back(node);
+    }
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const auto& [at, nodes] : planes[k])
+        if (const auto other = planes[1 - k].lower_bound(at - nearly);
+            other != planes[1 - k].end() && other->first <= at + nearly)
+          all.insert(nodes.begin(), nodes.end());
+  }
+  return {all.begin(), all.end()};
+}
+
 /// Every surface and each other one.
 void add_surfaces(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric,
@@ -188,14 +213,14 @@ void add_surfaces(const Case& one, const meshing::Mesh& mesh, fem::Model& model)
         // A gap of half the barrier's thickness bears about 1 % of Young's modulus, as on a table.
         const fem::Barrier barrier{.thickness = reach, .stiffness = 0.01 * modulus / thickness, .foot = 1};
         const std::array<std::string, 2> names{places[a], places[b]};
+        const std::array<meshing::CellBlock, 2> both{surfaces[a], surfaces[b]};
+        const std::vector<int> on_symmetry = mirrored(one, mesh, both);
         if (in_space)
-          return fem::make_face_contact_block(
-              mesh, {names, {surfaces[a], surfaces[b]}, barrier, one.contact->friction});
-        return fem::make_surface_contact_block(mesh, {names,
-                                                      {surfaces[a], surfaces[b]},
+          return fem::make_face_contact_block(mesh,
+                                              {names, both, barrier, one.contact->friction, on_symmetry});
+        return fem::make_surface_contact_block(mesh, {names, both,
                                                       of_revolution ? std::nullopt : std::optional(width),
-                                                      barrier,
-                                                      one.contact->friction});
+                                                      barrier, one.contact->friction, on_symmetry});
       };
       try {
         model.blocks.push_back(contact(thickness));

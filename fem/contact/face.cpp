@@ -265,7 +265,8 @@ std::vector<std::vector<CountedPart>> parts_beside(const meshing::CellBlock& fac
   return parts;
 }
 
-FaceEnds::FaceEnds(const meshing::CellBlock& faces, const std::vector<Vector3d>& drawn, double over) {
+FaceEnds::FaceEnds(const meshing::CellBlock& faces, const std::vector<Vector3d>& drawn,
+                   const std::vector<int>& mirrored, double over) {
   std::map<std::pair<int, int>, std::pair<int, int>> edges; // corners: the middle, how many faces have it
   for (int i = 0; i < faces.size(); ++i)
     for (std::size_t a = 0; a < 3; ++a) {
@@ -275,9 +276,12 @@ FaceEnds::FaceEnds(const meshing::CellBlock& faces, const std::vector<Vector3d>&
       ++count;
     }
   const auto at = [&](int node) { return drawn[static_cast<std::size_t>(node)]; };
+  const auto is_mirrored = [&](int node) { return std::ranges::binary_search(mirrored, node); };
   std::vector<std::array<Vector3d, 2>> ends;
   for (const auto& [corners, edge] : edges) {
-    if (edge.second > 1) continue;
+    if (edge.second > 1 ||
+        (is_mirrored(corners.first) && is_mirrored(edge.first) && is_mirrored(corners.second)))
+      continue;
     ends.push_back({at(corners.first), at(edge.first)});
     ends.push_back({at(edge.first), at(corners.second)});
   }

@@ -67,13 +67,15 @@ struct CountedPart {
 /// edge of n faces is there n - 1 times too often, a corner as often as faces and edges leave.
 std::vector<std::vector<CountedPart>> parts_beside(const meshing::CellBlock& faces);
 
-/// Where a surface of 6-node triangles ends, as drawn: on edges that one face has alone. What SurfaceEnds is
-/// to sides.
+/// Where a surface of 6-node triangles ends, as drawn: on edges that one face has alone, and that are not
+/// mirrored. What SurfaceEnds is to sides.
 class FaceEnds {
  public:
   FaceEnds() = default;
-  /// `over`: length along which the ramp rises from an end, m; as much as there is where that is less.
-  FaceEnds(const meshing::CellBlock& faces, const std::vector<Eigen::Vector3d>& drawn, double over);
+  /// `mirrored`: nodes, ascending, on planes of symmetry. `over`: length along which the ramp rises from an
+  /// end, m; as much as there is where that is less.
+  FaceEnds(const meshing::CellBlock& faces, const std::vector<Eigen::Vector3d>& drawn,
+           const std::vector<int>& mirrored, double over);
 
   /// Distances of a face's nodes from the end, over that length: end_ramp() of what its shape functions tell
   /// between them is the ramp.

@@ -64,7 +64,8 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
     share_ = {mean[1] / (mean[0] + mean[1]), mean[0] / (mean[0] + mean[1])};
     margin_ = margin * std::sqrt(std::min(mean[0], mean[1]));
     const double over = ramp_sizes * std::sqrt(2 * std::max(mean[0], mean[1]));
-    for (std::size_t k = 0; k < 2; ++k) ends_[k] = FaceEnds(contact_.surfaces[k], drawn_, over);
+    for (std::size_t k = 0; k < 2; ++k)
+      ends_[k] = FaceEnds(contact_.surfaces[k], drawn_, contact_.mirrored, over);
     std::vector<double> areas(drawn_.size(), 0);
     for_each_point([&](const Pair& pair, std::size_t q) {
       share(pair, q, share_[pair.surface] * area(pair, q), areas);

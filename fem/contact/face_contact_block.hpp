@@ -17,6 +17,7 @@ struct FaceContact {
   std::array<meshing::CellBlock, 2> surfaces; ///< 6-node triangles, as meshing::faces_at() gives them
   Barrier barrier;                            ///< its stiffness in Pa/m
   double friction = 0;                        ///< Coulomb's coefficient; 0: they slide freely
+  std::vector<int> mirrored{}; ///< nodes, ascending, on planes of symmetry beyond which both go on
 };
 
 /// Keeps two deformable surfaces apart, in space, without adhesion: see

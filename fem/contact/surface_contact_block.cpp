@@ -76,8 +76,11 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
     const double finer = std::pow(mean_side(1) / mean_side(0), 2);
     share_ = {finer / (1 + finer), 1 / (1 + finer)};
     const double over = ramp_spacings * std::max(mean_side(0), mean_side(1)) / (2 * parts);
-    for (std::size_t k = 0; k < 2; ++k)
-      ends_[k] = SurfaceEnds(contact_.surfaces[k], drawn_, !contact_.width, over);
+    const auto goes_on = [&](int node) {
+      return (!contact_.width && drawn_[static_cast<std::size_t>(node)].x() <= 1e-9 * over) ||
+             std::ranges::binary_search(contact_.mirrored, node);
+    };
+    for (std::size_t k = 0; k < 2; ++k) ends_[k] = SurfaceEnds(contact_.surfaces[k], drawn_, goes_on, over);
     require_apart(contact_.surfaces[0], contact_.surfaces[1]);
     std::vector<double> areas(drawn_.size(), 0);
     for_each_point([&](const Pair& pair, std::size_t q) {

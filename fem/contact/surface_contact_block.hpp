@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dielast::fem {
 
@@ -19,6 +20,7 @@ struct SurfaceContact {
   std::optional<double> width;                ///< of plane strain, m; nothing: of revolution about x = 0
   Barrier barrier;                            ///< its stiffness in Pa/m
   double friction = 0;                        ///< Coulomb's coefficient; 0: they slide freely
+  std::vector<int> mirrored{}; ///< nodes, ascending, on planes of symmetry beyond which both go on
 };
 
 /// Keeps two deformable surfaces apart, in plane strain or of revolution, without adhesion. Friction: see

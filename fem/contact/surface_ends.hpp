@@ -4,6 +4,7 @@
 #include "meshing/mesh.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <vector>
@@ -32,10 +33,10 @@ inline Ramp end_ramp(double t) {
 class SurfaceEnds {
  public:
   SurfaceEnds() = default;
-  /// `over`: length along which the ramp rises from an end, m; at most half of the surface. What lies on the
-  /// axis of revolution is no end.
-  SurfaceEnds(const meshing::CellBlock& sides, const std::vector<Eigen::Vector3d>& drawn, bool of_revolution,
-              double over) {
+  /// `goes_on`: whether a node is no end, as it is on the axis of revolution or a plane of symmetry. `over`:
+  /// length along which the ramp rises from an end, m; at most half of the surface.
+  SurfaceEnds(const meshing::CellBlock& sides, const std::vector<Eigen::Vector3d>& drawn,
+              const std::function<bool(int)>& goes_on, double over) {
     std::map<int, int> first_at, last_at; // sides by their ends
     for (int i = 0; i < sides.size(); ++i) {
       first_at[sides.cell(i)[0]] = i;
@@ -51,7 +52,7 @@ class SurfaceEnds {
         const int node = sides.cell(i)[end];
         const auto& next_at = end == 0 ? last_at : first_at;
         const auto next = next_at.find(node);
-        if (next == next_at.end()) return of_revolution && at(node).x() <= 1e-9 * length(i) ? far : way;
+        if (next == next_at.end()) return goes_on(node) ? far : way;
         i = next->second;
         way += length(i);
       }

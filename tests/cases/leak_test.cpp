@@ -200,8 +200,7 @@ TEST_F(Leak, SmallSinesLeaveIsolatedElectrodesThatTheyDoNotDriveWithTheirCharges
 // The patch is held as drawn: whatever the way, the source gives V Q, and half of that is heat in its
 // resistance.
 TEST_F(Leak, WhatFlowsWithoutTimeOrInItWarmsTheResistance) {
-  for (const char* last :
-       {"kind = \"relax\"\nincrements = 3\n", "kind = \"hold\"\nduration = \"2 s\"\n", "kind = \"move\"\n"}) {
+  for (const char* last : {"kind = \"relax\"\nincrements = 3\n", "kind = \"hold\"\nduration = \"2 s\"\n"}) {
     const Ran ran = run("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
                         "permittivity = \"4e-11 F/m\"\n[patch]\nstretch_x = 1\nstretch_y = 1\n[circuit]\n"
                         "resistance = \"10 GOhm\"\n[drive]\nvoltage = { wave = \"step\", to = \"4 kV\" }\n"

@@ -193,5 +193,20 @@ TEST(FaceContactBlock, faces_that_cross_are_told) {
   EXPECT_FALSE(any(-0.2));
 }
 
+// A plane of symmetry along x = 0 and one along y = 0: what is left are the edges at x = 2 and y = 2.
+TEST(FaceEnds, AreNotWhereTheSurfaceGoesOnMirrored) {
+  const Faces faces({0, 0, 1}, 0);
+  const auto at_corner = [&](const auto& is_mirrored) {
+    std::vector<int> mirrored;
+    for (int node = 0; node < faces.mesh.node_count(); ++node)
+      if (is_mirrored(faces.mesh.nodes[static_cast<std::size_t>(node)])) mirrored.push_back(node);
+    return FaceEnds(faces.lower, faces.mesh.nodes, mirrored, 0.5).at(0)[0];
+  };
+  EXPECT_EQ(at_corner([](const Vector3d&) { return false; }), 0);
+  EXPECT_EQ(at_corner([](const Vector3d& x) { return x.x() == 0; }), 0);
+  EXPECT_EQ(at_corner([](const Vector3d& x) { return x.x() == 0 || x.y() == 0; }), 2 / 0.5);
+  EXPECT_EQ(at_corner([](const Vector3d&) { return true; }), 1);
+}
+
 } // namespace
 } // namespace dielast::fem
