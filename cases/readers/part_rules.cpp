@@ -110,6 +110,8 @@ void check_geometry(const WrittenPart& written) {
     return report("strip", "a strip is a case of its own, not a part");
   if (std::holds_alternative<Roll>(part.geometry) && !part.name.empty())
     return report("roll", "a roll is a case of its own, not a part");
+  if (std::holds_alternative<Balloon>(part.geometry) && !part.name.empty())
+    return report("balloon", "a balloon is a case of its own, not a part");
   for (const char* leaf : {"hinge", "ribbon"})
     if (rolls && !written.top().find(leaf))
       written.reader.report(written.top().find("antagonistic_rolls")->key_source, leaf,
