@@ -250,11 +250,10 @@ RationalOutcome fit_circuit(const FrequencyTable& measured, const FilmCircuit& c
               plates = at(CircuitElement::capacitance);
   const ResponseModel model = [&](Complex s, const VectorXd& q) {
     Response response{0, VectorXcd::Zero(count)};
-    Complex beside = 0; // admittance of what lies beside one another
-    if (plates >= 0) beside += s * std::exp(q[plates]);
+    Complex beside = s * std::exp(q[plates]); // admittance of what lies beside one another
     if (leak >= 0) beside += std::exp(-q[leak]);
     response.value = 1.0 / beside;
-    if (plates >= 0) response.slope[plates] = -s * std::exp(q[plates]) / (beside * beside);
+    response.slope[plates] = -s * std::exp(q[plates]) / (beside * beside);
     if (leak >= 0) response.slope[leak] = std::exp(-q[leak]) / (beside * beside);
     if (series >= 0) {
       response.slope[series] = std::exp(q[series]);

@@ -332,9 +332,9 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
     } else {
       std::vector<Sampled> sampled;
       for (const Solution& other : others) sampled.push_back({other.size, other.values[q], other.rises[q]});
-      estimate =
-          estimate_error({1, own.values[q], own.rises[q]}, sampled,
-                         orders_of(*one.quantities[q].kind, one, smooth, bonded), direction_of(quantity));
+      estimate = estimate_error(
+          {1, own.values[q], own.rises[q]}, sampled, orders_of(*one.quantities[q].kind, one, smooth, bonded),
+          direction_of(quantity), unit_of(quantity, one.quantities) == "Pa" ? smallest_stress : 0);
       if (estimate.error && takes_time(one)) // the steps were chosen to be no better than that
         estimate.error = std::max(*estimate.error, one.solver.time_tolerance * std::abs(own.values[q]));
     }

@@ -49,13 +49,14 @@ double error_of_three(const Difference& near, const Difference& far, OrderRange 
 }
 
 /// Whether an extreme grows with the mesh. `solutions`: two or more, from the finest to the coarsest.
-bool is_singular(std::span<const Sampled> solutions, int direction) {
+bool is_singular(std::span<const Sampled> solutions, int direction, double rounding) {
   double last_growth = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < solutions.size(); ++i) {
     const Sampled &fine = solutions[i], &coarse = solutions[i + 1];
     const double growth = direction * (fine.value - coarse.value);
-    if (growth <= (i == 0 ? notable * std::abs(fine.value) : 0) || last_growth < as_before * growth ||
-        fine.rise < least_rise * coarse.rise || fine.rise > most_rise * coarse.rise)
+    if (growth <= (i == 0 ? std::max(notable * std::abs(fine.value), rounding) : 0) ||
+        last_growth < as_before * growth || fine.rise < least_rise * coarse.rise ||
+        fine.rise > most_rise * coarse.rise)
       return false;
     last_growth = growth;
   }
@@ -65,7 +66,7 @@ bool is_singular(std::span<const Sampled> solutions, int direction) {
 } // namespace
 
 ErrorEstimate estimate_error(const Sampled& own, std::span<const Sampled> others, OrderRange orders,
-                             int direction) {
+                             int direction, double rounding) {
   ErrorEstimate estimate;
   if (others.empty() || !std::isfinite(own.value) || !std::isfinite(others.front().value)) return estimate;
   const Sampled& next = others.front();
@@ -89,7 +90,7 @@ ErrorEstimate estimate_error(const Sampled& own, std::span<const Sampled> others
     }
   }
   estimate.error = std::max(*estimate.error, own.rise);
-  if (is_singular(solutions, direction)) {
+  if (is_singular(solutions, direction, rounding)) {
     estimate.singular = true;
     estimate.error.reset();
     estimate.remark = "grows as the mesh is refined: no converged value";

@@ -36,8 +36,8 @@ struct Sampled {
 ///
 /// `direction`: 1 for a maximum of a field, -1 for a minimum, otherwise 0. An extreme is read at integration
 /// points, so that its error is no less than its rise; one that grows from mesh to mesh while its rise does
-/// not shrink is singular.
+/// not shrink is singular, unless it grows by less than `rounding`.
 ErrorEstimate estimate_error(const Sampled& own, std::span<const Sampled> others, OrderRange orders,
-                             int direction);
+                             int direction, double rounding = 0);
 
 } // namespace dielast::cases

@@ -26,12 +26,10 @@ class Mumps {
     require_blas_buffer();
     rows_.reserve(matrix.rows.size());
     columns_.reserve(matrix.rows.size());
-    for (int c = 0; c < matrix.size; ++c)
-      for (int k = matrix.column_start[static_cast<std::size_t>(c)];
-           k < matrix.column_start[static_cast<std::size_t>(c) + 1]; ++k) {
-        rows_.push_back(matrix.rows[static_cast<std::size_t>(k)] + 1);
-        columns_.push_back(c + 1);
-      }
+    matrix.for_each_entry([&](std::size_t, int column, int row) {
+      rows_.push_back(row + 1);
+      columns_.push_back(column + 1);
+    });
     for (int& place : order_) ++place;
     mumps_.par = 1;
     mumps_.sym = 2;

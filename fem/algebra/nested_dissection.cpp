@@ -32,19 +32,15 @@ struct Graph {
 Graph graph_of(const SparseSymmetric& matrix) {
   Graph graph;
   graph.start.resize(at(matrix.size) + 1);
-  const auto for_each_entry = [&](const auto& visit) {
-    for (int column = 0; column < matrix.size; ++column)
-      for (int k = matrix.column_start[at(column)]; k < matrix.column_start[at(column) + 1]; ++k)
-        visit(column, matrix.rows[at(k)]);
-  };
-  for_each_entry([&](int column, int row) {
+  matrix.for_each_entry([&](std::size_t, int column, int row) {
     ++graph.start[at(column) + 1];
     if (row != column) ++graph.start[at(row) + 1];
   });
   std::partial_sum(graph.start.begin(), graph.start.end(), graph.start.begin());
   graph.neighbours.resize(at(graph.start.back()));
   std::vector<int> next(graph.start.begin(), graph.start.end() - 1);
-  for_each_entry([&](int column, int row) { // a vertex meets those before it, then itself, then those behind
+  // A vertex meets those before it, then itself, then those behind.
+  matrix.for_each_entry([&](std::size_t, int column, int row) {
     graph.neighbours[at(next[at(column)]++)] = row;
     if (row != column) graph.neighbours[at(next[at(row)]++)] = column;
   });

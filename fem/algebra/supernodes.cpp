@@ -108,11 +108,10 @@ void Supernodes::place_entries(const SparseSymmetric& matrix) {
   for (int s = 0; s < count(); ++s)
     std::fill(of_column.begin() + first_column[at(s)], of_column.begin() + first_column[at(s) + 1], s);
   const auto for_each_entry = [&](const auto& visit) {
-    for (int c = 0; c < matrix.size; ++c)
-      for (int k = matrix.column_start[at(c)]; k < matrix.column_start[at(c) + 1]; ++k) {
-        const auto [column, row] = std::minmax(column_of[at(c)], column_of[at(matrix.rows[at(k)])]);
-        visit(k, column, row);
-      }
+    matrix.for_each_entry([&](std::size_t k, int one, int other) {
+      const auto [column, row] = std::minmax(column_of[at(one)], column_of[at(other)]);
+      visit(static_cast<int>(k), column, row);
+    });
   };
   std::vector<std::ptrdiff_t> entry_start(at(count()) + 1, 0); // of each supernode
   diagonal.resize(permutation.size());

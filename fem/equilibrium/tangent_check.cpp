@@ -7,22 +7,6 @@
 
 namespace dielast::fem {
 
-namespace {
-
-/// value = d . K d
-double quadratic_form(const SparseSymmetric& K, const Eigen::VectorXd& d) {
-  double sum = 0;
-  for (int c = 0; c < K.size; ++c)
-    for (int k = K.column_start[static_cast<std::size_t>(c)];
-         k < K.column_start[static_cast<std::size_t>(c) + 1]; ++k) {
-      const int r = K.rows[static_cast<std::size_t>(k)];
-      sum += (r == c ? 1 : 2) * K.values[static_cast<std::size_t>(k)] * d[c] * d[r];
-    }
-  return sum;
-}
-
-} // namespace
-
 TangentCheck check_tangent(Equilibrium& equilibrium, const State& state, double amplitude, int directions) {
   const Model& model = equilibrium.model();
   std::mt19937 random(1);
@@ -47,7 +31,7 @@ TangentCheck check_tangent(Equilibrium& equilibrium, const State& state, double 
   for (int k = 0; k < directions; ++k) {
     const Eigen::VectorXd d = draw();
     const double slope = residual.head(d.size()).dot(d);
-    const double curvature = quadratic_form(equilibrium.assembler().matrix(), d);
+    const double curvature = equilibrium.assembler().matrix().quadratic_form(d);
     struct There {
       double energy, slope;
     };

@@ -20,15 +20,7 @@ void UnseenMotion::pass(const Model& model, const State& from, const State& to) 
 double UnseenMotion::work(Assembler& assembler, const State& state) const {
   if (farthest.size() == 0) return 0;
   assembler.tangent(state);
-  const SparseSymmetric& K = assembler.matrix();
-  double work = 0;
-  for (int c = 0; c < K.size; ++c)
-    for (int k = K.column_start[static_cast<std::size_t>(c)];
-         k < K.column_start[static_cast<std::size_t>(c) + 1]; ++k) {
-      const int r = K.rows[static_cast<std::size_t>(k)];
-      work += (r == c ? 0.5 : 1) * farthest[c] * K.values[static_cast<std::size_t>(k)] * farthest[r];
-    }
-  return work;
+  return assembler.matrix().quadratic_form(farthest) / 2;
 }
 
 } // namespace dielast::fem

@@ -35,15 +35,12 @@ Eigen::VectorXd scale_of(const SparseSymmetric& K) {
     return K.values[static_cast<std::size_t>(K.column_start[static_cast<std::size_t>(i)])];
   };
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(K.size);
-  for (int c = 0; c < K.size; ++c)
-    for (int k = K.column_start[static_cast<std::size_t>(c)];
-         k < K.column_start[static_cast<std::size_t>(c) + 1]; ++k) {
-      const int r = K.rows[static_cast<std::size_t>(k)];
-      const double squared = std::pow(K.values[static_cast<std::size_t>(k)], 2);
-      for (const auto& [i, j] : {std::pair{r, c}, {c, r}})
-        if (i == j ? diagonal(i) > 0 : diagonal(i) <= 0 && diagonal(j) > 0)
-          stiffness[i] = std::max(stiffness[i], squared / diagonal(j));
-    }
+  K.for_each_entry([&](std::size_t k, int column, int row) {
+    const double squared = std::pow(K.values[k], 2);
+    for (const auto& [i, j] : {std::pair{row, column}, {column, row}})
+      if (i == j ? diagonal(i) > 0 : diagonal(i) <= 0 && diagonal(j) > 0)
+        stiffness[i] = std::max(stiffness[i], squared / diagonal(j));
+  });
   return stiffness.unaryExpr([](double value) { return value > 0 ? std::sqrt(value) : 1.0; });
 }
 

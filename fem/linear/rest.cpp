@@ -55,13 +55,10 @@ double stiffness_change(Equilibrium& equilibrium, const State& here, const State
   double largest = 0;
   for (int power = 0; power < powers; ++power) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
-    for (int column = 0; column < change.size; ++column)
-      for (int i = change.column_start[static_cast<std::size_t>(column)];
-           i < change.column_start[static_cast<std::size_t>(column) + 1]; ++i) {
-        const int row = change.rows[static_cast<std::size_t>(i)];
-        force[row] += change.values[static_cast<std::size_t>(i)] * x[column];
-        if (row != column) force[column] += change.values[static_cast<std::size_t>(i)] * x[row];
-      }
+    change.for_each_entry([&](std::size_t k, int column, int row) {
+      force[row] += change.values[k] * x[column];
+      if (row != column) force[column] += change.values[k] * x[row];
+    });
     equilibrium.tangent().solve(force, y);
     const double before = std::sqrt(x.dot(D.cwiseProduct(x)));
     largest = std::sqrt(y.dot(D.cwiseProduct(y))) / before;

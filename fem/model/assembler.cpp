@@ -212,11 +212,9 @@ int Assembler::equation(int unknown) const {
 std::vector<double> Assembler::on_pattern(const Eigen::SparseMatrix<double>& constant) const {
   if (constant.nonZeros() == 0) return {};
   std::vector<double> values(matrix_.values.size(), 0.0);
-  for (int column = 0; column < matrix_.size; ++column)
-    for (int at = matrix_.column_start[static_cast<std::size_t>(column)];
-         at < matrix_.column_start[static_cast<std::size_t>(column) + 1]; ++at)
-      values[static_cast<std::size_t>(at)] =
-          constant.coeff(equation(matrix_.rows[static_cast<std::size_t>(at)]), equation(column));
+  matrix_.for_each_entry([&](std::size_t at, int column, int row) {
+    values[at] = constant.coeff(equation(row), equation(column));
+  });
   return values;
 }
 

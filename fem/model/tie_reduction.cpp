@@ -32,19 +32,17 @@ TieReduction::TieReduction(const DofMap& dofs, const SparseSymmetric& full) : do
   std::vector<std::vector<int>> rows(static_cast<std::size_t>(free));
   for (int column = 0; column < free; ++column) rows[static_cast<std::size_t>(column)].push_back(column);
   const auto each_product = [&](auto&& use) {
-    for (int column = 0; column < full.size; ++column)
-      for (int at = full.column_start[static_cast<std::size_t>(column)];
-           at < full.column_start[static_cast<std::size_t>(column) + 1]; ++at) {
-        const int row = full.rows[static_cast<std::size_t>(at)];
-        const std::vector<Term> left = terms(column), right = terms(row);
-        for (std::size_t i = 0; i < left.size(); ++i)
-          for (std::size_t j = row == column ? i : 0; j < right.size(); ++j) {
-            const auto [low, high] = std::minmax(left[i].equation, right[j].equation);
-            // Off the diagonal an entry stands for two.
-            const bool twice = low == high && !(row == column && i == j);
-            for (int n = 0; n < (twice ? 2 : 1); ++n) use(at, low, high, left[i].factor, right[j].factor);
-          }
-      }
+    full.for_each_entry([&](std::size_t at, int column, int row) {
+      const std::vector<Term> left = terms(column), right = terms(row);
+      for (std::size_t i = 0; i < left.size(); ++i)
+        for (std::size_t j = row == column ? i : 0; j < right.size(); ++j) {
+          const auto [low, high] = std::minmax(left[i].equation, right[j].equation);
+          // Off the diagonal an entry stands for two.
+          const bool twice = low == high && !(row == column && i == j);
+          for (int n = 0; n < (twice ? 2 : 1); ++n)
+            use(static_cast<int>(at), low, high, left[i].factor, right[j].factor);
+        }
+    });
   };
   each_product([&](int /*at*/, int column, int row, int, int) {
     auto& of_column = rows[static_cast<std::size_t>(column)];

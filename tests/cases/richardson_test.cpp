@@ -81,6 +81,7 @@ TEST(ErrorEstimate, OfASingularExtremeIsNone) {
   EXPECT_TRUE(estimate_error({1, 10, 0}, grows, {0.5, 1}, 0).error);
   const std::vector<Sampled> falls{{2, -10 / std::sqrt(2), 3 / std::sqrt(2)}, {4, -5, 1.5}};
   EXPECT_TRUE(estimate_error({1, -10, 3}, falls, {0.5, 1}, -1).singular);
+  EXPECT_FALSE(estimate_error({1, -10, 3}, falls, {0.5, 1}, -1, 20).singular); // all of it is rounding
 }
 
 // A boundary layer is read the nearer to the boundary the smaller the elements are: first order.

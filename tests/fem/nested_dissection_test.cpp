@@ -47,14 +47,11 @@ double work_of_factor(const SparseSymmetric& matrix, const std::vector<int>& ord
   for (std::size_t k = 0; k < order.size(); ++k)
     place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
   std::vector<std::set<int>> columns(order.size());
-  for (int c = 0; c < matrix.size; ++c)
-    for (int k = matrix.column_start[static_cast<std::size_t>(c)];
-         k < matrix.column_start[static_cast<std::size_t>(c) + 1]; ++k) {
-      const auto [first, last] =
-          std::minmax(place[static_cast<std::size_t>(c)],
-                      place[static_cast<std::size_t>(matrix.rows[static_cast<std::size_t>(k)])]);
-      columns[static_cast<std::size_t>(first)].insert(last);
-    }
+  matrix.for_each_entry([&](std::size_t, int c, int r) {
+    const auto [first, last] =
+        std::minmax(place[static_cast<std::size_t>(c)], place[static_cast<std::size_t>(r)]);
+    columns[static_cast<std::size_t>(first)].insert(last);
+  });
   double work = 0;
   for (std::set<int>& column : columns) {
     work += static_cast<double>(column.size() * column.size());
@@ -68,13 +65,10 @@ double work_of_factor(const SparseSymmetric& matrix, const std::vector<int>& ord
 
 std::vector<int> minimum_degree(const SparseSymmetric& matrix) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int c = 0; c < matrix.size; ++c)
-    for (int k = matrix.column_start[static_cast<std::size_t>(c)];
-         k < matrix.column_start[static_cast<std::size_t>(c) + 1]; ++k) {
-      const int r = matrix.rows[static_cast<std::size_t>(k)];
-      entries.emplace_back(r, c, 1);
-      if (r != c) entries.emplace_back(c, r, 1);
-    }
+  matrix.for_each_entry([&](std::size_t, int c, int r) {
+    entries.emplace_back(r, c, 1);
+    if (r != c) entries.emplace_back(c, r, 1);
+  });
   Eigen::SparseMatrix<double> A(matrix.size, matrix.size);
   A.setFromTriplets(entries.begin(), entries.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;

@@ -111,9 +111,7 @@ inline std::unique_ptr<Model> column(const meshing::Mesh& mesh, bool planar = tr
 
 inline Eigen::MatrixXd dense(const SparseSymmetric& matrix) {
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(matrix.size, matrix.size);
-  for (int c = 0; c < matrix.size; ++c)
-    for (int k = matrix.column_start[c]; k < matrix.column_start[c + 1]; ++k)
-      full(matrix.rows[k], c) = full(c, matrix.rows[k]) = matrix.values[k];
+  matrix.for_each_entry([&](std::size_t k, int c, int r) { full(r, c) = full(c, r) = matrix.values[k]; });
   return full;
 }
 
