@@ -171,7 +171,7 @@ void require_rest(fem::Equilibrium& equilibrium, const fem::State& state) {
   if (const std::string found = fem::unrest(equilibrium, state); !found.empty())
     throw AnalysisError(fmt::format(
         "small vibrations go about a state at rest, and here {}; let it come to rest before, by a "
-        "hold, or take a step without a duration, with response = \"relaxed\"",
+        "hold or a step of kind \"relax\"",
         found));
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace dielast::cases {
 
@@ -18,7 +19,7 @@ namespace {
 
 std::string cell(double value) { return std::isfinite(value) ? fmt::format(",{}", value) : ","; }
 
-double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
+double rounded(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
 
 /// Keys and values of a section, but not a branch's relaxation time or viscosity; a permittivity of 0 was not
 /// given.

@@ -106,7 +106,8 @@ Key quadrature_key(std::string fallback) {
 
 std::span<const GeometryKind> geometry_kinds() {
   const auto height = [](const char* fallback) {
-    return across_key("elements across the height, or the wall", 200, fallback);
+    return across_key("elements across the height (of a slab that is higher than long along x), or the wall",
+                      200, fallback);
   };
   static const std::vector<GeometryKind> kinds{
       {honeycomb_section(),
@@ -128,9 +129,10 @@ std::span<const GeometryKind> geometry_kinds() {
       {roll_section(), {order_key(), rings_key()}, roll_templates()},
       {rolls_section(), {order_key(), wall_elements_key()}, antagonistic_rolls_templates()},
       {slab_section(),
-       {grading_key("largest element along x over the height of one, as long as which they are at an "
-                    "electrode's end",
-                    "6"),
+       {grading_key(
+            "largest element along a longer side over the size of those across, as long as which they are at "
+            "an electrode's end along x",
+            "6"),
         height("12")},
        slab_templates()},
       {hollow_sphere_section(), {height("4")}, hollow_sphere_templates()},

@@ -106,6 +106,17 @@ bool opens_chamber(const Case& one) {
   return false;
 }
 
+/// Whether a step reaches the chamber's volume, or a transient follows it.
+bool pumps_chamber(const Case& one) {
+  bool closed = false;
+  for (const Step& step : one.steps) {
+    if (step.kind == StepKind::inflate) closed = true;
+    if ((step.kind == StepKind::inflate && !step.to) || (step.kind == StepKind::transient && closed))
+      return true;
+  }
+  return false;
+}
+
 /// A condition on the case alone.
 template<class Rule>
 Condition on_case(std::string needs, Rule rule) {
@@ -240,10 +251,8 @@ Condition surfaces_touch() {
 }
 
 Condition volume_applies() {
-  return on_case("a step of kind \"inflate\" without `to`", [](const Case& one) {
-    return std::ranges::any_of(one.steps,
-                               [](const Step& step) { return step.kind == StepKind::inflate && !step.to; });
-  });
+  return on_case("a step of kind \"inflate\" without `to`, or \"transient\" behind any of kind \"inflate\"",
+                 pumps_chamber);
 }
 
 Condition elements() {

@@ -282,8 +282,10 @@ fem::RampOptions StepLoads::options(int number) const {
   for (const materials::Material* material : case_.film_materials())
     add_relaxation(*material, device_.model, times);
   // One backward Euler step of h errs by (h / tau)^2 / 2 of what is left to relax.
-  if (std::isfinite(times.shortest))
+  if (std::isfinite(times.shortest)) {
     options.first_time_step = std::sqrt(2 * options.time_tolerance) * times.shortest;
+    options.shortest_relaxation = times.shortest;
+  }
   options.longest_relaxation = times.longest;
   if (!step.duration) return options;
   options.duration = *step.duration;

@@ -120,7 +120,7 @@ std::string charges(const Model& model, const State& state) {
       return "electrode \"" + model.electrodes[e] + "\" is isolated and leaks";
     const bool spreads = std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode) > 0;
     // What leaks under a sheet is known as drawn only; where nothing does, the source's voltage is the end.
-    if (state.supply[e] != Supply::circuit || (spreads && circuit.leakage > 0)) continue;
+    if (is_isolated(state.supply[e]) || (spreads && circuit.leakage > 0)) continue;
     const double end = circuit.steady_voltage(state.source[e]);
     if (std::abs(end - voltage) > still * std::max(std::abs(end), std::abs(voltage)))
       return "charge flows through the circuit of electrode \"" + model.electrodes[e] + "\"";

@@ -22,6 +22,11 @@ struct History {
   double step = 0, step_before = 0; ///< s, between now and before, before and older; 0: there is no such past
 };
 
+/// Without a past, from which backward Euler's method sets out.
+inline std::shared_ptr<const History> without_past(const History& history) {
+  return std::make_shared<const History>(History{history.now, {}, {}});
+}
+
 /// What inertia remembers: how the model moved at the last accepted time. Per equation (see DofMap).
 struct Motion {
   Eigen::VectorXd position, velocity, acceleration; ///< m, m/s, m/s^2

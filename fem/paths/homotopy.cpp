@@ -58,7 +58,7 @@ std::optional<State> flown(Equilibrium& equilibrium, const State& state, const R
   if (ramp(equilibrium, still, in_time, progress, {}).end != RampEnd::complete) return std::nullopt;
   State end = progress.points.back().state;
   end.time = state.time;
-  end.history = std::make_shared<const History>(History{end.history->now, {}, {}});
+  end.history = without_past(*end.history);
   return end;
 }
 

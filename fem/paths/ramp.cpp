@@ -18,13 +18,12 @@ namespace {
 constexpr double round_off = load_factor_round_off;
 constexpr double most_growth = 2; ///< of a time step: BDF2 is stable below 2.41
 constexpr double safety = 0.9;
-constexpr int jump_parts = 8;              ///< of loads that jump
-constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
-constexpr double smallest_on_path = 1e-9;  ///< of the load factor, where other branches are found
-constexpr double longest_kinked = 1e-4;    ///< increment, see Steadiness
-constexpr double first_moment = 1e-3;      ///< of an increment in time: its start, with dashpots that flow
-constexpr double enough_progress = 0.1;    ///< of a step, within the most tries
-constexpr double farthest_slope = 100;     ///< of an increment, over the model's extent
+constexpr int jump_parts = 8;             ///< of loads that jump
+constexpr double smallest_on_path = 1e-9; ///< of the load factor, where other branches are found
+constexpr double longest_kinked = 1e-4;   ///< increment, see Steadiness
+constexpr double first_moment = 1e-3;     ///< of an increment in time: its start, with dashpots that flow
+constexpr double enough_progress = 0.1;   ///< of a step, within the most tries
+constexpr double farthest_slope = 100;    ///< of an increment, over the model's extent
 constexpr double tiny = 1e-300;
 
 /// One step under load control.
@@ -33,8 +32,7 @@ class Ramp {
   Ramp(Equilibrium& equilibrium, const LoadPath& path, const RampOptions& options, RampProgress& progress,
        const RampObserver& observer)
       : equilibrium_(equilibrium), path_(path), options_(options), progress_(progress), observer_(observer),
-        largest_(1.0 / options.increments),
-        smallest_(options.duration > 0 ? smallest_in_time : options.smallest_increment) {
+        largest_(1.0 / options.increments), smallest_(options.smallest()) {
     if (options.inertia) massless_ = stiffness_without_mass(equilibrium, last());
   }
 
@@ -221,8 +219,7 @@ bool Ramp::pass_break() {
   progress_.turns = true;
   progress_.slope.reset();
   State state = last();
-  if (state.history && state.history->step > 0)
-    state.history = std::make_shared<const History>(History{state.history->now, {}, {}});
+  if (state.history && state.history->step > 0) state.history = without_past(*state.history);
   const DofMap& dofs = equilibrium_.model().dofs;
   if (options_.inertia) {
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs.count());
@@ -383,6 +380,7 @@ RampResult Ramp::run() {
       if (error > options_.time_tolerance && tried > smallest_) continue;
       const bool flows = flow && flow->now != arrived.history->now;
       time_error_ = error == 0 && flows ? options_.time_tolerance : error;
+      if (flow && options_.outruns(tried)) arrived.history = without_past(*arrived.history);
     }
     if (!accept(std::move(arrived), s)) return {RampEnd::stopped};
   }

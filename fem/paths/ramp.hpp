@@ -22,10 +22,16 @@ struct RampOptions {
   bool instantaneous = false;   ///< no time passes: dashpots stay as they are; otherwise they flow to the end
   double time_tolerance = 1e-6; ///< local error of internal variables and motion per increment, relative
   double first_time_step = 0;   ///< s, after every break; 0: the largest increment
-  double longest_relaxation = 0; ///< s, of all that flows; 0: unknown, or nothing flows
-  bool inertia = false;          ///< what has a mass moves by generalised-alpha; otherwise without inertia
-  double high_frequencies = 0.8; ///< what generalised-alpha leaves of the highest ones after a step, 0..1
+  double shortest_relaxation = 0; ///< s, of all that flows; 0: unknown, or nothing flows
+  double longest_relaxation = 0;  ///< s, the longest
+  bool inertia = false;           ///< what has a mass moves by generalised-alpha; otherwise without inertia
+  double high_frequencies = 0.8;  ///< what generalised-alpha leaves of the highest ones after a step, 0..1
 
+  /// The smallest part of the step that is tried.
+  double smallest() const;
+  /// Whether what flows within the smallest part of a step may still do so within this one: BDF2 would swing
+  /// about where it ends, backward Euler's method does not.
+  bool outruns(double part) const;
   /// Where behind the load factor s a result is wanted.
   double next_landing(double s) const;
 };

@@ -6,6 +6,19 @@
 
 namespace dielast::fem {
 
+namespace {
+
+constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
+constexpr double begun = 1e3; ///< smallest parts, behind which what flows within one of them has flown
+
+} // namespace
+
+double RampOptions::smallest() const { return duration > 0 ? smallest_in_time : smallest_increment; }
+
+bool RampOptions::outruns(double part) const {
+  return shortest_relaxation > 0 && shortest_relaxation < smallest() * duration && part < begun * smallest();
+}
+
 double RampOptions::next_landing(double s) const {
   const double between = landing > 0 ? landing : 1.0 / increments;
   if (stops.empty()) return (std::floor((s + load_factor_round_off) / between) + 1) * between;

@@ -14,6 +14,13 @@
 
 namespace dielast::meshing {
 
+namespace {
+
+/// Elements along a longer side, at least: where it is hardly longer its strains change as those across do.
+int fewest(int across) { return std::max(1, across / 3); }
+
+} // namespace
+
 Mesh slab_mesh(const SlabShape& shape, int across, double grading, bool upright) {
   const double length = shape.length, height = shape.height, start = shape.start, cover = shape.cover;
   const auto& electrode = shape.electrode;
@@ -25,7 +32,7 @@ Mesh slab_mesh(const SlabShape& shape, int across, double grading, bool upright)
                     length, height, electrode[0], electrode[1], cover));
   if (across < 1 || !(grading >= 1))
     throw std::invalid_argument("a slab needs an element across it, and a grading of at least 1");
-  const double size = height / across;
+  const double size = std::min(length, height) / across, coarsest = grading * size;
   std::vector<double> along{0}, fine, layers{0};
   for (const double end : electrode)
     if (end > 0 && end < length) {
@@ -35,8 +42,10 @@ Mesh slab_mesh(const SlabShape& shape, int across, double grading, bool upright)
   along.push_back(length);
   if (cover > 0) layers.insert(layers.end(), {cover, height - cover});
   layers.push_back(height);
-  TriangleGrid grid(graded_line(along, fine, size, grading * size), graded_line(layers, {}, size, size),
-                    [&](double x, double y) {
+  const bool tall = height > length;
+  const double longest = std::min(coarsest, std::max(length, height) / fewest(across));
+  TriangleGrid grid(tall ? graded_line(along, {}, size, size) : graded_line(along, fine, size, longest),
+                    graded_line(layers, {}, size, tall ? longest : size), [&](double x, double y) {
                       return upright ? Eigen::Vector3d(start + x, 0, y) : Eigen::Vector3d(start + x, y, 0);
                     });
   const auto charged = [&](double x, double y) {
@@ -62,11 +71,12 @@ Mesh block_mesh(const BlockShape& shape, int across, double grading) {
     throw std::invalid_argument(fmt::format("a slab {:.6g} m wide has no electrode {:.6g} m wide",
                                             shape.width, shape.electrode_width));
   const Mesh drawing = slab_mesh(shape.slab, across, grading, false);
-  const double size = shape.slab.height / across;
+  const double size = std::min(shape.slab.length, shape.slab.height) / across;
   std::vector<double> breaks{-half};
   if (charged < half) breaks.insert(breaks.end(), {-charged, charged});
   breaks.push_back(half);
-  const std::vector<double> levels = graded_line(breaks, {-charged, charged}, size, grading * size);
+  const std::vector<double> levels =
+      graded_line(breaks, {-charged, charged}, size, std::min(grading * size, shape.width / fewest(across)));
   Mesh mesh = extruded(
       drawing, levels, [](const Eigen::Vector3d& x, double z) { return Eigen::Vector3d(x.x(), x.y(), z); },
       "back", "front");

@@ -55,6 +55,7 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   set_colour(cr, colour);
   cairo_move_to(cr, x - shift, y);
   cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr); // the text's end is not the next line's beginning
 }
 
 std::string tick_label(double value, int decimals) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fcntl.h>
 #include <set>
 #include <spawn.h>
@@ -275,8 +276,9 @@ std::string run_gnuplot(std::string_view commands) {
 nlohmann::json json_of(const std::vector<double>& values, const std::vector<std::size_t>& places) {
   nlohmann::json array = nlohmann::json::array();
   for (const std::size_t k : places)
-    array.push_back(std::isfinite(values[k]) ? nlohmann::json(std::stod(fmt::format("{:.7g}", values[k])))
-                                             : nlohmann::json(nullptr));
+    array.push_back(std::isfinite(values[k])
+                        ? nlohmann::json(std::strtod(fmt::format("{:.7g}", values[k]).c_str(), nullptr))
+                        : nlohmann::json(nullptr));
   return array;
 }
 

@@ -123,6 +123,9 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
        film + balloon + "[[step]]\nkind = \"pressure\"\n" + inflate},
       {"chamber.volume", film + diaphragm + breathes + weight + transient,
        film + diaphragm + breathes + weight + inflate + transient},
+      {"chamber.volume",
+       film + diaphragm + breathes + weight + transient + "[[step]]\nkind = \"inflate\"\nto = 0\n",
+       film + diaphragm + breathes + weight + "[[step]]\nkind = \"inflate\"\nto = 0\n" + transient},
       {"chamber.bulk_modulus",
        film +
            "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = 500\nbulk_modulus = 1e6\n[[step]]\nkind = "

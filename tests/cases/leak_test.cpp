@@ -128,11 +128,27 @@ TEST_F(Leak, UnderAResistiveElectrodeGoesOnFromACheckpoint) {
   EXPECT_EQ(second.state().sheet_drop, whole.state().sheet_drop);
 }
 
+// 200 Ohm before 0.1 nF, in 1000 s: no time step is as short as that. The voltage never passes the source's.
+TEST_F(Leak, ACircuitThatIsFasterThanAnyTimeStepDoesNotOvershoot) {
+  for (const char* resistance : {"10 Ohm", "200 Ohm", "1 kOhm"}) {
+    const Ran ran =
+        run(std::string("[film]\nthickness = \"70 um\"\n[film.material]\nshear_modulus = \"280 kPa\"\n"
+                        "permittivity = \"1.4e-11 F/m\"\n[patch]\nlength = \"23 mm\"\n[drive]\n"
+                        "voltage = { wave = \"step\", to = \"1685 V\", at = \"10 s\" }\n[circuit]\n"
+                        "resistance = \"") +
+            resistance +
+            "\"\n[[step]]\nkind = \"transient\"\nduration = \"1000 s\"\nincrements = 5\n"
+            "[[quantity]]\nname = \"Q\"\nkind = \"charge\"\nof = \"film\"\n[[quantity]]\n"
+            "name = \"peak\"\nkind = \"peak\"\nof = \"Q\"\n");
+    EXPECT_NEAR(ran.last("peak"), ran.last("Q"), 1e-4 * ran.last("Q")) << resistance;
+  }
+}
+
 // A charge that is being lost, or that still flows in, is no state of rest.
 TEST_F(Leak, NoVibrationGoesAboutAStateWhoseChargeChanges) {
   const std::string disc = "model = \"axisymmetric\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2\n"
                            "[film.material]\nshear_modulus = \"40 kPa\"\nrelative_permittivity = 4\n"
-                           "density = \"1000 kg/m^3\"\n[disc]\nradius = \"50 mm\"\n"
+                           "density = \"1000 kg/m^3\"\n[gravity]\nfilm = true\n[disc]\nradius = \"50 mm\"\n"
                            "electrode_radius = \"20 mm\"\n[mesh]\nrings = 6\n[circuit]\n"
                            "resistance = \"1 GOhm\"\nleakage_resistance = \"100 GOhm\"\n[drive]\n"
                            "voltage = \"3 kV\"\n";
@@ -147,6 +163,8 @@ TEST_F(Leak, NoVibrationGoesAboutAStateWhoseChargeChanges) {
                                  {isolated + "\"1 s\"\n", "electrode \"film\" is isolated and leaks"},
                                  {isolated + "\"2000 s\"\n", ""},
                                  {charging, "charge flows through the circuit of electrode \"film\""},
+                                 {charging + "[[step]]\nkind = \"weight\"\n", // without time
+                                  "charge flows through the circuit of electrode \"film\""},
                                  {charging + "[[step]]\nkind = \"relax\"\n", ""}}) {
       write("disc.toml", disc + before.steps + "[[step]]\nkind = \"" + kind + "\"\n");
       const Case one = read_case(directory / "disc.toml");

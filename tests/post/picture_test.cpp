@@ -200,6 +200,15 @@ TEST(Picture, WallsHaveTheirTrueWidth) {
   EXPECT_NEAR(static_cast<double>(pixels.count(0xff292e38)), area, 0.03 * area);
 }
 
+TEST(Picture, ALineDoesNotBeginAtTheEndOfTheTextBeforeIt) {
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, 100, 20);
+  cairo_t* cr = cairo_create(surface);
+  draw_text(cr, "rods", 10, 10, 10, {});
+  EXPECT_FALSE(cairo_has_current_point(cr));
+  cairo_destroy(cr);
+  cairo_surface_destroy(surface);
+}
+
 // A ridge of a thousandth of the width: its sides are lit from aside, differently. Flat film has its full
 // colours.
 TEST(Picture, LightShowsTheReliefOfNearlyFlatFilm) {
