@@ -55,9 +55,10 @@ std::optional<SuddenJump> sudden_jump(const Support& support, std::size_t axis, 
   const Waveform& wave = *support.motion[axis];
   const double duration = *steps.back().duration;
   const auto [least, most] = wave.extremes();
-  const auto jump = [&, range = most - least](double t, double from) -> std::optional<SuddenJump> {
+  const double scale = most > least ? most - least : std::abs(most);
+  const auto jump = [&](double t, double from) -> std::optional<SuddenJump> {
     const double by = wave.at(t + at_once * duration) - from;
-    if (std::abs(by) <= little * (range > 0 ? range : std::abs(most))) return std::nullopt;
+    if (std::abs(by) <= little * scale) return std::nullopt;
     return SuddenJump{t, by};
   };
   if (const auto start = start_of(support, steps.first(steps.size() - 1), wave, 1))
