@@ -115,6 +115,14 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
           at.source, at.key,
           "has no effect here: without a [[film.material.branch]], a viscosity or a [circuit] nothing "
           "flows");
+    if ((step.kind == StepKind::move || step.kind == StepKind::inflate) &&
+        step.response == Response::instantaneous &&
+        std::ranges::any_of(one.film_materials(),
+                            [](const auto* material) { return material->viscosity > 0; }))
+      reader.report(
+          at.source, at.key + ".response",
+          "found \"instantaneous\": a film with a viscosity resists what is moved in no time with an "
+          "infinite force; let it take time, by kind = \"transient\" and a ramp");
     const auto& [x, y, z] = one.gravity.direction;
     if (step.kind == StepKind::weight && one.dimension == fem::Dimension::planar && !one.plate && x == 0 &&
         y == 0)

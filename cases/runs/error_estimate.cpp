@@ -203,7 +203,7 @@ struct Threshold {
   double limit;
 };
 constexpr std::array thresholds{
-    Threshold{"loss of tension", "min_principal_stress", post::Extreme::minimum, -smallest_stress},
+    Threshold{"loss of tension", "min_principal_stress", post::Extreme::minimum, 0},
     Threshold{"breakdown", "breakdown_ratio", post::Extreme::maximum, 1},
     Threshold{"wall yield", "yield_ratio", post::Extreme::maximum, 1}};
 
@@ -334,7 +334,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
       for (const Solution& other : others) sampled.push_back({other.size, other.values[q], other.rises[q]});
       estimate = estimate_error(
           {1, own.values[q], own.rises[q]}, sampled, orders_of(*one.quantities[q].kind, one, smooth, bonded),
-          direction_of(quantity), unit_of(quantity, one.quantities) == "Pa" ? smallest_stress : 0);
+          direction_of(quantity), unit_of(quantity, one.quantities) == "Pa" ? smallest_stress(one) : 0);
       if (estimate.error && takes_time(one)) // the steps were chosen to be no better than that
         estimate.error = std::max(*estimate.error, one.solver.time_tolerance * std::abs(own.values[q]));
     }

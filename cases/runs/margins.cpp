@@ -227,9 +227,9 @@ class FurtherWay {
 };
 
 /// Whether limits that states tell are behind it.
-bool is_beyond(const Passed& passed, bool wrinkles) {
+bool is_beyond(const Passed& passed, bool wrinkles, double smallest) {
   return passed.breakdown >= 1 || passed.yield >= 1 ||
-         (wrinkles ? passed.slack > 0 : passed.least_stress <= -smallest_stress);
+         (wrinkles ? passed.slack > 0 : passed.least_stress <= -smallest);
 }
 
 using Value = std::function<double(const Passed&)>;
@@ -319,7 +319,8 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     criticals = critical_points(one, journal);
     const bool complete = outcome.ending == Ending::complete;
     // Something else than the voltages has led there, or they were not in proportion.
-    if (complete && way.front().factor > 0 && is_beyond(way.front(), simulation.device().tension_field)) {
+    if (complete && way.front().factor > 0 &&
+        is_beyond(way.front(), simulation.device().tension_field, smallest_stress(one))) {
       std::string unused;
       const double least = way.front().factor;
       for (Passed& passed : further->to(0, unused))
@@ -368,7 +369,8 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
       return crossing(
           way, [](const Passed& p) { return p.slack > 0 ? 1.0 : -1.0; }, *further);
     return crossing(
-        way, [](const Passed& p) { return -smallest_stress - p.least_stress; }, *further);
+        way, [smallest = smallest_stress(one)](const Passed& p) { return -smallest - p.least_stress; },
+        *further);
   });
   const auto critical = [&](bool branches_off) {
     const auto first = std::ranges::find(criticals, branches_off, &Critical::branches_off);

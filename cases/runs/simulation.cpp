@@ -55,7 +55,7 @@ bool lacks_voltage(const Case& one, const Step& step) {
 Simulation::Simulation(const Case& one, int threads)
     : case_(one), threads_(threads), holding_(holding_in(one, one.steps, 0)),
       now_(with_supports(one, holding_)), device_(build_device(now_)), measurement_(one, device_),
-      signals_(signals_of(one)), watch_(device_), scalars_(wanted(measurement_)), steps_(one.steps),
+      signals_(signals_of(one)), watch_(one, device_), scalars_(wanted(measurement_)), steps_(one.steps),
       results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
   require_one_motion(one, device_.mesh, device_.model.dofs);
   equilibrium_.emplace(device_.model, threads);

@@ -39,7 +39,15 @@ double leak_beyond_drawn(const fem::Model& model, const fem::State& state) {
 
 } // namespace
 
-Watch::Watch(const Device& device) : device_(device), lines_(device.mesh.walls()) {
+double smallest_stress(const Case& one) {
+  double stress = 1e-3;
+  for (const materials::Material* material : one.film_materials())
+    stress = std::max(stress, 1e-8 * materials::initial_shear_modulus(material->law));
+  return stress;
+}
+
+Watch::Watch(const Case& one, const Device& device)
+    : device_(device), smallest_stress_(smallest_stress(one)), lines_(device.mesh.walls()) {
   if (lines_) contacts_.emplace(device.mesh, *lines_, device.bars.widths);
 }
 
@@ -84,7 +92,7 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
                                   wrinkles->value > 1 ? "no direction" : "one direction only")});
   if (const auto stress = extremes.find("min_principal_stress", post::Extreme::minimum);
       !device_.tension_field && !device_.bears_compression && stress &&
-      begins(stress->value < -smallest_stress, "loss of tension"))
+      begins(stress->value < -smallest_stress_, "loss of tension"))
     events.push_back(
         {"loss of tension", place_of_triangle(stress->cell),
          fmt::format(

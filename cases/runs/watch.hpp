@@ -14,8 +14,8 @@
 
 namespace dielast::cases {
 
-/// Below this a stress is round-off (Pa); moduli are thousands.
-constexpr double smallest_stress = 1e-3;
+/// Below this a stress is round-off, Pa: 1e-8 of the stiffest film's shear modulus, at least 1e-3.
+double smallest_stress(const Case& one);
 
 /// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
 /// that touch, fins that turn far, leaks that steady voltages leave out, unstable equilibrium. An event is
@@ -26,8 +26,8 @@ class Watch {
   static constexpr std::array scalars{"tension_state", "min_principal_stress", "breakdown_ratio",
                                       "yield_ratio"};
 
-  /// The device must outlive this.
-  explicit Watch(const Device& device);
+  /// Of a case's device, which must outlive this.
+  Watch(const Case& one, const Device& device);
 
   std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes);
 
@@ -40,6 +40,7 @@ class Watch {
   std::string place_of_line(int line) const;
 
   const Device& device_;
+  double smallest_stress_;
   std::optional<fem::WallContactSearch> contacts_;
   const meshing::CellBlock* lines_;
 };

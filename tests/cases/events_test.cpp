@@ -78,6 +78,18 @@ TEST_F(Events, TooFewIterationsAreNoCriticalPoint) {
   }
 }
 
+// Free across: what stress there is across is rounding of the 100 MPa.
+TEST_F(Events, RoundingIsNoLossOfTension) {
+  write("stiff.toml",
+        "[film]\nthickness = \"20 um\"\n[film.material]\nshear_modulus = \"100 MPa\"\npermittivity = "
+        "\"1e-10 F/m\"\n[patch]\nstress_x = \"40 MPa\"\n[drive]\nvoltage = \"1 kV\"\n"
+        "[output]\nerror_estimate = false\nfields = false\n");
+  EXPECT_EQ(dielast({"run", "stiff.toml", "-o", "out", "-q"}).exit_code, 0);
+  const nlohmann::json summary = json_of("out/summary.json");
+  EXPECT_TRUE(summary["events"].empty()) << summary["events"].dump();
+  EXPECT_TRUE(summary["margins"]["loss of tension"]["factor"].is_null()) << summary["margins"].dump();
+}
+
 TEST_F(Events, LossOfTensionAndBreakdownAreToldOnceWithTheirPlace) {
   // both before the limit point: breakdown of a thin film, loss of tension of one that was stretched little
   for (const auto& [prestretch, kind] : {std::pair{"4.5", "breakdown"}, {"2", "loss of tension"}}) {

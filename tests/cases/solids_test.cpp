@@ -27,6 +27,25 @@ std::string film(const std::string& rest = "") {
       rest, mu, eps);
 }
 
+// Held along z: p/mu = ln(la/lb) + (1/lb^2 - 1/la^2)/2, of the hoop stretches within and without. Its wall is
+// a slab higher than long.
+TEST_F(Solids, thick_tube_has_the_exact_radius_on_the_mesh_that_it_gets) {
+  const double A = 0.5e-3, B = 2e-3, pressure = 0.4 * mu;
+  double low = A, high = 2 * A;
+  for (int i = 0; i < 60; ++i) {
+    const double a = (low + high) / 2, la = a / A, lb = std::sqrt(B * B - A * A + a * a) / B;
+    (mu * (std::log(la / lb) + (1 / (lb * lb) - 1 / (la * la)) / 2) < pressure ? low : high) = a;
+  }
+  const auto found = values(
+      "model = \"axisymmetric\"\n" + film() +
+      fmt::format("[slab]\ninner_radius = \"0.5 mm\"\nlength = \"1.5 mm\"\nheight = \"20 mm\"\n[chamber]\n"
+                  "at = \"left\"\npressure = \"{} Pa\"\n[[support]]\nplace = \"bottom\"\nfix = [\"z\"]\n"
+                  "[[support]]\nplace = \"top\"\nfix = [\"z\"]\n[[step]]\nkind = \"pressure\"\n[[quantity]]\n"
+                  "name = \"u\"\nkind = \"displacement\"\nof = \"left\"\nalong = \"x\"\n",
+                  pressure));
+  EXPECT_NEAR(found.at("u"), low - A, 1e-4 * (low - A));
+}
+
 // Radii by quadrature of the radial equilibrium.
 TEST_F(Solids, thick_sphere_has_the_exact_radii_and_capacitance) {
   struct Exact {
