@@ -137,6 +137,10 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   add_pivot_support(one);
   for (Part& part : one.parts)
     if (part.mesh.rings == 0) part.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
+  if (one.solver.smallest_increment == 0) { // thin shells bend far under little
+    const auto is_shell = [](const Film& film) { return film.section == FilmSection::shell; };
+    one.solver.smallest_increment = one.any_film(is_shell) ? 1e-5 : 1e-3;
+  }
 
   require_known(reader, Reference::electrode, "electrode", names_of(one.electrodes, &Electrode::name));
   require_known(reader, Reference::step, "step", names_of(one.steps, &Step::name));

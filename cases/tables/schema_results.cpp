@@ -114,10 +114,10 @@ Section solver_section() {
           .at_most(1000)
           .otherwise("25"),
       number("smallest_increment", to(&SolverOptions::smallest_increment),
-             "part of a step below which it gives up")
+             "part of a step below which it gives up; without it 1e-3, with a shell 1e-5")
           .at_least(1e-12)
           .at_most(1)
-          .otherwise("1e-3"),
+          .optional(),
       number(
           "time_tolerance", to(&SolverOptions::time_tolerance),
           "relative error of dashpots, charges and motion that one time step may add; run.log and "

@@ -263,5 +263,25 @@ TEST_F(Paths, what_was_accepted_before_a_stop_is_kept_in_rows) {
   EXPECT_FALSE(stopped.results.checks[0].passed);
 }
 
+// 2.4 uN bend a strip of 28.5 um by nearly all of its length: the first increment that Newton's method finds
+// is a ten-thousandth of that, however many are asked for.
+TEST_F(Paths, AThinCantileverNeedsNoKeysOfTheSolver) {
+  for (const int increments : {3, 100}) {
+    const Run done =
+        run(fmt::format("model = \"3d\"\n[film]\nthickness = \"28.5 um\"\nsection = \"shell\"\n"
+                        "[film.material]\nshear_modulus = \"20 kPa\"\npermittivity = \"4e-11 F/m\"\n"
+                        "[rectangle]\nlength = \"7.5 mm\"\nwidth = \"2.25 mm\"\n[mesh]\nacross = 2\n"
+                        "[[support]]\nplace = \"left\"\n"
+                        "fix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n"
+                        "[[load]]\nplace = \"right\"\nforce = [0, 0, \"2.4 uN\"]\n"
+                        "[[step]]\nkind = \"force\"\nincrements = {}\n[[quantity]]\n"
+                        "name = \"tip\"\nkind = \"displacement\"\nof = \"right\"\nalong = \"z\"\n",
+                        increments),
+            "tip");
+    EXPECT_EQ(done.outcome.ending, Ending::complete) << done.outcome.message;
+    EXPECT_NEAR(done.rows.back().value, 7.31936e-3, 1e-8) << increments;
+  }
+}
+
 } // namespace
 } // namespace dielast::cases
