@@ -151,6 +151,12 @@ std::string tick_label(int times, int exponent) {
   return text;
 }
 
+/// 1, 2 or 5 times a power of ten, about as large as `raw`.
+double round_step(double raw) {
+  const double decade = std::pow(10, std::floor(std::log10(raw)));
+  return decade * (raw < 1.5 * decade ? 1 : raw < 3 * decade ? 2 : raw < 7 * decade ? 5 : 10);
+}
+
 /// Ticks of a logarithmic axis: powers of ten; within two decades 2 and 5 between them, too; on a shorter
 /// axis as many as on a linear one, without which it might have a single label.
 std::string logarithmic_ticks(char axis, std::pair<double, double> range) {
@@ -161,8 +167,7 @@ std::string logarithmic_ticks(char axis, std::pair<double, double> range) {
     ticks += fmt::format("{}{} {:.15g}", ticks.empty() ? "" : ", ", gnuplot_string(label), value);
   };
   if (high < 4 * low) {
-    const double raw = (high - low) / 4, decade = std::pow(10, std::floor(std::log10(raw)));
-    const double step = decade * (raw < 1.5 * decade ? 1 : raw < 3 * decade ? 2 : raw < 7 * decade ? 5 : 10);
+    const double step = round_step((high - low) / 4);
     for (double k = std::ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12); ++k)
       add(fmt::format("{:.6g}", k * step), k * step);
   } else {
@@ -226,11 +231,15 @@ std::string script(const Plot& plot) {
   settings += fmt::format("set format x '%.{}g'\nset format y '%.{}g'\n", digits_of(drawn, &Series::x),
                           digits_of(drawn, &Series::y));
   const auto [lowest, highest] = ends(drawn, &Series::y);
+  const auto [leftmost, rightmost] = ends(drawn, &Series::x);
+  const double extent = std::max(highest - lowest, rightmost - leftmost);
   settings += plot.log_x ? logarithmic_ticks('x', ends(drawn, &Series::x)) : "set xtics autofreq\n";
   settings += plot.log_y ? logarithmic_ticks('y', ends(drawn, &Series::y))
               : plot.y_step > 0 && highest - lowest > 2 * plot.y_step
                   ? fmt::format("set ytics {}\n", plot.y_step)
                   : "set ytics autofreq\n";
+  if (plot.equal_axes && extent > 0 && std::isfinite(extent)) // labels have room where it is the shorter one
+    settings += fmt::format("set xtics {}\n", round_step(extent / 6));
   settings += fmt::format("unset logscale\n{}{}set size {}\n", plot.log_x ? "set logscale x\n" : "",
                           plot.log_y ? "set logscale y\n" : "", plot.equal_axes ? "ratio -1" : "noratio");
   // Where the axes are: px from the lower left corner, then their ends.

@@ -162,6 +162,17 @@ TEST(Plot, EqualAxes) {
   EXPECT_EQ(svgs[1], svgs_of({line("free")})[0]);
 }
 
+// Half of a meridian: 20 mm is 40 px.
+TEST(Plot, LabelsOfAShortAxisHaveRoomBesideAnEquallyScaledLongOne) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  Plot meridian{"", "r (mm)", "z (mm)", {{"", {0, 67, 0}, {67, 0, -67}}}};
+  meridian.equal_axes = true;
+  std::vector<std::string> labels;
+  for (const auto& [text, size] : texts_of(svgs_of({meridian})[0])) labels.push_back(text);
+  EXPECT_EQ(std::ranges::count(labels, "10"), 0);
+  EXPECT_EQ(std::ranges::count(labels, "60"), 2); // of both axes
+}
+
 TEST(Plot, EmptyWithoutGnuplot) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
