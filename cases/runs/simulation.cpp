@@ -355,6 +355,8 @@ Outcome Simulation::run(const SimulationObserver& observer) {
       if (!come_to_rest(state)) return *std::exchange(refusal_, std::nullopt);
       change_supports(state);
       loads_->begin(step_, state);
+      if (!device_.model.circuits.empty())
+        energy_.reconnect(fem::energy_point(*equilibrium_, state, 0, held_));
       unseen_ = {};
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
       for (const auto& [load, signal] : signals_) signal->begin(step.duration.value_or(0));

@@ -51,6 +51,12 @@ class Interval {
   Integral over(Conjugates EnergyPoint::*pair) const {
     return over([pair](const EnergyPoint& point) -> const Conjugates& { return point.*pair; });
   }
+  /// Of one of the pairs.
+  Integral over(Conjugates EnergyPoint::*pair, Eigen::Index i) const {
+    return over([pair, i](const EnergyPoint& point) {
+      return Conjugates{(point.*pair).force.segment(i, 1), (point.*pair).coordinate.segment(i, 1)};
+    });
+  }
   Integral over(EnergyPoint::Power power) const {
     return over([power](const EnergyPoint& point) {
       return Conjugates{Eigen::VectorXd::Constant(1, point.power[power]),
@@ -103,10 +109,8 @@ void EnergyBalance::account(const EnergyPoint& point) {
   const double change = total(point.energy) - stored();
   double heat = point.friction - record_.points.back().friction, leak_through_sheet = 0, doubt = 0;
   const bool flows = point.flow != 0 || point.sheet.coordinate != record_.points.back().sheet.coordinate;
-  const Integral resisted = interval.over(&EnergyPoint::resistance);
-  double resistance =
-      resisted.value; // without time what leaks is left out: less flows where charge goes back
   if (interval.duration() > 0) {
+    const Integral resisted = interval.over(&EnergyPoint::resistance);
     const Integral flow = interval.over(EnergyPoint::dashpots);
     const bool fine = std::abs(flow.value - point.flow) <= agreement * point.flow;
     const Integral damped = interval.over(EnergyPoint::dampers);
@@ -115,13 +119,19 @@ void EnergyBalance::account(const EnergyPoint& point) {
     leak_through_sheet = interval.over(EnergyPoint::leak_through_sheet).value;
     heat += (fine ? flow.value : std::max(0.0, point.flow)) + std::max(0.0, damped.value) +
             std::max(0.0, conducted.value + leak_through_sheet);
-    resistance = std::max(0.0, resistance + interval.over(EnergyPoint::leak_through_resistance).value);
+    record_.work.resistance +=
+        std::max(0.0, resisted.value + interval.over(EnergyPoint::leak_through_resistance).value);
     record_.work.leak += std::max(0.0, leaked.value);
     doubt = std::abs(flow.value - point.flow) * (fine ? one_order : 1) + std::abs(damped.curvature) +
-            std::abs(conducted.curvature) + std::abs(leaked.curvature);
+            std::abs(conducted.curvature) + std::abs(resisted.curvature) + std::abs(leaked.curvature);
+  } else {
+    // Charge goes back only to a source that has come down to the electrode's voltage: slowly, without heat.
+    for (Eigen::Index e = 0; e < point.resistance.force.size(); ++e) {
+      const Integral resisted = interval.over(&EnergyPoint::resistance, e);
+      record_.work.resistance += std::max(0.0, resisted.value);
+      doubt += std::abs(resisted.curvature);
+    }
   }
-  record_.work.resistance += resistance;
-  doubt += std::abs(resisted.curvature);
   Work& work = record_.work;
   const double rest = change + heat - electrical.value - leak_through_sheet - mechanical.value;
   const double range = electrical.range + mechanical.range;
@@ -191,6 +201,13 @@ void EnergyBalance::add_cut_free(EnergyPoint point) {
   record_.work.released -= total(point.energy) - stored();
   record_.points.clear();
   arrive(std::move(point));
+}
+
+void EnergyBalance::reconnect(const EnergyPoint& point) {
+  EnergyPoint& last = record_.points.back();
+  last.resistance = point.resistance;
+  last.power = point.power;
+  corner();
 }
 
 double EnergyBalance::stored() const { return empty() ? 0 : total(parts()); }
@@ -277,8 +294,10 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   point.resistance = {Eigen::VectorXd::Zero(electrodes), point.electrical.coordinate};
   for (const Circuit& circuit : model.circuits) {
     const auto e = static_cast<std::size_t>(circuit.electrode);
-    const double drop = is_isolated(state.supply[e]) ? 0 : state.source[e] - state.voltage[e];
-    // Without time, too: charges that follow a source that holds warm its resistance however long they take.
+    // Without time what leaks for ever is left out, and what it takes of the source's voltage.
+    const bool leads = state.supply[e] == Supply::voltage;
+    const double source = leads ? circuit.steady_voltage(state.source[e]) : state.source[e];
+    const double drop = is_isolated(state.supply[e]) ? 0 : source - state.voltage[e];
     point.resistance.force[circuit.electrode] = drop;
     if (!flows(state.supply[e]) || std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode))
       continue;

@@ -21,7 +21,8 @@ struct EnergyPoint {
   Conjugates mechanical; ///< per equation dead forces (reactions at held ones) and displacements; then per
                          ///< chamber pressure and its own volume
   Conjugates electrical; ///< per electrode voltage and charge
-  Conjugates resistance; ///< per electrode drop of voltage from its source and charge
+  Conjugates resistance; ///< per electrode drop of voltage from its source (without time, from what the
+                         ///< source leads it to) and charge
   Conjugates sheet;      ///< per Model::sheet_points drop of voltage from the terminal and charge
   /// Powers, W: of dashpots by their flow rules; of dampers and drag; of leaking current in the film, in
   /// sheets on its way there, and in the resistance behind its source.
@@ -64,6 +65,8 @@ class EnergyBalance {
   void add(EnergyPoint point);
   /// The path has a corner at the last state: no curvature is taken across it.
   void corner();
+  /// Sources are connected otherwise from the last state on, which is that of `point`.
+  void reconnect(const EnergyPoint& point);
   /// Energy that a jump set free, J. Loads that went on meanwhile did their work at forces between those at
   /// both ends, which is known no better than to `doubt`.
   struct JumpRelease {

@@ -234,5 +234,41 @@ TEST_F(Leak, WhatFlowsWithoutTimeOrInItWarmsTheResistance) {
   }
 }
 
+// A source that comes down without time takes back what the electrode holds; heat that was made stays.
+TEST_F(Leak, HeatOfAResistanceNeverFalls) {
+  struct Then {
+    std::string step;
+    bool flows = false; ///< while the source stands
+  };
+  for (const std::string leak : {"", "leakage_resistance = \"90 GOhm\"\n"})
+    for (const Then& then : {Then{"kind = \"voltage\"\nto = \"0 V\"\n"},
+                             {"kind = \"voltage\"\nto = \"1 kV\"\n"},
+                             {"kind = \"charge\"\nto = \"0 C\"\n"},
+                             {"kind = \"relax\"\n", true}}) {
+      const std::string text =
+          "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+          "permittivity = \"4e-11 F/m\"\n[patch]\nstretch_x = 1\nstretch_y = 1\n[circuit]\n"
+          "resistance = \"10 GOhm\"\n" +
+          leak +
+          "[drive]\nvoltage = { wave = \"step\", to = \"4 kV\" }\n[[step]]\n"
+          "kind = \"transient\"\nduration = \"20 ms\"\n[[step]]\n" +
+          then.step;
+      SCOPED_TRACE(text);
+      const Ran ran =
+          run(text + "[[quantity]]\nname = \"source\"\nkind = \"energy\"\nof = \"source_work\"\n"
+                     "[[quantity]]\nname = \"heat\"\nkind = \"energy\"\nof = \"resistance_heat\"\n"
+                     "[[quantity]]\nname = \"leaked\"\nkind = \"energy\"\nof = \"leak_heat\"\n");
+      const std::vector<double>& heat = ran.values.at("heat");
+      for (std::size_t i = 1; i < heat.size(); ++i) EXPECT_GE(heat[i], heat[i - 1]) << i;
+      EXPECT_NEAR(ran.last("source"), ran.last("electrical_work") + heat.back() + ran.last("leaked"),
+                  1e-9 * heat.back());
+      std::size_t begun = 0; // of the second step
+      while (ran.time[begun] < ran.time.back()) ++begun;
+      const double from = ran.voltages[begun][0], to = ran.voltages.back()[0], held = ran.last("charge") / to;
+      const double made = then.flows ? held * (to - from) * (to - from) / 2 : 0; // to - voltage, times dQ
+      EXPECT_NEAR(heat.back(), heat[begun] + made, 1e-6 * heat.back());
+    }
+}
+
 } // namespace
 } // namespace dielast::cases
