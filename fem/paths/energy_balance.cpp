@@ -102,12 +102,27 @@ Eigen::VectorXd sheet_charges(const Model& model, const State& state) {
 
 } // namespace
 
+/// What a source gives, J, beyond its work while its voltage leads the charge of a sheet's terminal, where it
+/// stands at its new voltage at once.
+double EnergyBalance::given_at_jump(const EnergyPoint& point) const {
+  const EnergyPoint& last = record_.points.back();
+  double given = 0;
+  if (point.time > last.time || point.sheet.coordinate != last.sheet.coordinate) return given;
+  const Conjugates &from = last.electrical, &to = point.electrical;
+  for (Eigen::Index e = 0; e < point.at_source.size(); ++e)
+    given += point.at_source[e] * (to.force[e] - from.force[e]) *
+             ((from.coordinate[e] + to.coordinate[e]) / 2 - before_jump_[e]);
+  return given;
+}
+
 void EnergyBalance::account(const EnergyPoint& point) {
   const Interval interval(record_.points, point);
   const Integral electrical = interval.over(&EnergyPoint::electrical);
   const Integral mechanical = interval.over(&EnergyPoint::mechanical);
   const double change = total(point.energy) - stored();
-  double heat = point.friction - record_.points.back().friction, leak_through_sheet = 0, doubt = 0;
+  double heat = point.friction - record_.points.back().friction, through_sheet = given_at_jump(point),
+         doubt = 0;
+  heat += through_sheet;
   const bool flows = point.flow != 0 || point.sheet.coordinate != record_.points.back().sheet.coordinate;
   if (interval.duration() > 0) {
     const Integral resisted = interval.over(&EnergyPoint::resistance);
@@ -116,7 +131,8 @@ void EnergyBalance::account(const EnergyPoint& point) {
     const Integral damped = interval.over(EnergyPoint::dampers);
     const Integral conducted = interval.over(&EnergyPoint::sheet);
     const Integral leaked = interval.over(EnergyPoint::leak);
-    leak_through_sheet = interval.over(EnergyPoint::leak_through_sheet).value;
+    const double leak_through_sheet = interval.over(EnergyPoint::leak_through_sheet).value;
+    through_sheet += leak_through_sheet;
     heat += (fine ? flow.value : std::max(0.0, point.flow)) + std::max(0.0, damped.value) +
             std::max(0.0, conducted.value + leak_through_sheet);
     record_.work.resistance +=
@@ -133,7 +149,7 @@ void EnergyBalance::account(const EnergyPoint& point) {
     }
   }
   Work& work = record_.work;
-  const double rest = change + heat - electrical.value - leak_through_sheet - mechanical.value;
+  const double rest = change + heat - electrical.value - through_sheet - mechanical.value;
   const double range = electrical.range + mechanical.range;
   double electrical_share = 0, mechanical_share = 0;
   if (point.moves) {
@@ -149,7 +165,7 @@ void EnergyBalance::account(const EnergyPoint& point) {
     heat += taken;
     record_.rest += rest + taken;
   }
-  work.electrical += electrical.value + leak_through_sheet + electrical_share;
+  work.electrical += electrical.value + through_sheet + electrical_share;
   work.mechanical += mechanical.value + mechanical_share;
   work.dissipated += heat;
   record_.doubt += doubt;
@@ -159,8 +175,10 @@ void EnergyBalance::account(const EnergyPoint& point) {
 void EnergyBalance::arrive(EnergyPoint point) {
   auto& points = record_.points;
   if (points.empty()) record_.stored_at_start = total(point.energy);
+  const bool jumps = !points.empty() && point.time <= points.back().time;
   if (points.size() == 2) points.erase(points.begin());
   points.push_back(std::move(point));
+  if (!jumps) stand();
   const Work& work = record_.work;
   const double unknown = error(); // what is known no better than to itself has not been exchanged for certain
   for (const double energy :
@@ -176,6 +194,12 @@ void EnergyBalance::add(EnergyPoint point) {
 void EnergyBalance::corner() {
   auto& points = record_.points;
   if (points.size() == 2) points.erase(points.begin());
+  stand();
+}
+
+/// Charges from which those of a jump are counted.
+void EnergyBalance::stand() {
+  if (!empty()) before_jump_ = record_.points.back().electrical.coordinate;
 }
 
 EnergyBalance::JumpRelease EnergyBalance::add_after_jump(EnergyPoint point) {
@@ -305,6 +329,10 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
     point.power[EnergyPoint::leak_through_resistance] += circuit.leakage * state.voltage[e] * drop;
   }
   if (!model.sheets.empty()) {
+    point.at_source = Eigen::VectorXd::Zero(electrodes);
+    for (const Sheet& sheet : model.sheets)
+      if (state.supply[static_cast<std::size_t>(sheet.electrode)] == Supply::voltage)
+        point.at_source[sheet.electrode] = 1;
     point.sheet = {state.sheet_drop, sheet_charges(model, state)};
     if (state.sheet_drop.size() == 0) point.sheet.force.setZero(point.sheet.coordinate.size());
     for (std::size_t a = 0; a < model.sheet_points.size(); ++a) {

@@ -28,6 +28,9 @@ struct EnergyPoint {
   /// sheets on its way there, and in the resistance behind its source.
   enum Power { dashpots, dampers, leak, leak_through_sheet, leak_through_resistance, power_count };
   std::array<double, power_count> power{};
+  /// Per electrode 1 where it has a sheet whose terminal is at its source's voltage, otherwise 0. Of the
+  /// point that is added, not kept.
+  Eigen::VectorXd at_source;
   double flow = 0;     ///< heat of the dashpots since the point before, see flow_heat(), J
   double friction = 0; ///< heat of sliders since the beginning, J
   EnergyParts energy;
@@ -59,6 +62,10 @@ struct Work {
 /// Dashpots turn into heat the power of their flow rules, a sum of squares. Where its integral is not close
 /// to what the energy loses at fixed shape, between the dashpots' states at both ends of an increment, the
 /// increment is too long for it, and the latter is the heat: robust, but of lower order.
+///
+/// Where a source that drives a sheet's terminal jumps, the charge of the nodes there stands for what flows
+/// into the film about them right after the jump: the source gives it at its new voltage, and what is not
+/// stored of that is heat in the sheet.
 class EnergyBalance {
  public:
   /// The next accepted state on a smooth path.
@@ -109,15 +116,18 @@ class EnergyBalance {
     std::vector<EnergyPoint> points; ///< the last one, and the one before where no corner is between
   };
   const Record& record() const { return record_; }
-  explicit EnergyBalance(Record record) : record_(std::move(record)) {}
+  explicit EnergyBalance(Record record) : record_(std::move(record)) { stand(); }
   EnergyBalance() = default;
 
  private:
+  double given_at_jump(const EnergyPoint& point) const;
   void account(const EnergyPoint& point);
+  void stand();
   void arrive(EnergyPoint point);
   Resolution weighed(const Resolution& result) const;
 
   Record record_;
+  Eigen::VectorXd before_jump_; ///< charges per electrode, C
 };
 
 /// What an accepted state is held by.

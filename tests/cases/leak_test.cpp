@@ -270,5 +270,37 @@ TEST_F(Leak, HeatOfAResistanceNeverFalls) {
     }
 }
 
+// The source is at one voltage while all of the charge flows: V Q, of which the disc, that hardly moves,
+// stores half. That of the terminal's nodes, which follow the source at once, is no exception.
+TEST_F(Leak, ASourceThatJumpsGivesAllOfTheChargeAtItsNewVoltage) {
+  const auto disc = [&](int rings, const std::string& more) {
+    return run("model = \"axisymmetric\"\n[film]\nthickness = \"0.8 mm\"\nprestretch = 2.5\n"
+               "[film.material]\nshear_modulus = \"30 kPa\"\nrelative_permittivity = 4.5\n[disc]\n"
+               "radius = \"60 mm\"\nelectrode_radius = \"20 mm\"\n[mesh]\nrings = " +
+               std::to_string(rings) +
+               "\n[[electrode]]\nname = \"film\"\nplace = \"electrode\"\nsheet_resistance = \"20 MOhm\"\n"
+               "terminal = \"electrode_edge\"\n[[quantity]]\nname = \"source\"\nkind = \"energy\"\n"
+               "of = \"source_work\"\n" +
+               more);
+  };
+  for (const int rings : {6, 16}) {
+    const Ran up = disc(rings, "[drive]\nvoltage = { wave = \"step\", to = \"10 V\" }\n[[step]]\n"
+                               "kind = \"transient\"\nduration = \"20 ms\"\n");
+    const double given = 10 * up.last("charge");
+    EXPECT_NEAR(up.last("source"), given, 1e-5 * given) << rings;
+    EXPECT_NEAR(up.last("dissipated_energy"), given / 2, 1e-4 * given) << rings;
+    // Down again all that is stored becomes heat; at a higher voltage less of what the source gives does.
+    const Ran down = disc(rings, "[drive]\nvoltage = { wave = \"step\", from = \"10 V\", to = 0, at = "
+                                 "\"20 ms\" }\n[[step]]\nkind = \"transient\"\nduration = \"40 ms\"\n");
+    EXPECT_NEAR(down.last("source"), given, 1e-5 * given) << rings;
+    EXPECT_NEAR(down.last("dissipated_energy"), given, 1e-4 * given) << rings;
+    const Ran high = disc(rings, "[drive]\nvoltage = { wave = \"step\", to = \"3 kV\" }\n[[step]]\n"
+                                 "kind = \"transient\"\nduration = \"40 ms\"\n");
+    EXPECT_NEAR(high.last("source"), 3e3 * high.last("charge"), 1e-3 * high.last("source")) << rings;
+    const std::vector<double>& heat = down.values.at("dissipated_energy");
+    for (std::size_t i = 1; i < heat.size(); ++i) EXPECT_GE(heat[i], heat[i - 1]) << i;
+  }
+}
+
 } // namespace
 } // namespace dielast::cases

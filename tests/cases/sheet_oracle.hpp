@@ -77,15 +77,22 @@ class SheetOracle {
     leak_ = leakage * drawn / drawn.sum();
   }
 
-  /// Loads change at once, straight, while nothing flows.
+  /// Loads change at once, straight, while nothing flows, but for what follows a source at the terminal: that
+  /// has its new voltage all the while.
   void jump(const Loads& from, const Loads& to) {
     constexpr int parts = 200;
     Film now = film(from.electrode, state_);
+    const double before = account.electrical, charge = now.charge[corners_ - 1];
     for (int part = 1; part <= parts; ++part) {
       const Film next =
           film(std::lerp(from.electrode, to.electrode, static_cast<double>(part) / parts), state_);
       if (supply != Supply::circuit) add_work(now, next);
       now = next;
+    }
+    if (supply == Supply::voltage) {
+      const double given = to.electrode * (now.charge[corners_ - 1] - charge);
+      account.dissipated += before + given - account.electrical;
+      account.electrical = before + given;
     }
     keep(now);
   }
