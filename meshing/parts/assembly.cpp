@@ -2,14 +2,19 @@
 #include "meshing/parts/assembly.hpp"
 
 #include "meshing/mesh_error.hpp"
+#include "meshing/middle_nodes.hpp"
 #include "meshing/solids/sides.hpp"
 
 #include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <numeric>
 #include <set>
+#include <span>
+#include <utility>
 
 namespace dielast::meshing {
 
@@ -50,49 +55,103 @@ void renumber(Mesh& mesh, const std::vector<int>& number) {
   }
 }
 
-/// Sides of the film, and walls, whose nodes are all in a place.
-std::vector<OuterSide> sides_in(const Mesh& mesh, const std::vector<int>& place) {
-  std::vector<OuterSide> sides;
-  if (mesh.film() && mesh.film()->type != CellType::rod2) sides = outer_sides(*mesh.film());
-  if (const CellBlock* walls = mesh.walls())
-    for (int i = 0; i < walls->size(); ++i) {
-      const auto nodes = walls->cell(i);
-      OuterSide& side =
-          sides.emplace_back(OuterSide{.cell = i, .corner_count = 2, .node_count = nodes.size()});
-      std::ranges::copy(nodes, side.own.begin());
-    }
-  std::erase_if(sides, [&](const OuterSide& side) {
-    return !std::ranges::all_of(side.nodes(),
-                                [&](int node) { return std::ranges::binary_search(place, node); });
-  });
-  return sides;
+bool is_in(std::span<const int> nodes, const std::vector<int>& place) {
+  return std::ranges::all_of(nodes, [&](int node) { return std::ranges::binary_search(place, node); });
 }
 
-/// Whether a point is on the inside of an edge or a triangle, or so near that this may be drawn as a chord.
-bool is_inside(const Mesh& mesh, const OuterSide& side, const Eigen::Vector3d& point) {
-  constexpr double nearly = 0.1, least_part = 0.01; // of the side
+/// Cells of a block whose nodes are all in a place, as sides of their own: lines or triangles.
+void add_cells_in(const CellBlock& block, const std::vector<int>& place, std::vector<OuterSide>& sides) {
+  for (int i = 0; i < block.size(); ++i) {
+    const auto nodes = block.cell(i);
+    if (!is_in(nodes, place)) continue;
+    OuterSide& side =
+        sides.emplace_back(OuterSide{.cell = i,
+                                     .corner_count = static_cast<std::size_t>(corners_per_cell(block.type)),
+                                     .node_count = nodes.size()});
+    std::ranges::copy(nodes, side.own.begin());
+  }
+}
+
+/// Edges of all cells whose nodes are all in a place, by their (smaller, larger) corners.
+std::map<std::pair<int, int>, OuterSide> edges_in(const Mesh& mesh, const std::vector<int>& place) {
+  std::map<std::pair<int, int>, OuterSide> edges;
+  for (const CellBlock& block : mesh.blocks) {
+    const auto corners = static_cast<std::size_t>(corners_per_cell(block.type));
+    const std::size_t count = corners == 4 ? 6 : corners == 3 ? 3 : 1;
+    for (int i = 0; i < block.size(); ++i) {
+      const auto nodes = block.cell(i);
+      for (std::size_t k = 0; k < count; ++k) {
+        OuterSide edge{.cell = i, .corner_count = 2, .node_count = 2};
+        edge.own[0] = nodes[side_ends[k][0]], edge.own[1] = nodes[side_ends[k][1]];
+        if (nodes.size() > corners) edge.own[edge.node_count++] = nodes[corners + k];
+        if (is_in(edge.nodes(), place)) edges.emplace(std::minmax(edge.own[0], edge.own[1]), edge);
+      }
+    }
+  }
+  return edges;
+}
+
+/// What lies in a place with all of its nodes.
+struct Pieces {
+  /// Outer sides of the film, walls, and edges inside that no surface in the place has: the place is a line
+  /// there, or the outside, as drawn along a curve.
+  std::vector<OuterSide> sides;
+  std::vector<OuterSide> inside; ///< the film's cells, and edges of any cells
+};
+Pieces pieces_in(const Mesh& mesh, const std::vector<int>& place) {
+  Pieces all;
+  const CellBlock *film = mesh.film(), *walls = mesh.walls();
+  if (film && film->type != CellType::rod2)
+    std::ranges::copy_if(outer_sides(*film), std::back_inserter(all.sides),
+                         [&](const OuterSide& side) { return is_in(side.nodes(), place); });
+  if (film && !is_tetrahedron(film->type)) add_cells_in(*film, place, all.inside);
+  std::set<std::pair<int, int>> of_surfaces;
+  for (const auto* surfaces : {&all.sides, &all.inside})
+    for (const OuterSide& surface : *surfaces) {
+      const auto corners = surface.corners();
+      for (std::size_t k = 0; k < corners.size() && corners.size() > 1; ++k)
+        of_surfaces.insert(std::minmax(corners[k], corners[(k + 1) % corners.size()]));
+    }
+  if (walls) add_cells_in(*walls, place, all.sides);
+  for (const auto& [ends, edge] : edges_in(mesh, place)) {
+    all.inside.push_back(edge);
+    if (!of_surfaces.contains(ends)) all.sides.push_back(edge);
+  }
+  return all;
+}
+
+/// Whether a point is on the inside of an edge or a triangle, or off it by less than a part of its size.
+bool is_inside(const Mesh& mesh, const OuterSide& side, const Eigen::Vector3d& point, double off) {
+  constexpr double least_part = 0.01; // of the side
   const auto corners = side.corners();
   const auto at = [&](std::size_t i) { return mesh.nodes[static_cast<std::size_t>(corners[i])]; };
   if (corners.size() < 2) return false;
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2> along(3, static_cast<int>(corners.size()) - 1);
   for (int i = 0; i < along.cols(); ++i) along.col(i) = at(static_cast<std::size_t>(i) + 1) - at(0);
   const Eigen::Vector3d way = point - at(0);
+  if (way.squaredNorm() > 2 * along.colwise().squaredNorm().maxCoeff()) return false;
   const Eigen::VectorXd parts = along.colPivHouseholderQr().solve(way);
   return parts.minCoeff() > least_part && parts.sum() < 1 - least_part &&
-         (way - along * parts).norm() < nearly * along.col(0).norm();
+         (way - along * parts).norm() < off * along.col(0).norm();
 }
 
-/// A node of a place's sides that is none of the `joined` ones, but inside a side of another place; -1: there
-/// is none.
+/// A node of a place that is none of the `joined` ones, but inside an edge or a surface of another place; -1:
+/// there is none.
 int hanging_node(const Mesh& mesh, const std::vector<int>& place, const std::vector<int>& other,
                  const std::set<int>& joined) {
-  const std::vector<OuterSide> others = sides_in(mesh, other);
-  for (const OuterSide& side : sides_in(mesh, place))
+  constexpr double of_chord = 0.15;    // sides may be the chords of one curve, of six a circle
+  constexpr double of_straight = 1e-3; // where surfaces are, nodes may be beside an edge
+  const Pieces others = pieces_in(mesh, other);
+  const auto hangs = [&](int node, const std::vector<OuterSide>& beside, double off) {
+    return !joined.contains(node) && std::ranges::any_of(beside, [&](const OuterSide& side) {
+      return is_inside(mesh, side, mesh.nodes[static_cast<std::size_t>(node)], off);
+    });
+  };
+  for (const OuterSide& side : pieces_in(mesh, place).sides)
     for (const int node : side.nodes())
-      if (!joined.contains(node) && std::ranges::any_of(others, [&](const OuterSide& beside) {
-            return is_inside(mesh, beside, mesh.nodes[static_cast<std::size_t>(node)]);
-          }))
-        return node;
+      if (hangs(node, others.sides, of_chord)) return node;
+  for (const int node : place)
+    if (hangs(node, others.inside, of_straight)) return node;
   return -1;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/bars/bars.hpp"
 #include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/gmsh/gmsh_text.hpp"
 #include "meshing/honeycomb_mesh.hpp"
@@ -12,8 +13,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace dielast::meshing {
 namespace {
@@ -87,6 +93,79 @@ TEST(Assembly, ANodeBetweenTiedOnesIsSaid) {
       join(whole, "right", "both");
       EXPECT_EQ(whole.node_count(), 4 + 6 - 2);
     }
+  }
+}
+
+/// What joining two places says; nothing where they are joined.
+std::string refusal(Mesh mesh, const std::string& place, const std::string& other) {
+  try {
+    join(mesh, place, other);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Four patches with a bar where they meet: along a line inside the film.
+TEST(Assembly, ANodeThatABarInsideTheFilmHasBetweenItsEndsIsSaid) {
+  for (const int order : {1, 2}) {
+    Mesh film = patch_mesh(1, 0.5, order);
+    for (const auto& [name, x, y] : {std::tuple("b", 1.0, 0.0), {"c", 0.0, 0.5}, {"d", 1.0, 0.5}}) {
+      Mesh other = patch_mesh(1, 0.5, order);
+      for (auto& node : other.nodes) node += Eigen::Vector3d(x, y, 0);
+      append(film, other, name);
+    }
+    join(film, "right", "b.left"), join(film, "c.right", "d.left");
+    join(film, "top", "c.bottom"), join(film, "b.top", "d.bottom");
+    std::vector<int>& all = film.node_sets["all"];
+    std::vector<int>& line = film.node_sets["along"];
+    for (int node = 0; node < film.node_count(); ++node) {
+      all.push_back(node);
+      if (film.nodes[static_cast<std::size_t>(node)].x() == 1) line.push_back(node);
+    }
+    for (const int elements : {1, 2, 4})
+      for (const char* place : {"all", "along"}) {
+        Mesh whole = film;
+        append(whole, line_mesh({1, 0, 0}, {1, 1, 0}, elements, order), "bar");
+        const std::string text = refusal(whole, "bar.line", place);
+        SCOPED_TRACE(text);
+        if (elements == 2)
+          EXPECT_EQ(text, "");
+        else if (elements == 1)
+          EXPECT_NE(text.find("of the one is between nodes of the other"), std::string::npos);
+        else // the bar has more nodes there
+          EXPECT_NE(text.find("cannot be tied"), std::string::npos);
+      }
+  }
+}
+
+/// A flat triangle's corner near the edge that a bar is tied to, with nothing between its ends.
+TEST(Assembly, ANodeBesideAnEdgeInsideTheFilmIsFree) {
+  Mesh whole;
+  whole.nodes = {{0, 0, 0}, {2, 0, 0}, {1, 0.1, 0}, {1, 3, 0}, {1, -1, 0}};
+  whole.blocks = {{CellType::triangle3, {0, 1, 2, 1, 3, 2, 3, 0, 2, 0, 4, 1}}};
+  whole.node_sets["film"] = {0, 1, 2, 3, 4};
+  append(whole, line_mesh({0, 0, 0}, {2, 0, 0}, 1, 1), "bar");
+  EXPECT_EQ(refusal(whole, "bar.line", "film"), "");
+}
+
+/// Two layers that are tied along a circle within the one, whose chords are longer in the other.
+TEST(Assembly, NodesBetweenTiedOnesOfACircleInsideTheFilmAreSaid) {
+  Mesh whole = disc_mesh(0.02, 0.01, 4, 1, true);
+  const std::vector<int> circle = whole.node_sets.at("electrode_edge");
+  for (const std::size_t every : {1u, 2u}) {
+    Mesh both = whole, ring;
+    std::vector<int> around = circle;
+    const auto at = [&](int node) { return whole.nodes[static_cast<std::size_t>(node)]; };
+    std::ranges::sort(around, {}, [&](int node) { return std::atan2(at(node).y(), at(node).x()); });
+    CellBlock walls{CellType::line2, {}};
+    for (std::size_t i = 0; i < around.size(); i += every) ring.nodes.push_back(at(around[i]));
+    for (int i = 0; i < ring.node_count(); ++i)
+      walls.nodes.insert(walls.nodes.end(), {i, (i + 1) % ring.node_count()});
+    ring.blocks = {walls};
+    append(both, ring, "ring");
+    const std::string text = refusal(both, "ring", "electrode_edge");
+    EXPECT_EQ(text.find("is between nodes of the other") != std::string::npos, every == 2) << text;
   }
 }
 
