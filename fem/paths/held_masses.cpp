@@ -3,6 +3,7 @@
 
 #include "fem/model/inertia.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -80,6 +81,44 @@ LoadPath with_masses_held(const Equilibrium& equilibrium, LoadPath path, const S
     at.motion_scheme = scheme;
   };
   return path;
+}
+
+bool follow(Equilibrium& equilibrium, const State& before, State& state) {
+  constexpr int most_corrections = 30;
+  constexpr double accurate = 1e-10; // of the scalars, and of their change
+  const DofMap& dofs = equilibrium.model().dofs;
+  const Eigen::Index scalars = dofs.scalar_count();
+  if (!equilibrium.follow(state)) return false;
+  if (scalars == 0) return true;
+  // What volumes lack here, and what the masses need, is not the jump's: of supports that jump, nor of
+  // rounding, which pressures that move masses at once would make much of.
+  State start = before;
+  start.displacement = state.displacement;
+  start.rotation = state.rotation;
+  start.angle = state.angle;
+  start.scheme = state.scheme;
+  start.supply.assign(start.supply.size(), Supply::voltage);
+  equilibrium.model().balance_fields(start);
+  Balance first, now;
+  equilibrium.balance(start, first);
+  if (!first.feasible || !equilibrium.factor(with_masses_held(equilibrium, state))) return false;
+  Eigen::VectorXd step;
+  double largest = 0;
+  for (int correction = 0; correction < most_corrections; ++correction) {
+    equilibrium.balance(state, now);
+    if (!now.feasible) return false;
+    equilibrium.tangent().solve((first.force - now.force).head(dofs.free_count()), step);
+    step.head(step.size() - scalars).setZero();
+    if (!step.allFinite()) return false;
+    dofs.advance(state, step, 1);
+    if (!equilibrium.follow(state)) return false;
+    const double change = step.lpNorm<Eigen::Infinity>();
+    largest = std::max(largest, change);
+    const double size =
+        position(state, dofs).segment(step.size() - scalars, scalars).lpNorm<Eigen::Infinity>();
+    if (change <= accurate * (largest + size)) return true;
+  }
+  return false;
 }
 
 Eigen::VectorXd prescribed_acceleration(const LoadPath& path, const DofMap& dofs, const State& state,

@@ -23,6 +23,12 @@ State with_masses_let_go(const Model& model, State state, const State& before);
 /// `path` with the masses held where `state` has them. `equilibrium` must outlive the path.
 LoadPath with_masses_held(const Equilibrium& equilibrium, LoadPath path, const State& state);
 
+/// Where every displacement has a mass: lets voltages, pressures of chambers and scalars follow loads that
+/// have jumped from those of `before` to those of `state`, while the displacements stay as they are, to the
+/// digit. The pressures that keep a volume change by what the jump would accelerate it with. False where
+/// there are none that do.
+[[nodiscard]] bool follow(Equilibrium& equilibrium, const State& before, State& state);
+
 // What is held moves as the loads want it: its masses know their accelerations from the beginning.
 
 /// Accelerations with which the held equations set out at s, from the way that `path` leads them on over half

@@ -247,7 +247,7 @@ bool Ramp::pass_break() {
   progress_.points = {{at, state}};
   if (!jumped_) return true;
   LoadPath jump = linear_path(dofs, before, after, equilibrium_.model().electrodes.size());
-  const bool follows = options_.inertia && (massless_.size() > 0 || dofs.scalar_count() > 0);
+  const bool follows = options_.inertia && massless_.size() > 0;
   if (follows) jump = with_masses_held(equilibrium_, std::move(jump), state);
   if (!options_.inertia || follows)
     return detour(jump, std::move(state),
@@ -260,7 +260,7 @@ bool Ramp::pass_break() {
   last_part_ = 1.0 / jump_parts;
   for (int part = 1; part <= jump_parts; ++part) {
     jump.apply(state, part * last_part_);
-    if (!equilibrium_.follow(state)) newton_.outcome = Outcome::infeasible;
+    if (!fem::follow(equilibrium_, last(), state)) newton_.outcome = Outcome::infeasible;
     if (newton_.outcome == Outcome::infeasible) return false;
     progress_.points = {{at, state}};
     if (part < jump_parts) notify(false, last_part_);
