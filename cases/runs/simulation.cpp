@@ -303,13 +303,13 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, Me
     if (at.empty() || (ends && at == step.name)) results_[q] = values[q];
   }
   const fem::NewtonResult& newton = increment.newton;
-  energy_.judge(equilibrium_->energy_scale());
+  energy_.judge(equilibrium_->energy_scale(), records_, step_);
   if (const auto energy = energy_.worst(); ends && energy.is_poor()) {
     std::string sudden; // in this step, or before
     const std::span<const Step> steps(steps_);
     for (std::size_t s = static_cast<std::size_t>(step_) + 1; s > 0 && sudden.empty(); --s)
       sudden = sudden_motion(case_, steps.first(s));
-    news_.push_back(poor_energy(energy, step, sudden));
+    news_.push_back(poor_energy(energy, steps, sudden));
   }
   constexpr double negligible = 1e-12; // of the energy that was exchanged: what equilibria are known to
   if (ends && unseen_.kinetic > negligible * energy_.record().exchanged) {

@@ -146,10 +146,12 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
   return events;
 }
 
-post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step& step,
+post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, std::span<const Step> steps,
                         const std::string& sudden) {
+  const Step& step = steps[std::min(static_cast<std::size_t>(energy.step), steps.size() - 1)];
   std::string text =
-      fmt::format("works and heat are known to {} only, ", post::engineering(energy.error, "J"));
+      fmt::format("up to row {} of history.csv, in step \"{}\", works and heat are known to {} only, ",
+                  energy.row, step.name, post::engineering(energy.told, "J"));
   text += energy.exchanged > 0
               ? fmt::format("of {} that were exchanged: ", post::engineering(energy.exchanged, "J"))
               : "which is all that was exchanged: ";

@@ -10,6 +10,7 @@
 #include <array>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 
 namespace dielast::cases {
@@ -45,8 +46,9 @@ class Watch {
   const meshing::CellBlock* lines_;
 };
 
-/// The energy balance is not known well enough; `sudden`: what a support was asked for that masses cannot do.
-post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, const Step& step,
+/// The energy balance is not known well enough in one of the `steps`; `sudden`: what a support was asked for
+/// that masses cannot do.
+post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, std::span<const Step> steps,
                         const std::string& sudden);
 /// Inertia was left out of a motion whose kinetic energy would be `ratio` times the work that it takes.
 post::Event left_out(double ratio, const Step& step);

@@ -121,7 +121,7 @@ void EnergyBalance::account(const EnergyPoint& point) {
   const Integral mechanical = interval.over(&EnergyPoint::mechanical);
   const double change = total(point.energy) - stored();
   double heat = point.friction - record_.points.back().friction, through_sheet = given_at_jump(point),
-         doubt = 0;
+         doubt = 0, doubt_of_circuits = 0;
   heat += through_sheet;
   const bool flows = point.flow != 0 || point.sheet.coordinate != record_.points.back().sheet.coordinate;
   if (interval.duration() > 0) {
@@ -139,13 +139,14 @@ void EnergyBalance::account(const EnergyPoint& point) {
         std::max(0.0, resisted.value + interval.over(EnergyPoint::leak_through_resistance).value);
     record_.work.leak += std::max(0.0, leaked.value);
     doubt = std::abs(flow.value - point.flow) * (fine ? one_order : 1) + std::abs(damped.curvature) +
-            std::abs(conducted.curvature) + std::abs(resisted.curvature) + std::abs(leaked.curvature);
+            std::abs(conducted.curvature);
+    doubt_of_circuits = std::abs(resisted.curvature) + std::abs(leaked.curvature);
   } else {
     // Charge goes back only to a source that has come down to the electrode's voltage: slowly, without heat.
     for (Eigen::Index e = 0; e < point.resistance.force.size(); ++e) {
       const Integral resisted = interval.over(&EnergyPoint::resistance, e);
       record_.work.resistance += std::max(0.0, resisted.value);
-      doubt += std::abs(resisted.curvature);
+      doubt_of_circuits += std::abs(resisted.curvature);
     }
   }
   Work& work = record_.work;
@@ -169,6 +170,7 @@ void EnergyBalance::account(const EnergyPoint& point) {
   work.mechanical += mechanical.value + mechanical_share;
   work.dissipated += heat;
   record_.doubt += doubt;
+  record_.doubt_of_circuits += doubt_of_circuits;
 }
 
 /// Keeps the point, and what it says of the energies so far.
@@ -180,10 +182,14 @@ void EnergyBalance::arrive(EnergyPoint point) {
   points.push_back(std::move(point));
   if (!jumps) stand();
   const Work& work = record_.work;
-  const double unknown = error(); // what is known no better than to itself has not been exchanged for certain
+  // What is known no better than to itself has not been exchanged for certain.
+  const double unknown = error() - record_.doubt_of_circuits;
   for (const double energy :
        {work.electrical, work.mechanical, work.dissipated, work.released, stored() - record_.stored_at_start})
     if (std::abs(energy) > 2 * unknown) record_.exchanged = std::max(record_.exchanged, std::abs(energy));
+  record_.given = std::max(record_.given, record_.exchanged);
+  for (const double energy : {work.resistance, work.leak})
+    if (energy > 2 * error()) record_.given = std::max(record_.given, energy);
 }
 
 void EnergyBalance::add(EnergyPoint point) {
@@ -236,26 +242,39 @@ void EnergyBalance::reconnect(const EnergyPoint& point) {
 
 double EnergyBalance::stored() const { return empty() ? 0 : total(parts()); }
 
-double EnergyBalance::error() const { return record_.doubt + std::abs(record_.rest); }
+double EnergyBalance::error() const {
+  return record_.doubt + record_.doubt_of_circuits + std::abs(record_.rest);
+}
 
-void EnergyBalance::judge(double scale) {
+void EnergyBalance::judge(double scale, int row, int step) {
   const EnergyParts& parts = this->parts();
   // Differences of stored energies are no better known than these.
   const double known = round_off * (std::abs(parts.elastic) + std::abs(parts.branches) +
                                     std::abs(parts.electric) + std::abs(record_.stored_at_start)) +
                        nothing * scale;
-  const Resolution now{std::max(0.0, error() - known), record_.exchanged};
-  // What was exchanged never falls: a result before this one that is not worse can never be the worst again.
-  std::erase_if(record_.poor, [&](const Resolution& former) {
-    return !weighed(former).is_poor() ||
-           (former.error <= now.error && former.error * now.exchanged <= now.error * former.exchanged);
-  });
-  if (now.is_poor()) record_.poor.push_back(now);
+  const double of_circuits = record_.doubt_of_circuits;
+  for (const bool given : {false, true}) {
+    const Resolution now{std::max(0.0, error() - known - (given ? 0 : of_circuits)),
+                         given ? record_.given : record_.exchanged,
+                         given,
+                         error(),
+                         row,
+                         step};
+    // What was exchanged never falls: a result before this one that is not worse can never be the worst
+    // again.
+    std::erase_if(record_.poor, [&](const Resolution& former) {
+      return !weighed(former).is_poor() || (former.given == given && former.error <= now.error &&
+                                            former.error * now.exchanged <= now.error * former.exchanged);
+    });
+    if (now.is_poor()) record_.poor.push_back(now);
+  }
 }
 
 EnergyBalance::Resolution EnergyBalance::weighed(const Resolution& result) const {
   constexpr double least = 1e-3;
-  return {result.error, std::max(result.exchanged, least * record_.exchanged)};
+  Resolution beside = result;
+  beside.exchanged = std::max(result.exchanged, least * (result.given ? record_.given : record_.exchanged));
+  return beside;
 }
 
 EnergyBalance::Resolution EnergyBalance::worst() const {

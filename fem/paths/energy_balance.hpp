@@ -92,14 +92,18 @@ class EnergyBalance {
   double error() const;
   /// An error beside the energies that it is compared with, J.
   struct Resolution {
-    double error = 0;
+    double error = 0;     ///< beyond rounding
     double exchanged = 0; ///< largest energy so far that went in or out, was stored or turned into heat, and
                           ///< was known to half of itself at least
+    bool given = false;   ///< of all that sources gave, the heat of resistances and leaks, too, or without it
+    double told = 0;      ///< error() then, rounding included
+    int row = 0, step = 0; ///< of the result
     /// Beyond 1 % of what was exchanged.
     bool is_poor() const { return error > 0.01 * exchanged; }
   };
-  /// Takes notice of the last state as a result. `scale`: Equilibrium::energy_scale(), J.
-  void judge(double scale);
+  /// Takes notice of the last state as a result, the run's `row`th, in the `step`th of its steps. `scale`:
+  /// Equilibrium::energy_scale(), J.
+  void judge(double scale, int row = 0, int step = 0);
   /// Of the worst result so far. A result that has exchanged less than a thousandth of what the run has so
   /// far is compared with that thousandth: about an instant at which a wave sets in, every rule is poor.
   Resolution worst() const;
@@ -110,7 +114,9 @@ class EnergyBalance {
   struct Record {
     Work work;
     double stored_at_start = 0, exchanged = 0;
+    double given = 0;                ///< `exchanged` with the heat of resistances and leaks, J
     double doubt = 0;                ///< sum of differences of rules, J
+    double doubt_of_circuits = 0;    ///< likewise, of the heat of resistances and leaks
     double rest = 0;                 ///< left by the balance where nothing can take it, J
     std::vector<Resolution> poor;    ///< results that are, or may become, the worst; ratios of errors fall
     std::vector<EnergyPoint> points; ///< the last one, and the one before where no corner is between

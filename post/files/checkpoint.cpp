@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 
 namespace dielast::post {
 
@@ -277,23 +278,38 @@ json archive(const fem::EnergyBalance::Record& record) {
   json points = json::array();
   for (const fem::EnergyPoint& point : record.points) points.push_back(archive(point));
   std::vector<double> poor;
-  for (const auto& [error, exchanged] : record.poor) poor.insert(poor.end(), {error, exchanged});
+  for (const auto& [error, exchanged, given, told, row, step] : record.poor)
+    poor.insert(poor.end(), {error, exchanged, given ? 1.0 : 0.0, told, static_cast<double>(row),
+                             static_cast<double>(step)});
   return {{"work", post::pack(std::array{w.electrical, w.mechanical, w.dissipated, w.released, w.resistance,
                                          w.leak})},
-          {"account",
-           post::pack(std::array{record.stored_at_start, record.exchanged, record.doubt, record.rest})},
+          {"account", post::pack(std::array{record.stored_at_start, record.exchanged, record.given,
+                                            record.doubt, record.doubt_of_circuits, record.rest})},
           {"poor", post::pack(poor)},
           {"points", std::move(points)}};
 }
 
 fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes& sizes) {
   try {
-    const std::vector<double> w = unpack(archived.at("work"), 6), account = unpack(archived.at("account"), 4),
+    const std::vector<double> w = unpack(archived.at("work"), 6), account = unpack(archived.at("account"), 6),
                               poor = unpack(archived.at("poor"));
-    fem::EnergyBalance::Record record{
-        {w[0], w[1], w[2], w[3], w[4], w[5]}, account[0], account[1], account[2], account[3], {}, {}};
-    if (poor.size() % 2 != 0) mismatch();
-    for (std::size_t i = 0; i < poor.size(); i += 2) record.poor.push_back({poor[i], poor[i + 1]});
+    fem::EnergyBalance::Record record{{w[0], w[1], w[2], w[3], w[4], w[5]},
+                                      account[0],
+                                      account[1],
+                                      account[2],
+                                      account[3],
+                                      account[4],
+                                      account[5],
+                                      {},
+                                      {}};
+    if (poor.size() % 6 != 0) mismatch();
+    const auto number = [](double count) {
+      if (!(count >= 0 && count < std::numeric_limits<int>::max())) mismatch();
+      return static_cast<int>(count);
+    };
+    for (std::size_t i = 0; i < poor.size(); i += 6)
+      record.poor.push_back(
+          {poor[i], poor[i + 1], poor[i + 2] != 0, poor[i + 3], number(poor[i + 4]), number(poor[i + 5])});
     for (const json& point : archived.at("points")) record.points.push_back(restore_point(point, sizes));
     if (record.points.empty() || record.points.size() > 2) mismatch();
     return record;

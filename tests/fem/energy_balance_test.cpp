@@ -205,6 +205,36 @@ TEST(EnergyBalance, a_result_beyond_one_percent_is_poor_unless_the_run_exchanges
   EXPECT_FALSE(worst_after(5000, 0.04).is_poor());
 }
 
+// A resistance takes most of what the source gives, and is known to a part of that; the electrode's own
+// energy is known better, or else is poor.
+TEST(EnergyBalance, heat_of_circuits_is_judged_beside_what_the_source_gives) {
+  for (const double error : {0.0, 0.1}) {
+    EnergyBalance balance;
+    for (int i = 0; i <= 4; ++i) {
+      EnergyPoint point = point_at(0, 0, 0);
+      const double s = i / 4.0;
+      point.length = 0.25;
+      point.time = s;
+      point.moves = true;
+      point.electrical = pair(1, s);
+      point.resistance = pair(100 * (1 + s * s), s); // curved
+      point.energy.electric = s * (1 - error);
+      balance.add(point);
+      balance.judge(0, i, 2);
+    }
+    EXPECT_NEAR(balance.work().resistance, 400.0 / 3, 1);
+    EXPECT_GT(balance.error(), 0.05); // of the electrode's energy of 1
+    EXPECT_EQ(balance.worst().is_poor(), error > 0);
+    if (error > 0) {
+      EXPECT_FALSE(balance.worst().given);
+      EXPECT_EQ(balance.worst().step, 2);
+      EXPECT_GT(balance.worst().row, 0);
+      EXPECT_NEAR(balance.worst().error, error * balance.worst().row / 4.0, 1e-6);
+      EXPECT_GE(balance.worst().told, balance.worst().error);
+    }
+  }
+}
+
 TEST(EnergyBalance, a_result_of_which_nothing_is_known_is_poor) {
   EnergyBalance balance;
   EnergyPoint point = point_at(0, 0, 0);

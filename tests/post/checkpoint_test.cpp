@@ -186,7 +186,7 @@ TEST(Checkpoint, EnergiesAreKeptToTheLastBit) {
                                           .exchanged = 0.2,
                                           .doubt = 0.3,
                                           .rest = -0.4,
-                                          .poor = {{0.5, 0.6}, {0.55, 0.9}},
+                                          .poor = {{0.5, 0.6}, {0.55, 0.9, true, 0.7, 3, 1}},
                                           .points = {point, point}};
   const json archived = archive(record);
   const fem::EnergyBalance::Record restored = restore_energy(archived, sizes);
@@ -195,6 +195,9 @@ TEST(Checkpoint, EnergiesAreKeptToTheLastBit) {
   EXPECT_EQ(restored.rest, record.rest);
   ASSERT_EQ(restored.poor.size(), 2u);
   EXPECT_EQ(restored.poor[1].exchanged, 0.9);
+  EXPECT_TRUE(restored.poor[1].given);
+  EXPECT_EQ(restored.poor[1].row, 3);
+  EXPECT_EQ(restored.poor[1].step, 1);
   ASSERT_EQ(restored.points.size(), 2u);
   EXPECT_EQ(restored.points[1].power, point.power);
   EXPECT_EQ(restored.points[1].sheet.coordinate, point.sheet.coordinate);
