@@ -349,15 +349,15 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                         options_.newton.wrinkles
                             ? "Stretch it a little"
                             : "Let it wrinkle (wrinkling = \"tension field\") or stretch it a little")};
-  const std::string go_on =
-      ways_on_.empty() ? "" : "; or let the step go on with on_instability = " + ways_on_;
+  const auto go_on = ways_on_.empty() ? "" : "; or let the step go on with on_instability = " + ways_on_;
   const std::string more =
       " Lower what drives it, or stiffen the device or stretch the film more, to stay below it" + go_on;
   const char* of_edges =
       fem::contact_pressure(model(), last()).empty() || fem::contact_force(model(), last(), "") == 0
           ? ""
-          : ". Where surfaces in [contact] end on each other an edge may slip off the other one: let one of "
-            "them reach over the other by contact.thickness, or refine the mesh there";
+          : ". Where surfaces in [contact] end on each other an edge may slip off: let one reach over the "
+            "other by contact.thickness, or refine the mesh there. Where the nodes of both stand over each "
+            "other, as in symmetric devices, move one part along by 1e-3 of an element, or model one half";
   if (trouble.critical) {
     const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
     if (timed())
