@@ -71,6 +71,18 @@ Eigen::Vector3d between(const Mesh& mesh, std::span<const int> cell, int a, int 
   return x;
 }
 
+/// Puts the middle nodes of the halves of lines onto the curves of these.
+void bend_lines(const Mesh& whole, const CellBlock& lines, const CellBlock& parts, Mesh& mesh) {
+  for (int c = 0; c < lines.size(); ++c)
+    for (std::size_t half = 0; half < halves.size(); ++half) {
+      const auto at = [&, cell = lines.cell(c)](std::size_t node) {
+        return whole.nodes[static_cast<std::size_t>(cell[node])];
+      };
+      const int middle = parts.cell(2 * c + static_cast<int>(half))[2];
+      mesh.nodes[static_cast<std::size_t>(middle)] = 0.375 * at(half) + 0.75 * at(2) - 0.125 * at(1 - half);
+    }
+}
+
 /// Puts the middle nodes of the parts onto the curves of the cells that they come from.
 void bend(const Mesh& whole, const CellBlock& block, const CellBlock& parts, Mesh& mesh) {
   const auto corners = static_cast<std::size_t>(corners_per_cell(block.type));
@@ -109,7 +121,10 @@ Mesh refined(Mesh mesh) {
   if (middles) {
     add_middle_nodes(finer);
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-      if (!is_line(mesh.blocks[b].type)) bend(mesh, mesh.blocks[b], finer.blocks[b], finer);
+      if (is_line(mesh.blocks[b].type))
+        bend_lines(mesh, mesh.blocks[b], finer.blocks[b], finer);
+      else
+        bend(mesh, mesh.blocks[b], finer.blocks[b], finer);
   }
   add_node_sets(finer);
   return finer;

@@ -51,6 +51,20 @@ TEST(Refined, PlacesKeepTheirShape) {
   }
 }
 
+TEST(Refined, CurvedLinesKeepTheirCurve) {
+  Mesh arc;
+  const int cells = 3, nodes = 2 * cells + 1;
+  for (int n = 0; n < nodes; ++n) {
+    const double angle = std::numbers::pi / 2 * n / (nodes - 1);
+    arc.nodes.emplace_back(std::cos(angle), std::sin(angle), 0);
+  }
+  arc.blocks.push_back({CellType::line3, {}});
+  for (int c = 0; c < cells; ++c)
+    arc.blocks[0].nodes.insert(arc.blocks[0].nodes.end(), {2 * c, 2 * c + 2, 2 * c + 1});
+  // Points of a parabola through three points of the circle; chords would be 8e-3 off.
+  for (const Eigen::Vector3d& x : refined(arc).nodes) EXPECT_NEAR(x.norm(), 1, 2e-4);
+}
+
 TEST(Refined, CurvedSidesKeepTheirCurve) {
   const Mesh disc = disc_mesh(1, 0.5, 4, 2, true);
   const Mesh finer = refined(disc);
