@@ -55,6 +55,19 @@ std::optional<std::array<double, 2>> crossing(const Vector2d& p, const Vector2d&
   return std::array{cross(q - p, e) / sine, cross(q - p, d) / sine};
 }
 
+/// Two sides of a polygon that cross or touch without being neighbours.
+std::optional<std::array<std::size_t, 2>> crossing_sides(const std::vector<Vector2d>& corners) {
+  const std::size_t n = corners.size();
+  const auto side = [&](std::size_t i) -> Vector2d { return corners[(i + 1) % n] - corners[i]; };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 2; k < n; ++k) {
+      if ((k + 1) % n == i) continue;
+      const auto at = crossing(corners[i], side(i), corners[k], side(k));
+      if (at && std::ranges::all_of(*at, [](double t) { return t >= 0 && t <= 1; })) return std::array{i, k};
+    }
+  return std::nullopt;
+}
+
 /// Whether two edges cross between their ends. Arcs, about one centre, do not cross each other.
 bool cross_between_ends(const Edge& a, const Edge& b, double tolerance) {
   if (a.turn != 0 && b.turn != 0) return false;
@@ -183,15 +196,24 @@ Region sector(std::string name, const RoundFilm& between, double from, double to
            side * gap_beside * left_of(toward(direction));
   };
   const Vector2d first = on_side(from, 1, outer), last = on_side(to, -1, outer);
-  Region region{std::move(name), {}};
-  std::vector<Edge>& loop = region.loops.emplace_back();
+  const Vector2d tip = apex * toward((from + to) / 2);
+  Region region{std::move(name), {{{first, last, 1}}}};
+  std::vector<Edge>& loop = region.loops.front();
+  const auto add = [&loop](const Vector2d& next, int turn) { loop.push_back({loop.back().to, next, turn}); };
+  // Of more than half a turn the sides go on inwards beyond the inner arc, which they cut twice, to the tip.
+  const bool cuts_twice = angle > pi && inner > gap_beside && inner <= apex;
+  if (inner > apex || cuts_twice) add(on_side(to, -1, inner), 0);
   if (inner > apex) {
-    const Vector2d begin = on_side(from, 1, inner), end = on_side(to, -1, inner);
-    loop = {{begin, first, 0}, {first, last, 1}, {last, end, 0}, {end, begin, -1}};
+    add(on_side(from, 1, inner), -1);
+  } else if (cuts_twice) {
+    add(on_side(to + pi, 1, inner), -1);
+    add(tip, 0);
+    add(on_side(from + pi, -1, inner), 0);
+    add(on_side(from, 1, inner), -1);
   } else {
-    const Vector2d tip = apex * toward((from + to) / 2);
-    loop = {{tip, first, 0}, {first, last, 1}, {last, tip, 0}};
+    add(tip, 0);
   }
+  add(first, 0);
   return region;
 }
 
@@ -213,16 +235,10 @@ Region polygon(std::string name, std::vector<Vector2d> corners, double gap) {
   if (signed_area(corners) < 0) std::ranges::reverse(corners);
   const std::size_t n = corners.size();
   const auto next = [n](std::size_t i) { return (i + 1) % n; };
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i)
     if (corners[i] == corners[next(i)]) throw std::invalid_argument("two corners in turn are one point");
-    for (std::size_t k = i + 2; k < n; ++k) {
-      if (next(k) == i) continue;
-      const auto at =
-          crossing(corners[i], corners[next(i)] - corners[i], corners[k], corners[next(k)] - corners[k]);
-      if (at && std::ranges::all_of(*at, [](double t) { return t >= 0 && t <= 1; }))
-        throw std::invalid_argument(fmt::format("its sides {} and {} cross", i + 1, k + 1));
-    }
-  }
+  if (const auto sides = crossing_sides(corners))
+    throw std::invalid_argument(fmt::format("its sides {} and {} cross", (*sides)[0] + 1, (*sides)[1] + 1));
   std::vector<Vector2d> moved = corners;
   for (std::size_t i = 0; gap > 0 && i < n; ++i) {
     const Vector2d before = (corners[i] - corners[(i + n - 1) % n]).normalized();
@@ -234,6 +250,11 @@ Region polygon(std::string name, std::vector<Vector2d> corners, double gap) {
   for (std::size_t i = 0; i < n; ++i) // a side that has turned round was shorter than the gap lets it be
     if ((moved[next(i)] - moved[i]).dot(corners[next(i)] - corners[i]) <= 0)
       throw std::invalid_argument("the gap leaves nothing of it");
+  if (const auto sides = crossing_sides(moved))
+    throw std::invalid_argument(
+        fmt::format("the gap leaves nothing between its sides {} and {}: draw what is left as regions of "
+                    "their own",
+                    (*sides)[0] + 1, (*sides)[1] + 1));
   double extent = 0;
   for (const Vector2d& corner : corners) extent = std::max(extent, (corner - corners[0]).norm());
   if (!(signed_area(moved) > 1e-9 * extent * extent))

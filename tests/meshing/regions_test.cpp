@@ -29,14 +29,15 @@ std::vector<Region> quarters(double gap) {
   return regions;
 }
 
+/// Of a disc where x > 0 and 0 < y < g.
+double half_strip(double radius, double g) {
+  return (g * std::sqrt(radius * radius - g * g) + radius * radius * std::asin(g / radius)) / 2;
+}
+
 /// Part of an annulus's quarter beyond a distance g from both of its sides: what a strip of width 2 g along
 /// each side leaves.
 double quarter_without_strips(double inner, double outer, double g) {
-  // Half a strip between the circles: int from 0 to g of (sqrt(outer^2 - y^2) - sqrt(inner^2 - y^2)) dy.
-  const auto half_strip = [g](double r) {
-    return (g * std::sqrt(r * r - g * g) + r * r * std::asin(g / r)) / 2;
-  };
-  return pi / 4 * (outer * outer - inner * inner) - 2 * (half_strip(outer) - half_strip(inner));
+  return pi / 4 * (outer * outer - inner * inner) - 2 * (half_strip(outer, g) - half_strip(inner, g));
 }
 
 TEST(Regions, SectorsWithoutAGapCoverTheFilm) {
@@ -55,6 +56,20 @@ TEST(Regions, SectorsWithoutAGapCoverTheFilm) {
     EXPECT_NEAR(mesh.nodes[static_cast<std::size_t>(node)].norm(), ring_of_film.inner_radius, 1e-15);
   for (const int node : mesh.node_sets.at("outer"))
     EXPECT_NEAR(mesh.nodes[static_cast<std::size_t>(node)].norm(), ring_of_film.outer_radius, 1e-15);
+}
+
+// The tip of three quarters lies outside the hole, and so do two arcs of its edge beside the tip.
+TEST(Regions, TheSidesOfMoreThanHalfATurnGoOnBeyondTheHole) {
+  const RoundFilm film{10e-3, 30e-3};
+  constexpr double g = 8e-3;
+  const Mesh mesh = region_mesh(film, {{sector("a", film, 0, 1.5 * pi, g, 0)}}, 16, 6, 2);
+  // What is beside it, y < g and x > -g: a quarter, two half strips and a square, of the hole no whole one.
+  const double bare_of_disc =
+      pi / 4 * std::pow(film.outer_radius, 2) + 2 * half_strip(film.outer_radius, g) + g * g;
+  const double bare_of_hole = 4 * half_strip(film.inner_radius, g);
+  const double expected =
+      pi * (std::pow(film.outer_radius, 2) - std::pow(film.inner_radius, 2)) - (bare_of_disc - bare_of_hole);
+  EXPECT_NEAR(area_of(mesh, "a"), expected, 1e-5 * expected);
 }
 
 TEST(Regions, AGapIsAStripBetweenSectors) {
@@ -150,6 +165,10 @@ TEST(Regions, WhatAGapLeavesNothingOfIsRefused) {
   EXPECT_THROW(polygon("a", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.5), std::invalid_argument);
   EXPECT_THROW(polygon("a", {{0, 0}, {4, 0}, {4, 1}, {0, 1}}, 0.6), std::invalid_argument);
   EXPECT_THROW(polygon("a", {{0, 0}, {1, 1}, {2, 2}}, 0), std::invalid_argument);
+  const std::vector<Vector2d> dumbbell{{0, 0},  {4, 0}, {4, 1.5}, {6, 1.5}, {6, 0}, {10, 0},
+                                       {10, 4}, {6, 4}, {6, 2.5}, {4, 2.5}, {4, 4}, {0, 4}};
+  EXPECT_NO_THROW(polygon("a", dumbbell, 0.45));
+  EXPECT_THROW(polygon("a", dumbbell, 0.55), std::invalid_argument); // its neck is gone
   EXPECT_THROW(polygon("a", {{0, 0}, {2, 2}, {2, 0}, {0, 2}}, 0), std::invalid_argument);
 }
 
