@@ -180,10 +180,8 @@ QualityReport quality(const Mesh& mesh) {
   return report;
 }
 
-int nodes_on_others(const Mesh& mesh) {
-  const CellBlock* film = mesh.film();
-  if (!film) return 0;
-  const std::set<int> nodes(film->nodes.begin(), film->nodes.end());
+int nodes_on_others(const Mesh& mesh, const CellBlock& cells) {
+  const std::set<int> nodes(cells.nodes.begin(), cells.nodes.end());
   const double same_point = 1e-9 * mesh.bounds().diagonal().norm();
   std::set<std::array<double, 3>> points;
   for (const int node : nodes) {

@@ -27,8 +27,8 @@ struct QualityReport {
 /// For triangles in the x-y or the x-z plane, and for tetrahedra.
 QualityReport quality(const Mesh& mesh);
 
-/// Nodes of the film that lie on others of it: where parts of a drawing meet without being joined, it is cut.
-int nodes_on_others(const Mesh& mesh);
+/// Nodes of cells that lie on others of these: where parts of a drawing meet without being joined, it is cut.
+int nodes_on_others(const Mesh& mesh, const CellBlock& cells);
 
 /// Readable text of several lines, angles in degrees, lengths in mm.
 std::string format(const QualityReport& report);

@@ -261,6 +261,7 @@ Device build_device(const Case& one) {
   const std::vector<fem::Tie> links = set_off_bars(one, mesh);
   if (!mesh.film()) throw meshing::MeshError("the case has no film: neither triangles nor rods");
   std::vector<int> parts = film_parts(one, mesh);
+  std::ranges::move(mesh_file_warnings(one, mesh, parts), std::back_inserter(warnings));
   const int without_arms = mesh.node_count();
   const std::vector<MassOfShells> of_shells = add_mass_nodes(one, parts, mesh);
   const std::vector<fem::RelativeMass> rotary = add_rotary_nodes(one, mesh);

@@ -63,22 +63,43 @@ std::vector<std::string> drilling_warnings(const Case& one, const meshing::Mesh&
 } // namespace
 
 std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mesh) {
-  constexpr double largest = 1; // m, of the templates' dimensions
   std::vector<std::string> warnings = drilling_warnings(one, mesh);
   if (one.dimension == fem::Dimension::spatial && one.any_geometry<HollowSphere>())
     warnings.push_back("hollow_sphere: in space its eighth at x, y, z >= 0 is computed; volumes, charges, "
                        "capacitances, energies and masses are those of the eighth");
-  if (!one.geometry<MeshFile>()) return warnings;
-  if (const int cut = one.parts.size() == 1 ? meshing::nodes_on_others(mesh) : 0)
-    warnings.push_back(fmt::format(
-        "the film is cut: {} of its nodes lie on others; let gmsh fragment the drawing to join its parts",
-        cut));
-  const Eigen::Vector3d size = mesh.bounds().sizes();
-  const bool has_unit = one.unnamed()->mesh.unit.has_value();
-  if (!has_unit || size.maxCoeff() > largest)
-    warnings.push_back(fmt::format("mesh.unit{}: the film is {} x {}",
-                                   has_unit ? "" : " is missing, one unit of the mesh file is taken for 1 m",
-                                   post::engineering(size.x(), "m"), post::engineering(size.y(), "m")));
+  return warnings;
+}
+
+std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh& mesh,
+                                            std::span<const int> parts) {
+  constexpr double largest = 1; // m, of the templates' dimensions
+  std::vector<std::string> warnings;
+  for (const Part& owner : one.parts) {
+    if (!std::holds_alternative<MeshFile>(owner.geometry)) continue;
+    std::vector<int> cells;
+    for (std::size_t cell = 0; cell < parts.size(); ++cell) {
+      const Part& part = one.parts[static_cast<std::size_t>(parts[cell])];
+      if (&part == &owner || (owner.name.empty() && !part.has_mesh()))
+        cells.push_back(static_cast<int>(cell));
+    }
+    const meshing::CellBlock film = meshing::subset(*mesh.film(), cells);
+    if (film.size() == 0) continue;
+    const std::string part = owner.name.empty() ? "" : "part." + owner.name + ".";
+    if (const int cut = meshing::nodes_on_others(mesh, film))
+      warnings.push_back(
+          fmt::format("{}the film is cut: {} of its nodes lie on others; let gmsh fragment the drawing to "
+                      "join its parts",
+                      part.empty() ? "" : part + "mesh: ", cut));
+    Eigen::AlignedBox3d box;
+    for (const int node : film.nodes) box.extend(mesh.nodes[static_cast<std::size_t>(node)]);
+    const Eigen::Vector3d size = box.sizes();
+    const bool has_unit = owner.mesh.unit.has_value();
+    if (!has_unit || size.maxCoeff() > largest)
+      warnings.push_back(
+          fmt::format("{}mesh.unit{}: the film is {} x {}", part,
+                      has_unit ? "" : " is missing, one unit of the mesh file is taken for 1 m",
+                      post::engineering(size.x(), "m"), post::engineering(size.y(), "m")));
+  }
   return warnings;
 }
 

@@ -12,12 +12,15 @@
 
 namespace dielast::cases {
 
-/// What the user should know of an own mesh, one sentence each: it has no unit in its file, and its regions
-/// may meet without being joined.
+/// What the user should know of the meshes that the geometries make, one sentence each.
 std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mesh);
 
+/// The same of the user's own ones: there is no unit in a file, and regions may meet without being joined.
+/// `parts` says which part each cell of the film belongs to, here and below.
+std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh& mesh,
+                                            std::span<const int> parts);
+
 /// A sentence for every part whose film is thick for its width: membranes and shells are of thin films.
-/// `parts` says which part each cell of the film belongs to.
 std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh& mesh,
                                             std::span<const int> parts);
 

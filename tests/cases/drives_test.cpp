@@ -365,6 +365,21 @@ TEST_F(OwnMesh, WithoutAUnitSaysHowLargeTheFilmIs) {
   EXPECT_TRUE(told("the film is 60.00 m x 60.00 m")) << testing::PrintToString(warnings);
 }
 
+TEST_F(OwnMesh, OfOnePartOfSeveralSaysHowLargeItIsAndThatItIsCut) {
+  write("cut.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"frame\"\n2 2 \"film\"\n"
+                   "$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 60 0 0\n3 60 60 0\n4 0 60 0\n5 60 60 0\n"
+                   "6 0 0 0\n$EndNodes\n$Elements\n6\n1 1 2 1 1 1 2\n2 1 2 1 2 2 3\n3 1 2 1 3 5 4\n"
+                   "4 1 2 1 4 4 6\n5 2 2 2 5 1 2 3\n6 2 2 2 6 5 4 6\n$EndElements\n");
+  const std::string film = "material = \"VHB 4910 (honeycomb)\"\nthickness = \"1 mm\"\nprestretch = 2\n";
+  run("[part.a.film]\n" + film + "[part.a.mesh]\nfile = \"cut.msh\"\n[part.b.film]\n" + film +
+      "[part.b.rectangle]\nlength = \"1 mm\"\nwidth = \"1 mm\"\n[part.b.mesh]\norder = 1\n[drive.a]\n"
+      "voltage = \"1 kV\"\n[[support]]\nplace = \"a.frame\"\nfix = [\"x\", \"y\"]\n[[support]]\n"
+      "place = \"b\"\nfix = [\"x\", \"y\"]\n");
+  EXPECT_TRUE(told("part.a.mesh.unit is missing")) << testing::PrintToString(warnings);
+  EXPECT_TRUE(told("part.a.mesh: the film is cut: 2")) << testing::PrintToString(warnings);
+  EXPECT_FALSE(told("part.b.mesh"));
+}
+
 TEST_F(OwnMesh, ThatNothingHoldsSaysThatItIsCutFree) {
   run(text + "unit = \"1 mm\"\n");
   EXPECT_TRUE(told("\"settle\"")) << testing::PrintToString(warnings);

@@ -63,10 +63,10 @@ TEST(Quality, FindsWhereAFilmIsCut) {
   Mesh mesh;
   mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
   mesh.blocks = {{CellType::triangle3, {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2}}};
-  EXPECT_EQ(nodes_on_others(mesh), 0);
+  EXPECT_EQ(nodes_on_others(mesh, *mesh.film()), 0);
   mesh.nodes.insert(mesh.nodes.end(), {{1, 0, 0}, {1, 1, 1e-12}});
   mesh.blocks = {{CellType::triangle3, {0, 1, 2, 0, 2, 3, 6, 4, 5, 6, 5, 7}}};
-  EXPECT_EQ(nodes_on_others(mesh), 2);
+  EXPECT_EQ(nodes_on_others(mesh, *mesh.film()), 2);
 }
 
 TEST(Quality, IsReadable) {
