@@ -36,8 +36,10 @@ fem::SolidSection solid_section(const Case& one, const Part& part) {
   const Film& film = *part.film;
   fem::SolidSection section{.material = film.material, .width = film.width, .thickness = film.thickness};
   if (film.bulk_modulus) section.bulk_modulus = *film.bulk_modulus;
-  const bool along_z = one.dimension == fem::Dimension::axisymmetric ||
-                       (one.dimension == fem::Dimension::spatial && !one.any_geometry<Slab>());
+  const Part* const meshed = part.has_mesh() ? &part : one.unnamed();
+  const bool is_slab = meshed && std::holds_alternative<Slab>(meshed->geometry);
+  const bool along_z =
+      one.dimension == fem::Dimension::axisymmetric || (one.dimension == fem::Dimension::spatial && !is_slab);
   section.normal = Eigen::AngleAxisd(part.turned, Eigen::Vector3d::UnitZ()) *
                    Eigen::Vector3d::Unit(film.stacked_along.value_or(along_z ? 2 : 1));
   return section;

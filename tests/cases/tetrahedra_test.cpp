@@ -132,6 +132,29 @@ TEST_F(Tetrahedra, own_mesh_is_as_good_as_a_slab) {
   EXPECT_GT(std::abs(across.at("swelling") / slab.at("swelling") - 1), 0.1);
 }
 
+/// Beside a slab, whose layers are stacked along y, too.
+TEST_F(Tetrahedra, layers_of_an_own_mesh_are_stacked_along_z_whatever_stands_beside_it) {
+  write("own.msh",
+        meshing::gmsh_text(meshing::block_mesh({{4e-3, 0.6e-3, 0, {1e-3, 3e-3}, 0.1e-3}, 3e-3, 2e-3}, 3, 6)));
+  const auto as_part = [](std::string text, const std::string& name) {
+    for (const std::string word : {"[film", "[mesh", "[slab", "\"bottom", "\"top", "\"electrode\""}) {
+      const std::string named =
+          word.substr(0, 1) + (word[0] == '[' ? "part." : "") + name + "." + word.substr(1);
+      for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += named.size())
+        text.replace(at, word.size(), named);
+    }
+    return text;
+  };
+  const auto together = values(
+      as_part(own_mesh(""), "own") +
+      as_part(film("0.1 mm", "section = \"solid\"") +
+                  "[slab]\nlength = \"1 mm\"\nheight = \"1 mm\"\nwidth = \"1 mm\"\n[mesh]\nacross = 1\n"
+                  "[[support]]\nplace = \"bottom\"\nfix = [\"x\", \"y\", \"z\"]\n",
+              "beside"));
+  const double alone = values(own_mesh("")).at("swelling");
+  EXPECT_NEAR(together.at("swelling"), alone, 1e-6 * std::abs(alone));
+}
+
 void expect_error(const std::function<void()>& act, const std::string& part) {
   try {
     act();
