@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <span>
 
@@ -100,6 +101,38 @@ class Edges {
   double extent_; ///< of the model, m
 };
 
+/// The holes in the film around which a plate's edge runs and which it closes, m^2; 0 where it carries a part
+/// of the film or of a side.
+double area_under_plate(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& wall) {
+  const std::vector<int>& edge = mesh.node_sets.at(one.plate->place);
+  const auto drawn = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+  double area = 0;
+  std::map<int, int> ends; // sides that leave a node, less those that come to it
+  for (const meshing::OuterSide& side : meshing::outer_sides(wall)) {
+    const std::span<const int> corners = side.corners();
+    if (!std::ranges::all_of(corners, [&](int node) { return std::ranges::binary_search(edge, node); }))
+      continue;
+    if (corners.size() == 1) { // a circle, around which the film lies or within
+      const double radius = drawn(corners[0]).x();
+      const bool around =
+          std::ranges::all_of(wall.cell(side.cell), [&](int node) { return drawn(node).x() >= radius; });
+      area += (around ? 1 : -1) * std::numbers::pi * radius * radius;
+    } else { // the film lies on its left
+      const Eigen::Vector3d from = drawn(corners[0]), to = drawn(corners[1]);
+      area -= (from.x() * to.y() - from.y() * to.x()) / 2;
+      ++ends[corners[0]];
+      --ends[corners[1]];
+    }
+  }
+  if (std::ranges::any_of(ends, [](const auto& node) { return node.second != 0; })) return 0;
+  if (area < 0)
+    throw CaseError({{one.where("plate.at"), "plate.at",
+                      "how far a chamber reaches under a plate that lies around the film is not known: the "
+                      "plate must close a hole in it"}});
+  const auto* annulus = one.geometry<Annulus>(); // a circle, of which the mesh is the polygon within
+  return annulus && area > 0 ? std::numbers::pi * annulus->inner_radius * annulus->inner_radius : area;
+}
+
 } // namespace
 
 void add_chamber(const Case& one, const meshing::Mesh& mesh, bool free_body, fem::Model& model) {
@@ -118,12 +151,10 @@ void add_chamber(const Case& one, const meshing::Mesh& mesh, bool free_body, fem
       level.push_back(edge[0]);
   }
   if (!level.empty()) model.blocks.push_back(fem::make_level_edge_block(mesh, wall, level, port));
-  if (const auto* annulus = one.geometry<Annulus>(); annulus && one.plate)
+  if (!one.plate || !one.chamber->place.empty()) return;
+  if (const double area = area_under_plate(one, mesh, wall); area > 0)
     model.blocks.push_back(
-        fem::make_lid_block(mesh,
-                            {mesh.node_sets.at(one.plate->place).front(),
-                             std::numbers::pi * annulus->inner_radius * annulus->inner_radius},
-                            port));
+        fem::make_lid_block(mesh, {mesh.node_sets.at(one.plate->place).front(), area}, port));
 }
 
 } // namespace dielast::cases

@@ -123,6 +123,64 @@ TEST_F(Diaphragm, a_model_of_third_order_follows_the_whole_one) {
   EXPECT_NE(content("out/report.html").find("Eq. 5.16"), std::string::npos);
 }
 
+/// A ring of film, fixed at one edge, under pressure or with a weight; with the lines that are a case's own.
+std::string ring(const std::string& own) {
+  return R"toml(
+[film]
+thickness = "0.5 mm"
+prestretch = 1.5
+[film.material]
+shear_modulus = "50 kPa"
+relative_permittivity = 4
+[output]
+error_estimate = false
+fields = false
+)toml" + own;
+}
+constexpr const char* drawn_ring = R"toml(
+[annulus]
+inner_radius = "8 mm"
+outer_radius = "25 mm"
+)toml";
+
+// The hole is a polygon of 44 sides: 0.3 % less than the circle that the annulus counts.
+TEST_F(Diaphragm, a_plate_closes_the_chamber_under_a_mesh_of_ones_own) {
+  const std::string pressed = R"toml(
+[plate]
+mass = "1 g"
+at = "inner"
+[[support]]
+place = "outer"
+fix = ["x", "y", "z"]
+[chamber]
+pressure = "200 Pa"
+[[step]]
+kind = "pressure"
+[[quantity]]
+name = "rise"
+kind = "displacement"
+of = "plate"
+along = "z"
+[[quantity]]
+name = "content"
+kind = "volume"
+)toml";
+  write("drawn.toml", "model = \"3d\"\n" + ring(pressed) + drawn_ring + "[mesh]\nrings = 6\n");
+  write("own.toml",
+        "model = \"3d\"\n" + ring(pressed) + "[mesh]\nfile = \"drawn-mesh/drawn.msh\"\nunit = \"1 m\"\n");
+  ASSERT_EQ(dielast({"mesh", "drawn.toml"}).exit_code, 0);
+  for (const char* name : {"drawn", "own"})
+    ASSERT_EQ(dielast({"run", std::string(name) + ".toml", "-o", name}).exit_code, 0);
+  for (const char* quantity : {"rise", "content"})
+    EXPECT_NEAR(value("own", quantity), value("drawn", quantity), 0.01 * value("drawn", quantity))
+        << quantity;
+
+  const Ended outside =
+      dielast({"run", "drawn.toml", "--set", "plate.at=outer", "--set", "support[1].place=inner"});
+  EXPECT_EQ(outside.exit_code, 2);
+  EXPECT_NE(outside.err.find("the plate must close a hole"), std::string::npos) << outside.err;
+}
+
 class MovingDiaphragm : public Diaphragm {
  protected:
   std::vector<std::string> into(const std::string& folder, const std::vector<std::string>& more = {}) const {
