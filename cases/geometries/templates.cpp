@@ -30,9 +30,9 @@ quantity = [
 
 constexpr std::string_view diaphragm_quantities = R"(
 quantity = [
-  { name = "drop", kind = "displacement", of = "inner", along = "gravity" },
-  { name = "stroke", kind = "displacement", of = "inner", along = "gravity", since = "weight" },
-  { name = "stiffness", kind = "stiffness", of = "inner", along = "z" },
+  { name = "drop", kind = "displacement", of = "plate", along = "gravity" },
+  { name = "stroke", kind = "displacement", of = "plate", along = "gravity", since = "weight" },
+  { name = "stiffness", kind = "stiffness", of = "plate", along = "z" },
   { name = "natural_frequency", kind = "natural frequency" },
   { name = "stretch_inner", kind = "radial stretch", of = "inner" },
   { name = "stretch_outer", kind = "radial stretch", of = "outer" }

@@ -143,6 +143,25 @@ inner_radius = "8 mm"
 outer_radius = "25 mm"
 )toml";
 
+TEST_F(Diaphragm, counts_the_drop_and_the_stiffness_of_its_plate_wherever_it_is) {
+  write("outside.toml", ring(R"toml(
+[plate]
+mass = "20 g"
+at = "outer"
+[[support]]
+place = "inner"
+fix = ["x", "y", "z"]
+)toml") + drawn_ring);
+  const auto with = [&](const std::string& mass) {
+    EXPECT_EQ(dielast({"run", "outside.toml", "-o", "out", "--set", "plate.mass=" + mass}).exit_code, 0);
+    return value("out", "drop");
+  };
+  const double more = with("20.1 g"), less = with("19.9 g"), drop = with("20 g");
+  EXPECT_NEAR(drop, (more + less) / 2, 1e-4 * drop);
+  EXPECT_GT(drop, 1e-3);
+  EXPECT_NEAR(value("out", "stiffness"), 0.2e-3 * 9.81 / (more - less), 1e-4 * value("out", "stiffness"));
+}
+
 // The hole is a polygon of 44 sides: 0.3 % less than the circle that the annulus counts.
 TEST_F(Diaphragm, a_plate_closes_the_chamber_under_a_mesh_of_ones_own) {
   const std::string pressed = R"toml(
