@@ -6,6 +6,7 @@
 #include "cases/devices/bonded_corners.hpp"
 #include "cases/devices/discretisation.hpp"
 #include "cases/runs/results.hpp"
+#include "cases/runs/watch.hpp"
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
@@ -238,6 +239,7 @@ std::string threshold_remark(const Quantity& quantity, double value, double rise
 std::vector<EventRemark> event_remarks(const Case& one, const Device& device, const Solution& own,
                                        const std::vector<Solution>& others,
                                        const std::vector<ErrorEstimate>& estimates) {
+  const double smallest = smallest_stress(one);
   std::vector<EventRemark> remarks;
   for (const Threshold& threshold : thresholds)
     for (std::size_t q = 0; q < one.quantities.size(); ++q) {
@@ -246,6 +248,8 @@ std::vector<EventRemark> event_remarks(const Case& one, const Device& device, co
           quantity.extreme != threshold.extreme || !quantity.at.empty() || !std::isfinite(own.values[q]) ||
           ((device.tension_field || device.bears_compression) && threshold.kind == "loss of tension"))
         continue;
+      const bool rounding = std::abs(own.values[q]) < smallest && estimates[q].error.value_or(0) < smallest;
+      if (rounding && threshold.kind == "loss of tension") continue; // as across a rod
       std::string remark = threshold_remark(quantity, own.values[q], own.rises[q], estimates[q],
                                             threshold.limit, unit_of(quantity, one.quantities));
       if (remark.empty()) continue;

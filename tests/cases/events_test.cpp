@@ -126,5 +126,13 @@ TEST_F(Events, ThoseBetweenTwoRowsAreToldWithTheirOwnTime) {
 
 TEST_F(Events, NoneAtTheUsualVoltage) { EXPECT_EQ(events({}), nlohmann::json::array()); }
 
+TEST_F(Events, NoStressAcrossARodIsNoTensionThatDependsOnTheMesh) {
+  ASSERT_EQ(dielast({"run", source_folder / "cases/gallery/antagonistic_rolls/case.toml", "-o", "out",
+                     "--set", "output.fields=false"})
+                .exit_code,
+            0);
+  EXPECT_EQ(json_of("out/summary.json")["event_remarks"], nlohmann::json::array());
+}
+
 } // namespace
 } // namespace dielast::test
