@@ -368,9 +368,14 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     if (simulation.device().tension_field)
       return crossing(
           way, [](const Passed& p) { return p.slack > 0 ? 1.0 : -1.0; }, *further);
-    return crossing(
-        way, [smallest = smallest_stress(one)](const Passed& p) { return -smallest - p.least_stress; },
-        *further);
+    const double smallest = smallest_stress(one);
+    Margin lost = crossing(
+        way, [smallest](const Passed& p) { return -smallest - p.least_stress; }, *further);
+    // Film leaves its plane where its tension ends: the path ends there, and no state of it is beyond.
+    if (!lost.factor && lost.remark.empty() && stopped == Critical{true}.kind() &&
+        way.back().least_stress < 1e3 * smallest)
+      lost.factor = way.back().factor;
+    return lost;
   });
   const auto critical = [&](bool branches_off) {
     const auto first = std::ranges::find(criticals, branches_off, &Critical::branches_off);

@@ -244,5 +244,25 @@ TEST_F(Margins, BucklingIsWhereThePathsPart) {
   EXPECT_NEAR(buckling(200, "", {"output.margins_up_to=3"}), jumps, 1e-4 * jumps);
 }
 
+// Film that is held all around keeps its shape until eps E^2 = mu (l^2 - l^-4), and there it leaves its
+// plane.
+TEST_F(Margins, TensionEndsWhereFilmLeavesItsPlane) {
+  const double stretch = 1.4, tension = modulus * (std::pow(stretch, 2) - std::pow(stretch, -4));
+  const double end = thickness / std::pow(stretch, 2) * std::sqrt(tension / permittivity);
+  const auto held = [&](const char* model, double voltage) {
+    return fmt::format("model = \"{}\"\n[film]\nthickness = \"1 mm\"\nprestretch = {}\n[film.material]\n"
+                       "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[disc]\nradius = "
+                       "\"20 mm\"\n[mesh]\nrings = 4\n[drive]\nvoltage = \"{} V\"\n[output]\n"
+                       "margins_up_to = 2\n",
+                       model, stretch, voltage);
+  };
+  for (const char* model : {"axisymmetric", "3d"}) {
+    const Margin beyond = margins(held(model, 0.8 * end)).at("loss of tension");
+    EXPECT_NEAR(beyond.factor.value_or(0), 1 / 0.8, 1e-5) << model << ": " << beyond.remark;
+    const Margin stopped = margins(held(model, 1.1 * end)).at("loss of tension");
+    EXPECT_NEAR(stopped.factor.value_or(0), 1, 1e-5) << model << ": " << stopped.remark;
+  }
+}
+
 } // namespace
 } // namespace dielast::cases
