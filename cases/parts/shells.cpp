@@ -77,9 +77,8 @@ void check_shell(const WrittenPart& written) {
   if (std::holds_alternative<Patch>(part.geometry)) report("a patch stays flat");
   const auto of_membranes = std::ranges::find_if(
       one.quantities, [](const Quantity& quantity) { return !quantity.kind->of_shells; });
-  if (of_membranes != one.quantities.end()) // those of a case with a [plate] are among the standard ones
-    report(fmt::format("quantities of kind \"{}\", of which a [plate] brings some, are of membranes",
-                       of_membranes->kind->word));
+  if (of_membranes != one.quantities.end())
+    report(fmt::format("quantities of kind \"{}\" are of membranes", of_membranes->kind->word));
 }
 
 } // namespace

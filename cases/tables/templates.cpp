@@ -269,14 +269,17 @@ void prefix(Node* place, const std::string& part) {
   for (Node& item : place->items) prefix(&item, part);
 }
 
+/// Whether a table's film resists bending.
+bool is_of_shell(const Node& top) {
+  return top.find("film") && text_at(*top.find("film"), "section") == "shell";
+}
+
 /// An edge that a template clamps does not turn either where the film is a shell.
 void clamp_shell(Node& defaults, const Node& top) {
-  const Node* film = top.find("film");
-  Node* supports = defaults.find("support");
-  if (!film || !film->is(Node::Kind::table) || text_at(*film, "section") != "shell" || !supports) return;
-  for (Node& support : supports->items)
-    for (const char* turn : {"turn_x", "turn_y", "turn_z"})
-      support.find("fix")->items.push_back(text_node(turn, support.source));
+  if (Node* supports = defaults.find("support"); supports && is_of_shell(top))
+    for (Node& support : supports->items)
+      for (const char* turn : {"turn_x", "turn_y", "turn_z"})
+        support.find("fix")->items.push_back(text_node(turn, support.source));
 }
 
 /// Adds a part's electrode or supports to those of the case.
@@ -290,6 +293,25 @@ void add_part_defaults(Node& tree, const std::string& key, const TemplatePart& p
     if (Node* name = item.find("name")) name->text = part.name;
     list_at(tree, key).items.push_back(std::move(item));
   }
+}
+
+/// Standard quantities of a template; those of a part are about its places. Extremes are of the whole case.
+std::vector<Node> template_quantities(const Node& tree, const Template& device, const std::string& part) {
+  std::vector<Node> quantities;
+  for (Node quantity : items_of(parse_default(device.quantities, tree), "quantity")) {
+    if (!part.empty()) {
+      const std::string kind = text_at(quantity, "kind");
+      if (kind == "extreme" || kind == "natural frequency") continue;
+      quantity.find("name")->text = part + "_" + text_at(quantity, "name");
+      prefix(quantity.find("between"), part);
+      prefix(quantity.find("of"), part);
+    }
+    if (const Node* pivot = tree.find("pivot"); pivot && device.with == "pivot")
+      if (const std::string body = text_at(*pivot, "body"); !body.empty()) quantity.find("of")->text = body;
+    quantities.push_back(std::move(quantity));
+  }
+  if (!part.empty()) turn_standard_quantities(quantities, *tree.find("part")->find(part));
+  return quantities;
 }
 
 } // namespace
@@ -329,29 +351,6 @@ void add_inertia(Node& tree) {
       step.add("inertia", parse_value("true", {tree.source.file, 0, 0}));
 }
 
-namespace {
-
-/// Standard quantities of a template; those of a part are about its places. Extremes are of the whole case.
-std::vector<Node> template_quantities(const Node& tree, const Template& device, const std::string& part) {
-  std::vector<Node> quantities;
-  for (Node quantity : items_of(parse_default(device.quantities, tree), "quantity")) {
-    if (!part.empty()) {
-      const std::string kind = text_at(quantity, "kind");
-      if (kind == "extreme" || kind == "natural frequency") continue;
-      quantity.find("name")->text = part + "_" + text_at(quantity, "name");
-      prefix(quantity.find("between"), part);
-      prefix(quantity.find("of"), part);
-    }
-    if (const Node* pivot = tree.find("pivot"); pivot && device.with == "pivot")
-      if (const std::string body = text_at(*pivot, "body"); !body.empty()) quantity.find("of")->text = body;
-    quantities.push_back(std::move(quantity));
-  }
-  if (!part.empty()) turn_standard_quantities(quantities, *tree.find("part")->find(part));
-  return quantities;
-}
-
-} // namespace
-
 std::vector<Node> standard_quantities(const Node& tree, const Template* device) {
   const Source source{tree.source.file, 0, 0};
   const std::vector<TemplatePart> parts = parts_with_geometry(tree);
@@ -368,7 +367,8 @@ std::vector<Node> standard_quantities(const Node& tree, const Template* device) 
                   "quantity"))
       standard.push_back(std::move(quantity));
   std::erase_if(standard, [&](const Node& quantity) {
-    return quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty();
+    return (quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty()) ||
+           (is_of_shell(tree) && text_at(quantity, "kind") == "radial stretch"); // which membranes have
   });
   complete_coupling(standard, tree);
   for (Node& quantity : standard) {

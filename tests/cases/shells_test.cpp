@@ -363,5 +363,23 @@ kind = "force"
   EXPECT_FALSE(warns("[[body]]\nname = \"grip\"\nplaces = [\"a.right\", \"l.start\"]\n"));
 }
 
+/// With b/a = beta w = P a^2 / (16 pi D) [1 - beta^2 - 4 beta^2 ln^2(beta) / (1 - beta^2)], D = mu H^3 / 3: a
+/// ring that turns at neither edge (Timoshenko & Woinowsky-Krieger 1959, sec. 17).
+TEST_F(Paths, a_ring_that_resists_bending_carries_a_plate) {
+  const double inner = 0.4 * radius, beta = 0.4, mass = 1e-3, logarithm = std::log(beta);
+  const Run one = run(fmt::format("model = \"3d\"\n[film]\nthickness = \"{} m\"\nsection = \"shell\"\n"
+                                  "[film.material]\nshear_modulus = \"{} Pa\"\nrelative_permittivity = 5\n"
+                                  "[annulus]\ninner_radius = \"{} m\"\nouter_radius = \"{} m\"\n"
+                                  "[mesh]\nrings = 6\n[plate]\nmass = \"{} kg\"\n[[step]]\nkind = "
+                                  "\"weight\"\n[gravity]\nacceleration = \"1e-4 m/s^2\"\n",
+                                  thickness, modulus, inner, radius, mass),
+                      "drop");
+  ASSERT_EQ(one.outcome.ending, Ending::complete) << one.outcome.message;
+  const double stiffness = modulus * std::pow(thickness, 3) / 3, load = mass * 1e-4, square = beta * beta;
+  const double drop = load * radius * radius / (16 * std::numbers::pi * stiffness) *
+                      (1 - square - 4 * square * logarithm * logarithm / (1 - square));
+  EXPECT_NEAR(one.rows.back().value, drop, 0.005 * drop);
+}
+
 } // namespace
 } // namespace dielast::cases
