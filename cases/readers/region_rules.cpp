@@ -71,6 +71,8 @@ void check_regions(SectionReader& reader, const Node& tree, const Case& one) {
     const Written& at = written[written.size() - part->regions.size() + r];
     try {
       const bool taken = std::ranges::count(regions, drawn.name, &meshing::Region::name) > 0;
+      if (one.plate && drawn.name == "plate")
+        report(at, "the edge that the [plate] carries is the place \"plate\"; call the region otherwise");
       if (taken) report(at, fmt::format("a sector is called \"{}\"; call the region otherwise", drawn.name));
       regions.push_back(region_of(drawn, *film));
     } catch (const std::invalid_argument& error) {
