@@ -20,6 +20,19 @@ const Eigen::VectorXd& Measured::reaction() const {
   return reaction_;
 }
 
+namespace {
+
+/// Whether it is the magnitude of a change of a vector, which the magnitudes before and after do not tell.
+bool is_magnitude_since(const Quantity& quantity) {
+  return quantity.kind->directed && !quantity.along && !quantity.since.empty();
+}
+
+std::string name_of_component(const Quantity& quantity, std::size_t axis) {
+  return quantity.name + " along " + "xyz"[axis];
+}
+
+} // namespace
+
 Measurement::Measurement(const Case& one, const Device& device) : case_(one), device_(device) {
   prepare();
   begin_peaks();
@@ -30,7 +43,7 @@ void Measurement::begin_peaks() { peaks.assign(case_.quantities.size(), {no_valu
 void Measurement::prepare() {
   const fem::State initial = device_.model.initial_state();
   const fem::Samples drawn = device_.model.sample(initial);
-  shapes_.clear(), probes_.clear(), drawn_.clear();
+  shapes_.clear(), probes_.clear(), drawn_.clear(), magnitudes_.clear();
   int written = 0; // by the user, who counts no others
   for (const Quantity& quantity : case_.quantities) {
     written += !quantity.standard;
@@ -39,6 +52,13 @@ void Measurement::prepare() {
     shapes_.push_back(kind.shape ? kind.shape(probing) : nullptr);
     probes_.push_back(kind.probe ? kind.probe(probing) : nullptr);
     drawn_.push_back(kind.since ? shapes_.back()(initial) : no_value);
+    if (!is_magnitude_since(quantity)) continue;
+    Components& components = magnitudes_[shapes_.size() - 1];
+    for (std::size_t c = 0; c < 3; ++c) {
+      Quantity& one = components.quantities[c] = quantity;
+      one.along = static_cast<int>(c);
+      components.shapes[c] = kind.shape({one, case_, device_, drawn, probing.path});
+    }
   }
 }
 
@@ -49,6 +69,15 @@ double Measurement::value(std::size_t number, const Measured& measured) const {
   const double now = shapes_[number](measured.state);
   if (!quantity.kind->since) return now;
   if (quantity.since.empty()) return quantity.kind->since(now, drawn_[number]);
+  if (const auto components = magnitudes_.find(number); components != magnitudes_.end()) {
+    Eigen::Vector3d moved;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto then = references.find(name_of_component(quantity, c));
+      if (then == references.end()) return no_value;
+      moved[static_cast<Eigen::Index>(c)] = components->second.shapes[c](measured.state) - then->second;
+    }
+    return moved.norm();
+  }
   const auto then = references.find(quantity.name);
   return then == references.end() ? no_value : quantity.kind->since(now, then->second);
 }
@@ -93,6 +122,9 @@ void Measurement::step_ended(const std::string& step, const Measured& measured) 
       quantity.kind->begin(references, quantity, measured.state.time);
     else
       references[quantity.name] = shapes_[q](measured.state);
+    if (const auto components = magnitudes_.find(q); components != magnitudes_.end())
+      for (std::size_t c = 0; c < 3; ++c)
+        references[name_of_component(quantity, c)] = components->second.shapes[c](measured.state);
   }
 }
 

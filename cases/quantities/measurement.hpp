@@ -4,6 +4,8 @@
 #include "cases/quantities/probing.hpp"
 #include "post/step_record.hpp"
 
+#include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,12 @@ class Measurement {
   std::vector<Shape> shapes_; ///< by quantity; empty: it has a probe, or is a course
   std::vector<Probe> probes_;
   std::vector<double> drawn_; ///< of shapes that count since some step: their value as drawn
+  /// The components of a displacement since some step whose magnitude is asked for, and their shapes.
+  struct Components {
+    std::array<Quantity, 3> quantities;
+    std::array<Shape, 3> shapes;
+  };
+  std::map<std::size_t, Components> magnitudes_; ///< by quantity
 };
 
 /// A quantity with a gradient as a row over the free equations.

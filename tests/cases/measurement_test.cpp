@@ -154,5 +154,40 @@ TEST_F(DiscMeasurement, ElongationsStartWhereTheirStepEnds) {
             measured().reaction());
 }
 
+// How far it has gone since, whichever way it had gone before.
+TEST_F(DiscMeasurement, TheMagnitudeOfADisplacementSinceAStepIsThatOfItsChange) {
+  write("moved.toml", test::small_disc + R"(
+[[step]]
+name = "back"
+kind = "voltage"
+to = "1 kV"
+[[quantity]]
+name = "moved"
+kind = "displacement"
+of = "centre"
+since = "voltage"
+)");
+  one = read_case(directory / "moved.toml");
+  device.emplace(build_device(one));
+  state = device->model.initial_state();
+  state.voltage = {5000};
+  const auto centre = static_cast<std::size_t>(device->mesh.node_sets.at("centre")[0]);
+  Measurement measurement(one, *device);
+  fem::Equilibrium equilibrium(device->model, 1);
+  fem::EnergyBalance energy;
+  energy.add(fem::energy_point(equilibrium, state, 0));
+  const auto moved = [&] {
+    std::size_t q = 0;
+    while (one.quantities[q].name != "moved") ++q;
+    return measurement.value(q, Measured(*device, equilibrium, state, energy));
+  };
+  EXPECT_TRUE(std::isnan(moved()));
+  state.displacement[centre] = {5e-4, 0, 0};
+  measurement.step_ended("voltage", Measured(*device, equilibrium, state, energy));
+  EXPECT_EQ(moved(), 0);
+  state.displacement[centre] = {2e-4, -4e-4, 0};
+  EXPECT_DOUBLE_EQ(moved(), 5e-4);
+}
+
 } // namespace
 } // namespace dielast::cases
