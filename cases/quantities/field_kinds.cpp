@@ -2,10 +2,15 @@
 // What is read from the fields of the film.
 #include "cases/quantities/film_values.hpp"
 #include "cases/quantities/probing.hpp"
+#include "meshing/solids/sides.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace dielast::cases {
 namespace {
@@ -45,6 +50,15 @@ std::string value_words(const Quantity& q) {
   return fmt::format("mean {} at {}{}", field_words(q), q.place, at_words(q));
 }
 
+/// The part with its electrode that a reading is of.
+std::pair<int, int> film_of(const Probing& probing, const FilmReading& reading) {
+  return {probing.device.film_parts[static_cast<std::size_t>(reading.cell)],
+          probing.drawn.film[static_cast<std::size_t>(reading.first)].electrode};
+}
+
+constexpr const char* two_values =
+    "the edge of an electrode or of a film is there, where a field has two values";
+
 /// Where a value of a field is read.
 std::vector<FilmReading> readings_of(const Probing& probing) {
   const Quantity& quantity = probing.quantity;
@@ -59,17 +73,13 @@ std::vector<FilmReading> readings_of(const Probing& probing) {
     readings = readings_at(quantity.place, device.mesh, probing.drawn);
   }
   if (readings.empty()) probing.refuse(key, "there is no film; coordinates are those of the film as drawn");
-  const auto film = [&](const FilmReading& reading) {
-    return std::pair(device.film_parts[static_cast<std::size_t>(reading.cell)],
-                     probing.drawn.film[static_cast<std::size_t>(reading.first)].electrode);
-  };
   for (const FilmReading& reading : readings)
-    if (film(reading) != film(readings[0]))
-      probing.refuse(
-          key, "the edge of an electrode or of a film is there, where a field has two values; give a point "
-               "beside it, or a part of the film");
+    if (film_of(probing, reading) != film_of(probing, readings[0]))
+      probing.refuse(key, fmt::format("{}; give a point beside it, or a part of the film", two_values));
   return readings;
 }
+
+std::array<double, 3> coordinates(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
 
 Probe value(const Probing& probing) {
   return [readings = readings_of(probing), &quantity = probing.quantity](const Measured& measured) {
@@ -79,9 +89,29 @@ Probe value(const Probing& probing) {
   };
 }
 
+/// Of the film of the place's own part, along the radius about where that was drawn. At an edge of the mesh
+/// what lies side by side is taken together, inside it film on either side has stretches of its own.
 Probe radial_stretch(const Probing& probing) {
-  return [readings = readings_at(probing.quantity.of, probing.device.mesh, probing.drawn)](
-             const Measured& measured) {
+  const Device& device = probing.device;
+  const meshing::Mesh& mesh = device.mesh;
+  std::vector<FilmReading> readings = readings_at(probing.quantity.of, mesh, probing.drawn);
+  const std::vector<char> own = film_at(probing.quantity.of, probing.one, device);
+  std::erase_if(readings, [&own](const FilmReading& at) { return !own[static_cast<std::size_t>(at.cell)]; });
+  std::set<std::array<double, 3>> edge;
+  for (const meshing::OuterSide& side : meshing::outer_sides(*mesh.film()))
+    for (const int node : side.nodes()) edge.insert(coordinates(mesh.nodes[static_cast<std::size_t>(node)]));
+  std::map<std::array<double, 3>, std::pair<int, int>> films;
+  for (const FilmReading& at : readings) {
+    const auto film = film_of(probing, at);
+    if (!edge.contains(coordinates(at.drawn)) &&
+        films.try_emplace(coordinates(at.drawn), film).first->second != film)
+      probing.refuse("of", fmt::format("{}; ask for a \"value\" beside it", two_values));
+  }
+  for (FilmReading& at : readings) {
+    const Part& part = probing.one.parts[static_cast<std::size_t>(film_of(probing, at).first)];
+    if (part.has_mesh()) at.drawn -= Eigen::Vector3d(part.at.data());
+  }
+  return [readings = std::move(readings)](const Measured& measured) {
     return mean(readings, measured.samples,
                 [](const fem::MembraneSample& sample, const FilmReading& reading) {
                   return (sample.F * reading.drawn.head<2>().normalized()).norm();
@@ -101,7 +131,8 @@ Probe extreme(const Probing& probing) {
 std::vector<QuantityKind> field_kinds() {
   return {
       {.word = "radial stretch",
-       .meaning = "stretch of the film along the radius, mean at an edge (-)",
+       .meaning =
+           "stretch of the film along the radius about the origin of its geometry, mean at an edge (-)",
        .unit = "1",
        .keys = [] { return std::vector<Key>{place_key()}; },
        .in_words =

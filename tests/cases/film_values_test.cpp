@@ -253,6 +253,43 @@ TEST_F(FilmValues, AtATieCountTheFilmThatThePlaceIsNamedAfter) {
   EXPECT_NEAR(ran.last("force_a_start") - ran.last("force_b_start"), 1e-3, 1e-9); // the load between them
 }
 
+std::string free_ring(const std::string& part, const std::string& at) {
+  const std::string head = part.empty() ? "" : "part." + part + ".", place = part.empty() ? "" : part + ".";
+  std::string text = "model = \"planar\"\n";
+  if (!part.empty()) text += fmt::format("[part.{}]\nat = {}\nturned = \"40 deg\"\n", part, at);
+  text += fmt::format(
+      "[{0}film]\nthickness = \"1 mm\"\nprestretch = 3\n[{0}film.material]\nshear_modulus = \"45 "
+      "kPa\"\nrelative_permittivity = 4.5\n[{0}annulus]\ninner_radius = \"10 mm\"\nouter_radius = "
+      "\"40 mm\"\n[{0}mesh]\nrings = 6\n[[support]]\nplace = \"{1}outer\"\nfix = [\"x\", \"y\"]\n"
+      "[[step]]\nkind = \"release\"\n",
+      head, place);
+  for (const char* edge : {"inner", "outer"})
+    text += fmt::format("[[quantity]]\nname = \"{0}\"\nkind = \"radial stretch\"\nof = \"{1}{0}\"\n", edge,
+                        place);
+  return text;
+}
+
+TEST_F(FilmValues, StretchesAlongTheRadiusAreAboutTheMiddleOfTheirPart) {
+  const Ran one = run(free_ring("", "")), part = run(free_ring("a", "[\"100 mm\", \"-20 mm\", 0]"));
+  EXPECT_LT(one.last("inner"), 0.5); // free of stress along the radius, wide around
+  for (const char* edge : {"inner", "outer"})
+    EXPECT_NEAR(part.last(edge), one.last(edge), 1e-7 * one.last(edge)) << edge;
+}
+
+TEST_F(FilmValues, WhereTheStretchAlongTheRadiusJumpsThereIsNone) {
+  for (const std::string model : {"axisymmetric", "planar"}) {
+    const std::string disc = film(model) +
+                             "[disc]\nradius = \"30 mm\"\nelectrode_radius = \"10 mm\"\n[drive]\n"
+                             "voltage = \"1 kV\"\n[[step]]\nkind = \"voltage\"\n";
+    const auto stretch = [&](const std::string& place) {
+      return disc + "[[quantity]]\nname = \"s\"\nkind = \"radial stretch\"\nof = \"" + place + "\"\n";
+    };
+    EXPECT_NE(refusal(stretch("electrode_edge")).find("the edge of an electrode"), std::string::npos)
+        << model;
+    EXPECT_EQ(refusal(stretch("rim")), "") << model;
+  }
+}
+
 // Clamped film that is all under voltage has nowhere to go: its tension falls everywhere alike.
 TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
   for (const std::string model : {"axisymmetric", "planar", "3d"}) {
