@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace dielast::cases {
 namespace {
@@ -230,19 +231,29 @@ fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state) {
   return points;
 }
 
-std::vector<char> films_of(const std::string& place, const Case& one, const Device& device) {
+std::vector<FilmElements> films_of(const std::string& place, const Case& one, const Device& device) {
   const std::vector<char> near = film_at(place, one, device);
   const auto part_of = [&](int cell) { return device.film_parts[static_cast<std::size_t>(cell)]; };
   std::set<int> parts;
   for (int cell = 0; cell < std::ssize(near); ++cell)
     if (near[static_cast<std::size_t>(cell)]) parts.insert(part_of(cell));
-  std::vector<char> counted;
+  std::vector<FilmElements> films;
   for (int b = 0; b < device.films; ++b) {
     const fem::Samples points =
         points_of(*device.model.blocks[static_cast<std::size_t>(b)], device.model.initial_state());
-    counted.push_back(parts.contains(part_of(points.film.front().cell)));
+    FilmElements& film = films.emplace_back();
+    int element = -1, last = -1, others = 0; // the points of an element stand together
+    for (const fem::MembraneSample& point : points.film) {
+      if (std::exchange(last, point.cell) == point.cell) continue;
+      ++element;
+      if (parts.contains(part_of(point.cell)))
+        film.elements.push_back(element);
+      else
+        ++others;
+    }
+    film.all = others == 0;
   }
-  return counted;
+  return films;
 }
 
 std::string law_limit(const Case& one, const Device& device, const fem::State& state) {

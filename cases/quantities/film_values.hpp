@@ -49,8 +49,14 @@ std::vector<char> film_at(const std::string& place, const Case& one, const Devic
 /// The points of a block of film, also where it speaks for nobody in the model's samples.
 fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state);
 
-/// Which of a device's blocks of film have elements at a place, or beside them in the same part.
-std::vector<char> films_of(const std::string& place, const Case& one, const Device& device);
+/// Elements of a block of film, by their numbers in it.
+struct FilmElements {
+  bool all = false;
+  std::vector<int> elements;
+};
+
+/// Of each of a device's blocks of film the elements of those parts that have film at a place.
+std::vector<FilmElements> films_of(const std::string& place, const Case& one, const Device& device);
 
 /// Where film is so near the limit of stretch of its law (Gent, Arruda-Boyce) that it takes the whole device
 /// no further, in words, with what to do; empty where none is.

@@ -19,8 +19,9 @@ Probe force(const Probing& probing) {
 }
 
 Probe pull_of_film(const Probing& probing) {
-  std::vector<char> counted = films_of(probing.quantity.of, probing.one, probing.device);
-  if (!std::ranges::count(counted, 1)) probing.refuse("of", "no film meets this place, so none pulls on it");
+  std::vector<FilmElements> counted = films_of(probing.quantity.of, probing.one, probing.device);
+  if (std::ranges::all_of(counted, [](const FilmElements& film) { return film.elements.empty(); }))
+    probing.refuse("of", "no film meets this place, so none pulls on it");
   return [&device = probing.device, &quantity = probing.quantity,
           counted = std::move(counted)](const Measured& measured) {
     return component(film_force(device, quantity.of, counted, measured.equilibrium, measured.state),
@@ -90,14 +91,14 @@ Probe nominal_stress(const Probing& probing) {
       probing.refuse("of", "the film there has layers of different undeformed sections");
   const bool of_rods = device.mesh.film()->type == meshing::CellType::rod2;
   if (of_rods) refuse_across(probing, near, along);
-  const std::vector<char> counted = films_of(probing.quantity.of, probing.one, device);
+  const std::vector<FilmElements> counted = films_of(probing.quantity.of, probing.one, device);
   // Film of revolution and rods turn their own axis with them, whichever way that was drawn.
   const bool own_axes = of_rods || probing.one.dimension == fem::Dimension::axisymmetric;
   const int axis = of_rods ? 0 : along;
   return [&device, near, counted, own_axes, axis](const Measured& measured) {
     double sum = 0, volume = 0;
     for (std::size_t b = 0; b < counted.size(); ++b) {
-      if (!counted[b]) continue;
+      if (counted[b].elements.empty()) continue;
       for (const fem::MembraneSample& s : points_of(*device.model.blocks[b], measured.state).film) {
         if (!near[static_cast<std::size_t>(s.cell)]) continue;
         sum +=

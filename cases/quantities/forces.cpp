@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 namespace dielast::cases {
 namespace {
@@ -24,6 +25,18 @@ Eigen::Vector3d sum_at(const Device& device, const std::string& place, const Eig
   return sum;
 }
 
+/// Of some of a block's elements, at their equations.
+void add_residual(const fem::ElementBlock& block, const std::vector<int>& elements, const fem::DofMap& dofs,
+                  const fem::State& state, Eigen::VectorXd& residual) {
+  const auto each = static_cast<std::size_t>(block.dofs_per_element());
+  std::vector<int> equations(each * static_cast<std::size_t>(block.element_count()));
+  for (const int element : elements) {
+    block.element_equations(element, dofs,
+                            std::span(equations).subspan(each * static_cast<std::size_t>(element), each));
+    block.evaluate(state, element, element + 1, {.equation = equations.data(), .residual = residual.data()});
+  }
+}
+
 } // namespace
 
 Eigen::Vector3d support_force(const Device& device, const std::string& place,
@@ -31,13 +44,17 @@ Eigen::Vector3d support_force(const Device& device, const std::string& place,
   return sum_at(device, place, reaction, [&](int e) { return device.model.dofs.is_held(e); });
 }
 
-Eigen::Vector3d film_force(const Device& device, const std::string& place, const std::vector<char>& counted,
-                           fem::Equilibrium& equilibrium, const fem::State& state) {
+Eigen::Vector3d film_force(const Device& device, const std::string& place,
+                           const std::vector<FilmElements>& counted, fem::Equilibrium& equilibrium,
+                           const fem::State& state) {
   fem::Assembler& assembler = equilibrium.assembler();
   Eigen::VectorXd of_all, of_films = Eigen::VectorXd::Zero(device.model.dofs.count());
   assembler.residual(state, of_all);
   for (std::size_t b = 0; b < counted.size(); ++b)
-    if (counted[b]) of_films += assembler.block_residuals()[b];
+    if (counted[b].all)
+      of_films += assembler.block_residuals()[b];
+    else
+      add_residual(*device.model.blocks[b], counted[b].elements, device.model.dofs, state, of_films);
   return -sum_at(device, place, of_films, [](int) { return true; });
 }
 

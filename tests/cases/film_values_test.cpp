@@ -290,6 +290,30 @@ TEST_F(FilmValues, WhereTheStretchAlongTheRadiusJumpsThereIsNone) {
   }
 }
 
+// All solids are elements of one block, whatever their parts.
+TEST_F(FilmValues, PullsOfSolidsAreThoseOfThePlacesOwnPart) {
+  std::string text = "model = \"planar\"\n";
+  for (const auto& [name, y] : {std::pair{"a", 0}, {"b", 4}})
+    text += fmt::format(
+        "[part.{0}]\nat = [0, \"{1} mm\", 0]\n[part.{0}.film]\nthickness = \"1 mm\"\nwidth = \"20 "
+        "mm\"\n[part.{0}.film.material]\nshear_modulus = \"100 kPa\"\nrelative_permittivity = 3\n"
+        "[part.{0}.slab]\nlength = \"10 mm\"\nheight = \"4 mm\"\n[part.{0}.mesh]\nacross = 3\n"
+        "[[support]]\nplace = \"{0}.left\"\nfix = [\"x\"]\n",
+        name, y);
+  text += "[[tie]]\nbetween = [\"a.top\", \"b.bottom\"]\n[[support]]\nplace = \"a.bottom\"\nfix = [\"y\"]\n"
+          "[[support]]\nplace = \"b.top\"\ndisplacement = { y = \"1 mm\" }\n[[step]]\nkind = \"move\"\n";
+  for (const std::string place : {"a.bottom", "a.top", "b.bottom", "b.top"})
+    text += fmt::format("[[quantity]]\nname = \"{}\"\nkind = \"film force\"\nof = \"{}\"\nalong = \"y\"\n",
+                        place.substr(0, 1) + "_" + place.substr(2), place);
+  const Ran ran = run(text);
+  const double l = 1.125,
+               pull = 100e3 * (l - std::pow(l, -3)) * 10e-3 * 20e-3; // free across, in plane strain
+  EXPECT_NEAR(ran.last("a_bottom"), pull, 1e-6 * pull);
+  EXPECT_NEAR(ran.last("a_top"), -pull, 1e-6 * pull);
+  EXPECT_NEAR(ran.last("b_bottom"), pull, 1e-6 * pull);
+  EXPECT_NEAR(ran.last("b_top"), -pull, 1e-6 * pull);
+}
+
 // Clamped film that is all under voltage has nowhere to go: its tension falls everywhere alike.
 TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
   for (const std::string model : {"axisymmetric", "planar", "3d"}) {
