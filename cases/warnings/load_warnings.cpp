@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <variant>
 
 namespace dielast::cases {
 namespace {
@@ -120,6 +122,37 @@ std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mes
                                at_pivot ? "; a force on a body with a pivot acts at the pivot: write its "
                                           "moment about that point, moment = [...], instead"
                                         : ""),
+                   Severity::warning}
+            .text());
+  }
+  return warnings;
+}
+
+std::vector<std::string> pressure_warnings(const Case& one, const meshing::Mesh& mesh,
+                                           std::span<const int> parts, const fem::DofMap& dofs) {
+  std::vector<std::string> warnings;
+  for (std::size_t p = 0; p < one.parts.size(); ++p) {
+    const auto& film = one.parts[p].film;
+    if (!film || !film->is_solid() || film->bulk_modulus ||
+        std::holds_alternative<materials::StVenantKirchhoff>(film->material.law))
+      continue;
+    const auto is_held = [&dofs](int node) {
+      return std::ranges::all_of(std::array{0, 1, 2}, [&](int c) {
+        const int e = dofs.equation(node, c);
+        return e == fem::DofMap::absent || dofs.is_held(e);
+      });
+    };
+    bool held = true;
+    for (int cell = 0; held && cell < mesh.film()->size(); ++cell)
+      held = parts[static_cast<std::size_t>(cell)] != static_cast<int>(p) ||
+             std::ranges::all_of(mesh.film()->cell(cell), is_held);
+    if (!held) continue;
+    const std::string key =
+        (one.parts[p].name.empty() ? "" : "part." + one.parts[p].name + ".") + "film.bulk_modulus";
+    warnings.push_back(
+        Diagnostic{one.where(key), key,
+                   "is missing: this solid is held everywhere and incompressible, so that nothing tells "
+                   "its pressures, and the tangent is singular",
                    Severity::warning}
             .text());
   }

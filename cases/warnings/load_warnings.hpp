@@ -5,6 +5,7 @@
 #include "fem/model/dofs.hpp"
 #include "meshing/mesh.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,10 @@ std::vector<std::string> carrying_warnings(const Case& one);
 /// places in any step, or both are one. `dofs` as above.
 std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& mesh,
                                           const fem::DofMap& dofs);
+
+/// A sentence for every incompressible solid that is held in all of its nodes: nothing tells its pressures.
+/// `parts`: of the film's cells, numbers in Case::parts. `dofs` as above.
+std::vector<std::string> pressure_warnings(const Case& one, const meshing::Mesh& mesh,
+                                           std::span<const int> parts, const fem::DofMap& dofs);
 
 } // namespace dielast::cases

@@ -375,5 +375,17 @@ TEST_F(Solids, layers_turn_with_their_part) {
   EXPECT_NEAR(stack("30 deg", "", clamped).at("C"), straight, 1e-9 * straight);
 }
 
+TEST_F(Solids, what_is_held_everywhere_is_told_to_have_no_pressures) {
+  const std::string block = "[slab]\nlength = \"4 mm\"\nheight = \"2 mm\"\n" + held("film", "\"x\", \"y\"");
+  const auto told = [](const Device& device) {
+    return std::ranges::count_if(device.warnings, [](const std::string& warning) {
+      return warning.find("film.bulk_modulus: is missing: this solid is held everywhere") !=
+             std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(build_device(read(film() + block))), 1);
+  EXPECT_EQ(told(build_device(read(film("bulk_modulus = \"1 MPa\"") + block))), 0);
+}
+
 } // namespace
 } // namespace dielast::cases
