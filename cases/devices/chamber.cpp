@@ -106,6 +106,9 @@ class Edges {
 double area_under_plate(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& wall) {
   const std::vector<int>& edge = mesh.node_sets.at(one.plate->place);
   const auto drawn = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+  const auto turned = [&](int from, int to) { // about the origin, the area between
+    return (drawn(from).x() * drawn(to).y() - drawn(from).y() * drawn(to).x()) / 2;
+  };
   double area = 0;
   std::map<int, int> ends; // sides that leave a node, less those that come to it
   for (const meshing::OuterSide& side : meshing::outer_sides(wall)) {
@@ -118,8 +121,10 @@ double area_under_plate(const Case& one, const meshing::Mesh& mesh, const meshin
           std::ranges::all_of(wall.cell(side.cell), [&](int node) { return drawn(node).x() >= radius; });
       area += (around ? 1 : -1) * std::numbers::pi * radius * radius;
     } else { // the film lies on its left
-      const Eigen::Vector3d from = drawn(corners[0]), to = drawn(corners[1]);
-      area -= (from.x() * to.y() - from.y() * to.x()) / 2;
+      const int from = corners[0], to = corners[1];
+      const std::span<const int> middle = side.middles(); // of a parabola
+      area -= middle.empty() ? turned(from, to)
+                             : (4 * (turned(from, middle[0]) + turned(middle[0], to)) - turned(from, to)) / 3;
       ++ends[corners[0]];
       --ends[corners[1]];
     }

@@ -191,7 +191,7 @@ kind = "volume"
   for (const char* name : {"drawn", "own"})
     ASSERT_EQ(dielast({"run", std::string(name) + ".toml", "-o", name}).exit_code, 0);
   for (const char* quantity : {"rise", "content"})
-    EXPECT_NEAR(value("own", quantity), value("drawn", quantity), 0.01 * value("drawn", quantity))
+    EXPECT_NEAR(value("own", quantity), value("drawn", quantity), 1e-4 * value("drawn", quantity))
         << quantity;
 
   const Ended outside =
