@@ -44,8 +44,8 @@ constexpr std::array energy_parts{
     EnergyPart{"leak_heat", "turned into heat by the current that leaks through the film",
                [](Balance b) { return b.work().leak; }},
     EnergyPart{"released",
-               "set free when the device is cut free, jumps to another state, or comes to rest where a step "
-               "without inertia follows one with it",
+               "set free when the device is cut free, jumps to another state, comes to rest where a step "
+               "without inertia follows one with it, or is caught by a support while it moves",
                [](Balance b) { return b.work().released; }},
     EnergyPart{"wrinkle_regularisation",
                "part of `elastic` that only keeps wrinkled film from being singular",

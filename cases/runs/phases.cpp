@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/phases.hpp"
 
+#include "cases/runs/simulation.hpp"
 #include "cases/text/diagnostics.hpp"
+#include "post/engineering.hpp"
 
 #include <fmt/format.h>
 
@@ -145,6 +147,42 @@ Eigen::VectorXd Renumbering::let_go(const Eigen::VectorXd& values) const {
   for (int e = 0; e < to_.free_count(); ++e)
     if (was_held_[static_cast<std::size_t>(e)]) freed[e] = values[from_[static_cast<std::size_t>(e)]];
   return freed;
+}
+
+/// Supports let go and take hold at the beginning of the current step. What lets go hands its forces to the
+/// loads, so that the state stays in balance.
+void Simulation::change_supports(fem::State& state) {
+  loads_->let_go.resize(0);
+  if (holding_in(case_, steps_, step_) == holding_) return;
+  const fem::DofMap before = device_.model.dofs;
+  const Eigen::VectorXd reaction = fem::reactions(device_.model, state, held_);
+  enter(step_);
+  const Renumbering renumbered(before, device_.model.dofs);
+  const Eigen::VectorXd let_go = renumbered.let_go(reaction);
+  state = renumbered(std::move(state));
+  state.dead_force += let_go;
+  if (!let_go.isZero(0)) loads_->let_go = let_go;
+  fem::EnergyBalance::Record record = energy_.record();
+  for (fem::EnergyPoint& point : record.points)
+    for (Eigen::VectorXd* part : {&point.mechanical.force, &point.mechanical.coordinate})
+      *part = renumbered(*part);
+  if (state.motion) catch_what_moves(state, record);
+  energy_ = fem::EnergyBalance(std::move(record));
+  come_to(state);
+}
+
+/// What supports take hold of stands at once: as by a blow, its kinetic energy is released.
+void Simulation::catch_what_moves(const fem::State& state, fem::EnergyBalance::Record& record) {
+  constexpr double least = 1e-6; // of all that was exchanged, to be told
+  double& kinetic = record.points.back().energy.kinetic;
+  const double left = device_.model.energies(state).kinetic, lost = kinetic - left;
+  kinetic = left;
+  record.work.released += lost;
+  if (lost <= least * record.exchanged) return;
+  news_.push_back({"caught", "",
+                   fmt::format("step \"{}\" begins with a support that takes hold of what moves: it stands "
+                               "at once, and {} of kinetic energy were released",
+                               steps_[static_cast<std::size_t>(step_)].name, post::engineering(lost, "J"))});
 }
 
 } // namespace dielast::cases

@@ -145,27 +145,6 @@ bool Simulation::come_to_rest(fem::State& state) {
   return true;
 }
 
-/// Supports let go and take hold at the beginning of the current step. What lets go hands its forces to the
-/// loads, so that the state stays in balance.
-void Simulation::change_supports(fem::State& state) {
-  loads_->let_go.resize(0);
-  if (holding_in(case_, steps_, step_) == holding_) return;
-  const fem::DofMap before = device_.model.dofs;
-  const Eigen::VectorXd reaction = fem::reactions(device_.model, state, held_);
-  enter(step_);
-  const Renumbering renumbered(before, device_.model.dofs);
-  const Eigen::VectorXd let_go = renumbered.let_go(reaction);
-  state = renumbered(std::move(state));
-  state.dead_force += let_go;
-  if (!let_go.isZero(0)) loads_->let_go = let_go;
-  fem::EnergyBalance::Record record = energy_.record();
-  for (fem::EnergyPoint& point : record.points)
-    for (Eigen::VectorXd* part : {&point.mechanical.force, &point.mechanical.coordinate})
-      *part = renumbered(*part);
-  energy_ = fem::EnergyBalance(std::move(record));
-  come_to(state);
-}
-
 Eigen::VectorXd Simulation::frame_force() {
   Eigen::VectorXd force;
   equilibrium_->assembler().residual(device_.model.initial_state(), force); // on tied nodes where they are

@@ -93,6 +93,7 @@ class Simulation {
   Eigen::VectorXd frame_force();
   bool come_to_rest(fem::State& state);
   void change_supports(fem::State& state);
+  void catch_what_moves(const fem::State& state, fem::EnergyBalance::Record& record);
   bool admits(const Step& step, double load_factor, const fem::State& state);
   void come_to(const fem::State& state);
   bool sample(const Step& step, double load_factor, Measured& measured);

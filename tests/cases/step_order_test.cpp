@@ -62,5 +62,53 @@ TEST_F(StepOrder, AStepOfAnotherKindLeavesLoadsWhereTheyAre) {
   EXPECT_LT(sinks(", { kind = \"force\" }") / down, 0.5);
 }
 
+// Of a mass that a support takes hold of the motion is gone: that is no error of the works.
+TEST_F(StepOrder, ASupportThatCatchesAMassReleasesItsKineticEnergy) {
+  const Ran ran = run(R"(
+[film]
+thickness = "0.5 mm"
+[film.material]
+shear_modulus = "40 kPa"
+permittivity = "4e-11 F/m"
+density = 0
+[patch]
+length = "20 mm"
+width = "12 mm"
+mode = "pure-shear"
+[[point_mass]]
+place = "right"
+mass = "10 g"
+[[load]]
+place = "right"
+force = [{ wave = "step", to = "0.1 N" }, 0, 0]
+[[support]]
+place = "right"
+fix = ["x"]
+from = "caught"
+[[step]]
+kind = "transient"
+duration = "25 ms"
+[[step]]
+name = "caught"
+kind = "hold"
+duration = "0.1 s"
+[[quantity]]
+name = "released"
+kind = "energy"
+of = "released"
+[[quantity]]
+name = "kinetic"
+kind = "energy"
+of = "kinetic"
+)");
+  const std::vector<double>& kinetic = ran.values.at("kinetic");
+  const double most = *std::ranges::max_element(kinetic);
+  EXPECT_GT(most, 1e-4);
+  EXPECT_NEAR(ran.last("released"), most, 1e-9 * most);
+  EXPECT_NEAR(ran.last("released"), ran.last("mechanical_work") - ran.last("stored_energy"), 1e-4 * most);
+  EXPECT_LT(ran.last("energy_error"), 1e-4 * most);
+  EXPECT_TRUE(ran.events.contains("caught"));
+}
+
 } // namespace
 } // namespace dielast::cases
