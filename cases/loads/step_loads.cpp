@@ -209,6 +209,10 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
   return loads;
 }
 
+Eigen::VectorXd StepLoads::cut(int number, const fem::Loads& start, const fem::State& state) const {
+  return state.dead_force - at(number, start, just_before_start).dead_force;
+}
+
 double StepLoads::left(const Step& step, Instant t) const {
   return step.kind == StepKind::transient ? 1 - t.t / *step.duration : 0;
 }

@@ -20,6 +20,9 @@ class StepLoads {
   /// From the loads `start` on: straight to the goals of a ramp, along the waves of a transient.
   fem::LoadPath path(int step, const fem::Loads& start) const;
   fem::RampOptions options(int step) const;
+  /// Of the dead forces of a state on the way of a release from the loads `start` those that are gone at its
+  /// end: the frame's, and those of supports that let go.
+  Eigen::VectorXd cut(int step, const fem::Loads& start, const fem::State& state) const;
 
   /// Forces of supports that the step lets go, dead when it begins and zero when it ends; empty: none.
   Eigen::VectorXd let_go{};

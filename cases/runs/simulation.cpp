@@ -180,9 +180,10 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
   }
   time_error_ += increment.time_error;
   std::optional<fem::EnergyBalance::JumpRelease> release;
-  if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release)
+  if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release) {
+    point.mechanical.force.head(state.dead_force.size()) -= loads_->cut(step_, in_step_.ramp.start, state);
     energy_.add_cut_free(std::move(point));
-  else if (reached == Reached::by_jump)
+  } else if (reached == Reached::by_jump)
     release = energy_.add_after_jump(std::move(point));
   else
     energy_.add(std::move(point));
@@ -338,6 +339,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         energy_.reconnect(fem::energy_point(*equilibrium_, state, 0, held_));
       unseen_ = {};
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
+      if (step.kind == StepKind::release) energy_.cut(loads_->cut(step_, ramp.start, state));
       for (const auto& [load, signal] : signals_) signal->begin(step.duration.value_or(0));
       if (lacks_voltage(case_, step))
         news_.push_back(

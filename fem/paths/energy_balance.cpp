@@ -115,7 +115,7 @@ double EnergyBalance::given_at_jump(const EnergyPoint& point) const {
   return given;
 }
 
-void EnergyBalance::account(const EnergyPoint& point) {
+void EnergyBalance::account(const EnergyPoint& point, bool is_cut) {
   const Interval interval(record_.points, point);
   const Integral electrical = interval.over(&EnergyPoint::electrical);
   const Integral mechanical = interval.over(&EnergyPoint::mechanical);
@@ -153,7 +153,9 @@ void EnergyBalance::account(const EnergyPoint& point) {
   const double rest = change + heat - electrical.value - through_sheet - mechanical.value;
   const double range = electrical.range + mechanical.range;
   double electrical_share = 0, mechanical_share = 0;
-  if (point.moves) {
+  if (is_cut) {
+    work.released -= rest;
+  } else if (point.moves) {
     record_.rest += rest;
   } else if (range > 0) {
     electrical_share = rest * electrical.range / range;
@@ -228,8 +230,7 @@ EnergyBalance::JumpRelease EnergyBalance::add_after_jump(EnergyPoint point) {
 }
 
 void EnergyBalance::add_cut_free(EnergyPoint point) {
-  record_.work.released -= total(point.energy) - stored();
-  record_.points.clear();
+  account(point, true);
   arrive(std::move(point));
 }
 

@@ -81,7 +81,12 @@ class EnergyBalance {
   };
   /// The next state was reached by a jump, at fixed loads or at loads that went on a little meanwhile.
   JumpRelease add_after_jump(EnergyPoint point);
-  /// The next state was reached by taking away a frame that did no work.
+  /// From the last state on these dead forces are taken away: what they would do is released.
+  void cut(const Eigen::VectorXd& forces) {
+    record_.points.back().mechanical.force.head(forces.size()) -= forces;
+    corner();
+  }
+  /// The next state was reached on that way; its forces are without what is left of those.
   void add_cut_free(EnergyPoint point);
 
   const Work& work() const { return record_.work; }
@@ -127,7 +132,7 @@ class EnergyBalance {
 
  private:
   double given_at_jump(const EnergyPoint& point) const;
-  void account(const EnergyPoint& point);
+  void account(const EnergyPoint& point, bool is_cut = false);
   void stand();
   void arrive(EnergyPoint point);
   Resolution weighed(const Resolution& result) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/film_cases.hpp"
 
+#include <algorithm>
+
 // What a step leaves to the one that follows it.
 
 namespace dielast::cases {
@@ -60,6 +62,49 @@ TEST_F(StepOrder, AStepOfAnotherKindLeavesLoadsWhereTheyAre) {
        {", { kind = \"release\" }", ", { kind = \"weight\" }", ", { kind = \"hold\", duration = 1 }"})
     EXPECT_NEAR(sinks(step) / down, 1, 1e-9) << step;
   EXPECT_LT(sinks(", { kind = \"force\" }") / down, 0.5);
+}
+
+const std::string pulled_patch = R"(
+[film]
+thickness = "0.5 mm"
+prestretch = [1.8, 1.1]
+[film.material]
+shear_modulus = "40 kPa"
+permittivity = "4e-11 F/m"
+[[film.material.branch]]
+shear_modulus = "30 kPa"
+relaxation_time = "0.2 s"
+[patch]
+mode = "pure-shear"
+[[quantity]]
+name = "released"
+kind = "energy"
+of = "released"
+)";
+
+// Film is cut free under its voltage: charge goes back to the source, and dashpots turn into heat what they
+// do wherever else a support lets go. What the frame held back is released instead of done on it.
+TEST_F(StepOrder, WhatIsCutFreeIsReleasedAndNeitherTheSourcesWorkNorHeat) {
+  const auto let_go = [&](const std::string& step) {
+    return run("support = [{ place = \"right\", fix = [\"x\"], until = \"on\" }]\ndrive.voltage = \"3 kV\"\n"
+               "step = [{ name = \"on\", kind = \"voltage\" }, { name = \"cut\", " +
+               step + " }]\n" + pulled_patch);
+  };
+  const Ran held = let_go("kind = \"voltage\""), at_once = let_go("kind = \"release\"");
+  const double charge = held.values.at("charge").at(10), charged = held.values.at("electrical_work").at(10);
+  EXPECT_NEAR(charged, 1.5e3 * charge, 1e-9 * charged);
+  EXPECT_NEAR(at_once.last("electrical_work"), charged + 3e3 * (at_once.last("charge") - charge),
+              1e-9 * charged);
+  EXPECT_EQ(at_once.last("dissipated_energy"), 0);
+  EXPECT_NEAR(at_once.last("released"), -held.last("mechanical_work"), 1e-9 * at_once.last("released"));
+  const std::string takes_time = ", duration = \"0.5 s\", increments = 100";
+  const Ran slow = let_go("kind = \"release\"" + takes_time),
+            likewise = let_go("kind = \"voltage\"" + takes_time);
+  EXPECT_GT(slow.last("dissipated_energy"), 1e-5);
+  for (const char* same : {"stretch_x", "electrical_work", "dissipated_energy"})
+    EXPECT_NEAR(slow.last(same) / likewise.last(same), 1, 1e-9) << same;
+  EXPECT_NEAR(slow.last("released") / -likewise.last("mechanical_work"), 1, 1e-9);
+  EXPECT_EQ(slow.last("mechanical_work"), 0);
 }
 
 // Of a mass that a support takes hold of the motion is gone: that is no error of the works.
