@@ -69,6 +69,12 @@ Shape stretch(const Probing& probing) {
 ElementPoint element_at_point(const Probing& probing) {
   const auto found = elements_at(Eigen::Vector3d(probing.quantity.point->data()), probing.device.mesh);
   if (found.empty()) probing.refuse("point", "there is no film; coordinates are those of the film as drawn");
+  const auto first = probing.device.mesh.film()->cell(found.front().cell);
+  for (const ElementPoint& at : found) { // neighbours have nodes in common
+    const auto own = probing.device.mesh.film()->cell(at.cell);
+    if (std::ranges::find_first_of(own, first) == own.end())
+      probing.refuse("point", "films of two parts lie on one another there; ask for a place of one of them");
+  }
   return found.front();
 }
 

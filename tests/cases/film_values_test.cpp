@@ -314,6 +314,23 @@ TEST_F(FilmValues, PullsOfSolidsAreThoseOfThePlacesOwnPart) {
   EXPECT_NEAR(ran.last("b_top"), -pull, 1e-6 * pull);
 }
 
+TEST_F(FilmValues, WhereTwoFilmsLieOnOneAnotherAPointTellsNoDisplacement) {
+  const auto two = [](const std::string& at) {
+    std::string text = "model = \"planar\"\n[part.a]\nat = " + at + "\n";
+    for (const char* name : {"a", "b"})
+      text += fmt::format(
+          "[part.{0}.film]\nthickness = \"1 mm\"\nprestretch = 2\n[part.{0}.film.material]\nshear_modulus "
+          "= \"45 kPa\"\nrelative_permittivity = 4.5\n[part.{0}.rectangle]\nlength = \"20 mm\"\n[part.{0}."
+          "mesh]\nacross = 4\n[[support]]\nplace = \"{0}.frame\"\nfix = [\"x\", \"y\"]\n",
+          name);
+    return text + "[[step]]\nkind = \"release\"\n[[quantity]]\nname = \"u\"\nkind = \"displacement\"\n" +
+           point(1e-3, 1e-3, 0) + "\n";
+  };
+  EXPECT_NE(refusal(two("[0, 0, 0]")).find("films of two parts lie on one another there"), std::string::npos);
+  EXPECT_EQ(refusal(two("[0, 0, \"1 mm\"]")), "");
+  EXPECT_EQ(refusal(two("[\"20 mm\", 0, 0]")), "");
+}
+
 // Clamped film that is all under voltage has nowhere to go: its tension falls everywhere alike.
 TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
   for (const std::string model : {"axisymmetric", "planar", "3d"}) {
