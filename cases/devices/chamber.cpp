@@ -101,8 +101,8 @@ class Edges {
   double extent_; ///< of the model, m
 };
 
-/// The holes in the film around which a plate's edge runs and which it closes, m^2; 0 where it carries a part
-/// of the film or of a side.
+/// The holes in the film around which a plate's edge runs and which it closes, m^2, in a part of a device
+/// that edge and planes of symmetry through the origin; 0 where the film goes on below the plate.
 double area_under_plate(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& wall) {
   const std::vector<int>& edge = mesh.node_sets.at(one.plate->place);
   const auto drawn = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
@@ -125,17 +125,25 @@ double area_under_plate(const Case& one, const meshing::Mesh& mesh, const meshin
       const std::span<const int> middle = side.middles(); // of a parabola
       area -= middle.empty() ? turned(from, to)
                              : (4 * (turned(from, middle[0]) + turned(middle[0], to)) - turned(from, to)) / 3;
-      ++ends[corners[0]];
-      --ends[corners[1]];
+      ++ends[from];
+      --ends[to];
     }
   }
-  if (std::ranges::any_of(ends, [](const auto& node) { return node.second != 0; })) return 0;
+  const double off = 1e-9 * mesh.bounds().diagonal().norm();
+  for (const auto& [end, count] : ends)
+    if (const Eigen::Vector3d x = drawn(end); count != 0 && std::min(std::abs(x.x()), std::abs(x.y())) > off)
+      throw CaseError(
+          {{one.where("plate.at"), "plate.at",
+            fmt::format(
+                "found \"{}\": what of the [chamber] this plate closes is not known, as its edge ends at "
+                "x = {:.4g} mm, y = {:.4g} mm: it is closed, or ends where x = 0 or y = 0 is a plane of "
+                "symmetry",
+                one.plate->place, 1e3 * x.x(), 1e3 * x.y())}});
   if (area < 0)
     throw CaseError({{one.where("plate.at"), "plate.at",
                       "how far a chamber reaches under a plate that lies around the film is not known: the "
                       "plate must close a hole in it"}});
-  const auto* annulus = one.geometry<Annulus>(); // a circle, of which the mesh is the polygon within
-  return annulus && area > 0 ? std::numbers::pi * annulus->inner_radius * annulus->inner_radius : area;
+  return area;
 }
 
 } // namespace

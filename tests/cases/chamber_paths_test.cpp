@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/gmsh/gmsh_text.hpp"
+#include "meshing/rings.hpp"
 #include "tests/cases/path_cases.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 // Which states a run of a film with a chamber accepts, see paths_test.cpp.
 
@@ -222,6 +226,82 @@ increments = {}
     EXPECT_EQ(stopped.events.back().kind, stopped.outcome.kind);
   }
   EXPECT_NEAR(critical[0], critical[1], 1e-6);
+}
+
+// The same ring as a template, by its meridian, and as a mesh of one's own: the pressure acts on the plate,
+// too.
+TEST_F(Paths, a_plate_closes_the_chamber_below_any_film) {
+  const std::string device =
+      "[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = \"45 kPa\"\n"
+      "relative_permittivity = 4.5\n[plate]\nmass = \"5 g\"\n[chamber]\npressure = \"100 Pa\"\n"
+      "[[step]]\nkind = \"pressure\"\nincrements = 4\n[[quantity]]\nname = \"volume\"\nkind = "
+      "\"volume\"\n[[quantity]]\nname = \"height\"\nkind = \"displacement\"\nof = \"inner\"\nalong = "
+      "\"z\"\n[output]\nerror_estimate = false\n";
+  const std::string ring = "[annulus]\ninner_radius = \"10 mm\"\nouter_radius = \"30 mm\"\n";
+  write("ring.msh", meshing::gmsh_text(meshing::annulus_mesh(10e-3, 30e-3, 8, 2, true, 4)));
+  const auto
+      exact = values("model = \"axisymmetric\"\n" + device + ring),
+      drawn = values("model = \"3d\"\n" + device + ring + "[mesh]\nrings = 8\n"),
+      own = values(
+          "model = \"3d\"\n" + device +
+          "[mesh]\nfile = \"ring.msh\"\nunit = \"1 m\"\n[[support]]\nplace = \"outer\"\nfix = [\"x\", \"y\", "
+          "\"z\"]\n");
+  for (const char* name : {"volume", "height"}) {
+    EXPECT_NEAR(drawn.at(name), exact.at(name), 5e-3 * exact.at(name)) << name;
+    EXPECT_NEAR(own.at(name), drawn.at(name), 1e-6 * drawn.at(name)) << name;
+  }
+}
+
+/// A quarter of a ring of film, of 3-node triangles between rays and circles; its middle is at x = `from`, y
+/// = 0.
+meshing::Mesh quarter_of_a_ring(double inner, double outer, double from) {
+  constexpr int along = 6, around = 8;
+  meshing::Mesh mesh;
+  std::vector<int> triangles;
+  for (int i = 0; i <= along; ++i)
+    for (int j = 0; j <= around; ++j) {
+      const double r = inner + (outer - inner) * i / along, angle = std::numbers::pi / 2 * j / around;
+      const int node = mesh.node_count();
+      mesh.nodes.emplace_back(from + r * (j == around ? 0 : std::cos(angle)), r * std::sin(angle), 0);
+      if (i == 0) mesh.node_sets["inner"].push_back(node);
+      if (i == along) mesh.node_sets["outer"].push_back(node);
+      if (j == 0) mesh.node_sets["side_y"].push_back(node);
+      if (j == around) mesh.node_sets["side_x"].push_back(node);
+      if (i == along || j == around) continue;
+      const int beyond = node + around + 1;
+      triangles.insert(triangles.end(), {node, beyond, beyond + 1, node, beyond + 1, node + 1});
+    }
+  mesh.blocks = {{meshing::CellType::triangle3, triangles}};
+  std::vector<int> all(triangles.size() / 3);
+  std::iota(all.begin(), all.end(), 0);
+  mesh.cell_sets["film"] = {0, all};
+  std::vector<int>& nodes = mesh.node_sets["film"];
+  nodes.resize(mesh.nodes.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return mesh;
+}
+
+TEST_F(Paths, a_plate_closes_its_part_of_the_chamber_below_a_quarter) {
+  const std::string device = "[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = "
+                             "\"45 kPa\"\nrelative_permittivity = "
+                             "4.5\n[plate]\nmass = \"5 g\"\nat = \"inner\"\n[chamber]\npressure = \"100 "
+                             "Pa\"\n[[step]]\nkind = \"pressure\"\n[[quantity]]\nname = "
+                             "\"volume\"\nkind = \"volume\"\n[[quantity]]\nname = \"height\"\nkind = "
+                             "\"displacement\"\nof = \"inner\"\nalong = \"z\"\n"
+                             "[output]\nerror_estimate = false\n";
+  const std::string own =
+      "model = \"3d\"\n" + device +
+      "[mesh]\nfile = \"quarter.msh\"\nunit = \"1 m\"\n[[support]]\nplace = \"outer\"\nfix = [\"x\", "
+      "\"y\", \"z\"]\n[[support]]\nplace = \"side_x\"\nfix = [\"x\"]\n[[support]]\nplace = \"side_y\"\nfix = "
+      "[\"y\"]\n";
+  const auto whole = values("model = \"axisymmetric\"\n" + device +
+                            "[annulus]\ninner_radius = \"10 mm\"\nouter_radius = \"30 mm\"\n");
+  write("quarter.msh", meshing::gmsh_text(quarter_of_a_ring(10e-3, 30e-3, 0)));
+  const auto quarter = values(own);
+  EXPECT_NEAR(quarter.at("height"), whole.at("height"), 0.04 * whole.at("height"));
+  EXPECT_NEAR(4 * quarter.at("volume"), whole.at("volume"), 0.04 * whole.at("volume"));
+  write("quarter.msh", meshing::gmsh_text(quarter_of_a_ring(10e-3, 30e-3, 5e-3)));
+  EXPECT_THROW(build_device(read(own)), CaseError);
 }
 
 } // namespace
