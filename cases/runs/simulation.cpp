@@ -68,6 +68,9 @@ Simulation::Simulation(const Case& one, int threads)
     return largest;
   };
   double force = film_force();
+  Eigen::VectorXd of_films = Eigen::VectorXd::Zero(frame_.size());
+  for (int b = 0; b < device_.films; ++b)
+    of_films += equilibrium_->assembler().block_residuals()[static_cast<std::size_t>(b)];
   fem::State wider = device_.model.initial_state(); // film without tension is at rest within its rounding
   for (std::size_t n = 0; n < wider.displacement.size(); ++n)
     wider.displacement[n] = 1e-3 * device_.model.drawn[n];
@@ -76,12 +79,13 @@ Simulation::Simulation(const Case& one, int threads)
   force = std::max(force, film_force());
   const double rest = std::max(balanced * force, equilibrium_->round_off());
   const bool at_rest = frame_.norm() <= rest;
-  Eigen::VectorXd unbalanced = frame_; // where the film pulls at bodies only, these may hold it
-  device_.model.dofs.gather(device_.model.initial_state(), unbalanced);
   // Next to curved sides the strains of shells, which are interpolated, are not quite in balance.
   const bool shells = device_.bears_compression && !device_.solid;
-  const bool held = unbalanced.head(device_.model.dofs.free_count()).norm() <=
-                    (shells ? std::max(rest, balanced_shells * force) : rest);
+  const double nearly_rest = shells ? std::max(rest, balanced_shells * force) : rest;
+  const auto is_held = [&](Eigen::VectorXd forces) { // where the film pulls at bodies only, these may hold it
+    device_.model.dofs.gather(device_.model.initial_state(), forces);
+    return forces.head(device_.model.dofs.free_count()).norm() <= nearly_rest;
+  };
   // A film drawn in tension with free edges must find its equilibrium before it can be driven.
   const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
   if (settles) steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
@@ -91,11 +95,16 @@ Simulation::Simulation(const Case& one, int threads)
   }
   for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
   for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
-  if (settles && !held && !one.any_geometry<Patch>())
+  if (settles && !is_held(frame_) && !one.any_geometry<Patch>())
     warnings_.push_back(
-        fmt::format("the film is not held in its prestretch{}: a step \"settle\" before the first cuts it "
-                    "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",
-                    one.supports.empty() ? ", there is no [[support]]" : ""));
+        is_held(of_films)
+            ? "what is attached to the film pulls as drawn: a step \"settle\" before the first lets it find "
+              "its "
+              "balance; say so by a [[step]] of kind \"release\""
+            : fmt::format(
+                  "the film is not held in its prestretch{}: a step \"settle\" before the first cuts it "
+                  "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",
+                  one.supports.empty() ? ", there is no [[support]]" : ""));
   fem::State drawn_state = device_.model.initial_state();
   drawn_state.dead_force = frame_;
   in_step_.ramp.points = {{0, std::move(drawn_state)}};

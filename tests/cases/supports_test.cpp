@@ -360,5 +360,24 @@ TEST_F(Supports, LeaveNothingToMassesAndSpringsOnWhatTheyHold) {
   EXPECT_EQ(warnings(shifted + spring("left", "right"), moves), "");
 }
 
+// What pulls as drawn is told: the film where its edge is free, otherwise what is attached to it.
+TEST_F(Supports, ThatHoldTheFilmAreNotBlamedForASpring) {
+  const auto warnings = [&](const std::string& rest) {
+    write("pulled.toml",
+          "[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = \"40 "
+          "kPa\"\npermittivity = \"4e-11 F/m\"\n[rectangle]\nlength = \"60 mm\"\nwidth = \"40 "
+          "mm\"\nelectrode_length = \"30 mm\"\n[mesh]\nacross = 2\n[drive]\nvoltage = \"1 V\"\n" +
+              side("left", "x\", \"y", "") + rest);
+    return fmt::format("{}", fmt::join(Simulation(read_case(directory / "pulled.toml"), 1).warnings(), "\n"));
+  };
+  const std::string spring =
+      "[[spring]]\nbetween = [\"left\", \"electrode\"]\nalong = \"x\"\nstiffness = \"1 "
+      "N/m\"\nfree_length = \"1 mm\"\n";
+  const std::string frame = side("right", "x", "") + side("bottom", "y", "") + side("top", "y", "");
+  EXPECT_EQ(warnings(frame).find("settle"), std::string::npos);
+  EXPECT_NE(warnings(frame + spring).find("what is attached to the film pulls"), std::string::npos);
+  EXPECT_NE(warnings(spring).find("is not held in its prestretch"), std::string::npos);
+}
+
 } // namespace
 } // namespace dielast::cases
