@@ -87,7 +87,8 @@ Section test_section() {
       flag("equilibrium", to(&FitTest::equilibrium), "infinitely slow: the branches carry nothing")
           .otherwise("false"),
       flag("zero", to(&FitTest::zero),
-           "the first row is the origin: its stretch counts as 1 and its stress as 0")
+           "the first row is the origin: all stretches, strains and stresses are less by its own, so that "
+           "its stretch counts as 1 and its stress as 0")
           .otherwise("false"),
       word("use",
            {{"fit", "the material is fitted to it", false},
