@@ -180,8 +180,9 @@ Condition turns_matter() {
 Condition inertia() { return on_case("a step with inertia", has_inertia); }
 
 Condition dampers_matter() {
-  return on_case("a step with inertia or of kind \"harmonic\"",
-                 [](const Case& one) { return has_inertia(one) || is_linearised(one); });
+  return on_case("a mass in a step with inertia, or a step of kind \"harmonic\"", [](const Case& one) {
+    return (has_inertia(one) && cases::has_mass(one)) || is_linearised(one);
+  });
 }
 
 Condition has_mass() {

@@ -23,6 +23,7 @@ const std::string balloon =
     "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = \"500 Pa\"\nvolume = \"50 ml\"\n";
 const std::string diaphragm =
     "[annulus]\ninner_radius = \"12 mm\"\nouter_radius = \"68 mm\"\n[plate]\nmass = \"100 g\"\n";
+const std::string massless = diaphragm.substr(0, diaphragm.find("100 g")) + "0 g\"\n";
 const std::string strip = "[strip]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[weight]\nmass = \"50 g\"\n";
 const std::string ramp = "[[step]]\nkind = \"voltage\"\n";
 const std::string transient = "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\n";
@@ -115,6 +116,8 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
            "control = \"charge\"\n"},
       {"plate.damping", film + diaphragm + "damping = 1\n" + weight,
        film + diaphragm + "damping = 1\n" + weight + transient},
+      {"plate.damping", film + "density = 0\n" + massless + "damping = 1\n" + transient + "inertia = true\n",
+       film + diaphragm + "damping = 1\n" + transient + "inertia = true\n"},
       {"gravity.acceleration", "model = \"3d\"\n" + film + disc + "[gravity]\nacceleration = 1.6\n" + ramp,
        "model = \"3d\"\n" + film + disc + "[gravity]\nacceleration = 1.6\nfilm = true\n" + weight},
       {"chamber.pressure", film + balloon + inflate,
