@@ -197,23 +197,21 @@ Region sector(std::string name, const RoundFilm& between, double from, double to
   };
   const Vector2d first = on_side(from, 1, outer), last = on_side(to, -1, outer);
   const Vector2d tip = apex * toward((from + to) / 2);
-  Region region{std::move(name), {{{first, last, 1}}}};
-  std::vector<Edge>& loop = region.loops.front();
-  const auto add = [&loop](const Vector2d& next, int turn) { loop.push_back({loop.back().to, next, turn}); };
   // Of more than half a turn the sides go on inwards beyond the inner arc, which they cut twice, to the tip.
   const bool cuts_twice = angle > pi && inner > gap_beside && inner <= apex;
-  if (inner > apex || cuts_twice) add(on_side(to, -1, inner), 0);
-  if (inner > apex) {
-    add(on_side(from, 1, inner), -1);
-  } else if (cuts_twice) {
+  const bool has_arc = inner > apex || cuts_twice;
+  const Vector2d begin = has_arc ? on_side(from, 1, inner) : tip;
+  Region region{std::move(name), {{{begin, first, 0}}}};
+  std::vector<Edge>& loop = region.loops.front();
+  const auto add = [&loop](const Vector2d& next, int turn) { loop.push_back({loop.back().to, next, turn}); };
+  add(last, 1);
+  if (has_arc) add(on_side(to, -1, inner), 0);
+  if (cuts_twice) {
     add(on_side(to + pi, 1, inner), -1);
     add(tip, 0);
     add(on_side(from + pi, -1, inner), 0);
-    add(on_side(from, 1, inner), -1);
-  } else {
-    add(tip, 0);
   }
-  add(first, 0);
+  add(begin, has_arc ? -1 : 0);
   return region;
 }
 
