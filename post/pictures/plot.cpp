@@ -157,11 +157,25 @@ double round_step(double raw) {
   return decade * (raw < 1.5 * decade ? 1 : raw < 3 * decade ? 2 : raw < 7 * decade ? 5 : 10);
 }
 
+/// Digits that tell the ticks of an axis apart: more than usual where it shows a small part of a large
+/// number.
+int digits_of(std::pair<double, double> range) {
+  const auto [low, high] = range;
+  constexpr int usual = 6, most = 15;
+  if (!(high > low)) return usual;
+  const double size = std::max(std::abs(low), std::abs(high));
+  return std::clamp(static_cast<int>(std::ceil(std::log10(size / (high - low)))) + 3, usual, most);
+}
+
 /// Ticks of a logarithmic axis: powers of ten; within two decades 2 and 5 between them, too; on a shorter
-/// axis as many as on a linear one, without which it might have a single label.
+/// axis as many as on a linear one, without which it might have a single label. Values that only rounding
+/// tells apart have none of their own: counting ticks in steps as small would not come forward.
 std::string logarithmic_ticks(char axis, std::pair<double, double> range) {
   const auto [low, high] = range;
   if (!(high > low)) return fmt::format("set {}tics autofreq\n", axis);
+  if (!(high > low * (1 + 1e-12))) // gnuplot refuses an axis as short
+    return fmt::format("set {0}tics autofreq\nset {0}range [{1}:{2}]\n", axis, number(0.99 * low),
+                       number(1.01 * high));
   std::string ticks;
   const auto add = [&](const std::string& label, double value) {
     ticks += fmt::format("{}{} {:.15g}", ticks.empty() ? "" : ", ", gnuplot_string(label), value);
@@ -169,7 +183,7 @@ std::string logarithmic_ticks(char axis, std::pair<double, double> range) {
   if (high < 4 * low) {
     const double step = round_step((high - low) / 4);
     for (double k = std::ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12); ++k)
-      add(fmt::format("{:.6g}", k * step), k * step);
+      add(fmt::format("{:.{}g}", k * step, digits_of(range)), k * step);
   } else {
     const int first = static_cast<int>(std::floor(std::log10(low))),
               last = static_cast<int>(std::ceil(std::log10(high)));
@@ -179,16 +193,6 @@ std::string logarithmic_ticks(char axis, std::pair<double, double> range) {
         if (times == 1 || high < 100 * low) add(tick_label(times, exponent), times * std::pow(10, exponent));
   }
   return fmt::format("set {}tics ({})\n", axis, ticks);
-}
-
-/// Digits that tell the ticks of an axis apart: more than usual where it shows a small part of a large
-/// number.
-int digits_of(const std::vector<Series>& all, std::vector<double> Series::*values) {
-  const auto [low, high] = ends(all, values);
-  constexpr int usual = 6, most = 15;
-  if (!(high > low)) return usual;
-  const double size = std::max(std::abs(low), std::abs(high));
-  return std::clamp(static_cast<int>(std::ceil(std::log10(size / (high - low)))) + 3, usual, most);
 }
 
 constexpr std::string_view axes_mark = "axes of the plot above:";
@@ -228,11 +232,12 @@ std::string script(const Plot& plot) {
                           gnuplot_string(plot.x_label), font_size(plot.x_label, 14, width - 120));
   settings += fmt::format("set ylabel {} font ',{}' textcolor '#3a434d'\n", gnuplot_string(plot.y_label),
                           font_size(plot.y_label, 14, height - 80));
-  settings += fmt::format("set format x '%.{}g'\nset format y '%.{}g'\n", digits_of(drawn, &Series::x),
-                          digits_of(drawn, &Series::y));
+  settings += fmt::format("set format x '%.{}g'\nset format y '%.{}g'\n", digits_of(ends(drawn, &Series::x)),
+                          digits_of(ends(drawn, &Series::y)));
   const auto [lowest, highest] = ends(drawn, &Series::y);
   const auto [leftmost, rightmost] = ends(drawn, &Series::x);
   const double extent = std::max(highest - lowest, rightmost - leftmost);
+  settings += "set xrange [*:*]\nset yrange [*:*]\n";
   settings += plot.log_x ? logarithmic_ticks('x', ends(drawn, &Series::x)) : "set xtics autofreq\n";
   settings += plot.log_y ? logarithmic_ticks('y', ends(drawn, &Series::y))
               : plot.y_step > 0 && highest - lowest > 2 * plot.y_step

@@ -198,6 +198,23 @@ TEST(Plot, LogarithmicAxesHavePowersOfTenOrEnoughOtherTicks) {
   for (const char* label : {"0.96", "1", "1.04"}) EXPECT_TRUE(narrow.contains(label)) << label;
 }
 
+// Ticks in steps of a rounding error were counted for ever, at ever more memory.
+TEST(Plot, LogarithmicAxesOfValuesThatAreNearlyEqual) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  const auto labels = [](double low, double high) {
+    Plot plot{"title", "x", "y", {{"one", {1, 2, 3}, {low, high, low}}}};
+    plot.log_y = true;
+    std::set<std::string> found;
+    for (const auto& [text, size] : texts_of(draw({plot}).at(0).data)) found.insert(text);
+    return found;
+  };
+  for (const double value : {1.9398396347822490e-8, 1.0, 4e12})
+    for (const int roundings : {1, 2, 7, 300})
+      EXPECT_FALSE(labels(value, value * (1 + roundings * 2.3e-16)).empty()) << value << " " << roundings;
+  for (const char* label : {"3.00000002", "3.00000004"})
+    EXPECT_TRUE(labels(3, 3 * (1 + 2e-8)).contains(label)) << label;
+}
+
 // Where the readings say that a point is, there gnuplot has drawn it.
 TEST(Plot, ReadingsLieOnTheDrawnPoints) {
   if (!has_gnuplot()) GTEST_SKIP();
