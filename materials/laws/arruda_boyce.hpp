@@ -35,7 +35,7 @@ struct ArrudaBoyce {
   template<class T>
   T energy(const T& I1) const {
     const double limit = locking_stretch * locking_stretch;
-    return shear_modulus / 6 * (I1 - 3.0 - 6 * limit * log((3 * limit - I1) / (3 * limit - 3)));
+    return shear_modulus / 6 * (I1 - 3.0 - 6 * limit * log1p(-(I1 - 3.0) / (3 * limit - 3)));
   }
   template<class T>
   InvariantDerivatives<T> derivatives(const T& I1) const {

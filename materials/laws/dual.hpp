@@ -69,6 +69,10 @@ struct Dual {
     return a.chain(root, 0.5 / root, -0.25 / (root * a.value));
   }
   friend Dual log(const Dual& a) { return a.chain(std::log(a.value), 1 / a.value, -1 / (a.value * a.value)); }
+  friend Dual log1p(const Dual& a) {
+    const double inverse = 1 / (1 + a.value);
+    return a.chain(std::log1p(a.value), inverse, -inverse * inverse);
+  }
   friend Dual pow(const Dual& a, double exponent) {
     const double power = std::pow(a.value, exponent);
     return a.chain(power, exponent * power / a.value,

@@ -15,6 +15,7 @@ constexpr int pack_lanes = static_cast<int>(sizeof(Pack) / sizeof(double));
 using std::cbrt;
 using std::exp;
 using std::log;
+using std::log1p;
 using std::pow;
 using std::sqrt;
 
@@ -33,6 +34,9 @@ inline Pack cbrt(const Pack& x) {
 }
 inline Pack log(const Pack& x) {
   return for_each_lane(x, [](double a) { return std::log(a); });
+}
+inline Pack log1p(const Pack& x) {
+  return for_each_lane(x, [](double a) { return std::log1p(a); });
 }
 inline Pack exp(const Pack& x) {
   return for_each_lane(x, [](double a) { return std::exp(a); });

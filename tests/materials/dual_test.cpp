@@ -43,6 +43,7 @@ TEST_F(DualTest, functions_of_a_product) {
   const double p = a * a; // of x * x
   expect_dual(sqrt(x * x), a, {1, 0}, Eigen::Matrix2d::Zero());
   expect_dual(log(x * x), std::log(p), {2 / a, 0}, symmetric(-2 / p, 0, 0));
+  expect_dual(log1p(x), std::log1p(a), {1 / (1 + a), 0}, symmetric(-1 / ((1 + a) * (1 + a)), 0, 0));
   const double s = std::sin(a * b), c = std::cos(a * b);
   expect_dual(sin(x * y), s, {b * c, a * c}, symmetric(-b * b * s, c - a * b * s, -a * a * s));
   expect_dual(cos(x * y), c, {-b * s, -a * s}, symmetric(-b * b * c, -s - a * b * c, -a * a * c));

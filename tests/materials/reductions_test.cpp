@@ -96,5 +96,12 @@ TYPED_TEST(Reductions, solid_of_constant_volume_stores_what_the_film_does) {
   }
 }
 
+// Chains that are far from straight store what neo-Hookean film does, to rounding.
+TEST(ArrudaBoyceLaw, of_long_chains_is_the_neo_hookean_law) {
+  const double I1 = 5.0625;
+  for (const double locking_stretch : {1e5, 1e6})
+    EXPECT_NEAR((ArrudaBoyce{40e3, locking_stretch}.energy(I1)), NeoHookean{40e3}.energy(I1), 1e-4);
+}
+
 } // namespace
 } // namespace dielast::materials::test
