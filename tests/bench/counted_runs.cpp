@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small runs whose instructions are counted (instruction_counts_test.cpp): counted_runs
-// patch|honeycomb|meridian
+// patch|ring|meridian
 #include "tests/bench/models.hpp"
 
 #include <cmath>
