@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/attachments.hpp"
 
+#include "cases/text/diagnostics.hpp"
 #include "fem/elements/distance_block.hpp"
 #include "fem/elements/point_mass_block.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace dielast::cases {
@@ -17,6 +21,23 @@ fem::Distance distance(const meshing::Mesh& mesh, const PlaceShares& shares,
     return fem::DistanceEnd{mesh.node_sets.at(place), shares.at(place).of_nodes};
   };
   return {{end(between[0]), end(between[1])}, axis};
+}
+
+/// Refuses what pushes along an axis along which its ends do not differ: rounding would say which way.
+void require_a_direction(const Case& one, const meshing::Mesh& mesh, const fem::Distance& distance,
+                         const std::array<std::string, 2>& between, const std::string& object,
+                         double extent) {
+  std::array<double, 2> at{};
+  for (std::size_t end = 0; end < 2; ++end)
+    for (std::size_t n = 0; n < distance.ends[end].nodes.size(); ++n)
+      at[end] += distance.ends[end].weights[n] *
+                 mesh.nodes[static_cast<std::size_t>(distance.ends[end].nodes[n])][distance.axis];
+  if (between[0] == between[1] || std::abs(at[1] - at[0]) > 1e-9 * extent) return;
+  const std::string key = object + ".along";
+  throw CaseError(
+      {{one.where(key), key,
+        fmt::format("\"{}\" and \"{}\" are drawn at the same {}: along it nothing says which way it pushes",
+                    between[0], between[1], "xyz"[distance.axis])}});
 }
 
 /// The masses at the nodes of a point mass' place, kg per kg of it: the shares, as far as they are no
@@ -36,14 +57,22 @@ std::vector<std::pair<int, double>> masses_at(const std::string& place, const me
 } // namespace
 
 void add_springs(const Case& one, const meshing::Mesh& mesh, const PlaceShares& shares, fem::Model& model) {
-  for (const Spring& spring : one.springs)
-    model.blocks.push_back(fem::make_distance_block(mesh,
-                                                    distance(mesh, shares, spring.between, spring.along),
-                                                    fem::Spring{spring.stiffness, spring.free_length}));
-  for (const Linkage& linkage : one.linkages)
-    model.blocks.push_back(
-        fem::make_distance_block(mesh, distance(mesh, shares, linkage.between, linkage.along),
-                                 fem::Linkage{linkage.force, linkage.arm, linkage.strut, linkage.offset}));
+  const auto add = [&](const std::string& object, const auto& link, bool pushes,
+                       const fem::DistancePotential& potential) {
+    const fem::Distance along = distance(mesh, shares, link.between, link.along);
+    if (pushes) require_a_direction(one, mesh, along, link.between, object, model.extent);
+    model.blocks.push_back(fem::make_distance_block(mesh, along, potential));
+  };
+  for (std::size_t s = 0; s < one.springs.size(); ++s) {
+    const Spring& spring = one.springs[s];
+    add(fmt::format("spring[{}]", s + 1), spring, spring.free_length > 0,
+        fem::Spring{spring.stiffness, spring.free_length});
+  }
+  for (std::size_t l = 0; l < one.linkages.size(); ++l) {
+    const Linkage& linkage = one.linkages[l];
+    add(fmt::format("linkage[{}]", l + 1), linkage, true,
+        fem::Linkage{linkage.force, linkage.arm, linkage.strut, linkage.offset});
+  }
 }
 
 void add_masses(const Case& one, const meshing::Mesh& mesh, const PlaceShares& shares, fem::Model& model) {

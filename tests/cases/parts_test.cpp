@@ -381,6 +381,7 @@ TEST_F(Parts, TiesJoinNodesThatCoincide) {
   const std::string far = "at = [\"100 mm\", 0, 0]", near = "at = [\"77.5 mm\", \"10 mm\", 0]";
   pair.replace(pair.find(far), far.size(), near); // 20 mm x 2 + 25 mm x 1.5
   pair.replace(pair.find("width = \"12 mm\""), 15, "width = \"10 mm\"");
+  pair.replace(pair.find("\"5 mm\""), 6, "\"0 mm\""); // the spring's ends meet: it pulls
   const auto nodes = [&](const std::string& text) { return build_device(read(text)).mesh.node_count(); };
   EXPECT_EQ(nodes(pair), 8);
   EXPECT_EQ(nodes(pair + "[[tie]]\nbetween = [\"left.right\", \"right.right\"]\n"), 6);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is spread over places, and means over them: against closed forms, in space and of revolution.
 #include "cases/devices/device.hpp"
+#include "cases/readers/reader.hpp"
 #include "tests/cases/case_test.hpp"
 
 #include <fmt/format.h>
@@ -88,6 +89,24 @@ TEST_F(Spread, ASpringToAnAreaAddsItsStiffness) {
     // in equilibrium with the spring's force over the electrode, by reciprocity
     EXPECT_NEAR(sprung.at("under"), bulged.at("under") / (1 + 100 / stiffness), 1e-3 * height) << model;
   }
+}
+
+// Between ends at one height rounding would say which way it pushes.
+TEST_F(Spread, ASpringThatPushesKnowsWhichWay) {
+  const auto refused = [&](const std::string& free_length) {
+    write("spring.toml",
+          stretched_disc("3d", "[[spring]]\nbetween = [\"electrode\", \"rim\"]\nalong = \"z\"\n"
+                               "stiffness = \"100 N/m\"\nfree_length = \"" +
+                                   free_length + "\"\n[[step]]\nkind = \"voltage\"\n"));
+    try {
+      build_device(read_case(directory / "spring.toml"));
+    } catch (const CaseError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refused("1 mm").find(R"("electrode" and "rim" are drawn at the same z)"), std::string::npos);
+  EXPECT_EQ(refused("0 mm"), ""); // it pulls either way
 }
 
 // As of a bar: nothing is compressed and the edge stays straight, on any mesh.
