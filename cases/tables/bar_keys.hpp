@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cases/language/conditions.hpp"
 #include "cases/tables/parameter_keys.hpp"
 #include "materials/catalog.hpp"
 
@@ -54,6 +55,8 @@ Section bar_material_section(std::string name, Bars beam) {
           .optional());
   add_parameter_keys<T, materials::ElasticSolid>(section.keys,
                                                  [beam](auto& object) { return &beam(object).material; });
+  for (Key& key : section.keys)
+    if (key.name == "density") key.acts = when::masses_matter();
   return section;
 }
 

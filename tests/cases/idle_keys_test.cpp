@@ -68,6 +68,10 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
   };
   const std::string neo_hookean = "shear_modulus = \"40 kPa\"\n", bulk = "bulk_modulus = \"10 kPa\"\n",
                     stacked = "stacked_along = \"x\"\n";
+  const std::string honeycomb =
+      "[honeycomb]\nangle = \"150 deg\"\nwall_length = \"8 mm\"\nwall_width = \"1 mm\"\nwall_height = \"2 "
+      "mm\"\n"
+      "[honeycomb.wall_material]\nyoungs_modulus = \"80 MPa\"\npoisson_ratio = 0.4\ndensity = 1000\n";
   const std::string plate_on_slab =
       "model = \"axisymmetric\"\n" + film.substr(0, film.find("prestretch")) +
       film.substr(film.find("[film.m")) +
@@ -91,6 +95,8 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       {"weight.mass", film + strip + ramp, film + strip + weight + ramp},
       {"film.material.density", film + "density = \"1000 kg/m^3\"\n" + disc,
        film + "density = \"1000 kg/m^3\"\n" + disc + transient + "inertia = true\n"},
+      {"honeycomb.wall_material.density", film + honeycomb,
+       film + honeycomb + "[[step]]\nkind = \"modes\"\n"},
       {"film.material.electrostriction",
        film + "electrostriction = 0.1\n" + balloon + inflate + "[[step]]\nkind = \"pressure\"\n",
        film + "electrostriction = 0.1\n" + disc},
