@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 
@@ -153,7 +154,8 @@ std::optional<Conflict> patch_conflict(const void* object) {
   if (y_is_given && patch.mode == PatchMode::pure_shear) return Conflict{y, "in pure shear y is held"};
   if (y_is_given && patch.mode == PatchMode::equal_biaxial)
     return Conflict{y, "in equal-biaxial tension y does as x does: write stretch_x or stress_x"};
-  if (patch.mode == PatchMode::equal_biaxial && patch.width != patch.length)
+  if (patch.mode == PatchMode::equal_biaxial &&
+      std::abs(patch.width - patch.length) > 1e-9 * patch.length) // the same in other units
     return Conflict{"width", "in equal-biaxial tension the patch is a square: leave width out"};
   return std::nullopt;
 }

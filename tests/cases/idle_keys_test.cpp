@@ -203,6 +203,11 @@ TEST_F(IdleKeys, PrestretchThatIsLetGoIsTold) {
 TEST_F(IdleKeys, SayingTheDefaultIsNoMistake) {
   EXPECT_EQ(keys(film + disc + ramp + "response = \"relaxed\"\n[solver]\ntime_tolerance = 1e-6\n"), Keys{});
   EXPECT_EQ(keys(film + disc + "[gravity]\nfilm = false\n"), Keys{});
+  EXPECT_EQ(
+      keys(film +
+           "[patch]\nmode = \"equal-biaxial\"\nlength = \"10 mm\"\nwidth = \"0.3937007874015748 inch\"\n" +
+           ramp),
+      Keys{});
 }
 
 TEST_F(IdleKeys, AreToldAfterSetAsWell) {
