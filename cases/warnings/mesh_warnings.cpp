@@ -90,6 +90,11 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
           fmt::format("{}the film is cut: {} of its nodes lie on others; let gmsh fragment the drawing to "
                       "join its parts",
                       part.empty() ? "" : part + "mesh: ", cut));
+    if (const std::string key = part + "mesh.quadrature";
+        film.type == meshing::CellType::triangle3 && owner.mesh.quadrature != MeshOptions{}.quadrature)
+      warnings.push_back(Diagnostic{
+          one.where(key), key, "has no effect here: the file's triangles have 3 nodes", Severity::warning}
+                             .text());
     Eigen::AlignedBox3d box;
     for (const int node : film.nodes) box.extend(mesh.nodes[static_cast<std::size_t>(node)]);
     const Eigen::Vector3d size = box.sizes();

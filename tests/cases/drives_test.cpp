@@ -361,8 +361,9 @@ TEST_F(OwnMesh, WithoutAUnitSaysHowLargeTheFilmIs) {
   EXPECT_TRUE(told("60.00 m x 60.00 m")) << testing::PrintToString(warnings);
   ASSERT_EQ(run(text + "unit = \"1 mm\"\n" + held).ending, Ending::complete);
   EXPECT_EQ(warnings, std::vector<std::string>{});
-  ASSERT_EQ(run(text + "unit = \"1 m\"\n" + held).ending, Ending::complete);
+  ASSERT_EQ(run(text + "unit = \"1 m\"\nquadrature = 6\n" + held).ending, Ending::complete);
   EXPECT_TRUE(told("the film is 60.00 m x 60.00 m")) << testing::PrintToString(warnings);
+  EXPECT_TRUE(told("the file's triangles have 3 nodes")) << testing::PrintToString(warnings);
 }
 
 TEST_F(OwnMesh, OfOnePartOfSeveralSaysHowLargeItIsAndThatItIsCut) {
