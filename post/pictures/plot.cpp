@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <fcntl.h>
@@ -269,20 +270,27 @@ std::string run_gnuplot(std::string_view commands) {
   posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  // In a group of its own: an interrupt from the terminal is for this process alone.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::array<char*, 3> arguments{const_cast<char*>("gnuplot"), const_cast<char*>("--default-settings"),
                                  nullptr};
   pid_t child = 0;
-  const bool started = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ) == 0;
+  const bool started = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments.data(), environ) == 0;
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   ::close(input);
   ::close(output[1]);
 
   std::string result;
   std::array<char, 65536> buffer;
-  for (ssize_t n = 0; started && (n = ::read(output[0], buffer.data(), buffer.size())) > 0;)
-    result.append(buffer.data(), static_cast<std::size_t>(n));
+  for (ssize_t n = 0;
+       started && ((n = ::read(output[0], buffer.data(), buffer.size())) > 0 || (n < 0 && errno == EINTR));)
+    if (n > 0) result.append(buffer.data(), static_cast<std::size_t>(n));
   ::close(output[0]);
-  if (started) ::waitpid(child, nullptr, 0);
+  while (started && ::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
   return result;
 }
 

@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <regex>
 #include <set>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <utility>
 
 namespace dielast::post {
@@ -41,6 +45,25 @@ TEST(Plot, TextIsNeverACommand) {
   EXPECT_NE(svgs[0].find("it's `date` \"$x\" \\n a_b^c {/Bold d} &lt;?xml &amp; é set output '/dev/null'"),
             std::string::npos);
   EXPECT_NE(svgs[1].find("second"), std::string::npos);
+}
+
+// As from a terminal: to all processes of the group.
+TEST(Plot, InterruptsDoNotLoseFigures) {
+  if (!has_gnuplot()) GTEST_SKIP();
+  const pid_t child = fork();
+  if (child == 0) {
+    setpgid(0, 0);
+    std::signal(SIGALRM, [](int) { ::kill(0, SIGINT); });
+    struct sigaction noted {};
+    noted.sa_handler = [](int) {};
+    sigaction(SIGINT, &noted, nullptr);
+    const itimerval often{{0, 2000}, {0, 2000}};
+    setitimer(ITIMER_REAL, &often, nullptr);
+    _exit(draw({line("first"), line("second")}).size() == 2 ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 /// Where the marks of a document's curves are, px.
