@@ -111,7 +111,7 @@ double EnergyBalance::given_at_jump(const EnergyPoint& point) const {
   const Conjugates &from = last.electrical, &to = point.electrical;
   for (Eigen::Index e = 0; e < point.at_source.size(); ++e)
     given += point.at_source[e] * (to.force[e] - from.force[e]) *
-             ((from.coordinate[e] + to.coordinate[e]) / 2 - before_jump_[e]);
+             ((from.coordinate[e] + to.coordinate[e]) / 2 - record_.before_jump[e]);
   return given;
 }
 
@@ -205,9 +205,8 @@ void EnergyBalance::corner() {
   stand();
 }
 
-/// Charges from which those of a jump are counted.
 void EnergyBalance::stand() {
-  if (!empty()) before_jump_ = record_.points.back().electrical.coordinate;
+  if (!empty()) record_.before_jump = record_.points.back().electrical.coordinate;
 }
 
 EnergyBalance::JumpRelease EnergyBalance::add_after_jump(EnergyPoint point) {

@@ -125,9 +125,10 @@ class EnergyBalance {
     double rest = 0;                 ///< left by the balance where nothing can take it, J
     std::vector<Resolution> poor;    ///< results that are, or may become, the worst; ratios of errors fall
     std::vector<EnergyPoint> points; ///< the last one, and the one before where no corner is between
+    Eigen::VectorXd before_jump;     ///< charges per electrode from which those of a jump are counted, C
   };
   const Record& record() const { return record_; }
-  explicit EnergyBalance(Record record) : record_(std::move(record)) { stand(); }
+  explicit EnergyBalance(Record record) : record_(std::move(record)) {}
   EnergyBalance() = default;
 
  private:
@@ -138,7 +139,6 @@ class EnergyBalance {
   Resolution weighed(const Resolution& result) const;
 
   Record record_;
-  Eigen::VectorXd before_jump_; ///< charges per electrode, C
 };
 
 /// What an accepted state is held by.

@@ -286,7 +286,8 @@ json archive(const fem::EnergyBalance::Record& record) {
           {"account", post::pack(std::array{record.stored_at_start, record.exchanged, record.given,
                                             record.doubt, record.doubt_of_circuits, record.rest})},
           {"poor", post::pack(poor)},
-          {"points", std::move(points)}};
+          {"points", std::move(points)},
+          {"before_jump", pack(record.before_jump)}};
 }
 
 fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes& sizes) {
@@ -301,7 +302,8 @@ fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes
                                       account[4],
                                       account[5],
                                       {},
-                                      {}};
+                                      {},
+                                      vector(archived.at("before_jump"), sizes.electrodes)};
     if (poor.size() % 6 != 0) mismatch();
     const auto number = [](double count) {
       if (!(count >= 0 && count < std::numeric_limits<int>::max())) mismatch();

@@ -250,6 +250,25 @@ TEST(EnergyBalance, a_result_of_which_nothing_is_known_is_poor) {
   EXPECT_NEAR(balance.worst().error, 1, 1e-8);
 }
 
+// In increments of one jump.
+TEST(EnergyBalance, a_jump_at_a_sheets_terminal_goes_on_from_its_record) {
+  EnergyBalance straight, stopped;
+  for (int i = 0; i <= 4; ++i) {
+    EnergyPoint point{.length = i > 0 ? 0.25 : 0};
+    point.electrical = pair(i, 2.0 * i);
+    point.resistance = pair(0, 2.0 * i);
+    point.mechanical = point.sheet = pair(0, 0);
+    point.energy.electric = 1.0 * i * i;
+    point.at_source = Eigen::VectorXd::Ones(1);
+    stopped = EnergyBalance(stopped.record());
+    straight.add(point);
+    stopped.add(point);
+  }
+  EXPECT_EQ(straight.work().dissipated, 16); // 4 V give 8 C
+  EXPECT_EQ(stopped.work().dissipated, straight.work().dissipated);
+  EXPECT_EQ(stopped.work().electrical, straight.work().electrical);
+}
+
 TEST(EnergyBalance, goes_on_from_its_record) {
   EnergyBalance straight = along(20), stopped;
   for (int i = 0; i <= 20; ++i) {

@@ -187,7 +187,8 @@ TEST(Checkpoint, EnergiesAreKeptToTheLastBit) {
                                           .doubt = 0.3,
                                           .rest = -0.4,
                                           .poor = {{0.5, 0.6}, {0.55, 0.9, true, 0.7, 3, 1}},
-                                          .points = {point, point}};
+                                          .points = {point, point},
+                                          .before_jump = Eigen::VectorXd{{0.8, -0.9}}};
   const json archived = archive(record);
   const fem::EnergyBalance::Record restored = restore_energy(archived, sizes);
   EXPECT_EQ(archive(restored), archived);
@@ -198,13 +199,15 @@ TEST(Checkpoint, EnergiesAreKeptToTheLastBit) {
   EXPECT_TRUE(restored.poor[1].given);
   EXPECT_EQ(restored.poor[1].row, 3);
   EXPECT_EQ(restored.poor[1].step, 1);
+  EXPECT_EQ(restored.before_jump, record.before_jump);
   ASSERT_EQ(restored.points.size(), 2u);
   EXPECT_EQ(restored.points[1].power, point.power);
   EXPECT_EQ(restored.points[1].sheet.coordinate, point.sheet.coordinate);
 }
 
 TEST(Checkpoint, EnergiesOfAnotherLengthAreRefused) {
-  const json archived = archive(fem::EnergyBalance::Record{.points = {sample_energy_point()}});
+  const json archived = archive(
+      fem::EnergyBalance::Record{.points = {sample_energy_point()}, .before_jump = Eigen::VectorXd::Zero(2)});
   EXPECT_NO_THROW(restore_energy(archived, sizes));
   for (const char* part : {"energy", "place", "power"}) {
     json other = archived;
