@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/recorder.hpp"
 
+#include "fem/algebra/kept_factor.hpp"
+
 namespace dielast::cases {
 
 using nlohmann::json;
@@ -84,6 +86,20 @@ SimulationProgress restore_progress(const json& archived, const post::StateSizes
   progress.unseen = {unseen.at("kinetic"), unseen.at("size"), unpack(unseen.at("start"), sizes),
                      unpack(unseen.at("farthest"), sizes)};
   return progress;
+}
+
+json archive(const fem::FactorMemory* memory) {
+  if (!memory) return nullptr;
+  return {{"values", post::pack(memory->values)},
+          {"proves", memory->proves},
+          {"fails", memory->fails},
+          {"fresh", memory->fresh},
+          {"debt", memory->debt}};
+}
+
+fem::FactorMemory restore_factor(const json& archived) {
+  return {post::unpack(archived.at("values")), archived.at("proves"), archived.at("fails"),
+          archived.at("fresh"), archived.at("debt")};
 }
 
 SimulationProgress Simulation::progress() const {

@@ -3,6 +3,7 @@
 
 #include "cases/case/quantities.hpp"
 #include "cases/readers/resolved.hpp"
+#include "fem/algebra/kept_factor.hpp"
 #include "post/engineering.hpp"
 #include "post/reductions.hpp"
 
@@ -311,6 +312,7 @@ void Recorder::save_checkpoint() {
                          {{"case", fingerprint_},
                           {"files", folder_.names().size()},
                           {"progress", archive(simulation_.progress())},
+                          {"factor", archive(simulation_.equilibrium().tangent().memory())},
                           {"results", post::pack(simulation_.results())},
                           {"steps_ended", steps_ended_},
                           {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
@@ -347,6 +349,8 @@ void Recorder::restore_checkpoint() try {
   const Device& device = simulation_.device();
   const auto sizes = post::StateSizes::of(device.model);
   simulation_.resume(restore_progress(saved.at("progress"), sizes));
+  if (const json& factor = saved.at("factor"); !factor.is_null())
+    simulation_.equilibrium().tangent().recall(restore_factor(factor));
   simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
   steps_ended_ = saved.at("steps_ended");
   if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();

@@ -56,6 +56,10 @@ nlohmann::json archive(const SimulationProgress& progress);
 /// Throws CheckpointError and what JSON throws where it is not that of a model of these sizes.
 SimulationProgress restore_progress(const nlohmann::json& archived, const post::StateSizes& sizes);
 
+/// The factor that the next steps of Newton's method are solved with, or null.
+nlohmann::json archive(const fem::FactorMemory* memory);
+fem::FactorMemory restore_factor(const nlohmann::json& archived);
+
 /// Writes history.csv, the ParaView series and the checkpoint of a run as it goes, and keeps its journal.
 /// Everything throws post::WriteError when a file cannot be written.
 class Recorder {

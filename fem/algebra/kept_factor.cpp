@@ -120,23 +120,34 @@ double KeptFactor::dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
 }
 
 bool KeptFactor::prove(const Eigen::VectorXd* right) {
-  if (fails_) return false;
-  return make(rounded, right && scale(*right, ahead_) > 0 ? &ahead_ : nullptr);
+  if (memory_.fails) return false;
+  return make(true, right && scale(*right, ahead_) > 0 ? &ahead_ : nullptr);
 }
 
-bool KeptFactor::make(double lessened, const Eigen::VectorXd* right) {
+bool KeptFactor::make(bool proves, const Eigen::VectorXd* right) {
   ++factorisations_;
-  fresh_ = debt_ = 0;
-  proves_ = lessened > 0;
+  memory_.values = matrix_.values;
+  memory_.fresh = memory_.debt = 0;
+  memory_.proves = proves;
   is_ahead_ = right != nullptr;
-  made_ = factor_.factor(matrix_.values, lessened, right) && factor_.smallest_pivot().relative > least_pivot;
-  fails_ = !made_;
-  return made_;
+  memory_.fails = !factor_of_memory(right);
+  return !memory_.fails;
+}
+
+bool KeptFactor::factor_of_memory(const Eigen::VectorXd* right) {
+  return factor_.factor(memory_.values, memory_.proves ? rounded : 0, right) &&
+         factor_.smallest_pivot().relative > least_pivot;
+}
+
+void KeptFactor::recall(FactorMemory memory) {
+  memory_ = std::move(memory);
+  is_ahead_ = false;
+  if (!memory_.fails && !memory_.values.empty()) memory_.fails = !factor_of_memory(nullptr);
 }
 
 bool KeptFactor::prepare() {
-  if (fails_) return false;
-  if (made_ && debt_ < cost_) return true;
+  if (memory_.fails) return false;
+  if (!memory_.values.empty() && memory_.debt < cost_) return true;
   return make();
 }
 
@@ -158,7 +169,7 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
   // last, or three times less. The second falls faster than others, but with a factor of the matrix itself.
   const auto suffices = [&](int iteration, double now, double last) {
     const double least = tolerance * tolerance * (square + now);
-    return now <= least || (iteration > (proves_ ? 1 : 2) && foreseen * now * now <= least * last);
+    return now <= least || (iteration > (memory_.proves ? 1 : 2) && foreseen * now * now <= least * last);
   };
   for (int iteration = 1; iteration <= most; ++iteration) {
     apply_factor();
@@ -169,7 +180,7 @@ std::optional<int> KeptFactor::iterate(Eigen::VectorXd& x, double& square, doubl
     for_blocks([&](int first, int count) {
       p_.segment(first, count) = z_.segment(first, count) + kept * p_.segment(first, count);
     });
-    if (proves_ && iteration > 1 &&
+    if (memory_.proves && iteration > 1 &&
         suffices(iteration, rz, correction)) { // its step is 1 but for as small a part
       x += p_;
       square += rz;
@@ -201,20 +212,20 @@ bool KeptFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tole
     return true;
   }
   double square = 0;
-  const bool fresh = fresh_ == 0;
-  const double decades = -std::log10(tolerance), expected = fresh_ * decades;
+  const bool fresh = memory_.fresh == 0;
+  const double decades = -std::log10(tolerance), expected = memory_.fresh * decades;
   const int worth = static_cast<int>(std::ceil(expected + cost_));
   if (const auto iterations = iterate(x, square, tolerance, fresh ? most_iterations : worth)) {
     if (fresh)
-      fresh_ = *iterations / decades;
+      memory_.fresh = *iterations / decades;
     else
-      debt_ += std::max(0.0, *iterations - expected);
+      memory_.debt += std::max(0.0, *iterations - expected);
   } else {
-    fails_ = fresh || !make() || !iterate(x, square, tolerance, most_iterations);
-    debt_ = cost_; // the next matrix may be as far from this one
+    memory_.fails = fresh || !make() || !iterate(x, square, tolerance, most_iterations);
+    memory_.debt = cost_; // the next matrix may be as far from this one
   }
   x *= largest;
-  return !fails_;
+  return !memory_.fails;
 }
 
 } // namespace dielast::fem

@@ -8,6 +8,15 @@
 
 namespace dielast::fem {
 
+/// What the solutions of a KeptFactor depend on beside the matrix: with it another one goes on bit for bit.
+struct FactorMemory {
+  std::vector<double> values; ///< of the matrix that the factor was made of; none: it is still to be made
+  bool proves = false;        ///< the factor is one of the matrix itself, see KeptFactor::prove()
+  bool fails = false;         ///< single precision does not do
+  double fresh = 0; ///< iterations per decade of the tolerance, of the first solve with it; 0 before
+  double debt = 0;  ///< iterations beyond those
+};
+
 /// Solves with positive definite matrices of one pattern that change little from one to the next: conjugate
 /// gradients (Hestenes & Stiefel 1952), preconditioned by the factor of an earlier matrix in single
 /// precision. A factor is replaced when the iterations that a new one would have saved have cost as much as
@@ -35,6 +44,10 @@ class KeptFactor {
   /// single precision.
   [[nodiscard]] bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance);
 
+  const FactorMemory& memory() const { return memory_; }
+  /// Of a matrix of the same pattern.
+  void recall(FactorMemory memory);
+
   int factorisations() const { return factorisations_; }
   int solves() const { return solves_; } ///< with the factor
 
@@ -53,7 +66,8 @@ class KeptFactor {
   void for_blocks(const Function& f);
   double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
   static constexpr double rounded = 2e-6; ///< some thirty roundings
-  bool make(double lessened = 0, const Eigen::VectorXd* right = nullptr);
+  bool make(bool proves = false, const Eigen::VectorXd* right = nullptr);
+  bool factor_of_memory(const Eigen::VectorXd* right);
   void apply_factor();
   std::optional<int> iterate(Eigen::VectorXd& x, double& square, double tolerance, int most);
 
@@ -63,10 +77,7 @@ class KeptFactor {
   std::vector<Block> blocks_;
   std::vector<double> sums_; ///< of the blocks
   double cost_;
-  bool made_ = false, fails_ = false; ///< single precision does not do here
-  bool proves_ = false;               ///< the factor is one of the matrix itself, see prove()
-  double fresh_ = 0; ///< iterations per decade of the tolerance, of the first solve with the factor; 0 before
-  double debt_ = 0;  ///< iterations beyond those
+  FactorMemory memory_;
   int factorisations_ = 0, solves_ = 0;
   Eigen::VectorXd ahead_; ///< right side that the factor has been made with
   bool is_ahead_ = false; ///< no solve has followed

@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -25,6 +26,10 @@ struct SymmetricSolver::Cholesky {
   bool decompose(const std::vector<double>& values) {
     if (!factor) factor.emplace(supernodes, workers);
     return factor->factor(values);
+  }
+
+  KeptFactor& keep(const SparseSymmetric& matrix) {
+    return kept ? *kept : kept.emplace(matrix, supernodes, workers);
   }
 
   Supernodes supernodes;
@@ -70,8 +75,8 @@ bool SymmetricSolver::precondition(bool known, bool close, const Eigen::VectorXd
   if (close && !known && iterates_) return true;
   const double least = known ? KeptFactor::least_cost : KeptFactor::least_cost_to_prove;
   if (!cholesky_ || KeptFactor::cost(cholesky_->supernodes) < least) return factor();
-  if (!cholesky_->kept) cholesky_->kept.emplace(matrix_, cholesky_->supernodes, cholesky_->workers);
-  if (!(known ? cholesky_->kept->prepare() : cholesky_->kept->prove(right))) return factor();
+  KeptFactor& kept = cholesky_->keep(matrix_);
+  if (!(known ? kept.prepare() : kept.prove(right))) return factor();
   definite_ = iterates_ = true;
   return true;
 }
@@ -93,6 +98,14 @@ void SymmetricSolver::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double
     cholesky_->factor->solve(b, x);
   else
     indefinite_->solve((x = b).data(), 1);
+}
+
+const FactorMemory* SymmetricSolver::memory() const {
+  return cholesky_ && cholesky_->kept ? &cholesky_->kept->memory() : nullptr;
+}
+
+void SymmetricSolver::recall(FactorMemory memory) {
+  if (cholesky_) cholesky_->keep(matrix_).recall(std::move(memory));
 }
 
 SymmetricSolver::Work SymmetricSolver::work() const {

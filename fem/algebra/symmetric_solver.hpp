@@ -11,6 +11,8 @@
 
 namespace dielast::fem {
 
+struct FactorMemory;
+
 /// Solver for symmetric matrices of one sparsity pattern. Positive definite ones are factored by
 /// MultifrontalCholesky, others by a multifrontal LDL^T with Bunch-Kaufman-type pivoting that tells the
 /// inertia. Which one it was is hidden behind negative_pivots(). Where it is known that a matrix is positive
@@ -42,6 +44,10 @@ class SymmetricSolver {
   /// x with A x = b, size entries each. Requires a successful factor() or precondition(). After the latter
   /// the error in the norm of A is about `tolerance` times x; not a number where A was singular after all.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance = exact);
+
+  /// What solutions after precondition() depend on beside the current values; null before the first.
+  const FactorMemory* memory() const;
+  void recall(FactorMemory memory);
 
   /// What has been done since the solver was made.
   struct Work {

@@ -2,9 +2,11 @@
 #include "fem/equilibrium/bordered_tangent.hpp"
 
 #include "fem/algebra/dense_algebra.hpp"
+#include "fem/algebra/kept_factor.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -37,6 +39,12 @@ void BorderedTangent::follow_pattern() {
   pattern_ = assembler_.patterns();
   if (solver_) earlier_ = work();
   solver_ = std::make_unique<SymmetricSolver>(matrix_, assembler_.workers(), model_.dofs.scalar_count() > 0);
+}
+
+void BorderedTangent::recall(FactorMemory memory) {
+  follow_pattern();
+  if (memory.values.size() == matrix_.values.size() || memory.values.empty())
+    solver_->recall(std::move(memory));
 }
 
 SymmetricSolver::Work BorderedTangent::work() const {

@@ -60,6 +60,11 @@ class BorderedTangent {
   /// K^-1 B of a port that follows: displacements per voltage (pressure) at fixed other ones.
   Eigen::VectorXd response(std::size_t port) const;
 
+  /// What solve() after precondition() depends on beside the tangent; null where that is nothing.
+  const FactorMemory* memory() const { return solver_->memory(); }
+  /// Of a tangent of the same pattern.
+  void recall(FactorMemory memory);
+
   SymmetricSolver::Work work() const;
 
  private:

@@ -64,6 +64,23 @@ TEST_F(Interrupt, ResumedSeriesHasTheSameBits) {
   EXPECT_EQ(different, 0);
 }
 
+// Steps are solved with a factor of an earlier tangent, with which the resumed run goes on.
+TEST_F(Interrupt, ResumedFilmsKeepTheirFactor) {
+  write("film.toml", "[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\n"
+                     "shear_modulus = \"45 kPa\"\nrelative_permittivity = 4.5\n"
+                     "[rectangle]\nlength = \"40 mm\"\nwidth = \"20 mm\"\nelectrode_length = \"15 mm\"\n"
+                     "electrode_width = \"10 mm\"\n[mesh]\nacross = 24\n[drive]\nvoltage = \"2 kV\"\n"
+                     "[[step]]\nkind = \"voltage\"\nincrements = 30\n"
+                     "[output]\nerror_estimate = false\nfields = false\n");
+  ASSERT_EQ(dielast({"run", "film.toml", "-o", "straight"}).exit_code, 0);
+  const pid_t process = start({"run", "film.toml", "-o", "stopped"});
+  ASSERT_TRUE(until([&] { return rows("stopped/history.csv") > 5; }));
+  kill(process, SIGINT);
+  ASSERT_EQ(wait_for(process).exit_code, 130);
+  ASSERT_EQ(dielast({"run", "film.toml", "-o", "stopped", "--resume"}).exit_code, 0);
+  EXPECT_EQ(content("stopped/history.csv"), content("straight/history.csv"));
+}
+
 TEST_F(Interrupt, KilledRunsStartFromTheirLastCheckpointOrAnew) {
   ASSERT_EQ(dielast(into("straight")).exit_code, 0);
   const pid_t process = start(into("killed"));

@@ -45,6 +45,25 @@ TEST_F(Keeping, one_factor_solves_with_matrices_close_by) {
   EXPECT_EQ(kept.factorisations(), 1);
 }
 
+TEST_F(Keeping, with_what_it_remembers_another_goes_on_in_the_same_bits) {
+  ASSERT_TRUE(kept.prepare());
+  EXPECT_LT(error(1e-3), 1e-3);
+  go(0.05);
+  ASSERT_TRUE(kept.prepare());
+  EXPECT_LT(error(1e-3), 1e-3);
+  KeptFactor other(matrix, supernodes, workers);
+  other.recall(kept.memory());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(matrix.size, -1, 1);
+  for (const double part : {0.1, 0.5, 1.0}) {
+    go(part);
+    ASSERT_TRUE(kept.prepare() && other.prepare());
+    Eigen::VectorXd x, y;
+    ASSERT_TRUE(kept.solve(b, x, 1e-6) && other.solve(b, y, 1e-6));
+    EXPECT_EQ(x, y) << part;
+  }
+  EXPECT_GT(other.factorisations(), 0);
+}
+
 TEST_F(Keeping, a_factor_of_a_matrix_far_away_is_replaced_on_the_way_to_the_solution) {
   ASSERT_TRUE(kept.prepare());
   EXPECT_LT(error(1e-3), 1e-3);
