@@ -58,7 +58,8 @@ class Ramp {
   bool pass_break();
   bool flow();
   bool accept(State state, double s);
-  bool notify(bool lands, double length, bool jumped = false);
+  enum class Then { goes_on, turns };
+  bool notify(bool lands, double length, Then then = Then::goes_on, bool jumped = false);
 
   Equilibrium& equilibrium_;
   const LoadPath& path_;
@@ -295,8 +296,7 @@ bool Ramp::flow() {
     const auto end = flown(equilibrium_, start, options_);
     if (!end || !fades(*end)) return false;
   }
-  notify(false, 1);
-  progress_.turns = true;
+  notify(false, 1, Then::turns);
   return true;
 }
 
@@ -314,17 +314,16 @@ bool Ramp::accept(State state, double s) {
   return notify(lands, length);
 }
 
-/// Tells the observer; false when it wants to stop.
-bool Ramp::notify(bool lands, double length, bool jumped) {
+/// Tells the observer; false when it wants to stop. What it is told may be stored: `then` is known by it.
+bool Ramp::notify(bool lands, double length, Then then, bool jumped) {
   const Increment increment{progress_.load_factor,
                             newton_,
                             lands,
                             length,
-                            progress_.turns,
+                            std::exchange(progress_.turns, then == Then::turns),
                             jumped,
                             std::exchange(unstable_before_, -1),
                             std::exchange(time_error_, 0.0)};
-  progress_.turns = false;
   return !observer_.on_accept || observer_.on_accept(progress_, increment);
 }
 
@@ -338,9 +337,7 @@ RampResult Ramp::run() {
     if (timed() && progress_.at_break) {
       if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
       if (jumped_) {
-        const bool goes_on = notify(true, last_part_, true);
-        progress_.turns = true;
-        if (!goes_on) return {RampEnd::stopped};
+        if (!notify(true, last_part_, Then::turns, true)) return {RampEnd::stopped};
       }
     }
     const double s = next_load_factor();

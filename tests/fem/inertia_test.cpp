@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace dielast::fem {
 namespace {
@@ -255,6 +256,30 @@ TEST(Inertia, a_run_goes_on_from_a_copied_state_bit_for_bit) {
   EXPECT_EQ(straight.motion->velocity, resumed.motion->velocity);
   EXPECT_EQ(straight.motion->acceleration, resumed.motion->acceleration);
   EXPECT_EQ(straight.history->now, resumed.history->now);
+}
+
+// A state that an observer stores behind a jump leads on from a corner of the path, as for the ramp itself.
+TEST(Inertia, what_is_stored_behind_a_jump_knows_of_the_corner) {
+  test::DiaphragmData data;
+  data.elements = 4;
+  const test::Diaphragm diaphragm(data);
+  Equilibrium equilibrium(diaphragm.model, 1);
+  const State settled = diaphragm.settled(equilibrium, 1e3);
+  LoadPath path = test::constant_loads(diaphragm.model.dofs, settled);
+  path.apply = [](State& state, double) { state.voltage = {2e3}; };
+  const RampOptions options = resolved(1e-3, 1e-2);
+  RampProgress progress = RampProgress::begin(settled, diaphragm.model.dofs, options), stored = progress;
+  std::vector<char> turns; // of the increment behind the jump
+  bool is_behind = false;
+  RampObserver observer;
+  observer.on_accept = [&](const RampProgress& at, const Increment& increment) {
+    if (is_behind) turns.push_back(increment.turns);
+    if (increment.jumped) stored = at;
+    return !std::exchange(is_behind, is_behind || increment.jumped);
+  };
+  ASSERT_EQ(ramp(equilibrium, path, options, progress, observer).end, RampEnd::stopped);
+  ASSERT_EQ(ramp(equilibrium, path, options, stored, observer).end, RampEnd::stopped);
+  EXPECT_EQ(turns, (std::vector<char>{1, 1}));
 }
 
 } // namespace
