@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 #include <stdexcept>
 
 namespace dielast::cases {
@@ -223,25 +222,6 @@ std::vector<std::string> places_of(const meshing::Mesh& mesh) {
   std::vector<std::string> places;
   for (const auto& [name, nodes] : mesh.node_sets) places.push_back(name);
   return places;
-}
-
-std::optional<double> prestretch_between(const Case& one, const Device& device,
-                                         const std::array<std::string, 2>& places, int along) {
-  const meshing::CellBlock& film = *device.mesh.film();
-  const auto prestretches_at = [&](const std::string& place) {
-    std::set<double> found;
-    const auto& nodes = device.mesh.node_sets.at(place);
-    for (int cell = 0; cell < film.size(); ++cell)
-      if (std::ranges::any_of(film.cell(cell),
-                              [&](int node) { return std::ranges::binary_search(nodes, node); }))
-        found.insert(one.parts[static_cast<std::size_t>(device.film_parts[static_cast<std::size_t>(cell)])]
-                         .film->prestretch[static_cast<std::size_t>(along)]);
-    return found;
-  };
-  std::vector<double> common;
-  std::ranges::set_intersection(prestretches_at(places[0]), prestretches_at(places[1]),
-                                std::back_inserter(common));
-  return common.size() == 1 ? std::optional(common.front()) : std::nullopt;
 }
 
 Device build_device(const Case& one) {

@@ -41,10 +41,6 @@ meshing::Mesh build_mesh(const Case& one);
 /// Names of all places of a mesh, sorted.
 std::vector<std::string> places_of(const meshing::Mesh& mesh);
 
-/// The prestretch along an axis of the films that meet both places; nothing: they differ, or there are none.
-std::optional<double> prestretch_between(const Case& one, const Device& device,
-                                         const std::array<std::string, 2>& places, int along);
-
 /// Mesh and model. Throws meshing::MeshError, and CaseError when the case names a place that the mesh lacks.
 Device build_device(const Case& one);
 

@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <set>
 
 namespace dielast::cases {
 namespace {
@@ -51,10 +54,29 @@ Shape size(const Probing& probing) {
   };
 }
 
+/// The prestretch along an axis of the films that meet both places, of parts' places their own; nothing: they
+/// differ, or there are none.
+std::optional<double> prestretch_between(const Probing& probing) {
+  const Quantity& quantity = probing.quantity;
+  const auto prestretches_at = [&](const std::string& place) {
+    std::set<double> found;
+    const std::vector<char> near = film_at(place, probing.one, probing.device);
+    for (std::size_t cell = 0; cell < near.size(); ++cell)
+      if (near[cell])
+        found.insert(probing.one.parts[static_cast<std::size_t>(probing.device.film_parts[cell])]
+                         .film->prestretch[static_cast<std::size_t>(*quantity.along)]);
+    return found;
+  };
+  std::vector<double> common;
+  std::ranges::set_intersection(prestretches_at(quantity.between[0]), prestretches_at(quantity.between[1]),
+                                std::back_inserter(common));
+  return common.size() == 1 ? std::optional(common.front()) : std::nullopt;
+}
+
 /// Against the prestretch of the film between the places, which must have one.
 Shape stretch(const Probing& probing) {
   const Quantity& quantity = probing.quantity;
-  const auto prestretch = prestretch_between(probing.one, probing.device, quantity.between, *quantity.along);
+  const auto prestretch = prestretch_between(probing);
   if (!prestretch)
     throw CaseError(
         {{{probing.one.source.string()},

@@ -331,6 +331,31 @@ TEST_F(FilmValues, WhereTwoFilmsLieOnOneAnotherAPointTellsNoDisplacement) {
   EXPECT_EQ(refusal(two("[\"20 mm\", 0, 0]")), "");
 }
 
+// Films of different prestretch that are tied side by side: what a side of one has at its ends is of both,
+// its prestretch its own part's. The forces balance: neo-Hookean, with the widths held.
+TEST_F(FilmValues, StretchesOfTiedPartsAreThoseOfTheirOwnFilm) {
+  const auto part = [](const std::string& name, const std::string& where, const std::string& prestretch,
+                       const std::string& size) {
+    return "[part." + name + "]\n" + where + "[part." + name +
+           ".film]\nthickness = \"1 mm\"\nprestretch = " + prestretch + "\n[part." + name +
+           ".film.material]\nshear_modulus = \"45 kPa\"\npermittivity = " + "\"4e-11 F/m\"\n[part." + name +
+           ".patch]\n" + size + "mode = \"pure-shear\"\n";
+  };
+  const Ran ran = run(part("a", "", "[1.5, 2]", "length = \"10 mm\"\nwidth = \"6 mm\"\n") +
+                      part("b", "at = [\"27 mm\", \"12 mm\", 0]\nturned = \"180 deg\"\n", "[2, 1.2]",
+                           "length = \"6 mm\"\nwidth = \"10 mm\"\n") +
+                      "[[tie]]\nbetween = [\"a.right\", \"b.right\"]\n[[step]]\nkind = \"release\"\n"
+                      "[output]\nerror_estimate = false\nfields = false\n");
+  EXPECT_NEAR(ran.last("a_stretch_y"), 2, 1e-9);
+  EXPECT_NEAR(ran.last("b_stretch_y"), 1.2, 1e-9);
+  const double a = ran.last("a_stretch_x"), b = ran.last("b_stretch_x");
+  EXPECT_NEAR(10 * a + 6 * b, 27, 1e-8);
+  const auto pull = [](double along, double across) {
+    return along - 1 / (std::pow(along, 3) * across * across);
+  };
+  EXPECT_NEAR(6 * pull(a, 2), 10 * pull(b, 1.2), 1e-7);
+}
+
 // Clamped film that is all under voltage has nowhere to go: its tension falls everywhere alike.
 TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
   for (const std::string model : {"axisymmetric", "planar", "3d"}) {
