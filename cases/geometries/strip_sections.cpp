@@ -89,8 +89,8 @@ Section roll_section() {
 Section weight_section() {
   Section section;
   section.name = "weight";
-  section.meaning = "hangs from the lower end of a [strip]; its body is \"bar\", which cannot turn unless a "
-                    "[[body]] of that name says so";
+  section.meaning = "hangs from the lower end of a [strip]; its body is \"bar\", which moves along y alone "
+                    "unless a [[body]] of that name says so";
   section.presence = Section::Presence::optional;
   section.access = present(&Case::weight);
   section.keys = {measure("mass", "kg", to(&HungWeight::mass), "its mass")

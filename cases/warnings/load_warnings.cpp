@@ -57,6 +57,33 @@ std::vector<std::string> carrying_warnings(const Case& one) {
   return warnings;
 }
 
+std::vector<std::string> weight_warnings(const Case& one) {
+  std::vector<std::string> warnings;
+  if (std::ranges::none_of(one.steps, [](const Step& step) { return step.kind == StepKind::weight; }))
+    return warnings;
+  for (const Body& body : one.bodies) {
+    if (!(body.mass > 0) || body.pivot) continue;
+    std::vector<char> held;
+    bool follows = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (one.gravity.direction[axis] == 0) continue;
+      const bool moves = !body.fixed[axis] && (axis == 2 ? one.dimension != fem::Dimension::planar
+                                                         : one.dimension != fem::Dimension::axisymmetric);
+      follows = follows || moves;
+      if (!moves) held.push_back("xyz"[axis]);
+    }
+    if (held.empty() || !follows) continue;
+    const std::string key = "gravity.direction";
+    warnings.push_back(Diagnostic{one.where(key), key,
+                                  fmt::format("has no effect along {} on the body \"{}\", which is held "
+                                              "there; a [[body]] of that name with another `fix` is not",
+                                              fmt::join(held, " and "), body.name),
+                                  Severity::warning}
+                           .text());
+  }
+  return warnings;
+}
+
 std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& mesh,
                                           const fem::DofMap& dofs) {
   const HeldPlaces held(one, mesh, dofs);

@@ -96,6 +96,27 @@ TEST_F(Bodies, have_inertia_by_default_where_they_have_a_mass) {
   }
 }
 
+// The bar of a strip moves along y alone, unless the case has a body of that name.
+TEST_F(Bodies, oblique_gravity_that_a_guided_weight_does_not_follow_is_told) {
+  const auto warnings = [this](const std::string& direction, const std::string& more) {
+    write("strip.toml", "model = \"3d\"\n[film]\nthickness = \"0.2 mm\"\n[film.material]\nshear_modulus = "
+                        "\"80 kPa\"\npermittivity = \"4e-11 F/m\"\n[strip]\nlength = \"12 mm\"\nwidth = "
+                        "\"10 mm\"\n[mesh]\nacross = 4\n[weight]\nmass = \"25 g\"\n[gravity]\ndirection = " +
+                            direction + "\n[drive]\nvoltage = 0\n" + more);
+    std::string all;
+    for (const std::string& one : build_device(read_case(directory / "strip.toml")).warnings)
+      all += one + "\n";
+    return all;
+  };
+  const std::string guided = warnings("[0, -3, -4]", "");
+  EXPECT_NE(guided.find("gravity.direction: has no effect along z on the body \"bar\""), std::string::npos)
+      << guided;
+  EXPECT_EQ(warnings("[0, -1, 0]", ""), "");
+  EXPECT_EQ(warnings("[0, -3, -4]",
+                     "[[body]]\nname = \"bar\"\nplaces = [\"lower_end\"]\nfix = [\"x\", \"turn_x\"]\n"),
+            "");
+}
+
 // What holds the place of a load takes it, and nothing moves.
 TEST_F(Bodies, loads_that_nothing_but_supports_take_are_told) {
   const auto warnings = [this](const std::string& body, const std::string& place, const std::string& what,
