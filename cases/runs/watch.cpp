@@ -5,6 +5,7 @@
 #include "post/reductions.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -54,7 +55,16 @@ Watch::Watch(const Case& one, const Device& device)
 std::string Watch::place_of_triangle(int triangle) const {
   for (const auto& [name, set] : device_.mesh.cell_sets)
     if (is_cell(name) && std::binary_search(set.cells.begin(), set.cells.end(), triangle)) return name;
-  return "";
+  const auto nodes = device_.mesh.film()->cell(triangle);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const int node : nodes)
+    middle += device_.mesh.nodes[static_cast<std::size_t>(node)] / static_cast<double>(nodes.size());
+  const Eigen::Vector3d size = device_.mesh.bounds().sizes();
+  std::vector<std::string> at;
+  for (int axis = 0; axis < 3; ++axis)
+    if (size[axis] > 0)
+      at.push_back(fmt::format("{} = {}", "xyz"[axis], post::engineering(middle[axis], "m")));
+  return fmt::format("the element drawn about {}", fmt::join(at, ", "));
 }
 
 std::string Watch::place_of_line(int line) const { return cell_of(line, line); }

@@ -105,6 +105,21 @@ TEST_F(Events, LossOfTensionAndBreakdownAreToldOnceWithTheirPlace) {
   }
 }
 
+// The film of a diaphragm is thinnest beside its plate.
+TEST_F(Events, ThoseOfFilmWithoutCellsSayWhereItIsDrawn) {
+  write("ring.toml",
+        "[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+        "relative_permittivity = 4.7\nbreakdown_field = \"10 MV/m\"\n[annulus]\ninner_radius = \"10 mm\"\n"
+        "outer_radius = \"70 mm\"\n[plate]\nmass = \"100 g\"\n[drive]\nvoltage = \"3 kV\"\n[output]\n"
+        "error_estimate = false\nfields = false\n");
+  EXPECT_EQ(dielast({"run", "ring.toml", "-o", "out", "-q"}).exit_code, 0);
+  const auto event = of_kind(json_of("out/summary.json")["events"], "breakdown");
+  ASSERT_TRUE(event);
+  EXPECT_TRUE(std::regex_match((*event)["place"].get<std::string>(),
+                               std::regex(R"(the element drawn about x = 10\.\d* mm)")))
+      << (*event)["place"];
+}
+
 // Of a sine of 1 Hz about 5 kV, once between two rows.
 TEST_F(Events, ThoseBetweenTwoRowsAreToldWithTheirOwnTime) {
   write(
