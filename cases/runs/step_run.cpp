@@ -168,8 +168,7 @@ Outcome StepRun::run() {
       trouble.critical = limit_in_time();
     } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows() &&
                !equilibrium_.is_slack(last())) {
-      const fem::Outcome found = trouble.ramp.failure.outcome;
-      const bool another = found == fem::Outcome::converged || found == fem::Outcome::off_path;
+      const bool another = progress_.ramp.beside || trouble.ramp.failure.outcome == fem::Outcome::converged;
       trouble.critical = locate(trouble.ramp.failed_at, another);
     }
     if (const auto outcome = leave(trouble)) return *outcome;
@@ -296,6 +295,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   ramp.load_factor = s;
   ramp.increment = 1.0 / options_.increments;
   ramp.at_break = ramp.turns = true;
+  ramp.beside = false;
   ramp.unstable_modes = result.newton.unstable_modes;
   ramp.slope.reset();
   ramp.points = {{0, state}};

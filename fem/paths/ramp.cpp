@@ -305,6 +305,7 @@ bool Ramp::accept(State state, double s) {
   const bool lands =
       !timed() || s >= 1 || std::abs(s - options_.next_landing(progress_.load_factor)) < round_off;
   const double length = s - progress_.load_factor;
+  progress_.beside = progress_.beside && length < largest_ - round_off;
   progress_.load_factor = s;
   unstable_before_ = std::exchange(progress_.unstable_modes, newton_.unstable_modes);
   progress_.slope = std::exchange(slope_, std::nullopt);
@@ -358,7 +359,9 @@ RampResult Ramp::run() {
     if (newton_.outcome != Outcome::converged || (less_stable() && tried >= 2 * smallest_)) {
       if (observer_.on_cutback) observer_.on_cutback(s, newton_);
       progress_.increment = tried / 2;
-      const double smallest = newton_.outcome == Outcome::off_path ? smallest_off_path() : smallest_;
+      const bool off_path = newton_.outcome == Outcome::off_path;
+      progress_.beside = progress_.beside || off_path;
+      const double smallest = off_path ? smallest_off_path() : options_.smallest(progress_.beside);
       if (progress_.increment < smallest) return {RampEnd::gave_up, s, newton_};
       continue;
     }

@@ -27,8 +27,9 @@ struct RampOptions {
   bool inertia = false;           ///< what has a mass moves by generalised-alpha; otherwise without inertia
   double high_frequencies = 0.8;  ///< what generalised-alpha leaves of the highest ones after a step, 0..1
 
-  /// The smallest part of the step that is tried.
-  double smallest() const;
+  /// The smallest part of the step that is tried; without time less `beside` another branch: where the path
+  /// runs into one, Newton's method finds states of that one from afar, and is slow nearer by.
+  double smallest(bool beside = false) const;
   /// Whether what flows within the smallest part of a step may still do so within this one: BDF2 would swing
   /// about where it ends, backward Euler's method does not.
   bool outruns(double part) const;
@@ -57,6 +58,7 @@ struct RampProgress {
   double increment = 0;    ///< next to be tried, of the load factor
   bool at_break = true;    ///< loads may jump now: dashpots stay, the time scheme starts again
   bool turns = true;       ///< the path has a corner at the last accepted state
+  bool beside = false;     ///< since the last full increment one has led to another branch
   int unstable_modes = -1; ///< of the branch being followed; -1 before the first increment
   /// du/ds of the path at the last accepted state, where it is known; empty where the tangent is singular.
   std::optional<Eigen::VectorXd> slope;

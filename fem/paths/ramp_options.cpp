@@ -9,11 +9,14 @@ namespace dielast::fem {
 namespace {
 
 constexpr double smallest_in_time = 1e-10; ///< part of a step that takes time
+constexpr double smallest_beside = 1e-2;   ///< over the smallest, beside another branch
 constexpr double begun = 1e3; ///< smallest parts, behind which what flows within one of them has flown
 
 } // namespace
 
-double RampOptions::smallest() const { return duration > 0 ? smallest_in_time : smallest_increment; }
+double RampOptions::smallest(bool beside) const {
+  return duration > 0 ? smallest_in_time : smallest_increment * (beside ? smallest_beside : 1);
+}
 
 bool RampOptions::outruns(double part) const {
   return shortest_relaxation > 0 && shortest_relaxation < smallest() * duration && part < begun * smallest();

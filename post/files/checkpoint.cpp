@@ -211,6 +211,7 @@ json archive(const fem::RampProgress& progress) {
           {"increment", progress.increment},
           {"at_break", progress.at_break},
           {"turns", progress.turns},
+          {"beside", progress.beside},
           {"unstable_modes", progress.unstable_modes},
           {"slope", progress.slope ? pack(*progress.slope) : json(nullptr)},
           {"points", std::move(points)}};
@@ -229,6 +230,7 @@ fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
     }
     progress.at_break = archived.at("at_break");
     progress.turns = archived.at("turns");
+    progress.beside = archived.at("beside");
     progress.unstable_modes = archived.at("unstable_modes");
     if (const json& slope = archived.at("slope"); !slope.is_null())
       progress.slope = optional_vector(slope, sizes.free);
