@@ -20,7 +20,8 @@ constexpr double degree = std::numbers::pi / 180;
 
 Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State state, const Step& step) {
   const std::vector<double> held = device.model.charges(state, false).charge;
-  for (std::size_t e = 0; e < device.model.electrodes.size(); ++e) {
+  for (std::size_t e = 0; e < device.model.ports.size(); ++e) {
+    if (device.model.ports[e].chamber) continue;
     if (step.control == Control::charge) {
       state.charge[e] = held[e];
       state.supply[e] = fem::Supply::charge;
@@ -59,7 +60,7 @@ void append_polar(std::vector<double>& row, std::complex<double> value) {
 /// The voltage about which the sources of the driven electrodes swing; 0 where they differ.
 double common_bias(const Device& device, const fem::State& at_rest, const std::vector<std::size_t>& driven) {
   const auto source = [&](std::size_t port) {
-    return device.model.circuit_of(port) ? at_rest.source[port] : at_rest.voltage[port];
+    return device.model.ports[port].circuit ? at_rest.source[port] : at_rest.voltage[port];
   };
   const double bias = source(driven.front());
   return std::ranges::all_of(driven, [&](std::size_t port) { return source(port) == bias; }) ? bias : 0;
@@ -197,18 +198,19 @@ fem::HarmonicDrive common_drive(const Device& device, const fem::State& at,
   for (const std::size_t port : ports) {
     if (at.supply[port] == fem::Supply::charge)
       throw AnalysisError(fmt::format("electrode \"{}\" is isolated: there is no source that could swing",
-                                      device.model.electrodes[port]));
+                                      device.model.ports[port].name));
     drive.source[static_cast<Eigen::Index>(port)] = 1;
   }
   return drive;
 }
 
 fem::State operating_point(const Device& device, fem::State state, const std::vector<std::size_t>& driven) {
-  for (const fem::Circuit& circuit : device.model.circuits) {
-    const auto e = static_cast<std::size_t>(circuit.electrode);
+  for (std::size_t e = 0; e < device.model.ports.size(); ++e) {
+    const auto& circuit = device.model.ports[e].circuit;
+    if (!circuit) continue;
     if (fem::is_isolated(state.supply[e])) {
       if (std::ranges::find(driven, e) == driven.end()) continue;
-      state.source[e] = circuit.holding_source(state.voltage[e]);
+      state.source[e] = circuit->holding_source(state.voltage[e]);
     }
     state.supply[e] = fem::Supply::circuit;
   }

@@ -150,8 +150,8 @@ double area_under_plate(const Case& one, const meshing::Mesh& mesh, const meshin
 
 void add_chamber(const Case& one, const meshing::Mesh& mesh, bool free_body, fem::Model& model) {
   if (!one.chamber) return;
-  const std::size_t port = model.electrodes.size();
-  model.chambers = {{"chamber", one.chamber->bulk_modulus}};
+  const std::size_t port = model.ports.size();
+  model.ports.push_back({.name = "chamber", .chamber = fem::Chamber{one.chamber->bulk_modulus}});
   const meshing::CellBlock wall = wall_of_chamber(one, mesh);
   model.blocks.push_back(fem::make_pressure_block(mesh, wall, port));
   const bool of_meridian = meshing::is_meridian(wall.type);

@@ -174,46 +174,44 @@ double typical_voltage(const Case& one, const std::string& electrode) {
   return largest > 0 ? std::min(largest, most) : most;
 }
 
-void add_circuits(const Case& one, fem::Model& model) {
-  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
-    const auto found = one.circuits.find(one.electrodes[e].name);
-    if (found == one.circuits.end()) continue;
-    fem::Circuit circuit{.electrode = static_cast<int>(e), .resistance = found->second.resistance};
-    if (found->second.leakage_resistance) circuit.leakage = 1 / *found->second.leakage_resistance;
-    if (found->second.current_limit) circuit.current_limit = *found->second.current_limit;
-    model.circuits.push_back(circuit);
+/// The electrodes with what is between them and their sources.
+void add_electrodes(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+  for (const Electrode& electrode : one.electrodes) {
+    fem::Port port{.name = electrode.name};
+    if (const auto found = one.circuits.find(electrode.name); found != one.circuits.end()) {
+      port.circuit = {.resistance = found->second.resistance};
+      if (found->second.leakage_resistance) port.circuit->leakage = 1 / *found->second.leakage_resistance;
+      if (found->second.current_limit) port.circuit->current_limit = *found->second.current_limit;
+    }
+    if (electrode.sheet_resistance)
+      port.sheet = {.resistance = *electrode.sheet_resistance,
+                    .terminal = mesh.node_sets.at(electrode.terminal),
+                    .voltage_scale = typical_voltage(one, electrode.name)};
+    model.ports.push_back(std::move(port));
   }
 }
 
 /// The charges as drawn are known only when the model's histories are placed.
 void scale_charges(const Case& one, fem::Model& model) {
   const std::vector<double> capacitance = model.charges(model.initial_state(), false).capacitance;
-  for (fem::Circuit& circuit : model.circuits) {
-    const auto electrode = static_cast<std::size_t>(circuit.electrode);
-    circuit.charge_scale = typical_voltage(one, model.electrodes[electrode]) * capacitance[electrode];
-  }
+  for (std::size_t p = 0; p < model.ports.size(); ++p)
+    if (fem::Port& port = model.ports[p]; port.circuit)
+      port.circuit->charge_scale = typical_voltage(one, port.name) * capacitance[p];
 }
 
 /// What leaks under sheets in the long run, as drawn.
 void share_leaks(fem::Model& model) {
-  const auto under_sheet = [&model](const fem::Circuit& circuit) {
-    return circuit.leakage > 0 && std::ranges::count(model.sheets, circuit.electrode, &fem::Sheet::electrode);
+  const auto leaks_under_sheet = [](const fem::Port& port) {
+    return port.sheet && port.circuit && port.circuit->leakage > 0;
   };
-  if (std::ranges::none_of(model.circuits, under_sheet)) return;
+  if (std::ranges::none_of(model.ports, leaks_under_sheet)) return;
   fem::State rest = model.initial_state();
   rest.scheme = materials::TimeScheme::relaxed();
   std::ranges::fill(rest.voltage, 1.0);
   fem::SheetConduction(model).solve(rest);
-  for (fem::Circuit& circuit : model.circuits)
-    if (under_sheet(circuit))
-      circuit.sheet_share = model.leak(rest, static_cast<std::size_t>(circuit.electrode)) / circuit.leakage;
-}
-
-void add_sheets(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  for (std::size_t e = 0; e < one.electrodes.size(); ++e)
-    if (const Electrode& electrode = one.electrodes[e]; electrode.sheet_resistance)
-      model.sheets.push_back({static_cast<int>(e), *electrode.sheet_resistance,
-                              mesh.node_sets.at(electrode.terminal), typical_voltage(one, electrode.name)});
+  for (std::size_t p = 0; p < model.ports.size(); ++p)
+    if (fem::Port& port = model.ports[p]; leaks_under_sheet(port))
+      port.circuit->sheet_share = model.ports.leak(rest, p) / port.circuit->leakage;
 }
 
 } // namespace
@@ -246,7 +244,7 @@ Device build_device(const Case& one) {
   const std::vector<MassOfShells> of_shells = add_mass_nodes(one, parts, mesh);
   const std::vector<fem::RelativeMass> rotary = add_rotary_nodes(one, mesh);
   fem::Model model{.dofs = fem::DofMap(mesh.node_count())};
-  for (const Electrode& electrode : one.electrodes) model.electrodes.push_back(electrode.name);
+  add_electrodes(one, mesh, model);
   model.extent = size.norm();
   model.drawn = mesh.nodes;
   model.corners = fem::element_corners(mesh);
@@ -312,8 +310,6 @@ Device build_device(const Case& one) {
   }
   add_chamber(one, mesh, free_body, model); // behind what holds its edges
   model.inertia = fem::Inertia::of(model.blocks, model.dofs);
-  add_circuits(one, model);
-  add_sheets(one, mesh, model);
   try {
     model.place_histories();
     share_leaks(model);

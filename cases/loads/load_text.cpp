@@ -24,7 +24,7 @@ std::string load_text(const fem::Model& model, const fem::LoadPath& path, const 
     const double to = isolated ? at.charge[e] : at.voltage[e];
     if (std::abs(to - from) <= largest) continue;
     largest = std::abs(to - from);
-    const bool chamber = e >= model.electrodes.size();
+    const bool chamber = model.ports[e].chamber.has_value();
     const char* unit = chamber ? (isolated ? "m^3" : "Pa") : (isolated ? "C" : "V");
     text = post::engineering(to, unit, post::Ratio::plain, 5);
   }

@@ -32,11 +32,12 @@ void add_relaxation(const materials::Material& material, const fem::Model& model
     times.add(branch.viscosity / materials::initial_shear_modulus(branch.law));
   if (material.viscosity > 0) times.add(material.viscosity / materials::initial_shear_modulus(material.law));
   const fem::Charges drawn = model.charges(model.initial_state(), false);
-  for (const fem::Circuit& circuit : model.circuits)
-    times.add(std::min(circuit.resistance, 1 / circuit.leakage) *
-              drawn.capacitance[static_cast<std::size_t>(circuit.electrode)]);
-  for (const fem::Sheet& sheet : model.sheets)
-    times.add(sheet.resistance * drawn.capacitance[static_cast<std::size_t>(sheet.electrode)]);
+  for (std::size_t p = 0; p < model.ports.size(); ++p) {
+    const fem::Port& port = model.ports[p];
+    if (port.circuit)
+      times.add(std::min(port.circuit->resistance, 1 / port.circuit->leakage) * drawn.capacitance[p]);
+    if (port.sheet) times.add(port.sheet->resistance * drawn.capacitance[p]);
+  }
 }
 
 } // namespace
@@ -70,7 +71,7 @@ const Signal* StepLoads::signal_of(const Step& step, const DrivenLoad& load) con
 
 /// An isolated electrode keeps its charge, or loses it through a leak while time passes.
 fem::Supply StepLoads::isolated(const Step& step, std::size_t electrode) const {
-  const fem::Circuit* circuit = device_.model.circuit_of(electrode);
+  const auto& circuit = device_.model.ports[electrode].circuit;
   return step.duration && circuit && circuit->leakage > 0 ? fem::Supply::leak : fem::Supply::charge;
 }
 
@@ -81,17 +82,18 @@ fem::Supply StepLoads::supply(const Step& step, std::size_t electrode) const {
   const bool follows = step.kind == StepKind::charge || (isolates && step.kind == StepKind::transient);
   if (follows && goal_of(step, electrode, &Drive::charge, {})) return fem::Supply::charge;
   if (isolates) return isolated(step, electrode);
-  return step.duration && device_.model.circuit_of(electrode) ? fem::Supply::circuit : fem::Supply::voltage;
+  return step.duration && device_.model.ports[electrode].circuit ? fem::Supply::circuit
+                                                                 : fem::Supply::voltage;
 }
 
 /// A chamber stays open to its pressure or closed, as the last step that was about it has left it.
 void StepLoads::connect_chamber(const Step& step, const fem::Charges& held, fem::State& state) const {
   if (!case_.chamber) return;
-  const std::size_t port = case_.electrodes.size();
+  const std::size_t port = device_.model.ports.chamber();
   if (step.kind == StepKind::pressure) state.supply[port] = fem::Supply::voltage;
   if (step.kind != StepKind::inflate) return;
   state.supply[port] = fem::Supply::charge;
-  state.charge[port] = device_.model.chambers[0].pumped(held.charge[port], state.voltage[port]);
+  state.charge[port] = device_.model.ports[port].chamber->pumped(held.charge[port], state.voltage[port]);
 }
 
 void StepLoads::begin(int number, fem::State& state) const {
@@ -105,7 +107,7 @@ void StepLoads::begin(int number, fem::State& state) const {
     if (next == state.supply[e]) continue;
     state.charge[e] = held.charge[e];
     // A source that was connected stands where it stood, whatever the electrode has come to.
-    const fem::Circuit* circuit = device_.model.circuit_of(e);
+    const auto& circuit = device_.model.ports[e].circuit;
     if (circuit && fem::is_isolated(state.supply[e]) && !fem::is_isolated(next))
       state.source[e] = circuit->holding_source(state.voltage[e]);
     connects = connects || fem::flows(next);
@@ -190,17 +192,17 @@ fem::Loads StepLoads::at(int number, const fem::Loads& start, Instant t) const {
                               [&] { return goal_of(step, e, &Drive::voltage, t); });
     if (does(StepKind::voltage) && voltage && !isolated) {
       loads.source[e] = *voltage;
-      const fem::Circuit* circuit = device_.model.circuit_of(e);
+      const auto& circuit = device_.model.ports[e].circuit;
       loads.voltage[e] = circuit ? circuit->steady_voltage(loads.source[e]) : loads.source[e];
     }
     if (const auto charge = goal_of(step, e, &Drive::charge, t); does(StepKind::charge) && charge && isolated)
       loads.charge[e] = *charge;
-    if (const fem::Circuit* circuit = device_.model.circuit_of(e);
+    if (const auto& circuit = device_.model.ports[e].circuit;
         step.kind == StepKind::relax && circuit && !isolated)
       loads.voltage[e] = circuit->steady_voltage(loads.source[e]);
   }
   if (case_.chamber) {
-    const std::size_t port = case_.electrodes.size();
+    const std::size_t port = device_.model.ports.chamber();
     const auto pressure = goal({Driven::pressure}, [&] { return goal_of(step, case_.chamber->pressure, t); });
     if (does(StepKind::pressure) && pressure) loads.voltage[port] = *pressure;
     const auto volume = goal({Driven::volume}, [&] { return goal_of(step, case_.chamber->volume, t); });
@@ -251,7 +253,7 @@ fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
   if (step.kind != StepKind::transient)
     return fem::linear_path(device_.model.dofs, start, at(number, start, just_before_start),
-                            case_.electrodes.size());
+                            &device_.model.ports);
   fem::LoadPath path;
   const double duration = *step.duration;
   const std::vector<Break> all = breaks(step);

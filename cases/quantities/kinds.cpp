@@ -24,10 +24,7 @@ void Probing::refuse(const std::string& key, const std::string& message) const {
   throw CaseError({{one.where(where), where, message}});
 }
 
-std::size_t Probing::electrode() const {
-  const auto& names = device.model.electrodes;
-  return static_cast<std::size_t>(std::ranges::find(names, quantity.of) - names.begin());
-}
+std::size_t Probing::electrode() const { return device.model.ports.electrode(quantity.of); }
 
 Key of_key(std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); }
 

@@ -15,17 +15,16 @@ std::string without_chamber(const Case& one, const Quantity&) {
 
 Probe current(const Probing& probing) {
   const std::size_t e = probing.electrode();
-  const fem::Circuit* circuit = probing.device.model.circuit_of(e);
-  return [e, circuit, &model = probing.device.model](const Measured& measured) {
+  return [e, &ports = probing.device.model.ports](const Measured& measured) {
+    const auto& circuit = ports[e].circuit;
     const fem::State& state = measured.state;
     if (!circuit || fem::is_isolated(state.supply[e])) return no_value;
     if (state.supply[e] == fem::Supply::circuit) return circuit->current(state.source[e], state.voltage[e]);
-    return model.leak(state, e); // without time
+    return ports.leak(state, e); // without time
   };
 }
 
-/// The chamber's port stands behind those of the electrodes.
-std::size_t chamber(const Probing& probing) { return probing.device.model.electrodes.size(); }
+std::size_t chamber(const Probing& probing) { return probing.device.model.ports.chamber(); }
 
 } // namespace
 
@@ -93,10 +92,9 @@ std::vector<QuantityKind> port_kinds() {
              return fmt::format("volume pumped into the chamber, as it is without pressure{}", at_words(q));
            },
        .probe = [](const Probing& probing) -> Probe {
-         return
-             [port = chamber(probing), &chambers = probing.device.model.chambers](const Measured& measured) {
-               return chambers[0].pumped(measured.charges.charge[port], measured.state.voltage[port]);
-             };
+         return [port = chamber(probing), &ports = probing.device.model.ports](const Measured& measured) {
+           return ports[port].chamber->pumped(measured.charges.charge[port], measured.state.voltage[port]);
+         };
        },
        .refusal = without_chamber},
   };

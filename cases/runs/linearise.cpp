@@ -72,7 +72,7 @@ Linearised linearise(const Case& one, Simulation& simulation) {
                     .unit = unit_of(output, one.quantities),
                     .frequency = frequencies(one.linearise->sweep)};
   for (const std::size_t port : driven) {
-    result.driven.push_back(device.model.electrodes[port]);
+    result.driven.push_back(device.model.ports[port].name);
     result.voltage.push_back(state.voltage[port]);
   }
   std::vector<double> omega = result.frequency;

@@ -87,8 +87,9 @@ constexpr std::size_t most_shapes = 6;  ///< of vibrations in the report
 Snapshot snapshot(const Device& device, const std::string& title, const fem::State& state,
                   const fem::Samples& samples) {
   double voltage = 0;
-  for (std::size_t e = 0; e < device.model.electrodes.size(); ++e)
-    if (std::abs(state.voltage[e]) > std::abs(voltage)) voltage = state.voltage[e];
+  for (std::size_t p = 0; p < device.model.ports.size(); ++p)
+    if (device.model.ports[p].is_electrode() && std::abs(state.voltage[p]) > std::abs(voltage))
+      voltage = state.voltage[p];
   const int cells = device.mesh.film()->size();
   return {title, voltage, state.displacement, post::average(samples, shape_field(device).name, cells),
           post::average(samples, "electric_field", cells)};

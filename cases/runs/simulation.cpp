@@ -164,7 +164,7 @@ Eigen::VectorXd Simulation::frame_force() {
 void Simulation::lead_to(const std::vector<double>& voltages, int increments) {
   steps_.back().increments = increments;
   for (std::size_t e = 0; e < voltages.size(); ++e) {
-    const fem::Circuit* circuit = device_.model.circuit_of(e); // what leaks divides the source's voltage
+    const auto& circuit = device_.model.ports[e].circuit; // what leaks divides the source's voltage
     now_.drives[case_.electrodes[e].name].voltage =
         Waveform::constant_at(circuit ? circuit->holding_source(voltages[e]) : voltages[e]);
   }
@@ -274,8 +274,10 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
 }
 
 std::vector<double> Simulation::voltages(const fem::State& state) const {
-  return {state.voltage.begin(),
-          state.voltage.begin() + static_cast<std::ptrdiff_t>(case_.electrodes.size())};
+  std::vector<double> voltages;
+  for (std::size_t p = 0; p < state.voltage.size(); ++p)
+    if (device_.model.ports[p].is_electrode()) voltages.push_back(state.voltage[p]);
+  return voltages;
 }
 
 bool Simulation::record(const SimulationObserver& observer, const Step& step, Measured& measured,
@@ -344,7 +346,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
       if (!come_to_rest(state)) return *std::exchange(refusal_, std::nullopt);
       change_supports(state);
       loads_->begin(step_, state);
-      if (!device_.model.circuits.empty())
+      if (device_.model.ports.any_circuit())
         energy_.reconnect(fem::energy_point(*equilibrium_, state, 0, held_));
       unseen_ = {};
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));

@@ -28,11 +28,12 @@ bool is_cell(const std::string& place) {
 /// What leaks through sheets as they lie, without time, less what the steady voltage takes: relative.
 double leak_beyond_drawn(const fem::Model& model, const fem::State& state) {
   double largest = 0;
-  for (const fem::Circuit& circuit : model.circuits) {
-    const auto e = static_cast<std::size_t>(circuit.electrode);
-    const double taken = circuit.steady_leakage() * state.voltage[e];
-    if (circuit.sheet_share == 1 || state.supply[e] != fem::Supply::voltage || taken == 0) continue;
-    const double beyond = model.leak(state, e) / taken - 1;
+  for (std::size_t e = 0; e < model.ports.size(); ++e) {
+    const auto& circuit = model.ports[e].circuit;
+    if (!circuit) continue;
+    const double taken = circuit->steady_leakage() * state.voltage[e];
+    if (circuit->sheet_share == 1 || state.supply[e] != fem::Supply::voltage || taken == 0) continue;
+    const double beyond = model.ports.leak(state, e) / taken - 1;
     if (std::abs(beyond) > std::abs(largest)) largest = beyond;
   }
   return largest;

@@ -42,7 +42,7 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
   Balance current, there;
   Eigen::VectorXd step;
   balance(state, current, Pressure::is_unknown);
-  const auto chamber = model_.closed_chamber(state);
+  const auto chamber = model_.ports.closed_chamber(state);
   for (; result.iterations < most_steps && damping < most_damping; ++result.iterations) {
     if (!current.feasible) return result;
     result.residual = current.scale > 0 ? current.norm / current.scale : 0;

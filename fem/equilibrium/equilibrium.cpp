@@ -110,7 +110,7 @@ Equilibrium::Equilibrium(const Model& model, int threads)
                std::sqrt(static_cast<double>(K.size));
   stiffness_ = stiffness_.array().max(least_stiffness * stiffest / squared);
   energy_scale_ = (squared == 1).select(stiffness_.array(), 0).sum() * model.extent * model.extent;
-  if (!model.sheets.empty()) conduction_.emplace(model);
+  if (model.ports.any_sheet()) conduction_.emplace(model);
 }
 
 double Equilibrium::weighted_norm(const Eigen::VectorXd& force, Eigen::Index count) const {
@@ -122,7 +122,7 @@ double Equilibrium::weighted_norm(const Eigen::VectorXd& force, Eigen::Index cou
 bool Equilibrium::follow_charges(State& state, Pressure pressure) const {
   const auto follows = [&](std::size_t port) {
     return state.supply[port] != Supply::voltage &&
-           !(pressure == Pressure::is_unknown && model_.chamber_of(port));
+           !(pressure == Pressure::is_unknown && model_.ports[port].chamber);
   };
   bool any = false;
   for (std::size_t e = 0; e < state.supply.size(); ++e) any = any || follows(e);
@@ -157,7 +157,7 @@ void Equilibrium::balance(State& state, Balance& balance, Pressure pressure) {
   }
   const Evaluation evaluation = assembler_.residual(state, balance.force);
   balance.energy = evaluation.energy;
-  if (follows) balance.energy += model_.supply_energy(state);
+  if (follows) balance.energy += model_.ports.supply_energy(state);
   balance.force -= state.dead_force;
   if (!state.motion_scheme.is_static()) {
     const InertialForce inertial(model_.inertia, model_.dofs, state);
@@ -214,7 +214,7 @@ double Equilibrium::backtrack(State& state, Balance& current, const Eigen::Vecto
   const bool definite = tangent_.unstable_modes() == 0 && model_.dofs.scalar_count() == 0;
   const double slope = current.force.head(free).dot(step);
   const double dead_work = state.dead_force.head(free).dot(step);
-  const auto chamber = model_.closed_chamber(state);
+  const auto chamber = model_.ports.closed_chamber(state);
   Eigen::VectorXd response;
   if (chamber) response = tangent_.response(*chamber);
   double length = 1;
@@ -253,7 +253,7 @@ State Equilibrium::widened(State state, double strain) const {
 
 /// Gives a closed chamber its volume; false where it cannot have it.
 bool Equilibrium::fill(State& state) {
-  const auto chamber = model_.closed_chamber(state);
+  const auto chamber = model_.ports.closed_chamber(state);
   if (!chamber || model_.fill(state, Eigen::VectorXd::Zero(model_.dofs.free_count()))) return true;
   if (!factor(state) && !factor(widened(state, first_widening))) return false;
   return model_.fill(state, tangent_.response(*chamber));
@@ -301,7 +301,7 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
   solved_.reset();
   const auto end = [&](Outcome outcome) {
     result.outcome = outcome;
-    if (outcome == Outcome::converged && !conduction_ && !model_.closed_chamber(state))
+    if (outcome == Outcome::converged && !conduction_ && !model_.ports.closed_chamber(state))
       solved_ = std::move(current);
     return result;
   };
@@ -330,7 +330,8 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
     result.residual = current.scale > 0 ? current.norm / current.scale : 0;
     if (log) log({result.iterations, result.residual, step_length, result.negative_pivots});
     // An unstable mode of a state close by is not one of this state; a pump's filling makes close far.
-    const bool tells = stale_tangent <= near && result.unstable_modes == 0 && !model_.closed_chamber(state);
+    const bool tells =
+        stale_tangent <= near && result.unstable_modes == 0 && !model_.ports.closed_chamber(state);
     const double last_step = step_length == 1 ? step_size(step) : infinity;
     const double admitted = admitted_correction(current, options.tolerance, previous_norm, last_step);
     right_ = -current.force.head(model_.dofs.free_count());
@@ -375,7 +376,7 @@ NewtonResult Equilibrium::newton(State& state, const NewtonOptions& options,
         !find_step(state, tells && result.residual <= near) || step_size(step) > farthest_step;
     if (stiffened && !find_widened_step()) return end(Outcome::singular);
     if (stiffened) stale_tangent = infinity;
-    if (has_friction(model_) && !model_.closed_chamber(state)) {
+    if (has_friction(model_) && !model_.ports.closed_chamber(state)) {
       const Eigen::VectorXd found = step.cwiseQuotient(weight_.head(step.size()));
       taken = shrinks_slowly && !stiffened ? longer(found, before, taken) : 1;
       before = found;

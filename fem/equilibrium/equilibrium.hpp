@@ -44,7 +44,7 @@ struct NewtonResult {
 
 /// How well the forces of a state balance.
 struct Balance {
-  double energy = 0; ///< J, under the control: with Model::supply_energy
+  double energy = 0; ///< J, under the control: with Ports::supply_energy
   bool feasible = false;
   Eigen::VectorXd force; ///< internal minus dead ones, per equation
   double norm = 0;       ///< of the free ones, moments over the model's length scale, N

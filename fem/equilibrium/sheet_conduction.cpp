@@ -15,7 +15,7 @@ constexpr double voltage_tolerance = 1e-14;
 } // namespace
 
 SheetConduction::SheetConduction(const Model& model) : model_(model) {
-  for (const SheetPoint& point : model.sheet_points) {
+  for (const SheetPoint& point : model.ports.sheet_points()) {
     inner_.push_back(point.at_terminal ? SheetMap::none : inner_count_++);
     leaks_ = leaks_ || point.leakage > 0;
   }
@@ -53,8 +53,8 @@ void SheetConduction::require_connections(const SheetMatrices& matrices) const {
   }
   for (std::size_t a = 0; a < inner_.size(); ++a)
     if (!reached[a]) {
-      const auto electrode = static_cast<std::size_t>(model_.sheet_points[a].electrode);
-      throw std::invalid_argument("electrode \"" + model_.electrodes[electrode] +
+      const auto electrode = static_cast<std::size_t>(model_.ports.sheet_points()[a].electrode);
+      throw std::invalid_argument("electrode \"" + model_.ports[electrode].name +
                                   "\" has a part that is not connected to its terminal");
     }
 }
@@ -71,7 +71,7 @@ void SheetConduction::factor(const SheetMatrices& matrices, const materials::Tim
   for (std::size_t a = 0; a < inner_.size(); ++a) {
     if (inner_[a] < 0) continue;
     const double stored = scheme.is_relaxed() ? 0 : matrices.capacitance[static_cast<Eigen::Index>(a)];
-    entries.emplace_back(inner_[a], inner_[a], stored + share * model_.sheet_points[a].leakage);
+    entries.emplace_back(inner_[a], inner_[a], stored + share * model_.ports.sheet_points()[a].leakage);
   }
   Eigen::SparseMatrix<double> matrix(inner_count_, inner_count_);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -102,14 +102,14 @@ void SheetConduction::follow_charge(State& state, std::size_t electrode, const E
   double& voltage = state.voltage[electrode];
   for (int correction = 0; correction <= most_corrections; ++correction) {
     set_drops(state, drops);
-    double surplus = -model_.given_charge(state, electrode), slope = 0;
+    double surplus = -model_.ports.given_charge(state, electrode), slope = 0;
     for (Eigen::Index a = 0; a < capacitance.size(); ++a) {
       if (electrode_of(a) != electrode) continue;
       surplus += capacitance[a] * (voltage - state.sheet_drop[a]);
       slope += capacitance[a] * (1 - drops.per_volt[a]) - share * point(a).leakage * drops.per_volt[a];
     }
     if (has_circuit) {
-      const Circuit::Drawn drawn = model_.taken(state, electrode);
+      const Circuit::Drawn drawn = model_.ports.taken(state, electrode);
       surplus += drawn.charge;
       slope += drawn.capacitance;
     }
@@ -120,8 +120,9 @@ void SheetConduction::follow_charge(State& state, std::size_t electrode, const E
 }
 
 Eigen::VectorXd SheetConduction::voltages(const State& state) const {
-  Eigen::VectorXd V = -state.sheet_drop;
-  for (Eigen::Index a = 0; a < V.size(); ++a) V[a] += state.voltage[electrode_of(a)];
+  Eigen::VectorXd V(state.sheet_drop.size());
+  for (Eigen::Index a = 0; a < V.size(); ++a)
+    V[a] = model_.ports.sheet_voltage(state, static_cast<std::size_t>(a));
   return V;
 }
 
@@ -139,11 +140,11 @@ double SheetConduction::solve(State& state) {
     Eigen::VectorXd sources = relaxed ? Eigen::VectorXd::Zero(points) : matrices.capacitance;
     const double share = relaxed ? 1 : state.scheme.dt / state.scheme.a0;
     for (Eigen::Index a = 0; a < points; ++a) sources[a] += share * point(a).leakage;
-    const Drops drops{spread(sources),
-                      relaxed ? Eigen::VectorXd::Zero(points) : spread(model_.past_sheet_charges(state))};
-    for (const Sheet& sheet : model_.sheets)
-      if (const auto e = static_cast<std::size_t>(sheet.electrode); state.supply[e] != Supply::voltage)
-        follow_charge(state, e, matrices.capacitance, drops);
+    const Drops drops{spread(sources), relaxed ? Eigen::VectorXd::Zero(points)
+                                               : spread(model_.ports.past_sheet_charges(state))};
+    for (std::size_t p = 0; p < model_.ports.size(); ++p)
+      if (model_.ports[p].sheet && state.supply[p] != Supply::voltage)
+        follow_charge(state, p, matrices.capacitance, drops);
     set_drops(state, drops);
   }
   const Eigen::VectorXd after = voltages(state);

@@ -40,7 +40,9 @@ class SheetConduction {
   void follow_charge(State& state, std::size_t electrode, const Eigen::VectorXd& capacitance,
                      const Drops& drops) const;
   Eigen::VectorXd voltages(const State& state) const;
-  const SheetPoint& point(Eigen::Index a) const { return model_.sheet_points[static_cast<std::size_t>(a)]; }
+  const SheetPoint& point(Eigen::Index a) const {
+    return model_.ports.sheet_points()[static_cast<std::size_t>(a)];
+  }
   std::size_t electrode_of(Eigen::Index a) const { return static_cast<std::size_t>(point(a).electrode); }
 
   const Model& model_;

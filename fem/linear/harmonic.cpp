@@ -43,13 +43,13 @@ std::vector<std::size_t> halving_order(std::size_t count) {
 } // namespace
 
 HarmonicDrive HarmonicDrive::at_port(const Model& model, std::size_t port) {
-  const auto ports = static_cast<Eigen::Index>(model.port_count());
+  const auto ports = static_cast<Eigen::Index>(model.ports.size());
   return {Eigen::VectorXd::Unit(ports, static_cast<Eigen::Index>(port)),
           Eigen::VectorXd::Zero(model.dofs.free_count())};
 }
 
 HarmonicDrive HarmonicDrive::along(const Model& model, int equation) {
-  return {Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.port_count())),
+  return {Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.ports.size())),
           Eigen::VectorXd::Unit(model.dofs.free_count(), equation)};
 }
 

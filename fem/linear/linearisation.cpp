@@ -87,12 +87,12 @@ void Linearisation::interpolate_rates(double low, double high) {
 void Linearisation::add_ports() {
   Charges charges = model().charges(state_, true);
   for (Eigen::VectorXd& coupling : charges.coupling) model().dofs.gather(state_, coupling);
-  for (std::size_t p = 0; p < model().port_count(); ++p) {
+  for (std::size_t p = 0; p < model().ports.size(); ++p) {
     Port port{state_.supply[p], charges.coupling[p].head(stiffness_.size), charges.capacitance[p]};
-    if (const Chamber* chamber = model().chamber_of(p))
+    if (const auto& chamber = model().ports[p].chamber)
       port.capacitance = chamber->compliance(charges.charge[p], state_.voltage[p]);
     if (flows(port.supply)) {
-      const Circuit& circuit = *model().circuit_of(p);
+      const Circuit& circuit = *model().ports[p].circuit;
       const double drop = state_.source[p] - state_.voltage[p];
       const bool limited = std::abs(drop) > circuit.current_limit * circuit.resistance;
       port.conductance = limited || is_isolated(port.supply) ? 0 : 1 / circuit.resistance;

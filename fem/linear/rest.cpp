@@ -104,26 +104,28 @@ bool conducts(Equilibrium& equilibrium, const State& state) {
   State rest = fem::relaxed(state);
   equilibrium.conduct(rest);
   double largest = 0;
-  for (std::size_t e = 0; e < equilibrium.model().electrodes.size(); ++e)
-    largest = std::max(largest, std::abs(state.voltage[e]));
+  const Ports& ports = equilibrium.model().ports;
+  for (std::size_t p = 0; p < ports.size(); ++p)
+    if (ports[p].is_electrode()) largest = std::max(largest, std::abs(state.voltage[p]));
   largest = std::max(largest, state.sheet_drop.lpNorm<Eigen::Infinity>());
   return (rest.sheet_drop - state.sheet_drop).lpNorm<Eigen::Infinity>() > still * largest;
 }
 
 /// What a port's charge does that is not at its end.
 std::string charges(const Model& model, const State& state) {
-  for (const Circuit& circuit : model.circuits) {
-    const auto e = static_cast<std::size_t>(circuit.electrode);
+  for (std::size_t e = 0; e < model.ports.size(); ++e) {
+    const Port& port = model.ports[e];
+    if (!port.circuit) continue;
+    const Circuit& circuit = *port.circuit;
     const double voltage = state.voltage[e];
     if (state.supply[e] == Supply::leak &&
         std::abs(model.charges(state, false).charge[e]) > still * circuit.charge_scale)
-      return "electrode \"" + model.electrodes[e] + "\" is isolated and leaks";
-    const bool spreads = std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode) > 0;
+      return "electrode \"" + port.name + "\" is isolated and leaks";
     // What leaks under a sheet is known as drawn only; where nothing does, the source's voltage is the end.
-    if (is_isolated(state.supply[e]) || (spreads && circuit.leakage > 0)) continue;
+    if (is_isolated(state.supply[e]) || (port.sheet && circuit.leakage > 0)) continue;
     const double end = circuit.steady_voltage(state.source[e]);
     if (std::abs(end - voltage) > still * std::max(std::abs(end), std::abs(voltage)))
-      return "charge flows through the circuit of electrode \"" + model.electrodes[e] + "\"";
+      return "charge flows through the circuit of electrode \"" + port.name + "\"";
   }
   return "";
 }

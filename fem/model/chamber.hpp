@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 
 namespace dielast::fem {
 
@@ -12,7 +11,6 @@ namespace dielast::fem {
 /// for a liquid of bulk modulus K >> p, and for a gas at constant temperature, K being the pressure outside.
 /// `fem` treats the own volume V as a port's charge (see Charges); where Q is given, V must be filled(p).
 struct Chamber {
-  std::string name;
   double bulk_modulus = 2.2e9; ///< K, Pa
 
   double pumped(double volume, double pressure) const { return volume * (1 + pressure / bulk_modulus); }

@@ -15,7 +15,6 @@ namespace dielast::fem {
 /// drawn = (dt/a0) (G Phi - i(Phi)), which grows with Phi: an electrode of given charge whose capacitance is
 /// larger. Q_n is an internal variable of the model. Isolated (Supply::leak), i = 0.
 struct Circuit {
-  int electrode = 0;
   double resistance = 0;                                          ///< R > 0, Ohm
   double leakage = 0;                                             ///< G, S, of the whole electrode
   double current_limit = std::numeric_limits<double>::infinity(); ///< A

@@ -74,12 +74,12 @@ struct Evaluation {
   bool convex = false;
 };
 
-/// What the electrodes hold at a state: Q_e = -dE/dPhi_e of the energy E(u, Phi) that the blocks give.
-/// Chambers likewise, behind them: the volume is minus the derivative with respect to the pressure.
+/// What the ports hold at a state: Q_p = -dE/dPhi_p of the energy E(u, Phi) that the blocks give. Of a
+/// chamber it is the volume: minus the derivative with respect to the pressure.
 struct Charges {
-  std::vector<double> charge;            ///< per electrode, C, then per chamber, m^3
-  std::vector<double> capacitance;       ///< dQ_e/dPhi_e at fixed u, F (m^3/Pa)
-  std::vector<Eigen::VectorXd> coupling; ///< dQ_e/du per electrode, count() entries; left out when not wanted
+  std::vector<double> charge;            ///< per port, C, or m^3
+  std::vector<double> capacitance;       ///< dQ_p/dPhi_p at fixed u, F (m^3/Pa)
+  std::vector<Eigen::VectorXd> coupling; ///< dQ_p/du per port, count() entries; left out when not wanted
 };
 
 /// Where the energy of a state is.

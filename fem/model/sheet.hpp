@@ -12,7 +12,6 @@ namespace dielast::fem {
 /// An electrode that resists the current along the film. At its terminal it has the electrode's voltage Phi,
 /// elsewhere V = Phi - drop (see SheetConduction).
 struct Sheet {
-  int electrode = 0;
   double resistance = 0;     ///< Ohm per square of the current surface, > 0; of both faces together
   std::vector<int> terminal; ///< nodes where it is connected; what is no corner of its film does not count
   double voltage_scale = 1;  ///< V: charges in the history are over this and the drawn capacitance
@@ -34,14 +33,14 @@ class SheetMap {
  public:
   static constexpr int none = -1;
 
-  /// Throws std::invalid_argument for a resistance that is not positive and a second sheet of an electrode.
-  explicit SheetMap(const std::vector<Sheet>& sheets);
+  /// A sheet for each port, or null. Throws std::invalid_argument for a resistance that is not positive.
+  explicit SheetMap(std::vector<const Sheet*> sheets);
   /// Number of an electrode's point at a node; `none` where the electrode is no sheet.
   int claim(int electrode, int node);
   const std::vector<SheetPoint>& points() const { return points_; }
 
  private:
-  std::map<int, const Sheet*> sheets_; ///< by electrode
+  std::vector<const Sheet*> sheets_;
   std::map<std::pair<int, int>, int> numbers_;
   std::vector<SheetPoint> points_;
 };

@@ -55,12 +55,12 @@ struct State {
   std::vector<Eigen::Quaterniond> rotation; ///< per node, from the mesh as drawn; the sign is kept continuous
   std::vector<Eigen::Vector3d> angle; ///< per node, rad: the rotation vector, full turns counted (angle_near)
   std::vector<double> scalar;         ///< pressures (Pa) and potentials (V) of solids: see DofMap::add_scalar
-  std::vector<double> voltage;        ///< per electrode, V; then per chamber, its pressure, Pa
+  std::vector<double> voltage;        ///< per port (see Ports), V; of a chamber its pressure, Pa
   Eigen::VectorXd dead_force;         ///< per equation (see DofMap): N, or N m for rotations
-  std::vector<Supply> supply;         ///< per electrode and chamber: what is given
+  std::vector<Supply> supply;         ///< per port: what is given
   std::vector<double> charge;         ///< of each the given charge, C, or pumped volume, m^3
   std::vector<double> source;         ///< of each the voltage of the source, before its circuit, V
-  Eigen::VectorXd sheet_drop; ///< per Model::sheet_points, the electrode's voltage less the sheet's there, V;
+  Eigen::VectorXd sheet_drop; ///< per Ports::sheet_points, the electrode's voltage less the sheet's there, V;
                               ///< empty: none
   double time = 0;            ///< s
   materials::TimeScheme scheme; ///< how the branches get here from `history`; frozen in accepted states

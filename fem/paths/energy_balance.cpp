@@ -90,16 +90,6 @@ class Interval {
   double weight_ = 0;
 };
 
-/// At the points of the sheets in an accepted state, C.
-Eigen::VectorXd sheet_charges(const Model& model, const State& state) {
-  const std::size_t first = model.circuit_history + model.circuits.size();
-  Eigen::VectorXd charges(static_cast<Eigen::Index>(model.sheet_points.size()));
-  for (std::size_t a = 0; a < model.sheet_points.size(); ++a)
-    charges[static_cast<Eigen::Index>(a)] =
-        model.sheet_points[a].charge_scale * state.history->now[first + a];
-  return charges;
-}
-
 } // namespace
 
 /// What a source gives, J, beyond its work while its voltage leads the charge of a sheet's terminal, where it
@@ -309,8 +299,8 @@ Eigen::VectorXd reactions(const Model& model, const State& state, const Holding&
 EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length, const Holding& held) {
   const Model& model = equilibrium.model();
   const DofMap& dofs = model.dofs;
-  const auto electrodes = static_cast<Eigen::Index>(model.electrodes.size());
-  const auto chambers = static_cast<Eigen::Index>(model.chambers.size());
+  const Ports& ports = model.ports;
+  const auto count = static_cast<Eigen::Index>(ports.size());
   EnergyPoint point{.length = length, .time = state.time, .moves = state.motion != nullptr};
   if (state.motion) {
     const Eigen::VectorXd& velocity = state.motion->velocity;
@@ -323,41 +313,44 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   point.mechanical.coordinate = position(state, dofs);
   // What is given is known to the last digit; the rest follows.
   std::vector<double> charges = model.charges(state, false).charge;
-  for (std::size_t e = 0; e < model.port_count(); ++e)
-    if (state.supply[e] == Supply::charge) charges[e] = model.given_charge(state, e);
-  const Eigen::Map<const Eigen::VectorXd> voltage(state.voltage.data(), electrodes + chambers);
-  const Eigen::Map<const Eigen::VectorXd> charge(charges.data(), electrodes + chambers);
+  for (std::size_t p = 0; p < ports.size(); ++p)
+    if (state.supply[p] == Supply::charge) charges[p] = ports.given_charge(state, p);
   // What the pressure does is mechanical work: it moves the chamber's walls.
-  for (auto [part, port] :
-       {std::pair{&point.mechanical.force, &voltage}, {&point.mechanical.coordinate, &charge}}) {
-    part->conservativeResize(dofs.count() + chambers);
-    part->tail(chambers) = port->tail(chambers);
+  point.electrical = {Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
+  point.mechanical.force.conservativeResizeLike(Eigen::VectorXd::Zero(dofs.count() + count));
+  point.mechanical.coordinate.conservativeResizeLike(Eigen::VectorXd::Zero(dofs.count() + count));
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const auto port = static_cast<std::size_t>(p);
+    const bool is_electrode = ports[port].is_electrode();
+    Conjugates& part = is_electrode ? point.electrical : point.mechanical;
+    const Eigen::Index place = is_electrode ? p : dofs.count() + p;
+    part.force[place] = state.voltage[port];
+    part.coordinate[place] = charges[port];
   }
-  point.electrical = {voltage.head(electrodes), charge.head(electrodes)};
-  point.resistance = {Eigen::VectorXd::Zero(electrodes), point.electrical.coordinate};
-  for (const Circuit& circuit : model.circuits) {
-    const auto e = static_cast<std::size_t>(circuit.electrode);
+  point.resistance = {Eigen::VectorXd::Zero(count), point.electrical.coordinate};
+  for (std::size_t p = 0; p < ports.size(); ++p) {
+    if (!ports[p].circuit) continue;
+    const Circuit& circuit = *ports[p].circuit;
     // Without time what leaks for ever is left out, and what it takes of the source's voltage.
-    const bool leads = state.supply[e] == Supply::voltage;
-    const double source = leads ? circuit.steady_voltage(state.source[e]) : state.source[e];
-    const double drop = is_isolated(state.supply[e]) ? 0 : source - state.voltage[e];
-    point.resistance.force[circuit.electrode] = drop;
-    if (!flows(state.supply[e]) || std::ranges::count(model.sheets, circuit.electrode, &Sheet::electrode))
-      continue;
-    point.power[EnergyPoint::leak] += circuit.leakage * state.voltage[e] * state.voltage[e];
-    point.power[EnergyPoint::leak_through_resistance] += circuit.leakage * state.voltage[e] * drop;
+    const bool leads = state.supply[p] == Supply::voltage;
+    const double source = leads ? circuit.steady_voltage(state.source[p]) : state.source[p];
+    const double drop = is_isolated(state.supply[p]) ? 0 : source - state.voltage[p];
+    point.resistance.force[static_cast<Eigen::Index>(p)] = drop;
+    if (!flows(state.supply[p]) || ports[p].sheet) continue;
+    point.power[EnergyPoint::leak] += circuit.leakage * state.voltage[p] * state.voltage[p];
+    point.power[EnergyPoint::leak_through_resistance] += circuit.leakage * state.voltage[p] * drop;
   }
-  if (!model.sheets.empty()) {
-    point.at_source = Eigen::VectorXd::Zero(electrodes);
-    for (const Sheet& sheet : model.sheets)
-      if (state.supply[static_cast<std::size_t>(sheet.electrode)] == Supply::voltage)
-        point.at_source[sheet.electrode] = 1;
-    point.sheet = {state.sheet_drop, sheet_charges(model, state)};
+  if (ports.any_sheet()) {
+    point.at_source = Eigen::VectorXd::Zero(count);
+    for (std::size_t p = 0; p < ports.size(); ++p)
+      if (ports[p].sheet && state.supply[p] == Supply::voltage)
+        point.at_source[static_cast<Eigen::Index>(p)] = 1;
+    point.sheet = {state.sheet_drop, ports.sheet_charges(state)};
     if (state.sheet_drop.size() == 0) point.sheet.force.setZero(point.sheet.coordinate.size());
-    for (std::size_t a = 0; a < model.sheet_points.size(); ++a) {
-      const SheetPoint& at = model.sheet_points[a];
+    for (std::size_t a = 0; a < ports.sheet_points().size(); ++a) {
+      const SheetPoint& at = ports.sheet_points()[a];
       const double drop = point.sheet.force[static_cast<Eigen::Index>(a)];
-      const double there = state.voltage[static_cast<std::size_t>(at.electrode)] - drop;
+      const double there = ports.sheet_voltage(state, a);
       const double current = at.leakage * there;
       point.power[EnergyPoint::leak] += current * there;
       point.power[EnergyPoint::leak_through_sheet] += current * drop;

@@ -19,16 +19,16 @@ struct EnergyPoint {
   double time = 0;       ///< s
   bool moves = false;    ///< with inertia: external forces balance internal ones over the time steps only
   Conjugates mechanical; ///< per equation dead forces (reactions at held ones) and displacements; then per
-                         ///< chamber pressure and its own volume
-  Conjugates electrical; ///< per electrode voltage and charge
-  Conjugates resistance; ///< per electrode drop of voltage from its source (without time, from what the
+                         ///< port pressure and own volume of a chamber, 0 of an electrode
+  Conjugates electrical; ///< per port voltage and charge, 0 of a chamber
+  Conjugates resistance; ///< per port drop of voltage from its source (without time, from what the
                          ///< source leads it to) and charge
-  Conjugates sheet;      ///< per Model::sheet_points drop of voltage from the terminal and charge
+  Conjugates sheet;      ///< per Ports::sheet_points drop of voltage from the terminal and charge
   /// Powers, W: of dashpots by their flow rules; of dampers and drag; of leaking current in the film, in
   /// sheets on its way there, and in the resistance behind its source.
   enum Power { dashpots, dampers, leak, leak_through_sheet, leak_through_resistance, power_count };
   std::array<double, power_count> power{};
-  /// Per electrode 1 where it has a sheet whose terminal is at its source's voltage, otherwise 0. Of the
+  /// Per port 1 where it has a sheet whose terminal is at its source's voltage, otherwise 0. Of the
   /// point that is added, not kept.
   Eigen::VectorXd at_source;
   double flow = 0;     ///< heat of the dashpots since the point before, see flow_heat(), J
@@ -125,7 +125,7 @@ class EnergyBalance {
     double rest = 0;                 ///< left by the balance where nothing can take it, J
     std::vector<Resolution> poor;    ///< results that are, or may become, the worst; ratios of errors fall
     std::vector<EnergyPoint> points; ///< the last one, and the one before where no corner is between
-    Eigen::VectorXd before_jump;     ///< charges per electrode from which those of a jump are counted, C
+    Eigen::VectorXd before_jump;     ///< charges per port from which those of a jump are counted, C
   };
   const Record& record() const { return record_; }
   explicit EnergyBalance(Record record) : record_(std::move(record)) {}

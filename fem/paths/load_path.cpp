@@ -69,11 +69,12 @@ std::vector<double> mix(const std::vector<double>& from, const std::vector<doubl
 }
 
 /// The electrode whose voltage changes most; none where it changes its sign or nothing changes.
-std::optional<std::size_t> leading_electrode(const Loads& from, const Loads& to, std::size_t electrodes) {
+std::optional<std::size_t> leading_electrode(const Loads& from, const Loads& to, const Ports* ports) {
   std::optional<std::size_t> leading;
   double largest = 0;
-  for (std::size_t e = 0; e < std::min(electrodes, from.voltage.size()); ++e)
-    if (const double change = std::abs(to.voltage[e] - from.voltage[e]); change > largest) {
+  for (std::size_t e = 0; e < from.voltage.size(); ++e)
+    if (const double change = std::abs(to.voltage[e] - from.voltage[e]);
+        change > largest && !(ports && (*ports)[e].chamber)) {
       largest = change;
       leading = e;
     }
@@ -107,9 +108,9 @@ bool LoadPath::jumps(const DofMap& dofs, const State& state, double s) const {
   return ((right - left).cwiseAbs().array() > turn.array()).any();
 }
 
-LoadPath linear_path(const DofMap& dofs, Loads from, Loads to, std::size_t electrodes) {
+LoadPath linear_path(const DofMap& dofs, Loads from, Loads to, const Ports* ports) {
   LoadPath path;
-  if (const auto e = leading_electrode(from, to, electrodes))
+  if (const auto e = leading_electrode(from, to, ports))
     path.parameter = [a = from.voltage[*e], b = to.voltage[*e]](double s) {
       const double phi = (1 - s) * a + s * b;
       return phi * phi;

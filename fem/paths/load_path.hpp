@@ -13,12 +13,11 @@ namespace dielast::fem {
 
 /// Everything that is prescribed to a state.
 struct Loads {
-  std::vector<double>
-      voltage; ///< V, per electrode, and Pa, per chamber; where the charge is given it has no effect
-  std::vector<double> charge; ///< C, per electrode, and m^3, per chamber; of driven ones it has no effect
-  std::vector<double> source; ///< V, per electrode, of the source of its circuit
-  Eigen::VectorXd dead_force; ///< per equation, N
-  Eigen::VectorXd held;       ///< displacements of the held equations, m (rad for rotations: 0)
+  std::vector<double> voltage; ///< V, or Pa, per port; where the charge is given it has no effect
+  std::vector<double> charge;  ///< C, or m^3, per port; of driven ones it has no effect
+  std::vector<double> source;  ///< V, per electrode, of the source of its circuit
+  Eigen::VectorXd dead_force;  ///< per equation, N
+  Eigen::VectorXd held;        ///< displacements of the held equations, m (rad for rotations: 0)
 
   static Loads of(const State& state, const DofMap& dofs);
   bool operator==(const Loads&) const = default;
@@ -49,9 +48,8 @@ struct LoadPath {
 };
 
 /// Loads that grow linearly with s. The parameter is the largest Phi^2, in which the film's energy is linear,
-/// where one voltage leads without changing its sign; only the first `electrodes` ports have one, the others
-/// a pressure. `dofs` must outlive the path.
-LoadPath linear_path(const DofMap& dofs, Loads from, Loads to,
-                     std::size_t electrodes = std::numeric_limits<std::size_t>::max());
+/// where one voltage leads without changing its sign; chambers among the `ports` have none. `dofs` must
+/// outlive the path.
+LoadPath linear_path(const DofMap& dofs, Loads from, Loads to, const Ports* ports = nullptr);
 
 } // namespace dielast::fem

@@ -20,7 +20,7 @@ constexpr double linear = 0.01;     ///< part of the works that a film may miss 
 /// is linear in the filling, which hardly gives way: where the pressure follows, differences would tell of
 /// nothing but the bulk modulus. As the energy is stationary in the pressure, its slope is the same.
 double filling_energy(const Model& model, const State& state, std::size_t chamber) {
-  return model.chamber_of(chamber)->energy(state.charge[chamber], state.voltage[chamber]);
+  return model.ports[chamber].chamber->energy(state.charge[chamber], state.voltage[chamber]);
 }
 
 struct WorkOfLoads {
@@ -51,7 +51,7 @@ WorkOfLoads work_of_loads(Equilibrium& equilibrium, const LoadPath& path, const 
   there.rotation = here.rotation;
   there.angle = here.angle;
   double change = -own;
-  if (const auto chamber = equilibrium.model().closed_chamber(here)) {
+  if (const auto chamber = equilibrium.model().ports.closed_chamber(here)) {
     const auto at_fixed_pressure = [&](State open) {
       open.voltage[*chamber] = here.voltage[*chamber];
       const double filling = filling_energy(equilibrium.model(), open, *chamber);

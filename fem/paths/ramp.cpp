@@ -247,7 +247,7 @@ bool Ramp::pass_break() {
             (progress_.load_factor == 0 || path_.jumps(dofs, goal, progress_.load_factor));
   progress_.points = {{at, state}};
   if (!jumped_) return true;
-  LoadPath jump = linear_path(dofs, before, after, equilibrium_.model().electrodes.size());
+  LoadPath jump = linear_path(dofs, before, after, &equilibrium_.model().ports);
   const bool follows = options_.inertia && massless_.size() > 0;
   if (follows) jump = with_masses_held(equilibrium_, std::move(jump), state);
   if (!options_.inertia || follows)

@@ -99,7 +99,6 @@ std::shared_ptr<const fem::Motion> restore_motion(const json& archived, std::siz
 
 fem::State restore_state(const json& archived, const StateSizes& sizes) {
   fem::State state;
-  const std::size_t ports = sizes.electrodes + sizes.chambers;
   const std::vector<double> displacement = unpack(archived.at("displacement"), 3 * sizes.nodes);
   const std::vector<double> rotation = unpack(archived.at("rotation"), 4 * sizes.nodes);
   const std::vector<double> angle = unpack(archived.at("angle"), 3 * sizes.nodes);
@@ -109,13 +108,13 @@ fem::State restore_state(const json& archived, const StateSizes& sizes) {
     state.angle.emplace_back(&angle[3 * n]);
   }
   state.scalar = unpack(archived.at("scalar"), sizes.scalars);
-  state.voltage = unpack(archived.at("voltage"), ports);
+  state.voltage = unpack(archived.at("voltage"), sizes.ports);
   for (const json& supply : archived.at("supply"))
     if (const int number = supply; number < 0 || number > static_cast<int>(fem::Supply::leak)) mismatch();
   state.supply = archived.at("supply").get<std::vector<fem::Supply>>();
-  if (state.supply.size() != ports) mismatch();
-  state.charge = unpack(archived.at("charge"), ports);
-  state.source = unpack(archived.at("source"), ports);
+  if (state.supply.size() != sizes.ports) mismatch();
+  state.charge = unpack(archived.at("charge"), sizes.ports);
+  state.source = unpack(archived.at("source"), sizes.ports);
   state.sheet_drop = optional_vector(archived.at("sheet_drop"), sizes.sheet_points);
   state.dead_force = vector(archived.at("dead_force"), sizes.equations);
   state.time = archived.at("time");
@@ -157,9 +156,9 @@ fem::EnergyPoint restore_point(const json& archived, const StateSizes& sizes) {
   point.time = place[1];
   point.moves = archived.at("moves");
   point.friction = archived.at("friction");
-  point.mechanical = restore_conjugates(archived.at("mechanical"), sizes.equations + sizes.chambers);
-  point.electrical = restore_conjugates(archived.at("electrical"), sizes.electrodes);
-  point.resistance = restore_conjugates(archived.at("resistance"), sizes.electrodes);
+  point.mechanical = restore_conjugates(archived.at("mechanical"), sizes.equations + sizes.ports);
+  point.electrical = restore_conjugates(archived.at("electrical"), sizes.ports);
+  point.resistance = restore_conjugates(archived.at("resistance"), sizes.ports);
   point.sheet = restore_conjugates(archived.at("sheet"), sizes.sheet_points);
   std::ranges::copy(power, point.power.begin());
   point.energy = {energy[0], energy[1], energy[2], energy[3], energy[4], energy[5]};
@@ -193,10 +192,9 @@ StateSizes StateSizes::of(const fem::Model& model) {
           static_cast<std::size_t>(model.dofs.count()),
           static_cast<std::size_t>(model.dofs.free_count()),
           static_cast<std::size_t>(model.dofs.held_count()),
-          model.electrodes.size(),
-          model.chambers.size(),
+          model.ports.size(),
           drawn.history ? drawn.history->now.size() : 0,
-          model.sheet_points.size(),
+          model.ports.sheet_points().size(),
           drawn.scalar.size()};
 }
 
@@ -224,9 +222,9 @@ fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
     progress.increment = archived.at("increment");
     const json& start = archived.at("start");
     if (progress.increment != 0) { // otherwise no ramp has begun
-      const std::size_t ports = sizes.electrodes + sizes.chambers;
-      progress.start = {unpack(start.at(0), ports), unpack(start.at(1), ports), unpack(start.at(2), ports),
-                        vector(start.at(3), sizes.equations), vector(start.at(4), sizes.held)};
+      progress.start = {unpack(start.at(0), sizes.ports), unpack(start.at(1), sizes.ports),
+                        unpack(start.at(2), sizes.ports), vector(start.at(3), sizes.equations),
+                        vector(start.at(4), sizes.held)};
     }
     progress.at_break = archived.at("at_break");
     progress.turns = archived.at("turns");
@@ -305,7 +303,7 @@ fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes
                                       account[5],
                                       {},
                                       {},
-                                      vector(archived.at("before_jump"), sizes.electrodes)};
+                                      vector(archived.at("before_jump"), sizes.ports)};
     if (poor.size() % 6 != 0) mismatch();
     const auto number = [](double count) {
       if (!(count >= 0 && count < std::numeric_limits<int>::max())) mismatch();

@@ -13,7 +13,7 @@ namespace dielast::post {
 /// How long the parts of a model's states are.
 struct StateSizes {
   std::size_t nodes = 0, equations = 0, free = 0, held = 0; ///< held: equations that are prescribed
-  std::size_t electrodes = 0, chambers = 0;
+  std::size_t ports = 0;
   std::size_t internal_variables = 0, sheet_points = 0, scalars = 0;
 
   static StateSizes of(const fem::Model& model);

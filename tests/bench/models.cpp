@@ -33,7 +33,7 @@ Task begin(meshing::Mesh mesh, std::unique_ptr<fem::ElementBlock> block, fem::Di
   Task task{.mesh = std::move(mesh), .model = {.dofs = fem::DofMap(0)}};
   fem::Model& model = task.model;
   model.dofs = fem::DofMap(task.mesh.node_count());
-  model.electrodes = {"film"};
+  model.ports = {{"film"}};
   model.extent = model.length_scale = extent;
   model.blocks.push_back(std::move(block));
   model.blocks.front()->claim_dofs(model.dofs, dimension);
@@ -106,7 +106,7 @@ Task rolled_muscle() {
             .model = {.dofs = fem::DofMap(0)}};
   fem::Model& model = task.model;
   model.dofs = fem::DofMap(task.mesh.node_count());
-  model.electrodes = {"film"};
+  model.ports = {{"film"}};
   model.extent = model.length_scale = 0.25;
   model.blocks.push_back(fem::make_membrane_block(
       task.mesh, task.mesh.blocks.front(),

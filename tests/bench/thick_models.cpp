@@ -23,7 +23,7 @@ Task stack_on_table(int across) {
             .model = {.dofs = fem::DofMap(0)}};
   fem::Model& model = task.model;
   model.dofs = fem::DofMap(task.mesh.node_count());
-  model.electrodes = {"film"};
+  model.ports = {{"film"}};
   model.extent = 24e-3;
   model.length_scale = 0.6e-3 / across;
   const meshing::CellBlock& cells = task.mesh.blocks.front();

@@ -125,7 +125,7 @@ TEST(Sheet, WithACircuitThatLeaksItLeaks) {
          "leakage_resistance = 5e8\n[[step]]\nkind = \"hold\"\nduration = 1\n";
   const Device device = build_device(read_case(path));
   double leakage = 0;
-  for (const fem::SheetPoint& point : device.model.sheet_points) leakage += point.leakage;
+  for (const fem::SheetPoint& point : device.model.ports.sheet_points()) leakage += point.leakage;
   EXPECT_NEAR(leakage, 1 / 5e8, 1e-12 / 5e8);
 }
 

@@ -102,7 +102,7 @@ TEST_F(Leak, UnderAResistiveElectrodeGoesOnFromACheckpoint) {
     charge.push_back(frame.measured.charges.charge[0]);
     time.push_back(state.time);
     double current = 0;
-    const auto& points = whole.device().model.sheet_points;
+    const auto& points = whole.device().model.ports.sheet_points();
     for (std::size_t a = 0; a < points.size(); ++a)
       current += points[a].leakage *
                  (state.voltage[0] -

@@ -27,7 +27,7 @@ class TwoElectrodes : public ::testing::Test {
     std::vector<int> electrodes(18);
     for (std::size_t e = 0; e < electrodes.size(); ++e) electrodes[e] = e % 5 == 0 ? passive : e < 9 ? 0 : 1;
     auto m = test::square_film(mesh, side, test::Held::at_corners, electrodes);
-    m->electrodes = {"left", "right"};
+    m->ports = {{"left"}, {"right"}};
     return m;
   }();
   Equilibrium equilibrium{*model, 1};

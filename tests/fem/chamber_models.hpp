@@ -33,8 +33,8 @@ inline std::unique_ptr<Model> inflatable(const meshing::Mesh& mesh, const Membra
                           std::vector<int>(static_cast<std::size_t>(cells.size()), electrode ? 0 : passive),
                           dimension_of(mesh), points),
       make_pressure_block(mesh, cells, chamber));
-  if (!electrode) model->electrodes.clear();
-  model->chambers = {{"inside", bulk_modulus}};
+  if (!electrode) model->ports = {};
+  model->ports.push_back({.name = "inside", .chamber = Chamber{bulk_modulus}});
   if (lid.area > 0) model->blocks.push_back(make_lid_block(mesh, lid, chamber));
   model->length_scale = model->extent = extent;
   model->drawn = mesh.nodes;

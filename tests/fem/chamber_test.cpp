@@ -23,8 +23,7 @@ constexpr double pi = std::numbers::pi;
 std::unique_ptr<Model> chamber(const meshing::Mesh& mesh) {
   auto model = test::free_model(mesh.node_count(), test::dimension_of(mesh),
                                 make_pressure_block(mesh, mesh.blocks[0], 0));
-  model->electrodes.clear();
-  model->chambers = {{"inside"}};
+  model->ports = {{.name = "inside", .chamber = Chamber{}}};
   return model;
 }
 
@@ -267,7 +266,8 @@ TEST(Chamber, given_its_volume_takes_the_state_of_the_given_pressure) {
 
     State filled = drum.model->initial_state();
     filled.supply = {Supply::charge};
-    const double held = drum.model->chambers[0].pumped(drum.model->charges(pumped, false).charge[0], 600);
+    const double held =
+        drum.model->ports[0].chamber->pumped(drum.model->charges(pumped, false).charge[0], 600);
     for (const double part : {0.25, 0.5, 0.75, 1.0}) {
       filled.charge = {part * held};
       ASSERT_EQ(equilibrium.solve(filled, tight).outcome, Outcome::converged) << part;
@@ -286,7 +286,7 @@ TEST(Chamber, sealed_keeps_its_volume_under_a_load) {
     state.voltage = {300};
     ASSERT_EQ(equilibrium.solve(state, tight).outcome, Outcome::converged);
     const double volume = drum.model->charges(state, false).charge[0], height = drum.height(state);
-    const Chamber& chamber = drum.model->chambers[0];
+    const Chamber& chamber = *drum.model->ports[0].chamber;
     const double held = chamber.pumped(volume, 300);
     State open = state;
     state.supply = {Supply::charge};

@@ -50,7 +50,7 @@ TEST(ChargeControl, finds_the_limit_point_itself) {
 
 TEST(ChargeControl, an_electrode_without_film_has_no_voltage_for_its_charge) {
   auto model = test::material_point(no_limit);
-  model->electrodes.push_back("nowhere");
+  model->ports.push_back({"nowhere"});
   Equilibrium equilibrium(*model, 1);
   State state = model->initial_state();
   state.supply[1] = Supply::charge;
@@ -64,7 +64,7 @@ TEST(ChargeControl, gives_back_the_states_of_voltage_control_when_two_electrodes
   std::vector<int> electrodes(32);
   for (std::size_t e = 0; e < electrodes.size(); ++e) electrodes[e] = e % 7 == 0 ? passive : e < 16 ? 0 : 1;
   const auto model = test::square_film(mesh, side, test::Held::at_corners, electrodes);
-  model->electrodes = {"left", "right"};
+  model->ports = {{"left"}, {"right"}};
   Equilibrium equilibrium(*model, 1);
   State driven = model->initial_state();
   driven.voltage = {14e3, 17e3};

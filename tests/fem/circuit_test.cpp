@@ -23,7 +23,7 @@ struct ChargedFilm {
     circuit.charge_scale = capacitance * source;
     model = free ? test::square_film(mesh, side, test::Held::at_corners, {}, test::viscoelastic_vhb())
                  : test::square_film(mesh, side, test::Held::along_edge);
-    model->circuits = {circuit};
+    model->ports[0].circuit = circuit;
     model->place_histories();
     equilibrium = std::make_unique<Equilibrium>(*model, 1);
   }
@@ -37,7 +37,7 @@ struct ChargedFilm {
   }
   double held(const State& state) const { return model->charges(state, false).charge[0]; }
   double current(const State& state) const {
-    return model->circuits[0].current(state.source[0], state.voltage[0]);
+    return model->ports[0].circuit->current(state.source[0], state.voltage[0]);
   }
 
   meshing::Mesh mesh = test::distorted_square(2, 1, side);
@@ -66,7 +66,7 @@ TEST(Circuit, a_held_film_is_charged_exponentially_with_second_order) {
 
 TEST(Circuit, leakage_divides_the_voltage_and_shortens_the_time_constant) {
   ChargedFilm film({.leakage = 0.25 / resistance});
-  EXPECT_DOUBLE_EQ(film.model->circuits[0].steady_share(), 0.8);
+  EXPECT_DOUBLE_EQ(film.model->ports[0].circuit->steady_share(), 0.8);
   const State early = film.charge(source, resolved(0.8 * constant)).end();
   EXPECT_NEAR(early.voltage[0], 0.8 * source * (1 - std::exp(-1.0)), 1e-5 * source);
   const State late = film.charge(source, resolved(40 * constant)).end();

@@ -14,7 +14,7 @@ namespace dielast::fem::test {
 struct DiaphragmData {
   double shear_modulus = 40e3, density = 960, mass = 0.1, damping = 0;
   std::vector<materials::Branch> branches;
-  std::vector<Circuit> circuits;
+  std::optional<Circuit> circuit{};
   int elements = 40; ///< along the meridian
   int rings = 0;     ///< more than 0: of 6-node triangles instead
 };
@@ -46,7 +46,7 @@ struct Diaphragm {
     for (const int a : mesh.node_sets.at("outer"))
       for (const int c : {0, 1, 2}) model.dofs.hold(a, c);
     model.dofs.number();
-    model.circuits = data.circuits;
+    model.ports[0].circuit = data.circuit;
     model.place_histories();
     model.inertia = Inertia::of(model.blocks, model.dofs);
     model.length_scale = 1e-3;
@@ -61,13 +61,13 @@ struct Diaphragm {
     RampOptions options{.newton = {.tolerance = 1e-12}, .increments = 8};
     RampProgress progress = RampProgress::begin(state, model.dofs, options);
     Loads target = progress.start;
-    target.voltage[0] = volts * (model.circuits.empty() ? 1 : model.circuits[0].steady_share());
+    target.voltage[0] = volts * (model.ports[0].circuit ? model.ports[0].circuit->steady_share() : 1);
     target.dead_force[plate] = -weight;
     const RampResult result =
         ramp(equilibrium, linear_path(model.dofs, progress.start, target), options, progress, {});
     EXPECT_EQ(result.end, RampEnd::complete);
     state = progress.points.back().state;
-    if (model.circuits.empty()) return state;
+    if (!model.ports[0].circuit) return state;
     state.supply[0] = Supply::circuit;
     state.source[0] = volts;
     model.charge_circuits(state);
@@ -78,7 +78,7 @@ struct Diaphragm {
   }
 
   meshing::Mesh mesh;
-  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {"film"}};
+  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .ports = {{"film"}}};
   int plate = 0;     ///< equation of its height
   double weight = 0; ///< N
 };

@@ -95,14 +95,14 @@ struct Oscillator {
     model.dofs.share(1, 0, 3, 1);
     model.dofs.share(1, 0, 2, 1);
     model.dofs.number();
-    model.circuits = {{.electrode = 0, .resistance = R, .leakage = G}};
+    model.ports[0].circuit = {.resistance = R, .leakage = G};
     model.place_histories();
     model.inertia = Inertia::of(model.blocks, model.dofs);
     model.length_scale = model.extent = side;
   }
   State settled(Equilibrium& equilibrium, double volts) const {
     State state = model.initial_state();
-    state.voltage = {volts * model.circuits[0].steady_share()};
+    state.voltage = {volts * model.ports[0].circuit->steady_share()};
     state.scheme = materials::TimeScheme::relaxed();
     EXPECT_EQ(equilibrium.solve(state, {.tolerance = 1e-13}).outcome, Outcome::converged);
     state = model.settled(std::move(state));
@@ -112,7 +112,7 @@ struct Oscillator {
   }
 
   meshing::Mesh mesh = test::distorted_square(1, 1, side);
-  Model model{.dofs = DofMap(4), .blocks = {}, .electrodes = {"film"}};
+  Model model{.dofs = DofMap(4), .blocks = {}, .ports = {{"film"}}};
 };
 
 // Pushed by a force: s dQ + G dPhi = 0 makes it as stiff as an isolated one where it is quick, as a
@@ -187,7 +187,7 @@ TEST(Harmonic, an_oscillator_with_branch_and_circuit_has_its_transfer_function) 
 }
 
 TEST(Harmonic, at_frequency_zero_is_the_slope_of_the_static_curve) {
-  const test::Diaphragm diaphragm({.circuits = {{.electrode = 0, .resistance = 1e6, .leakage = 1e-8}}});
+  const test::Diaphragm diaphragm({.circuit = {{.resistance = 1e6, .leakage = 1e-8}}});
   Equilibrium equilibrium(diaphragm.model, 1);
   const State state = diaphragm.settled(equilibrium, 4e3);
   const Linearisation linear(equilibrium, state);
@@ -219,7 +219,7 @@ TEST(ResponseBasis, gives_what_factoring_gives) {
         .damping = 1.6,
         .branches = {{materials::NeoHookean{5e3},
                       nominal ? materials::Dashpot::nominal : materials::Dashpot::log, 15e3}},
-        .circuits = {{.electrode = 0, .resistance = 1.87e6, .leakage = 1e-9}},
+        .circuit = {{.resistance = 1.87e6, .leakage = 1e-9}},
         .rings = 4};
     if (!nominal)
       data.branches.push_back({materials::NeoHookean{15e3}, materials::Dashpot::log, 15e3 * 0.05});

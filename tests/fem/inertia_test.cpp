@@ -223,7 +223,7 @@ TEST(Inertia, a_run_goes_on_from_a_copied_state_bit_for_bit) {
   data.elements = 8;
   data.damping = 1;
   data.branches = {{materials::NeoHookean{20e3}, materials::Dashpot::log, 20e3 * 0.05}};
-  data.circuits = {{.resistance = 1e6, .leakage = 1e-8, .charge_scale = 1e-5}};
+  data.circuit = {.resistance = 1e6, .leakage = 1e-8, .charge_scale = 1e-5};
   const test::Diaphragm diaphragm(data);
   Equilibrium equilibrium(diaphragm.model, 1);
   const State settled = diaphragm.settled(equilibrium, 1e3);

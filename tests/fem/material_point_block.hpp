@@ -56,7 +56,7 @@ inline double equilibrium_voltage(double stretch_limit, double l) {
 }
 
 inline std::unique_ptr<Model> material_point(double stretch_limit) {
-  auto model = std::make_unique<Model>(Model{.dofs = DofMap(1), .blocks = {}, .electrodes = {"electrode"}});
+  auto model = std::make_unique<Model>(Model{.dofs = DofMap(1), .blocks = {}, .ports = {{"electrode"}}});
   model->blocks.push_back(std::make_unique<MaterialPoint>(stretch_limit));
   model->blocks[0]->claim_dofs(model->dofs, Dimension::planar);
   model->dofs.number();

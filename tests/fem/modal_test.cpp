@@ -200,7 +200,8 @@ TEST(Modal, a_balloon_breathes_at_constant_pressure) {
   const meshing::Mesh mesh = meshing::balloon_meridian(0.02, 40, 2);
   MembraneSection film = test::vhb();
   film.thickness = 0.5e-3;
-  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .chambers = {{"inside"}}};
+  Model model{
+      .dofs = DofMap(mesh.node_count()), .blocks = {}, .ports = {{.name = "inside", .chamber = Chamber{}}}};
   model.blocks.push_back(make_membrane_block(
       mesh, mesh.blocks[0], film, std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive),
       Dimension::axisymmetric, 3));

@@ -47,8 +47,7 @@ inline Dimension dimension(bool planar) { return planar ? Dimension::planar : Di
 /// A model of these blocks, every unknown free; hold() and number() are left to the caller.
 template<class... Blocks>
 std::unique_ptr<Model> unnumbered_model(int nodes, Dimension dimension, Blocks&&... blocks) {
-  auto model =
-      std::make_unique<Model>(Model{.dofs = DofMap(nodes), .blocks = {}, .electrodes = {"electrode"}});
+  auto model = std::make_unique<Model>(Model{.dofs = DofMap(nodes), .blocks = {}, .ports = {{"electrode"}}});
   (model->blocks.push_back(std::forward<Blocks>(blocks)), ...);
   for (const auto& block : model->blocks) {
     block->place_scalars(model->dofs);

@@ -22,14 +22,13 @@ class ResistingFilm : public testing::Test {
   static constexpr double tau = resistance * (4e-11 / 1e-3) * side * side;
   const meshing::Mesh mesh = test::distorted_square(4, 2, side);
 
-  std::unique_ptr<Model> film(bool sheet, const std::vector<Circuit>& circuits = {},
+  std::unique_ptr<Model> film(bool sheet, std::optional<Circuit> circuit = {},
                               const MembraneSection& section = test::vhb()) const {
     auto model = test::unnumbered_model(
         mesh.node_count(), true,
         make_membrane_block(mesh, mesh.blocks[0], section, std::vector<int>(32, 0), Dimension::planar, 3));
-    if (sheet)
-      model->sheets = {{.electrode = 0, .resistance = resistance, .terminal = {0}, .voltage_scale = volts}};
-    model->circuits = circuits;
+    if (sheet) model->ports[0].sheet = {.resistance = resistance, .terminal = {0}, .voltage_scale = volts};
+    model->ports[0].circuit = circuit;
     model->place_histories();
     for (int a = 0; a < mesh.node_count(); ++a)
       if (mesh.nodes[static_cast<std::size_t>(a)].x() == 0) model->dofs.hold(a, 0);
@@ -40,8 +39,7 @@ class ResistingFilm : public testing::Test {
     return model;
   }
   static Circuit source() {
-    return {.electrode = 0,
-            .resistance = resistance / 2,
+    return {.resistance = resistance / 2,
             .leakage = 1 / (20 * resistance),
             .current_limit = volts / resistance,
             .charge_scale = 1e-7};
@@ -61,7 +59,7 @@ class ResistingFilm : public testing::Test {
             .first_time_step = 1e-3 * tau};
   }
   static const SheetPoint& point(const Model& model, Eigen::Index a) {
-    return model.sheet_points[static_cast<std::size_t>(a)];
+    return model.ports.sheet_points()[static_cast<std::size_t>(a)];
   }
   /// A state in which nothing is in balance.
   State disturbed(const Model& model) const {
@@ -70,7 +68,7 @@ class ResistingFilm : public testing::Test {
     for (auto& u : state.displacement) u.head<2>() = test::random_vector(random, 2, 0.02 * side);
     state.voltage = {volts};
     state.sheet_drop =
-        test::random_vector(random, static_cast<Eigen::Index>(model.sheet_points.size()), volts / 3);
+        test::random_vector(random, static_cast<Eigen::Index>(model.ports.sheet_points().size()), volts / 3);
     return state;
   }
 };
@@ -88,7 +86,7 @@ TEST_F(ResistingFilm, its_conductances_are_those_of_the_current_surface) {
   F.topLeftCorner<2, 2>() << 1.4, 0.3, -0.2, 0.8;
   const State state = test::homogeneous(*model, mesh, F);
   const Eigen::Vector2d slope(3, -2); // V/m in the current plane
-  Eigen::VectorXd V(static_cast<Eigen::Index>(model->sheet_points.size()));
+  Eigen::VectorXd V(static_cast<Eigen::Index>(model->ports.sheet_points().size()));
   for (Eigen::Index a = 0; a < V.size(); ++a) {
     const auto node = static_cast<std::size_t>(point(*model, a).node);
     V[a] = slope.dot((mesh.nodes[node] + state.displacement[node]).head<2>());
@@ -134,7 +132,8 @@ TEST_F(ResistingFilm, what_the_source_gives_is_stored_or_leaks) {
   const RampOptions timed = options(20 * tau);
   RampProgress progress = RampProgress::begin(start, model->dofs, timed);
   int times = 0, limited = 0;
-  Eigen::VectorXd q_before = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model->sheet_points.size())),
+  Eigen::VectorXd q_before =
+                      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model->ports.sheet_points().size())),
                   q_older = q_before;
   RampObserver observer;
   observer.on_accept = [&](const RampProgress& at, const Increment&) {
@@ -283,9 +282,8 @@ TEST_F(ResistingFilm, does_not_touch_electrodes_that_are_no_sheets) {
   std::vector<State> states;
   for (const bool sheet : {false, true}) {
     const auto model = test::square_film(mesh, side, test::Held::along_edge, electrodes);
-    model->electrodes = {"plain", "sheet"};
-    if (sheet)
-      model->sheets = {{.electrode = 1, .resistance = resistance, .terminal = mesh.node_sets.at("edge")}};
+    model->ports = {{"plain"}, {"sheet"}};
+    if (sheet) model->ports[1].sheet = {.resistance = resistance, .terminal = mesh.node_sets.at("edge")};
     model->place_histories();
     Equilibrium equilibrium(*model, 1);
     states.push_back(model->initial_state());
@@ -299,12 +297,12 @@ TEST_F(ResistingFilm, does_not_touch_electrodes_that_are_no_sheets) {
 
 TEST_F(ResistingFilm, must_be_connected) {
   auto model = film(true);
-  model->sheets[0].terminal = {25}; // the middle of a side
+  model->ports[0].sheet->terminal = {25}; // the middle of a side
   EXPECT_THROW(model->place_histories(), std::invalid_argument);
-  model->sheets[0].terminal.clear();
+  model->ports[0].sheet->terminal.clear();
   EXPECT_THROW(model->place_histories(), std::invalid_argument);
-  model->sheets[0].terminal = {0};
-  model->sheets[0].resistance = 0;
+  model->ports[0].sheet->terminal = {0};
+  model->ports[0].sheet->resistance = 0;
   EXPECT_THROW(model->place_histories(), std::invalid_argument);
 
   std::vector<int> apart(32, passive);
@@ -312,7 +310,7 @@ TEST_F(ResistingFilm, must_be_connected) {
   auto parts = test::unnumbered_model(
       mesh.node_count(), true,
       make_membrane_block(mesh, mesh.blocks[0], test::vhb(), apart, Dimension::planar, 3));
-  parts->sheets = {{.electrode = 0, .resistance = resistance, .terminal = {0}}};
+  parts->ports[0].sheet = {.resistance = resistance, .terminal = {0}};
   parts->place_histories();
   parts->dofs.number();
   EXPECT_THROW(SheetConduction{*parts}, std::invalid_argument);

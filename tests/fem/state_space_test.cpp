@@ -18,7 +18,7 @@ class LinearDiaphragm : public ::testing::Test {
   static test::DiaphragmData data(bool viscous, double density) {
     test::DiaphragmData data{.density = density,
                              .damping = 1.596,
-                             .circuits = {{.electrode = 0, .resistance = 1.87e6, .leakage = 1e-9}},
+                             .circuit = {{.resistance = 1.87e6, .leakage = 1e-9}},
                              .elements = 12};
     if (viscous)
       data.branches = {{materials::NeoHookean{15e3}, materials::Dashpot::log, 15e3 * 0.05},
@@ -72,7 +72,7 @@ TEST_F(LinearDiaphragm, with_branches_is_as_good_as_its_order) {
 
 TEST_F(LinearDiaphragm, is_driven_by_voltage_or_charge_without_a_circuit) {
   test::DiaphragmData without = data(true, 960);
-  without.circuits.clear();
+  without.circuit.reset();
   const test::Diaphragm diaphragm(without);
   Equilibrium equilibrium(diaphragm.model, 1);
   State rest = diaphragm.settled(equilibrium, 2500);
@@ -90,8 +90,8 @@ TEST(StateSpace, of_an_isolated_electrode_that_leaks_is_the_response) {
   std::vector<int> electrodes(32, 0);
   std::fill(electrodes.begin() + 16, electrodes.end(), 1);
   const auto model = test::square_film(mesh, 0.01, test::Held::along_edge, electrodes);
-  model->electrodes = {"driven", "leaking"};
-  model->circuits = {{.electrode = 1, .resistance = 1e6, .leakage = 1e-12}};
+  model->ports = {{"driven"}, {"leaking"}};
+  model->ports[1].circuit = {.resistance = 1e6, .leakage = 1e-12};
   model->place_histories();
   Equilibrium equilibrium(*model, 1);
   State state = model->initial_state();

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t nodes = 5, equations = 12;
-constexpr StateSizes sizes{nodes, equations, equations - 3, 3, 2, 0, 2, 3};
+constexpr StateSizes sizes{nodes, equations, equations - 3, 3, 2, 2, 3};
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
@@ -67,9 +67,9 @@ fem::EnergyPoint sample_energy_point() {
   return {.length = 0.1,
           .time = 0.2,
           .moves = true,
-          .mechanical = pair(equations + sizes.chambers),
-          .electrical = pair(sizes.electrodes),
-          .resistance = pair(sizes.electrodes),
+          .mechanical = pair(equations + sizes.ports),
+          .electrical = pair(sizes.ports),
+          .resistance = pair(sizes.ports),
           .sheet = pair(sizes.sheet_points),
           .power = {1.0 / 3, 2, 3, 4, 5}};
 }
@@ -149,9 +149,8 @@ TEST(Checkpoint, OnlyPacksAreUnpacked) {
 TEST(Checkpoint, OfAnotherModelIsRefused) {
   const json archived = archive(sample_progress());
   EXPECT_NO_THROW(restore_ramp(archived, sizes));
-  for (const auto member :
-       {&StateSizes::nodes, &StateSizes::equations, &StateSizes::held, &StateSizes::electrodes,
-        &StateSizes::internal_variables, &StateSizes::sheet_points}) {
+  for (const auto member : {&StateSizes::nodes, &StateSizes::equations, &StateSizes::held, &StateSizes::ports,
+                            &StateSizes::internal_variables, &StateSizes::sheet_points}) {
     StateSizes other = sizes;
     ++(other.*member);
     EXPECT_THROW(restore_ramp(archived, other), CheckpointError);

@@ -48,7 +48,7 @@ class InflatedDisc {
     EXPECT_EQ(equilibrium_->solve(state_, tight).outcome, Outcome::converged); // from flat
     state_.supply = {Supply::charge};
     filled_ = state_.charge[0] =
-        model_->chambers[0].pumped(model_->charges(state_, false).charge[0], state_.voltage[0]);
+        model_->ports[0].chamber->pumped(model_->charges(state_, false).charge[0], state_.voltage[0]);
   }
   /// Fills the chamber until the apex is stretched so far.
   void inflate_to(double apex_stretch) {

@@ -32,7 +32,8 @@ class Balloon {
   /// Fills in the volume of a sphere of the stretch `l`; the pressure, Pa.
   double inflate(double l) {
     for (int correction = 0; correction < 3; ++correction) { // what the liquid gives way to the pressure
-      state_.charge[1] = model_->chambers[0].pumped(4 * pi / 3 * std::pow(l * radius, 3), state_.voltage[1]);
+      state_.charge[1] =
+          model_->ports[1].chamber->pumped(4 * pi / 3 * std::pow(l * radius, 3), state_.voltage[1]);
       result_ = equilibrium_->solve(state_, {.tolerance = 1e-12});
       EXPECT_EQ(result_.outcome, Outcome::converged) << l;
     }

@@ -23,10 +23,8 @@ std::unique_ptr<Model> resisting_strip(const meshing::Mesh& mesh, double volts) 
       make_membrane_block(mesh, mesh.blocks[0], test::vhb(),
                           std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), 0),
                           Dimension::planar, 3));
-  model->sheets = {{.electrode = 0,
-                    .resistance = resistance,
-                    .terminal = mesh.node_sets.at("left"),
-                    .voltage_scale = volts}};
+  model->ports[0].sheet = {
+      .resistance = resistance, .terminal = mesh.node_sets.at("left"), .voltage_scale = volts};
   model->place_histories();
   for (int a = 0; a < mesh.node_count(); ++a)
     for (const int c : {0, 1})
@@ -48,8 +46,9 @@ std::map<double, double> far_end(int n, int order, const RampOptions& options) {
   RampObserver observer;
   observer.on_accept = [&](const RampProgress& at, const Increment& increment) {
     const State& state = at.points.back().state;
-    for (std::size_t a = 0; a < model->sheet_points.size(); ++a)
-      if (increment.lands && mesh.nodes[static_cast<std::size_t>(model->sheet_points[a].node)].x() == length)
+    for (std::size_t a = 0; a < model->ports.sheet_points().size(); ++a)
+      if (increment.lands &&
+          mesh.nodes[static_cast<std::size_t>(model->ports.sheet_points()[a].node)].x() == length)
         found[state.time / tau] = state.voltage[0] - state.sheet_drop[static_cast<Eigen::Index>(a)];
     return true;
   };
@@ -106,8 +105,8 @@ void expect_steady(const Model& model, const meshing::Mesh& mesh,
   state.scheme = materials::TimeScheme::relaxed();
   state.voltage = {1.0};
   ASSERT_EQ(equilibrium.solve(state, {}).outcome, Outcome::converged);
-  for (std::size_t a = 0; a < model.sheet_points.size(); ++a) {
-    const double x = mesh.nodes[static_cast<std::size_t>(model.sheet_points[a].node)].x();
+  for (std::size_t a = 0; a < model.ports.sheet_points().size(); ++a) {
+    const double x = mesh.nodes[static_cast<std::size_t>(model.ports.sheet_points()[a].node)].x();
     EXPECT_NEAR(1 - state.sheet_drop[static_cast<Eigen::Index>(a)], expected(x), 1e-4);
   }
 }
@@ -117,7 +116,7 @@ TEST(ElectrodeLine, what_leaks_in_steady_flow_leaves_less_voltage_far_away) {
   const meshing::Mesh mesh = test::strip(100, 1, length, length / 100);
   const auto model = resisting_strip(mesh, 1);
   const double per_area = 4 / (resistance * length * length);
-  model->circuits = {{.electrode = 0, .resistance = 1, .leakage = per_area * length * length / 100}};
+  model->ports[0].circuit = {.resistance = 1, .leakage = per_area * length * length / 100};
   model->place_histories();
   expect_steady(*model, mesh, [](double x) { return std::cosh(2 * (1 - x / length)) / std::cosh(2); });
 }
@@ -129,14 +128,14 @@ TEST(ElectrodeLine, a_disc_connected_at_its_rim_is_one_of_bessel_functions) {
     return m;
   }();
   auto model = std::make_unique<Model>(
-      Model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {"electrode"}});
+      Model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .ports = {{"electrode"}}});
   model->blocks.push_back(make_membrane_block(mesh, mesh.blocks[0], test::vhb(), std::vector<int>(100, 0),
                                               Dimension::axisymmetric, 2));
   for (const auto& block : model->blocks) block->claim_dofs(model->dofs, Dimension::axisymmetric);
   const int rim = mesh.node_count() - 1;
-  model->sheets = {{.electrode = 0, .resistance = resistance, .terminal = {rim}}};
+  model->ports[0].sheet = {.resistance = resistance, .terminal = {rim}};
   const double area = std::numbers::pi * length * length;
-  model->circuits = {{.electrode = 0, .resistance = 1, .leakage = 4 / (resistance * length * length) * area}};
+  model->ports[0].circuit = {.resistance = 1, .leakage = 4 / (resistance * length * length) * area};
   model->place_histories();
   for (int a = 0; a < mesh.node_count(); ++a)
     for (const int c : {0, 2})

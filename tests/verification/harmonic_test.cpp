@@ -54,7 +54,7 @@ TEST(Harmonic, equals_the_steady_state_of_the_transient) {
   const test::Diaphragm diaphragm(
       {.damping = 1.596,
        .branches = {{materials::NeoHookean{15e3}, materials::Dashpot::log, 15e3 * 0.05}},
-       .circuits = {{.electrode = 0, .resistance = 1.87e6, .leakage = 1e-9, .charge_scale = 6e-6}},
+       .circuit = {{.resistance = 1.87e6, .leakage = 1e-9, .charge_scale = 6e-6}},
        .elements = 6});
   Equilibrium equilibrium(diaphragm.model, 1);
   const State rest = diaphragm.settled(equilibrium, 2500);

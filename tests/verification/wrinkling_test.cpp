@@ -68,7 +68,7 @@ struct Bending {
 /// height y.
 Bending bend(int n, double curvature, double b) {
   const meshing::Mesh mesh = strip(n);
-  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {}};
+  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}};
   model.blocks.push_back(wrinkling(mesh, {modulus, 0.3}, thickness, Dimension::planar));
   model.place_histories();
   model.blocks[0]->claim_dofs(model.dofs, Dimension::planar);
@@ -151,7 +151,7 @@ struct Airbag {
     meshing::Mesh mesh = strip(n); // length twice the height: to be a square
     for (Eigen::Vector3d& x : mesh.nodes) x = {x.x() * side / length, x.y() * side / height, 0};
     model.dofs = DofMap(mesh.node_count());
-    model.chambers = {{"inside"}};
+    model.ports = {{.name = "inside", .chamber = Chamber{}}};
     model.blocks.push_back(wrinkling(mesh, {588e6, 0.4}, 0.6e-3, Dimension::spatial));
     model.blocks.push_back(make_pressure_block(mesh, mesh.blocks[0], 0));
     model.place_histories();
@@ -167,7 +167,7 @@ struct Airbag {
     model.extent = side * std::sqrt(2);
     model.length_scale = side / n;
   }
-  Model model{.dofs = DofMap(0), .blocks = {}, .electrodes = {}};
+  Model model{.dofs = DofMap(0), .blocks = {}};
 };
 
 // Flat, slack and without any stiffness across it; the published height is 217 mm at 5 kPa (square airbag of
@@ -189,7 +189,7 @@ TEST(SlackFilm, an_airbag_rises_from_flat_to_its_published_height) {
 TEST(SlackFilm, a_sheared_sheet_carries_its_tension_at_45_degrees) {
   constexpr int ratio = 4, rows = 8;
   const meshing::Mesh mesh = strip(rows, ratio);
-  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}, .electrodes = {}};
+  Model model{.dofs = DofMap(mesh.node_count()), .blocks = {}};
   model.blocks.push_back(wrinkling(mesh, {modulus, 0.31}, thickness, Dimension::planar, {1, 1.00001}));
   model.place_histories();
   model.blocks[0]->claim_dofs(model.dofs, Dimension::planar);
