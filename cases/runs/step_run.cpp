@@ -28,8 +28,6 @@ constexpr std::array further{1e-2, 1e-1};
 /// Displacements along a mode at which another branch is looked for, over the model's extent: those of thin
 /// films are less than their thickness.
 constexpr std::array branch_amplitudes{1e-3, 1e-4, 1e-5};
-/// Eigenvalue of a mode, over the stiffness as drawn, that is one of rounding.
-constexpr double no_stiffness = 1e-10;
 /// Eigenvalue of the lowest mode, over the stiffness as drawn, below which a timed step has come to a limit.
 constexpr double critical_in_time = 1e-3;
 
@@ -301,100 +299,6 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   ramp.points = {{0, state}};
   if (!accept(state, {s, result.newton}, Reached::by_jump)) return Outcome{Ending::interrupted};
   return std::nullopt;
-}
-
-/// Integration points at which wrinkled film has no width that balances the field of these loads, and how
-/// many there are; empty where there is none.
-std::vector<std::size_t> StepRun::lost_film(double s) const {
-  const auto film = model().sample(loaded(last(), s)).film;
-  const auto lost = static_cast<std::size_t>(std::ranges::count_if(
-      film, [](const fem::MembraneSample& sample) { return sample.tension == materials::Tension::lost; }));
-  return lost == 0 ? std::vector<std::size_t>{} : std::vector{lost, film.size()};
-}
-
-/// Whether a motion meets no stiffness in the last state: the sign of its eigenvalue is then one of rounding.
-bool StepRun::moves_freely() const {
-  const auto mode = fem::lowest_mode(equilibrium_, loaded(last(), progress_.ramp.load_factor));
-  return mode && std::abs(mode->eigenvalue) < no_stiffness;
-}
-
-Outcome StepRun::failure(const Trouble& trouble) const {
-  const double reached = progress_.ramp.load_factor;
-  const auto singular = [&] {
-    return Outcome{
-        Ending::gave_up, "singular tangent",
-        fmt::format(
-            "step \"{}\" stopped at {}: the tangent is singular. Part of the device can move freely: "
-            "hold it with [[support]], a [[body]] by its fix; with model = \"3d\" an unstretched film "
-            "has no stiffness normal to itself: stretch it or use model = \"planar\"",
-            step_.name, load_text(reached))};
-  };
-  if (trouble.ramp.failure.outcome == fem::Outcome::singular) return singular();
-  if (fem::edges_meet(model(), last()))
-    return {Ending::gave_up, "edges meet",
-            fmt::format("step \"{}\" stopped at {}: edges of surfaces in [contact] meet between the points "
-                        "at which the barrier acts; round them, or refine the mesh along them",
-                        step_.name, load_text(reached))};
-  if (const auto lost = lost_film(trouble.ramp.failed_at); !lost.empty())
-    return {Ending::gave_up, "electromechanical loss",
-            fmt::format("step \"{}\" stopped at {}: beyond it the field pulls wrinkled film wider without "
-                        "limit (in {} of {} integration points at {}), whatever its wrinkles take up. Lower "
-                        "the drive or stretch the film more",
-                        step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
-  if (!trouble.critical && !timed() && equilibrium_.is_slack(last()))
-    return {Ending::gave_up, "slack film",
-            fmt::format("slack film: step \"{}\" stopped at {}, where the film carries no tension, and no "
-                        "state was found in which it carries the loads at {}. {}",
-                        step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
-                        options_.newton.wrinkles
-                            ? "Stretch it a little"
-                            : "Let it wrinkle (wrinkling = \"tension field\") or stretch it a little")};
-  const auto go_on = ways_on_.empty() ? "" : "; or let the step go on with on_instability = " + ways_on_;
-  const std::string more =
-      " Lower what drives it, or stiffen the device or stretch the film more, to stay below it" + go_on;
-  const char* of_edges =
-      fem::contact_pressure(model(), last()).empty() || fem::contact_force(model(), last(), "") == 0
-          ? ""
-          : ". Where surfaces in [contact] end on each other an edge may slip off: let one reach over the "
-            "other by contact.thickness, or refine the mesh there. Where the nodes of both stand over each "
-            "other, as in symmetric devices, move one part along by 1e-3 of an element, or model one half";
-  if (trouble.critical) {
-    const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
-    if (timed())
-      return {
-          Ending::gave_up, "limit point",
-          fmt::format(
-              "limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of the step.{}",
-              load_text(last(), reached), last().time, more)};
-    return {
-        Ending::gave_up, "limit point",
-        fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}",
-                    load_text(trouble.critical->load_factor),
-                    reached > 0 ? "up to " + load_text(reached) : "at the beginning of the step",
-                    trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
-                    branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable"
-                                 : "",
-                    more + (branches_off ? of_edges : ""))};
-  }
-  if (trouble.unstable_modes > 0 && moves_freely()) return singular();
-  if (trouble.unstable_modes > 0)
-    return {Ending::gave_up, "instability",
-            fmt::format(
-                "step \"{}\" stopped at {}: the equilibrium at {} has {} unstable mode{}, so a device would "
-                "leave it. Change what makes it unstable (compressed film, a voltage beyond a limit point){}",
-                step_.name, load_text(reached), load_text(trouble.ramp.failed_at), trouble.unstable_modes,
-                trouble.unstable_modes == 1 ? "" : "s", go_on)};
-  if (trouble.ramp.failure.outcome == fem::Outcome::off_path)
-    return {Ending::gave_up, "limit point",
-            fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
-                        "of another branch beyond it.{}",
-                        load_text(last(), reached), more)};
-  return {Ending::gave_up, "no equilibrium",
-          fmt::format("step \"{}\" stopped at {}: no equilibrium found at {}, and the increments are smaller "
-                      "than solver.smallest_increment. A finer mesh may help, a smaller "
-                      "solver.smallest_increment or more solver.max_iterations{}",
-                      step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
-                      timed() ? go_on : "")};
 }
 
 } // namespace dielast::cases

@@ -87,6 +87,19 @@ class PlaneContactBlock final : public ContactBlock {
     }
   }
   bool has_friction() const override { return friction(); }
+  void bound_friction(const State& state, std::vector<double>& all) const override {
+    for (int e = 0; e < element_count() && friction(); ++e)
+      if (double& force = all[place(e, normal)]; Slider::is_bounded(force))
+        force = Slider::bound(normal_force(state, e) / force_unit(e));
+  }
+  double friction_in_use(const State& state) const override {
+    double held = 0, most = 0;
+    for (int e = 0; e < element_count() && friction(); ++e) {
+      held += stiffness(e) * stretched(state, e).norm();
+      most += contact_.friction * normal_force(state, e);
+    }
+    return most > 0 ? held / most : 0;
+  }
   double friction_heat(const State& state) const override {
     double sum = 0;
     for (int e = 0; e < element_count() && friction(); ++e)

@@ -10,9 +10,10 @@ namespace dielast::fem {
 
 /// Coulomb's friction of what is pressed on a surface at one point: where it stands still it is held by a
 /// stiff spring along the surface, to an anchor; where the spring's force would exceed `most` the anchor
-/// slides. `most` is friction times the normal force at the last accepted state (lagged potential), so that
-/// the tangent is symmetric; that of what slides is a little firmer than the derivative (a body that slides
-/// as a whole would have none).
+/// slides. `most` is friction times a normal force that is given (lagged potential), so that the tangent is
+/// symmetric: that of the last accepted state, then of the solution with it, until these agree (see
+/// Equilibrium). The tangent of what slides is a little firmer than the derivative (a body that slides as a
+/// whole would have none).
 ///
 /// Accepted states are in balance with their anchors where they are (`frozen`). What has just touched
 /// (`fresh`) is held by a weak spring for an increment, whatever the force: nothing else may keep a body from
@@ -28,6 +29,11 @@ struct Slider {
   /// What slides has no stiffness along its way; where all of a body does, Newton's method needs some. This
   /// part of force over way makes it converge linearly, and quickly, as the body is much stiffer.
   static constexpr double firmness = 0.01;
+
+  /// Whether a normal force, over the barrier's, is that of something that was pressed before.
+  static constexpr bool is_bounded(double force) { return force > light; }
+  /// The force that bounds friction of what was, where this one presses it.
+  static constexpr double bound(double force) { return std::max(force, 2 * light); }
 
   double stiffness = 0; ///< of the spring, N/m
   double most = 0;      ///< N

@@ -16,10 +16,10 @@
 namespace dielast::fem {
 
 /// Friction of two surfaces in contact: a Slider at each node of either, along what it is pressed on. What
-/// that is, and across which direction, is told at the last accepted state and follows by one increment, as
-/// the normal force does; in between a slider's way is that beside the point of the other surface where the
-/// node was. What holds the one surface pushes the other one. Partners, their shape functions, directions,
-/// stretches, normal forces and the heat of sliding are internal variables.
+/// that is, and across which direction, is told at the last accepted state and follows by one increment; in
+/// between a slider's way is that beside the point of the other surface where the node was. What holds the
+/// one surface pushes the other one. Partners, their shape functions, directions, stretches, normal forces
+/// and the heat of sliding are internal variables.
 ///
 /// Nodes: of a face (or side), at which its shape functions are those of the contact's distances.
 template<int Nodes>
@@ -108,6 +108,16 @@ class SurfaceSliders {
       if (partner(*state.history, i) != none) sum += stiffness(i) * stretched(state, i).squaredNorm() / 2;
     return sum;
   }
+  /// What they hold over the most that they may hold.
+  double in_use(const State& state) const {
+    double held = 0, most = 0;
+    for (int i = 0; i < history_size() / per_node; ++i) {
+      if (partner(*state.history, i) == none) continue;
+      held += stiffness(i) * stretched(state, i).norm();
+      most += spring(state, i).most;
+    }
+    return most > 0 ? held / most : 0;
+  }
   /// Since the beginning, J.
   double heat(const State& state) const {
     double sum = 0;
@@ -123,6 +133,12 @@ class SurfaceSliders {
       for (int v = 0; v < per_node; ++v) all[place(i, v)] = 0;
       settle(drawn, i, pressed[static_cast<std::size_t>(i)], Vector3d::Zero(), all);
     }
+  }
+  /// Writes the normal forces that bound them, where they were pressed before.
+  void bound(const std::vector<Pressed>& pressed, std::vector<double>& all) const {
+    for (int i = 0; i < count(); ++i)
+      if (double& force = all[place(i, normal)]; Slider::is_bounded(force))
+        force = Slider::bound(pressed[static_cast<std::size_t>(i)].force.norm() / force_unit(i));
   }
   /// Writes what they are in a state that is accepted.
   void advance(const State& state, const std::vector<Pressed>& pressed, std::vector<double>& all) const {

@@ -51,6 +51,10 @@ class TwoSurfaces : public ContactBlock {
     parts.elastic += sliders_.energy(state);
   }
   bool has_friction() const override { return sliders_.any(); }
+  void bound_friction(const State& state, std::vector<double>& all) const override {
+    if (sliders_.any()) sliders_.bound(pressed(state), all);
+  }
+  double friction_in_use(const State& state) const override { return sliders_.in_use(state); }
   double friction_heat(const State& state) const override { return sliders_.heat(state); }
   int history_size() const override { return sliders_.history_size(); }
   void place_history(int first) override { sliders_.place_history(first); }

@@ -54,7 +54,6 @@ constexpr double charge_tolerance = 1e-13; ///< of the voltage
 /// Of the charge: a hardly compressible filling turns it into much more of the pressure than
 /// charge_tolerance.
 constexpr double charge_rounding = 1e-15;
-constexpr int most_turns = 40; ///< between forces and sheets
 /// Iterations after which the residual must be smaller than at the start. Thin shells that bend far are
 /// stretched by the first steps, and need more of both.
 constexpr int patience(const NewtonOptions& options) { return std::max(10, options.max_iterations - 15); }
@@ -257,31 +256,6 @@ bool Equilibrium::fill(State& state) {
   if (!chamber || model_.fill(state, Eigen::VectorXd::Zero(model_.dofs.free_count()))) return true;
   if (!factor(state) && !factor(widened(state, first_widening))) return false;
   return model_.fill(state, tangent_.response(*chamber));
-}
-
-NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
-                                const std::function<void(const Iteration&)>& log) {
-  if (!conduction_) return balance_forces(state, options, log);
-  conduction_->solve(state);
-  int iterations = 0;
-  double part = 1; // of the change of drops that is taken
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(state.sheet_drop.size());
-  for (int turn = 0;; ++turn) {
-    NewtonResult result = balance_forces(state, options, log);
-    result.iterations = iterations += result.iterations;
-    if (result.outcome != Outcome::converged) return result;
-    const Eigen::VectorXd drop = state.sheet_drop;
-    if (conduction_->solve(state) <= options.tolerance) return result;
-    if (turn == most_turns) {
-      result.outcome = Outcome::not_converged;
-      return result;
-    }
-    const Eigen::VectorXd next = state.sheet_drop - drop;
-    if (const double bend = (next - change).squaredNorm(); turn > 0 && bend > 0)
-      part *= -change.dot(next - change) / bend;
-    change = next;
-    state.sheet_drop = drop + part * change;
-  }
 }
 
 NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& options,

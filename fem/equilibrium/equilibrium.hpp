@@ -80,13 +80,16 @@ bool is_settled(double correction, double admitted, double last_step, double las
 /// Sheets: forces are balanced at fixed drops of voltage, then the drops follow the film (SheetConduction),
 /// in turns, until the latter change no voltage by more than the tolerance; relaxed as in Aitken's method. So
 /// stability is that at fixed drops.
+///
+/// Friction: forces are balanced with given bounds, then the bounds follow the normal forces, in turns, until
+/// they stay. With those of the state before what stands would slide.
 class Equilibrium {
  public:
   /// `threads`: 0 uses every core. The model must outlive this.
   Equilibrium(const Model& model, int threads);
 
-  /// Improves `state` until it converges; its voltages under sheets are found anew. On any other outcome
-  /// `state` is where the iteration stopped.
+  /// Improves `state` until it converges; its voltages under sheets, and in its history the bounds of
+  /// friction, are found anew. On any other outcome `state` is where the iteration stopped.
   NewtonResult solve(State& state, const NewtonOptions& options,
                      const std::function<void(const Iteration&)>& log = {});
   /// solve() with the voltages under sheets as they are.
@@ -154,6 +157,8 @@ class Equilibrium {
   const Timings& timings() const { return timings_; }
 
  private:
+  NewtonResult balance_sheets(State& state, const NewtonOptions& options,
+                              const std::function<void(const Iteration&)>& log);
   NewtonResult newton(State& state, const NewtonOptions& options,
                       const std::function<void(const Iteration&)>& log);
   NewtonResult descend(State& state, const NewtonOptions& options,

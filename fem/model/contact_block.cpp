@@ -2,6 +2,9 @@
 #include "fem/model/contact_block.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
 
 namespace dielast::fem {
 
@@ -68,6 +71,27 @@ bool has_friction(const Model& model) {
   bool any = false;
   for_each_contact(model, [&](const ContactBlock& one) { any = any || one.has_friction(); });
   return any;
+}
+
+double friction_in_use(const Model& model, const State& state) {
+  double part = 0;
+  for_each_contact(model,
+                   [&](const ContactBlock& one) { part = std::max(part, one.friction_in_use(state)); });
+  return part;
+}
+
+double bound_friction(const Model& model, State& state) {
+  const std::vector<double>& before = state.history->now;
+  History bound = *state.history;
+  for_each_contact(model, [&](const ContactBlock& one) { one.bound_friction(state, bound.now); });
+  double change = 0, largest = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (bound.now[i] == before[i]) continue;
+    change = std::max(change, std::abs(bound.now[i] - before[i]));
+    largest = std::max({largest, bound.now[i], before[i]});
+  }
+  state.history = std::make_shared<const History>(std::move(bound));
+  return change > 0 ? change / largest : 0;
 }
 
 } // namespace dielast::fem

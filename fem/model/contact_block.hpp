@@ -35,6 +35,11 @@ class ContactBlock : public ElementBlock {
   virtual void add_pressure(const State& /*state*/, NodalPressure& /*pressure*/) const {}
   /// Whether there are sliders, which keep what they slid: their path has corners, and no way back.
   virtual bool has_friction() const { return false; }
+  /// Writes the normal forces of this state as those that bound its friction, except where something has just
+  /// touched.
+  virtual void bound_friction(const State& /*state*/, std::vector<double>& /*all*/) const {}
+  /// What friction holds in an accepted state over the most that it may hold, 0..1.
+  virtual double friction_in_use(const State& /*state*/) const { return 0; }
   /// Of sliders since the beginning, J, in an accepted state.
   virtual double friction_heat(const State& /*state*/) const { return 0; }
 };
@@ -48,6 +53,11 @@ bool apply_freely(const Model& model, State& state, const std::function<void(Sta
 double contact_force(const Model& model, const State& state, std::string_view place = {});
 double friction_heat(const Model& model, const State& state);
 bool has_friction(const Model& model);
+/// The largest of the model's contacts: see ContactBlock.
+double friction_in_use(const Model& model, const State& state);
+/// Bounds friction by the normal forces of this state; returns the largest change of a bound, over the
+/// largest of those that change.
+double bound_friction(const Model& model, State& state);
 
 /// Normal force over area as drawn, per node, Pa; 0 inside. Empty: no surface of a solid may touch anything.
 /// Of the state's displacements alone.

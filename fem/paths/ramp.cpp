@@ -112,6 +112,7 @@ State Ramp::solve(State state, double s) {
     state.motion_scheme = state.motion->step > 0 ? GeneralisedAlpha::of(dt, options_.high_frequencies)
                                                  : first_step_of_motion(dt);
   }
+  if (has_friction(equilibrium_.model())) bound_friction(equilibrium_.model(), state); // as foretold
   newton_ = is_free ? equilibrium_.solve(state, options_.newton, observer_.on_iteration)
                     : NewtonResult{.outcome = Outcome::infeasible};
   return state;
