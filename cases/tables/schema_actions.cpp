@@ -328,8 +328,7 @@ Section contact_section() {
           .values(2, 20)
           .optional()
           .refers_to(Reference::place),
-      number("friction", to(&Contact::friction),
-             "Coulomb's coefficient between these surfaces; the normal force is that of the increment before")
+      number("friction", to(&Contact::friction), "Coulomb's coefficient between these surfaces")
           .at_least(0)
           .at_most(100)
           .otherwise("0")
@@ -346,8 +345,7 @@ Section table_section() {
   section.presence = Section::Presence::optional;
   section.access = present(&Case::table);
   section.keys = {text("at", to(&Table::place), "the surface that lies on it").refers_to(Reference::place),
-                  number("friction", to(&Table::friction),
-                         "Coulomb's coefficient; the normal force is that of the increment before")
+                  number("friction", to(&Table::friction), "Coulomb's coefficient")
                       .at_least(0)
                       .at_most(100)
                       .otherwise("0")};
