@@ -9,8 +9,7 @@ quantity = [
   { name = "eps_x", kind = "elongation", between = ["left_apex", "right_apex"], along = "x", since = "release" },
   { name = "eps_y", kind = "elongation", between = ["corner_bottom", "corner_top"], along = "y", since = "release" },
   { name = "released_length_x", kind = "distance", between = ["left_apex", "right_apex"], along = "x", at = "release" },
-  { name = "released_length_y", kind = "distance", between = ["corner_bottom", "corner_top"], along = "y", at = "release" },
-  { name = "yield_ratio", kind = "extreme", of = "yield_ratio", extreme = "maximum" }
+  { name = "released_length_y", kind = "distance", between = ["corner_bottom", "corner_top"], along = "y", at = "release" }
 ]
 )";
 

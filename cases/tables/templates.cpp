@@ -15,52 +15,28 @@
 namespace dielast::cases {
 namespace {
 
-/// Of every device, and of those with a chamber.
-constexpr std::string_view quantities_of_all = R"(
-[[quantity]]
-name = "max_field"
-kind = "extreme"
-of = "electric_field"
-extreme = "maximum"
-[[quantity]]
-name = "breakdown_ratio"
-kind = "extreme"
-of = "breakdown_ratio"
-extreme = "maximum"
-[[quantity]]
-name = "min_principal_stress"
-kind = "extreme"
-of = "min_principal_stress"
-extreme = "minimum"
-[[quantity]]
-name = "electrical_work"
-kind = "energy"
-of = "electrical_work"
-[[quantity]]
-name = "mechanical_work"
-kind = "energy"
-of = "mechanical_work"
-[[quantity]]
-name = "stored_energy"
-kind = "energy"
-of = "stored"
-[[quantity]]
-name = "dissipated_energy"
-kind = "energy"
-of = "dissipated"
-[[quantity]]
-name = "energy_error"
-kind = "energy"
-of = "error"
+/// Of every device, of those with beams, and of those with a chamber.
+constexpr std::string_view extremes_of_all = R"(
+  { name = "max_field", kind = "extreme", of = "electric_field", extreme = "maximum" },
+  { name = "breakdown_ratio", kind = "extreme", of = "breakdown_ratio", extreme = "maximum" },
+  { name = "min_principal_stress", kind = "extreme", of = "min_principal_stress", extreme = "minimum" },
+)";
+
+constexpr std::string_view energies_of_all = R"(
+  { name = "electrical_work", kind = "energy", of = "electrical_work" },
+  { name = "mechanical_work", kind = "energy", of = "mechanical_work" },
+  { name = "stored_energy", kind = "energy", of = "stored" },
+  { name = "dissipated_energy", kind = "energy", of = "dissipated" },
+  { name = "energy_error", kind = "energy", of = "error" }
+)";
+
+constexpr std::string_view beam_quantities = R"(
+  { name = "yield_ratio", kind = "extreme", of = "yield_ratio", extreme = "maximum" },
 )";
 
 constexpr std::string_view chamber_quantities = R"(
-[[quantity]]
-name = "pressure"
-kind = "pressure"
-[[quantity]]
-name = "volume"
-kind = "volume"
+  { name = "pressure", kind = "pressure" },
+  { name = "volume", kind = "volume" },
 )";
 
 Node parse_default(std::string_view toml, const Node& tree) {
@@ -262,6 +238,12 @@ std::vector<TemplatePart> parts_with_geometry(const Node& tree) {
   return found;
 }
 
+bool has_beams(const Node& tree) {
+  const auto brings = [](const Node& table) { return table.find("honeycomb") || table.find("beam"); };
+  const Node* parts = tree.find("part");
+  return brings(tree) || (parts && std::ranges::any_of(parts->items, brings));
+}
+
 /// Puts the part's name in front of a place.
 void prefix(Node* place, const std::string& part) {
   if (!place) return;
@@ -293,6 +275,14 @@ void add_part_defaults(Node& tree, const std::string& key, const TemplatePart& p
     if (Node* name = item.find("name")) name->text = part.name;
     list_at(tree, key).items.push_back(std::move(item));
   }
+}
+
+/// Standard quantities that no template brings.
+std::vector<Node> quantities_beside(const Node& tree) {
+  const std::string text =
+      fmt::format("quantity = [{}{}{}{}]", tree.find("chamber") ? chamber_quantities : "", extremes_of_all,
+                  has_beams(tree) ? beam_quantities : "", energies_of_all);
+  return items_of(parse_default(text, tree), "quantity");
 }
 
 /// Standard quantities of a template; those of a part are about its places. Extremes are of the whole case.
@@ -360,12 +350,7 @@ std::vector<Node> standard_quantities(const Node& tree, const Template* device) 
     for (Node& quantity : template_quantities(tree, *part.device, part.name))
       standard.push_back(std::move(quantity));
   if (device || !parts.empty())
-    for (Node& quantity :
-         items_of(parse_default(
-                      fmt::format("{}{}", tree.find("chamber") ? chamber_quantities : "", quantities_of_all),
-                      tree),
-                  "quantity"))
-      standard.push_back(std::move(quantity));
+    for (Node& quantity : quantities_beside(tree)) standard.push_back(std::move(quantity));
   std::erase_if(standard, [&](const Node& quantity) {
     return (quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty()) ||
            (is_of_shell(tree) && text_at(quantity, "kind") == "radial stretch"); // which membranes have

@@ -287,7 +287,7 @@ between = ["corner_bottom", "corner_top"]
 along = "y"
 since = "release"
 )toml");
-  for (const char* name : {"eps_x", "eps_y", "stored_energy", "max_field", "capacitance"})
+  for (const char* name : {"eps_x", "eps_y", "yield_ratio", "stored_energy", "max_field", "capacitance"})
     EXPECT_NEAR(found.at(name), expected.at(name), 1e-10 * std::abs(expected.at(name))) << name;
 }
 
