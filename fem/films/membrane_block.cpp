@@ -8,6 +8,21 @@
 
 namespace dielast::fem {
 
+namespace {
+
+/// make.operator()<Kinematics, Law>() for the law that is there. (Of a lambda in a lambda Clang 14 leaves
+/// functions out.)
+template<class Kinematics, class Make>
+struct OfLaw {
+  const Make& make;
+  template<class Law>
+  std::unique_ptr<ElementBlock> operator()(const Law& /*law*/) const {
+    return make.template operator()<Kinematics, Law>();
+  }
+};
+
+} // namespace
+
 std::unique_ptr<ElementBlock> make_membrane_block(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                                                   const MembraneSection& section, std::vector<int> electrodes,
                                                   Dimension dimension, int integration_points,
@@ -25,8 +40,7 @@ std::unique_ptr<ElementBlock> make_membrane_block(const meshing::Mesh& mesh, con
                                                         integration_points, std::move(numbers));
   };
   const auto triangles = [&]<class Kinematics>() { // these are many: each law has a loop of its own
-    return std::visit([&]<class Law>(const Law&) { return make.template operator()<Kinematics, Law>(); },
-                      section.material.law);
+    return std::visit(OfLaw<Kinematics, decltype(make)>{make}, section.material.law);
   };
   const auto lines = [&]<class Kinematics>() { // these are few
     return make.template operator()<Kinematics, materials::ElasticLaw>();
