@@ -20,7 +20,7 @@ Derivatives evaluate(const Linkage& linkage, double distance) {
   const double l = distance + linkage.offset;
   const double difference = linkage.arm * linkage.arm - linkage.strut * linkage.strut;
   const double scale = linkage.force / (2 * linkage.arm);
-  return {-scale * (difference * std::log(l) + l * l / 2), -scale * (difference / l + l),
+  return {-scale * (difference * std::log(l / linkage.arm) + l * l / 2), -scale * (difference / l + l),
           -scale * (1 - difference / (l * l))};
 }
 
