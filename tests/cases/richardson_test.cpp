@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/richardson.hpp"
+#include "cases/fitting/richardson.hpp"
 
 #include <gtest/gtest.h>
 
