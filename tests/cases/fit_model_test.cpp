@@ -103,9 +103,13 @@ TEST(FitModel, BranchesInPureShearFlowAsThoseOfAFilm) {
 TEST(FitModel, ADashpotBesideTheLawResistsTheRate) {
   const Material material{.law = materials::NeoHookean{1000}, .viscosity = 300};
   const double omega = 2, dt = 0.05;
-  const std::vector<std::pair<Mode, double>> factors{
-      {Mode::uniaxial, 3}, {Mode::pure_shear, 4}, {Mode::equal_biaxial, 6}};
-  for (const auto& [mode, factor] : factors) {
+  struct Factor {
+    Mode mode;
+    double factor;
+  };
+  for (const Factor& of : {Factor{Mode::uniaxial, 3}, {Mode::pure_shear, 4}, {Mode::equal_biaxial, 6}}) {
+    const Mode mode = of.mode;
+    const double factor = of.factor;
     StretchHistory wave{mode, {}, {}}, corner{mode, {}, {}};
     for (int i = 0; i <= 60; ++i) {
       wave.time.push_back(i * dt), corner.time.push_back(i * dt);
