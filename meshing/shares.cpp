@@ -139,9 +139,9 @@ double measure(const Tangent& t) {
   return t.cols() == 2 ? normal.norm() : std::abs(normal.dot(t.col(2)));
 }
 
-/// Integrals of the shape functions per node of the mesh; `turned`: times the radius.
-Eigen::VectorXd integrals(const Mesh& mesh, const Cells& cells, bool turned) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.node_count());
+/// use(nodes, point, size) for all points of the cells; `turned`: sizes times the radius.
+template<class Use>
+void for_each_point(const Mesh& mesh, const Cells& cells, bool turned, const Use& use) {
   const std::vector<Point> points = points_in(cells.block->type);
   for (const int number : cells.numbers) {
     const auto nodes = cells.block->cell(number);
@@ -151,9 +151,17 @@ Eigen::VectorXd integrals(const Mesh& mesh, const Cells& cells, bool turned) {
     for (const Point& point : points) {
       double size = point.weight * measure(x.lazyProduct(point.slope));
       if (turned) size *= x.row(0).dot(point.shape);
-      for (Index a = 0; a < x.cols(); ++a) sum[nodes[static_cast<std::size_t>(a)]] += size * point.shape[a];
+      use(nodes, point, size);
     }
   }
+}
+
+/// Integrals of the shape functions per node of the mesh; `turned`: times the radius.
+Eigen::VectorXd integrals(const Mesh& mesh, const Cells& cells, bool turned) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.node_count());
+  for_each_point(mesh, cells, turned, [&](std::span<const int> nodes, const Point& point, double size) {
+    for (std::size_t a = 0; a < nodes.size(); ++a) sum[nodes[a]] += size * point.shape[static_cast<Index>(a)];
+  });
   return sum;
 }
 
@@ -169,11 +177,7 @@ class Sharing {
     const std::optional<Cells> cells = cells_of(place, nodes);
     if (!cells) return even;
     if (marks_of(*cells) != marks(nodes)) return {even.of_nodes, true};
-    Eigen::VectorXd share = integrals(mesh_, *cells, false);
-    if (of_revolution_) // what lies on the axis is a line
-      if (const Eigen::VectorXd turned = integrals(mesh_, *cells, true);
-          turned.sum() > on_axis * share.sum() * radius_)
-        share = turned;
+    Eigen::VectorXd share = integrals(mesh_, *cells, is_turned(*cells));
     share /= share.sum();
     const double largest = share.cwiseAbs().maxCoeff();
     Shares found;
@@ -182,8 +186,32 @@ class Sharing {
     return found;
   }
 
+  std::vector<CommonShare> common_in(const std::string& place, const std::vector<int>& nodes) {
+    const std::optional<Cells> cells = nodes.size() < 2 ? std::nullopt : cells_of(place, nodes);
+    if (!cells || marks_of(*cells) != marks(nodes)) return {};
+    std::map<std::array<int, 2>, double> products;
+    double all = 0;
+    for_each_point(mesh_, *cells, is_turned(*cells),
+                   [&](std::span<const int> own, const Point& point, double size) {
+                     all += size;
+                     for (std::size_t a = 0; a < own.size(); ++a)
+                       for (std::size_t b = 0; b < a; ++b)
+                         products[{std::min(own[a], own[b]), std::max(own[a], own[b])}] +=
+                             size * point.shape[static_cast<Index>(a)] * point.shape[static_cast<Index>(b)];
+                   });
+    std::vector<CommonShare> found;
+    for (const auto& [pair, product] : products) found.push_back({pair, product / all});
+    return found;
+  }
+
  private:
   static constexpr double on_axis = 1e-12, round_off = 1e-12;
+
+  /// Whether the cells are those of the full turn; what lies on the axis is a line.
+  bool is_turned(const Cells& cells) const {
+    return of_revolution_ &&
+           integrals(mesh_, cells, true).sum() > on_axis * integrals(mesh_, cells, false).sum() * radius_;
+  }
 
   std::vector<char> marks(std::span<const int> nodes) const {
     std::vector<char> marked(mesh_.nodes.size());
@@ -245,6 +273,10 @@ std::map<std::string, Shares> shares(const Mesh& mesh, bool of_revolution) {
   std::map<std::string, Shares> all;
   for (const auto& [place, nodes] : mesh.node_sets) all[place] = sharing.in(place, nodes);
   return all;
+}
+
+std::vector<CommonShare> common_shares(const Mesh& mesh, bool of_revolution, const std::string& place) {
+  return Sharing(mesh, of_revolution).common_in(place, mesh.node_sets.at(place));
 }
 
 } // namespace dielast::meshing

@@ -40,18 +40,15 @@ void require_a_direction(const Case& one, const meshing::Mesh& mesh, const fem::
                     between[0], between[1], "xyz"[distance.axis])}});
 }
 
-/// The masses at the nodes of a point mass' place, kg per kg of it: the shares, as far as they are no
-/// negative masses.
-std::vector<std::pair<int, double>> masses_at(const std::string& place, const meshing::Mesh& mesh,
+/// The shares of a place's nodes, without those that have none.
+std::vector<std::pair<int, double>> shares_at(const std::string& place, const meshing::Mesh& mesh,
                                               const PlaceShares& shares) {
   const auto& nodes = mesh.node_sets.at(place);
   const std::vector<double>& share = shares.at(place).of_nodes;
-  double sum = 0;
-  for (const double s : share) sum += std::max(s, 0.0);
-  std::vector<std::pair<int, double>> masses;
+  std::vector<std::pair<int, double>> found;
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (share[n] > 0) masses.emplace_back(nodes[n], share[n] / sum);
-  return masses;
+    if (share[n] != 0) found.emplace_back(nodes[n], share[n]);
+  return found;
 }
 
 } // namespace
@@ -80,11 +77,16 @@ void add_masses(const Case& one, const meshing::Mesh& mesh, const PlaceShares& s
     model.blocks.push_back(fem::make_point_mass_block(
         {mesh.node_sets.at(one.plate->place).front(), 2, one.plate->mass, one.plate->damping}));
   for (const PointMass& point : one.point_masses) {
-    for (const auto& [node, share] : masses_at(point.place, mesh, shares))
+    for (const auto& [node, share] : shares_at(point.place, mesh, shares))
       for (int c = 0; c < 3; ++c)
         if (fem::moves(one.dimension, c))
           model.blocks.push_back(
               fem::make_point_mass_block({node, c, point.mass * share, point.damping * share}));
+    std::vector<fem::RelativeMass> between; // what is spread moves as the elements do
+    for (const auto& [nodes, share] :
+         meshing::common_shares(mesh, one.dimension == fem::Dimension::axisymmetric, point.place))
+      between.push_back({nodes[0], nodes[1], -point.mass * share, -point.damping * share});
+    if (!between.empty()) model.blocks.push_back(fem::make_relative_mass_block(std::move(between)));
   }
 }
 
@@ -113,7 +115,7 @@ Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,
     for (const auto& [node, mass] : body.masses) add(node, mass);
   if (one.plate) add(mesh.node_sets.at(one.plate->place).front(), one.plate->mass);
   for (const PointMass& point : one.point_masses)
-    for (const auto& [node, share] : masses_at(point.place, mesh, shares)) add(node, point.mass * share);
+    for (const auto& [node, share] : shares_at(point.place, mesh, shares)) add(node, point.mass * share);
   return weight;
 }
 

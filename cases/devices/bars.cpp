@@ -128,7 +128,8 @@ std::vector<fem::RelativeMass> add_rotary_nodes(const Case& one, meshing::Mesh& 
 void tie_rotary_nodes(const std::vector<fem::RelativeMass>& masses, const meshing::Mesh& mesh,
                       fem::DofMap& dofs) {
   const auto drawn = [&mesh](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
-  for (const auto& [node, beside, mass] : masses) dofs.tie({node, beside, drawn(node) - drawn(beside)});
+  for (const fem::RelativeMass& one : masses)
+    dofs.tie({one.node, one.beside, drawn(one.node) - drawn(one.beside)});
 }
 
 Bars bars(const Case& one, const meshing::Mesh& mesh) {

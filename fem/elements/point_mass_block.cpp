@@ -52,14 +52,16 @@ class RelativeMassBlock final : public ElementBlock {
     return {};
   }
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
-  void add_mass(int element, std::span<double> packed) const override {
-    const double mass = of(element).mass;
-    packed[0] += mass;
-    packed[1] -= mass;
-    packed[2] += mass;
-  }
+  void add_mass(int element, std::span<double> packed) const override { add(of(element).mass, packed); }
+  void add_damping(int element, std::span<double> packed) const override { add(of(element).damping, packed); }
 
  private:
+  static void add(double of_difference, std::span<double> packed) {
+    packed[0] += of_difference;
+    packed[1] -= of_difference;
+    packed[2] += of_difference;
+  }
+
   static constexpr int axes = 3;
   const RelativeMass& of(int element) const { return masses_[static_cast<std::size_t>(element / axes)]; }
 

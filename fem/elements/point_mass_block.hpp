@@ -20,10 +20,12 @@ struct PointMass {
 
 std::unique_ptr<ElementBlock> make_point_mass_block(const PointMass& point);
 
-/// A mass at a node that resists its motion beside another node, not with it: 1/2 m |v - v_beside|^2.
+/// A mass at a node that resists its motion beside another node, not with it: 1/2 m |v - v_beside|^2, and a
+/// damper between them. Of what is spread over elements, beside point masses at the nodes, both are negative.
 struct RelativeMass {
   int node = 0, beside = 0;
-  double mass = 0; ///< kg
+  double mass = 0;    ///< kg
+  double damping = 0; ///< N s/m
 };
 
 std::unique_ptr<ElementBlock> make_relative_mass_block(std::vector<RelativeMass> masses);

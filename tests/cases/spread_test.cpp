@@ -160,5 +160,47 @@ extreme = "minimum"
   }
 }
 
+// As if the film had it: omega = 2.4048/a sqrt(T/(rho H)).
+TEST_F(Spread, AMassOverAMembraneVibratesAsThatOfTheFilm) {
+  const double mass = 1e-3, area = M_PI * film_radius * film_radius;
+  const double omega = 2.404825557695773 / film_radius * std::sqrt(film_tension / (mass / area));
+  for (const char* model : {"axisymmetric", "3d"}) {
+    const auto end = values(
+        stretched_disc(model, "[[point_mass]]\nplace = \"film\"\nmass = \"1 g\"\n[[step]]\nkind = "
+                              "\"modes\"\n[[quantity]]\nname = \"omega\"\nkind = \"natural frequency\"\n"));
+    EXPECT_NEAR(end.at("omega"), omega, 1e-4 * omega) << model;
+  }
+}
+
+// As of a spring: the edge of a film without mass moves in proportion to the distance from its held end.
+TEST_F(Spread, AMassOnAnEdgeThatStretchesCountsByAThirdAtItsMovingEnd) {
+  const auto end = values(R"toml(
+[film]
+thickness = "1 mm"
+[film.material]
+shear_modulus = "50 kPa"
+permittivity = "4e-11 F/m"
+density = "0 kg/m^3"
+[patch]
+mode = "pure-shear"
+length = "100 mm"
+width = "50 mm"
+stress_x = "0 Pa"
+[output]
+error_estimate = false
+[[point_mass]]
+place = "top"
+mass = "10 g"
+[[step]]
+kind = "force"
+[[step]]
+kind = "modes"
+[[quantity]]
+name = "omega"
+kind = "natural frequency"
+)toml");
+  EXPECT_NEAR(end.at("omega"), std::sqrt(100 / (10e-3 / 3)), 1e-5);
+}
+
 } // namespace
 } // namespace dielast::cases

@@ -89,5 +89,38 @@ TEST(Shares, OfASideAreOneFourAndOne) {
   EXPECT_FALSE(found.at("ends").mixed);
 }
 
+// The consistent mass matrix of a side with three nodes, and with linear shape functions over a disc: x^2 of
+// what is spread over it is that of its nodes' own parts and of those that they have in common.
+TEST(Shares, WhatNodesHaveInCommonIsTheProductOfTheirShapeFunctions) {
+  const Mesh side{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                  {{CellType::triangle6, {0, 1, 2, 3, 4, 5}}},
+                  {{"side", {0, 1, 3}}, {"ends", {0, 1}}, {"one", {1}}},
+                  {}};
+  const auto common = common_shares(side, false, "side");
+  ASSERT_EQ(common.size(), 3U);
+  const auto expect = [&](std::size_t i, std::array<int, 2> nodes, double share) {
+    EXPECT_EQ(common[i].nodes, nodes);
+    EXPECT_NEAR(common[i].share, share, 1e-14);
+  };
+  expect(0, {0, 1}, -1 / 30.0);
+  expect(1, {0, 3}, 2 / 30.0);
+  expect(2, {1, 3}, 2 / 30.0);
+  EXPECT_TRUE(common_shares(side, false, "ends").empty()); // nothing of the film is between them alone
+  EXPECT_TRUE(common_shares(side, false, "one").empty());
+
+  for (const auto& [mesh, of_revolution] :
+       {std::pair{disc_meridian(30, 20, 10, 2), true}, {disc_mesh(30, 20, 6, 2, true), false}}) {
+    const std::vector<double> share = shares(mesh, of_revolution).at("electrode").of_nodes;
+    const auto x = [&mesh = mesh](int node) { return mesh.nodes[static_cast<std::size_t>(node)].x(); };
+    double square = 0;
+    for (std::size_t n = 0; n < share.size(); ++n)
+      square += share[n] * std::pow(x(mesh.node_sets.at("electrode")[n]), 2);
+    for (const auto& [nodes, part] : common_shares(mesh, of_revolution, "electrode"))
+      square -= part * std::pow(x(nodes[0]) - x(nodes[1]), 2);
+    // of the radius, and of one of two axes
+    EXPECT_NEAR(square, of_revolution ? 200 : 100, 0.05);
+  }
+}
+
 } // namespace
 } // namespace dielast::meshing
