@@ -73,21 +73,19 @@ void add_springs(const Case& one, const meshing::Mesh& mesh, const PlaceShares& 
 }
 
 void add_masses(const Case& one, const meshing::Mesh& mesh, const PlaceShares& shares, fem::Model& model) {
+  std::vector<fem::PointMass> at_nodes;
+  std::vector<fem::RelativeMass> between; // what is spread moves as the elements do
   if (one.plate)
-    model.blocks.push_back(fem::make_point_mass_block(
-        {mesh.node_sets.at(one.plate->place).front(), 2, one.plate->mass, one.plate->damping}));
+    at_nodes.push_back({mesh.node_sets.at(one.plate->place).front(), 2, one.plate->mass, one.plate->damping});
   for (const PointMass& point : one.point_masses) {
     for (const auto& [node, share] : shares_at(point.place, mesh, shares))
-      for (int c = 0; c < 3; ++c)
-        if (fem::moves(one.dimension, c))
-          model.blocks.push_back(
-              fem::make_point_mass_block({node, c, point.mass * share, point.damping * share}));
-    std::vector<fem::RelativeMass> between; // what is spread moves as the elements do
+      for (int c = 0; c < 3; ++c) at_nodes.push_back({node, c, point.mass * share, point.damping * share});
     for (const auto& [nodes, share] :
          meshing::common_shares(mesh, one.dimension == fem::Dimension::axisymmetric, point.place))
       between.push_back({nodes[0], nodes[1], -point.mass * share, -point.damping * share});
-    if (!between.empty()) model.blocks.push_back(fem::make_relative_mass_block(std::move(between)));
   }
+  if (!at_nodes.empty()) model.blocks.push_back(fem::make_point_mass_block(std::move(at_nodes)));
+  if (!between.empty()) model.blocks.push_back(fem::make_relative_mass_block(std::move(between)));
 }
 
 Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,

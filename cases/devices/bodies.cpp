@@ -73,16 +73,13 @@ std::vector<BodyNodes> add_body_nodes(const Case& one, meshing::Mesh& mesh) {
   return all;
 }
 
-std::vector<std::unique_ptr<fem::ElementBlock>> body_masses(const std::vector<BodyNodes>& bodies,
-                                                            fem::Dimension dimension) {
-  std::vector<std::unique_ptr<fem::ElementBlock>> blocks;
+std::vector<fem::PointMass> body_masses(const std::vector<BodyNodes>& bodies) {
+  std::vector<fem::PointMass> masses;
   for (const BodyNodes& body : bodies)
     for (const auto& [node, mass] : body.masses)
       for (int c = 0; c < 3; ++c)
-        if (fem::moves(dimension, c))
-          blocks.push_back(fem::make_point_mass_block(
-              {.node = node, .axis = c, .mass = mass, .damping = body.damping_rate * mass}));
-  return blocks;
+        masses.push_back({.node = node, .axis = c, .mass = mass, .damping = body.damping_rate * mass});
+  return masses;
 }
 
 void tie_bodies(const Case& one, const std::vector<BodyNodes>& nodes, const meshing::Mesh& mesh,

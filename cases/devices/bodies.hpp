@@ -2,11 +2,10 @@
 #pragma once
 
 #include "cases/case/case.hpp"
+#include "fem/elements/point_mass_block.hpp"
 #include "fem/model/dofs.hpp"
-#include "fem/model/element_block.hpp"
 #include "meshing/mesh.hpp"
 
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,8 +24,7 @@ struct BodyNodes {
 std::vector<BodyNodes> add_body_nodes(const Case& one, meshing::Mesh& mesh);
 
 /// Their masses; the model feels them where it moves.
-std::vector<std::unique_ptr<fem::ElementBlock>> body_masses(const std::vector<BodyNodes>& bodies,
-                                                            fem::Dimension dimension);
+std::vector<fem::PointMass> body_masses(const std::vector<BodyNodes>& bodies);
 
 /// Ties the places and the masses of all bodies to their masters and fixes what is fixed. Throws CaseError
 /// where a place belongs to two bodies.

@@ -272,8 +272,8 @@ Device build_device(const Case& one) {
   add_springs(one, mesh, shares, model);
   add_capacitors(one, model);
   add_masses(one, mesh, shares, model);
-  for (auto& mass : body_masses(bodies, dimension)) model.blocks.push_back(std::move(mass));
-  for (auto& fluid : fluid_around(fins)) model.blocks.push_back(std::move(fluid));
+  for (auto& masses : {body_masses(bodies), fluid_around(fins)})
+    if (!masses.empty()) model.blocks.push_back(fem::make_point_mass_block(masses));
   for (const auto& block : model.blocks) {
     block->place_scalars(model.dofs);
     block->claim_dofs(model.dofs, dimension);

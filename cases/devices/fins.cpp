@@ -45,13 +45,12 @@ std::vector<FinPoints> add_fin_nodes(const Case& one, meshing::Mesh& mesh) {
   return fins;
 }
 
-std::vector<std::unique_ptr<fem::ElementBlock>> fluid_around(const std::vector<FinPoints>& fins) {
-  std::vector<std::unique_ptr<fem::ElementBlock>> blocks;
+std::vector<fem::PointMass> fluid_around(const std::vector<FinPoints>& fins) {
+  std::vector<fem::PointMass> fluid;
   for (const FinPoints& fin : fins)
     for (const FinPoints::Point& at : fin.points)
-      blocks.push_back(
-          fem::make_point_mass_block({.node = at.node, .axis = fin.along, .mass = at.mass, .drag = at.drag}));
-  return blocks;
+      fluid.push_back({.node = at.node, .axis = fin.along, .mass = at.mass, .drag = at.drag});
+  return fluid;
 }
 
 void tie_fins(const std::vector<FinPoints>& fins, const meshing::Mesh& mesh, fem::DofMap& dofs) {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "cases/case/case.hpp"
+#include "fem/elements/point_mass_block.hpp"
 #include "fem/model/model.hpp"
 #include "meshing/mesh.hpp"
 
-#include <memory>
 #include <vector>
 
 namespace dielast::cases {
@@ -33,7 +33,7 @@ struct FinLoad {
 
 /// Adds the points and corners of all fins to the mesh, behind the nodes of the bodies.
 std::vector<FinPoints> add_fin_nodes(const Case& one, meshing::Mesh& mesh);
-std::vector<std::unique_ptr<fem::ElementBlock>> fluid_around(const std::vector<FinPoints>& fins);
+std::vector<fem::PointMass> fluid_around(const std::vector<FinPoints>& fins);
 /// Ties them to the masters of their bodies.
 void tie_fins(const std::vector<FinPoints>& fins, const meshing::Mesh& mesh, fem::DofMap& dofs);
 

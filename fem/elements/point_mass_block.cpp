@@ -5,29 +5,33 @@ namespace dielast::fem {
 
 namespace {
 
+/// One element per mass.
 class PointMassBlock final : public ElementBlock {
  public:
-  explicit PointMassBlock(const PointMass& point) : point_(point) {}
+  explicit PointMassBlock(std::vector<PointMass> points) : points_(std::move(points)) {}
 
-  int element_count() const override { return 1; }
+  int element_count() const override { return static_cast<int>(points_.size()); }
   int dofs_per_element() const override { return 1; }
   void claim_dofs(DofMap& dofs, Dimension dimension) override {
-    if (moves(dimension, point_.axis)) dofs.add(point_.node, point_.axis);
+    for (const PointMass& point : points_)
+      if (moves(dimension, point.axis)) dofs.add(point.node, point.axis);
   }
-  void element_equations(int /*element*/, const DofMap& dofs, std::span<int> equations) const override {
-    equations[0] = dofs.equation(point_.node, point_.axis);
+  void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override {
+    equations[0] = dofs.equation(of(element).node, of(element).axis);
   }
   Evaluation evaluate(const State& /*state*/, int /*first*/, int /*last*/,
                       const Scatter& /*scatter*/) const override {
     return {};
   }
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
-  void add_mass(int /*element*/, std::span<double> packed) const override { packed[0] += point_.mass; }
-  void add_damping(int /*element*/, std::span<double> packed) const override { packed[0] += point_.damping; }
-  void add_drag(int /*element*/, std::span<double> drag) const override { drag[0] += point_.drag; }
+  void add_mass(int element, std::span<double> packed) const override { packed[0] += of(element).mass; }
+  void add_damping(int element, std::span<double> packed) const override { packed[0] += of(element).damping; }
+  void add_drag(int element, std::span<double> drag) const override { drag[0] += of(element).drag; }
 
  private:
-  PointMass point_;
+  const PointMass& of(int element) const { return points_[static_cast<std::size_t>(element)]; }
+
+  std::vector<PointMass> points_;
 };
 
 /// One element per mass and axis.
@@ -70,8 +74,8 @@ class RelativeMassBlock final : public ElementBlock {
 
 } // namespace
 
-std::unique_ptr<ElementBlock> make_point_mass_block(const PointMass& point) {
-  return std::make_unique<PointMassBlock>(point);
+std::unique_ptr<ElementBlock> make_point_mass_block(std::vector<PointMass> points) {
+  return std::make_unique<PointMassBlock>(std::move(points));
 }
 
 std::unique_ptr<ElementBlock> make_relative_mass_block(std::vector<RelativeMass> masses) {

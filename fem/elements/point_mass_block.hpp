@@ -18,7 +18,7 @@ struct PointMass {
   double drag = 0;    ///< d, N s^2/m^2
 };
 
-std::unique_ptr<ElementBlock> make_point_mass_block(const PointMass& point);
+std::unique_ptr<ElementBlock> make_point_mass_block(std::vector<PointMass> points);
 
 /// A mass at a node that resists its motion beside another node, not with it: 1/2 m |v - v_beside|^2, and a
 /// damper between them. Of what is spread over elements, beside point masses at the nodes, both are negative.

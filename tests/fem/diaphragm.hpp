@@ -37,7 +37,7 @@ struct Diaphragm {
     const std::vector<int>& inner = mesh.node_sets.at("inner");
     model.blocks.push_back(
         make_membrane_block(mesh, mesh.blocks[0], film, electrode, dimension, flat ? 6 : 3));
-    model.blocks.push_back(make_point_mass_block({inner.front(), 2, data.mass, data.damping}));
+    model.blocks.push_back(make_point_mass_block({{inner.front(), 2, data.mass, data.damping}}));
     for (const auto& block : model.blocks) block->claim_dofs(model.dofs, dimension);
     for (const int a : inner) {
       for (const int c : {0, 1}) model.dofs.hold(a, c);

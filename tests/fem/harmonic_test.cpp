@@ -88,7 +88,7 @@ struct Oscillator {
     film.material.branches = {std::move(viscous)};
     film.material.density = 0;
     model.blocks.push_back(make_membrane_block(mesh, mesh.blocks[0], film, {0, 0}, Dimension::planar, 1));
-    model.blocks.push_back(make_point_mass_block({1, 0, mass, damping}));
+    model.blocks.push_back(make_point_mass_block({{1, 0, mass, damping}}));
     for (const auto& block : model.blocks) block->claim_dofs(model.dofs, Dimension::planar);
     for (const auto& [a, c] : {std::pair{0, 0}, {0, 1}, {1, 1}, {2, 0}}) model.dofs.hold(a, c);
     model.dofs.share(1, 0, 3, 0);

@@ -22,8 +22,8 @@ struct Oscillator {
     const meshing::Mesh mesh{{{1, 0, 0}, {0, 0, 0}}, {}, {}, {}};
     model = test::unnumbered_model(
         2, true, make_distance_block(mesh, {{{{{1}, {1}}, {{0}, {1}}}}, 0}, Spring{stiffness, 1}),
-        make_point_mass_block({.node = 0, .axis = 0, .mass = mass, .damping = damping, .drag = drag}),
-        make_point_mass_block({.node = 1, .axis = 0, .mass = 0.7}));
+        make_point_mass_block({{.node = 0, .axis = 0, .mass = mass, .damping = damping, .drag = drag}}),
+        make_point_mass_block({{.node = 1, .axis = 0, .mass = 0.7}}));
     model->dofs.hold(1, 0);
     model->dofs.number();
     model->inertia = Inertia::of(model->blocks, model->dofs);
@@ -121,7 +121,7 @@ TEST(Inertia, a_damper_lets_the_vibration_decay) {
 TEST(Inertia, drag_lets_a_pulled_mass_reach_its_terminal_velocity) {
   constexpr double force = 2, drag = 8, duration = 0.6;
   const std::unique_ptr<Model> falling =
-      test::free_model(1, true, make_point_mass_block({.node = 0, .axis = 0, .mass = mass, .drag = drag}));
+      test::free_model(1, true, make_point_mass_block({{.node = 0, .axis = 0, .mass = mass, .drag = drag}}));
   Model& model = *falling;
   model.inertia = Inertia::of(model.blocks, model.dofs);
   Equilibrium equilibrium(model, 1);

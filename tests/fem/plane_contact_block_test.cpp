@@ -196,7 +196,7 @@ TEST(PlaneContact, bounce_conserves_the_energy) {
   const meshing::Mesh mesh{{{0, fall, 0}}, {}, {}, {}};
   PlaneContact contact{.nodes = {0}, .areas = {1e-4}, .barrier = {0.01, 1e9}};
   auto model = test::unnumbered_model(1, true, make_plane_contact_block(mesh, std::move(contact)),
-                                      make_point_mass_block({.node = 0, .axis = 1, .mass = mass}));
+                                      make_point_mass_block({{.node = 0, .axis = 1, .mass = mass}}));
   model->dofs.number();
   model->inertia = Inertia::of(model->blocks, model->dofs);
   model->extent = fall;

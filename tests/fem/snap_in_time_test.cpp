@@ -21,7 +21,7 @@ struct Square {
     model = test::unnumbered_model(
         mesh.node_count(), true,
         make_membrane_block(mesh, mesh.blocks[0], section, {0, 0}, Dimension::planar, 1),
-        make_point_mass_block({.node = 1, .axis = 0, .damping = damping}));
+        make_point_mass_block({{.node = 1, .axis = 0, .damping = damping}}));
     // nodes 0 1 / 2 3 from the fixed corner
     for (const auto& [node, axis] : {std::pair{0, 0}, {0, 1}, {1, 1}, {2, 0}}) model->dofs.hold(node, axis);
     for (const auto& [node, axis] : {std::pair{2, 1}, {3, 0}, {3, 1}}) model->dofs.share(1, 0, node, axis);

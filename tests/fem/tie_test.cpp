@@ -35,7 +35,7 @@ struct FilmOnBody {
                             1));
     for (int c = 0; c < 3; ++c)
       if (moves(dimension, c))
-        model->blocks.push_back(make_point_mass_block({.node = master + 1, .axis = c, .mass = 1e-3}));
+        model->blocks.push_back(make_point_mass_block({{.node = master + 1, .axis = c, .mass = 1e-3}}));
     for (const auto& block : model->blocks) block->claim_dofs(model->dofs, dimension);
     claim_body(model->dofs, master, dimension);
     const double right = 0.02;
@@ -233,8 +233,8 @@ TEST(Tie, cannot_be_held_or_shared) {
 /// lowest point is K(1/2)/sqrt(g).
 TEST(Tie, lets_a_pendulum_swing_far) {
   const meshing::Mesh mesh{{{0, 0, 0}, {1, 0, 0}}, {}, {}, {}};
-  auto model = test::unnumbered_model(2, true, make_point_mass_block({.node = 1, .axis = 0, .mass = 1}),
-                                      make_point_mass_block({.node = 1, .axis = 1, .mass = 1}));
+  auto model = test::unnumbered_model(2, true, make_point_mass_block({{.node = 1, .axis = 0, .mass = 1}}),
+                                      make_point_mass_block({{.node = 1, .axis = 1, .mass = 1}}));
   claim_body(model->dofs, 0, Dimension::planar);
   for (const int c : {0, 1}) model->dofs.hold(0, c);
   model->dofs.tie({1, 0, {1, 0, 0}});
@@ -281,7 +281,7 @@ TEST(Tie, lets_a_plate_on_a_film_tilt) {
        .prestretch = {stretch, stretch}},
       std::vector<int>(static_cast<std::size_t>(mesh.blocks[0].size()), passive), Dimension::spatial, 6));
   for (int n = master + 1; n < mesh.node_count(); ++n)
-    for (int c = 0; c < 3; ++c) model.blocks.push_back(make_point_mass_block({n, c, m, 0}));
+    for (int c = 0; c < 3; ++c) model.blocks.push_back(make_point_mass_block({{n, c, m, 0}}));
   for (const auto& block : model.blocks) block->claim_dofs(model.dofs, Dimension::spatial);
   claim_body(model.dofs, master, Dimension::spatial);
   for (const int n : mesh.node_sets.at("outer"))
