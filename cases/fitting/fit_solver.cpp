@@ -175,9 +175,14 @@ Eigen::VectorXd other_start(const FitTask& task, const std::vector<Coordinate>& 
   return q;
 }
 
-bool any_at_bound(const std::vector<Coordinate>& coordinates, const Eigen::VectorXd& q) {
+/// Whether another start may lead to less: the misfit of relaxation times has valleys of its own, and a
+/// parameter that has come to its bound has left one.
+bool deserves_another_start(const FitTask& task, const std::vector<Coordinate>& coordinates,
+                            const Attempt& attempt) {
+  if (attempt.ending == FitEnding::gave_up) return true;
   for (std::size_t i = 0; i < coordinates.size(); ++i)
-    if (coordinates[i].at_bound(q[static_cast<Eigen::Index>(i)])) return true;
+    if (task.parameters[i].unit == "s" || coordinates[i].at_bound(attempt.q[static_cast<Eigen::Index>(i)]))
+      return true;
   return false;
 }
 
@@ -231,8 +236,7 @@ FitOutcome solve_fit(const FitTask& task) {
 
   std::vector<int> steps = outcome.steps; // for a second attempt
   Attempt best = minimise_in_time(task, coordinates, outcome.steps, start, outcome.iterations);
-  if (best.ending != FitEnding::interrupted &&
-      (best.ending == FitEnding::gave_up || any_at_bound(coordinates, best.q))) {
+  if (best.ending != FitEnding::interrupted && deserves_another_start(task, coordinates, best)) {
     const Eigen::VectorXd other = other_start(task, coordinates, steps, start);
     Attempt second = minimise_in_time(task, coordinates, steps, other, outcome.iterations);
     const double alike = best.ending == FitEnding::gave_up ? 1 + 1e-6 : 1 - 1e-6;

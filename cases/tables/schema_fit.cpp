@@ -25,9 +25,10 @@ Section fit_section() {
           .above(1)
           .at_most(1e6)
           .otherwise("1e4"),
-      integer("max_iterations", to(&Fit::max_iterations),
-              "iterations before an attempt gives up; a fit that does not converge is tried once more, from "
-              "another start")
+      integer(
+          "max_iterations", to(&Fit::max_iterations),
+          "iterations before an attempt gives up; a fit that does not converge, that ends at a bound or that "
+          "has relaxation times is tried once more, from another start")
           .at_least(1)
           .at_most(10000)
           .otherwise("200"),

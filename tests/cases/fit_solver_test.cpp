@@ -57,6 +57,30 @@ TEST(FitSolver, WithoutNoiseTheParametersComeBack) {
   EXPECT_LT(fit.deviation, 2e-4);
 }
 
+// A stretch that is held. From where these branches start the misfit leads down to a single one between them.
+TEST(FitSolver, TwoRelaxationTimesComeBackFromAPoorStart) {
+  const auto film_of = [](double modulus, std::array<std::array<double, 2>, 2> branches) {
+    Material film{.law = NeoHookean{modulus}};
+    for (const auto& [shear, time] : branches)
+      film.branches.push_back(
+          {.law = NeoHookean{shear}, .dashpot = materials::Dashpot::nominal, .viscosity = shear * time});
+    return film;
+  };
+  MeasuredTest held;
+  for (int i = 0; i <= 60; ++i) {
+    held.history.time.push_back(0.5 * i);
+    held.history.stretch.push_back(i == 0 ? 1 : 2);
+  }
+  held.stress = nominal_stress(film_of(50e3, {{{28e3, 0.6}, {16e3, 18}}}), held.history, 256);
+  const FitOutcome fit = solve_fit(task_from(film_of(200e3, {{{30e3, 300}, {30e3, 0.013}}}), {held}));
+  std::vector<double> found;
+  for (const FittedParameter& one : fit.parameters) found.push_back(one.value);
+  ASSERT_EQ(found.size(), 5U);
+  if (found[2] > found[4]) std::swap_ranges(found.begin() + 1, found.begin() + 3, found.begin() + 3);
+  const std::vector<double> expected{50e3, 28e3, 0.6, 16e3, 18};
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i] / expected[i], 1, 5e-3) << i;
+}
+
 // P = 2 (c1 + c2/l) (l - 1/l^2) with c2 = -c1/10: at stretches above sqrt(10) film pulled sideways free is
 // not stable, and the fit ends there.
 TEST(FitSolver, TellsWhereTheMaterialIsStableNoLonger) {
