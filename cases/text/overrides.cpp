@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/text/overrides.hpp"
 
+#include <boost/algorithm/string/trim.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -29,20 +30,22 @@ std::vector<Part> parts_of(std::string_view key, const Source& source) {
   while (i < key.size()) {
     if (key[i] == '.') {
       ++i;
+      if (parts.empty() || i == key.size() || key[i] == '.' || key[i] == '[')
+        fail(source, key, "between dots, and in front of the first, stands the name of a table or key");
     } else if (key[i] == '"') {
       ++i;
       parts.push_back({std::string(until("\""))});
-      ++i;
+      if (i++ == key.size()) fail(source, key, "a quote is not closed");
     } else if (key[i] == '[') {
       ++i;
       const std::string_view digits = until("]");
       std::size_t number = 0;
-      std::from_chars(digits.data(), digits.data() + digits.size(), number);
-      if (number == 0 || i++ == key.size())
+      const char* end = digits.data() + digits.size();
+      if (std::from_chars(digits.data(), end, number).ptr != end || number == 0 || i++ == key.size())
         fail(source, key, "in brackets stands the number of an item, from 1");
       parts.push_back({"", number});
     } else {
-      parts.push_back({std::string(until(".[\""))});
+      parts.push_back({boost::trim_copy(std::string(until(".[\"")))}); // blanks are none of it, as in TOML
     }
   }
   constexpr std::size_t most_parts = 20; // what goes down into the tables recurses

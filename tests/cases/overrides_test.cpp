@@ -73,6 +73,10 @@ TEST_F(OverrideCommand, WrongOnesAreReportedByTheirOwnWords) {
   EXPECT_NE(ended.err.find("cells close up at 60 deg"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("did you mean \"order\"?"), std::string::npos) << ended.err;
   EXPECT_FALSE(exists("small-results"));
+  for (const char* path :
+       {"mesh..order=1", ".mesh.order=1", "mesh.=1", "mesh.\"order=1", "step[1x].increments=2"})
+    EXPECT_EQ(dielast({"check", "small.toml", "--set", path}).exit_code, 2) << path;
+  EXPECT_EQ(dielast({"check", "small.toml", "--set", " mesh . order = 1"}).exit_code, 0);
 }
 
 } // namespace
