@@ -25,6 +25,13 @@ bool has_heavy_bars(const Part& part) {
          (lattice && heavy(lattice->wall));
 }
 
+/// Whether film or bars have a density.
+bool has_dense_parts(const Case& one) {
+  return std::ranges::any_of(one.film_materials(),
+                             [](const auto* material) { return material->density > 0; }) ||
+         std::ranges::any_of(one.parts, [](const Part& part) { return has_heavy_bars(part); });
+}
+
 bool has_inertia(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) { return step.inertia; });
 }
@@ -33,11 +40,9 @@ bool has_inertia(const Case& one) {
 
 bool has_mass(const Case& one) {
   const auto heavy = [](const auto& body) { return body.mass > 0; };
-  return std::ranges::any_of(one.film_materials(),
-                             [](const auto* material) { return material->density > 0; }) ||
-         (one.plate && heavy(*one.plate)) || std::ranges::any_of(one.point_masses, heavy) ||
-         std::ranges::any_of(one.bodies, heavy) || !one.fins.empty() ||
-         std::ranges::any_of(one.parts, [](const Part& part) { return has_heavy_bars(part); });
+  return has_dense_parts(one) || (one.plate && heavy(*one.plate)) ||
+         std::ranges::any_of(one.point_masses, heavy) || std::ranges::any_of(one.bodies, heavy) ||
+         !one.fins.empty();
 }
 
 bool is_linearised(const Case& one) { return one.linearise || has_step(one, {StepKind::harmonic}); }
@@ -138,6 +143,30 @@ Condition electrodes() {
   return on_case("an [[electrode]]", [](const Case& one) { return !one.electrodes.empty(); });
 }
 
+Condition charges_film() {
+  return on_case("an [[electrode]] of the film itself", [](const Case& one) {
+    return std::ranges::any_of(one.electrodes, [](const Electrode& e) { return e.layer.empty(); });
+  });
+}
+
+Condition charges_layer() {
+  return on<Layer>("an [[electrode]] of the layer", [](const Case& one, const Layer& layer) {
+    return std::ranges::any_of(one.electrodes,
+                               [&](const Electrode& e) { return !e.layer.empty() && e.layer == layer.name; });
+  });
+}
+
+Condition voltages() {
+  return on_case(
+      "a step of kind \"voltage\", or \"transient\" with control = \"voltage\", and an [[electrode]]",
+      [](const Case& one) {
+        return !one.electrodes.empty() && std::ranges::any_of(one.steps, [](const Step& step) {
+          return step.kind == StepKind::voltage ||
+                 (step.kind == StepKind::transient && step.control == Control::voltage);
+        });
+      });
+}
+
 Condition branches() {
   return on_case("a [[film.material.branch]] or a viscosity",
                  [](const Case& one) { return has_branches(one); });
@@ -152,6 +181,11 @@ Condition without_duration() {
 Condition weight() {
   return on_case("a step of kind \"weight\"",
                  [](const Case& one) { return has_step(one, {StepKind::weight}); });
+}
+
+Condition film_has_weight() {
+  return on_case("a step of kind \"weight\", and a density of film or bars",
+                 [](const Case& one) { return has_step(one, {StepKind::weight}) && has_dense_parts(one); });
 }
 
 Condition masses_matter() {

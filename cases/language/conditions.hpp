@@ -9,10 +9,14 @@ namespace dielast::cases {
 namespace when {
 
 Condition electrodes();          ///< there is an electrode
+Condition charges_film();        ///< one charges the film itself
+Condition charges_layer();       ///< one charges the key's own layer
+Condition voltages();            ///< a step brings a voltage
 Condition branches();            ///< the film has branches
 Condition time_passes();         ///< a step has a duration
 Condition without_duration();    ///< the key's own step has none
 Condition weight();              ///< gravity acts in a step
+Condition film_has_weight();     ///< likewise, and film or bars have a mass
 Condition masses_matter();       ///< something has inertia, vibrates, or weighs
 Condition turns_matter();        ///< likewise, and bodies turn
 Condition hung_weight_matters(); ///< beside the standard quantities, whose natural frequency has it

@@ -80,12 +80,15 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
     log.warn("    {}", event.message);
     recorder.record_mode(critical, event);
   };
-  observer.on_analysis = [&recorder, &log](const Analysis& analysis, const fem::State& state) {
-    if (analysis.kind == StepKind::modes)
+  observer.on_analysis = [&one, &recorder, &log](const Analysis& analysis, const fem::State& state) {
+    if (analysis.kind == StepKind::modes) {
       for (const auto& row : analysis.rows)
         log.info("    mode {:.0f}  {:>10.6g} Hz  {:>10.6g} rad/s{}", row[0], row[1], row[2],
                  row[3] < 0 ? "  unstable" : "");
-    else
+      const auto step = std::ranges::find(one.steps, analysis.step, &Step::name);
+      if (static_cast<int>(analysis.rows.size()) < step->count)
+        log.info("    there are no others ({} were asked for)", step->count);
+    } else
       log.info("    {} frequencies, source of {}: {} {:.5g} to {:.5g}", analysis.rows.size(),
                fmt::join(analysis.driven, ", "), analysis.columns[1], analysis.rows.front()[1],
                analysis.rows.back()[1]);

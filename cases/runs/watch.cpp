@@ -56,7 +56,10 @@ Watch::Watch(const Case& one, const Device& device)
 std::string Watch::place_of_triangle(int triangle) const {
   for (const auto& [name, set] : device_.mesh.cell_sets)
     if (is_cell(name) && std::binary_search(set.cells.begin(), set.cells.end(), triangle)) return name;
-  const auto nodes = device_.mesh.film()->cell(triangle);
+  return place_of_element(device_.mesh.film()->cell(triangle));
+}
+
+std::string Watch::place_of_element(std::span<const int> nodes) const {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const int node : nodes)
     middle += device_.mesh.nodes[static_cast<std::size_t>(node)] / static_cast<double>(nodes.size());
@@ -70,7 +73,7 @@ std::string Watch::place_of_triangle(int triangle) const {
 
 std::string Watch::place_of_line(int line) const { return cell_of(line, line); }
 
-/// The lattice cell whose outline has both beams, or one cell of each.
+/// The lattice cell whose outline has both beams, or what each is in: a cell, or itself.
 std::string Watch::cell_of(int line, int other) const {
   std::string one_of_first, one_of_other;
   for (const auto& [name, nodes] : device_.mesh.node_sets) {
@@ -85,7 +88,9 @@ std::string Watch::cell_of(int line, int other) const {
     if (first) one_of_first = name;
     if (second) one_of_other = name;
   }
-  return one_of_first + " and " + one_of_other;
+  if (one_of_first.empty()) one_of_first = place_of_element(lines_->cell(line));
+  if (one_of_other.empty()) one_of_other = place_of_element(lines_->cell(other));
+  return one_of_first == one_of_other ? one_of_first : one_of_first + " and " + one_of_other;
 }
 
 std::vector<post::Event> Watch::check(const fem::State& state, const post::Extremes& extremes,
@@ -126,7 +131,7 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
   if (const auto ratio = extremes.find("yield_ratio", post::Extreme::maximum);
       ratio && begins(ratio->value >= 1, "wall yield"))
     events.push_back({"wall yield", place_of_line(ratio->cell),
-                      fmt::format("a wall's fibre is strained {:.3g} times its yield strain", ratio->value)});
+                      fmt::format("a fibre is strained {:.3g} times its yield strain", ratio->value)});
   if (contacts_) {
     const auto found = contacts_->find(state);
     if (begins(!found.empty(), "wall contact")) {

@@ -39,6 +39,7 @@ class Watch {
   std::string cell_of(int line, int other) const;
   std::string place_of_triangle(int triangle) const;
   std::string place_of_line(int line) const;
+  std::string place_of_element(std::span<const int> nodes) const;
 
   const Device& device_;
   double smallest_stress_;

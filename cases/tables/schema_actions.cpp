@@ -269,7 +269,7 @@ Section gravity_section() {
           .only_with(when::weight()),
       flag("film", to(&Gravity::film), "whether film and bars have a weight, too; by default a [strip] has")
           .otherwise("false")
-          .only_with(when::weight())};
+          .only_with(when::film_has_weight())};
   return section;
 }
 

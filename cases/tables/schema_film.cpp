@@ -136,7 +136,8 @@ Section material_section() {
         };
       }
   for (Key& key : section.keys)
-    if (key.name == "electrostriction" || key.name.starts_with("breakdown")) key.acts = when::electrodes();
+    if (key.name == "electrostriction" || key.name.starts_with("breakdown"))
+      key.acts = std::is_same_v<Owner, Layer> ? when::charges_layer() : when::charges_film();
   const Binding relative{[](void* object, const Value& value) {
                            static_cast<Owner*>(object)->material.dielectric.permittivity =
                                value.at(0).number * vacuum_permittivity;

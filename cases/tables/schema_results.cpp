@@ -148,7 +148,8 @@ Section output_section() {
           "the run itself tells")
           .at_least(1)
           .at_most(100)
-          .otherwise("1"),
+          .otherwise("1")
+          .only_with(when::voltages()),
       flag("fields", to(&Case::fields), "write the series of fields for ParaView").otherwise("true"),
       word("states",
            {{"all", "every row of the history", true},

@@ -30,7 +30,7 @@ constexpr std::string_view energies_of_all = R"(
   { name = "energy_error", kind = "energy", of = "error" }
 )";
 
-constexpr std::string_view beam_quantities = R"(
+constexpr std::string_view yield_quantities = R"(
   { name = "yield_ratio", kind = "extreme", of = "yield_ratio", extreme = "maximum" },
 )";
 
@@ -238,8 +238,15 @@ std::vector<TemplatePart> parts_with_geometry(const Node& tree) {
   return found;
 }
 
-bool has_beams(const Node& tree) {
-  const auto brings = [](const Node& table) { return table.find("honeycomb") || table.find("beam"); };
+/// Whether there are bars whose yield strain means something: that of leaf springs and cables where it is
+/// said.
+bool may_yield(const Node& tree) {
+  const auto says = [](const Node* of) { return of && of->find("yield_strain"); };
+  const auto leaf_says = [&](const Node* leaf) { return leaf && says(leaf->find("material")); };
+  const auto brings = [&](const Node& table) {
+    return table.find("honeycomb") || table.find("beam") || says(table.find("cable")) ||
+           leaf_says(table.find("hinge")) || leaf_says(table.find("ribbon"));
+  };
   const Node* parts = tree.find("part");
   return brings(tree) || (parts && std::ranges::any_of(parts->items, brings));
 }
@@ -281,7 +288,7 @@ void add_part_defaults(Node& tree, const std::string& key, const TemplatePart& p
 std::vector<Node> quantities_beside(const Node& tree) {
   const std::string text =
       fmt::format("quantity = [{}{}{}{}]", tree.find("chamber") ? chamber_quantities : "", extremes_of_all,
-                  has_beams(tree) ? beam_quantities : "", energies_of_all);
+                  may_yield(tree) ? yield_quantities : "", energies_of_all);
   return items_of(parse_default(text, tree), "quantity");
 }
 

@@ -77,7 +77,24 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       film.substr(film.find("[film.m")) +
       "[slab]\nlength = \"5 mm\"\nheight = \"2 mm\"\n[plate]\nmass = \"50 g\"\nat = \"top\"\n"
       "[[support]]\nplace = \"bottom\"\nfix = [\"z\"]\n";
+  const auto layered = [](const std::string& charged, const std::string& of_film,
+                          const std::string& of_layer) {
+    return "model = \"3d\"\n" + film.substr(0, film.find("[film.m")) + "section = \"shell\"\n" +
+           film.substr(film.find("[film.m")) + of_film +
+           "[[film.layer]]\nname = \"above\"\nthickness = \"1 mm\"\n[film.layer.material]\nshear_modulus = "
+           "\"40 kPa\"\npermittivity = \"4e-11 F/m\"\n" +
+           of_layer + "[rectangle]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[[electrode]]\nname = \"e\"\n" +
+           "place = \"film\"\n" + charged;
+  };
+  const std::string above = "layer = \"above\"\n", breaks = "breakdown_field = \"60 MV/m\"\n";
   const std::vector<Pair> pairs{
+      {"film.material.breakdown_field", layered(above, breaks, ""), layered("", breaks, "")},
+      {"film.layer[1].material.breakdown_field", layered("", "", breaks), layered(above, "", breaks)},
+      {"gravity.film",
+       "model = \"3d\"\n" + film + "density = 0\n" + disc + "[gravity]\nfilm = true\n" + weight,
+       "model = \"3d\"\n" + film + disc + "[gravity]\nfilm = true\n" + weight},
+      {"output.margins_up_to", film + balloon + "[output]\nmargins_up_to = 2\n" + inflate,
+       film + disc + "[output]\nmargins_up_to = 2\n" + ramp},
       {"film.bulk_modulus",
        slab(bulk, "law = \"st-venant-kirchhoff\"\nyoungs_modulus = \"120 kPa\"\npoisson_ratio = 0.4\n"),
        slab(bulk, neo_hookean)},
