@@ -75,6 +75,63 @@ struct Straight {
   }
 };
 
+/// Columns: d(x)/d(l_k) of a 10-node tetrahedron at barycentric coordinates.
+std::array<Vector3d, 4> slopes_of_tetrahedron(const Mesh& mesh, std::span<const int> nodes,
+                                              const std::array<double, 4>& l) {
+  constexpr std::array<std::array<std::size_t, 3>, 6> sides{
+      {{0, 1, 4}, {1, 2, 5}, {2, 0, 6}, {0, 3, 7}, {1, 3, 8}, {2, 3, 9}}};
+  const auto x = [&](std::size_t k) -> const Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(nodes[k])];
+  };
+  std::array<Vector3d, 4> slope;
+  for (std::size_t a = 0; a < 4; ++a) slope[a] = (4 * l[a] - 1) * x(a);
+  for (const auto& [a, b, middle] : sides) {
+    slope[a] += 4 * l[b] * x(middle);
+    slope[b] += 4 * l[a] * x(middle);
+  }
+  return slope;
+}
+
+double determinant(const std::array<Vector3d, 4>& slope) {
+  return (slope[1] - slope[0]).cross(slope[2] - slope[0]).dot(slope[3] - slope[0]);
+}
+
+bool folds_tetrahedron(const Mesh& mesh, std::span<const int> nodes) {
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b <= a; ++b) { // a corner, or the middle of a side
+      std::array<double, 4> l{};
+      l[a] += 0.5, l[b] += 0.5;
+      if (!(determinant(slopes_of_tetrahedron(mesh, nodes, l)) > 0)) return true;
+    }
+  return false;
+}
+
+bool folds_triangle(const Mesh& mesh, std::span<const int> nodes) {
+  constexpr std::array<std::array<std::size_t, 3>, 3> middle{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
+  const auto x = [&](std::size_t k) -> const Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(nodes[k])];
+  };
+  const Vector3d normal = (x(1) - x(0)).cross(x(2) - x(0));
+  // d(x)/d(l_i) = sum_k l_k slope(i, k), as the coordinates' sum is 1
+  const auto slope = [&](std::size_t i, std::size_t k) -> Vector3d {
+    return i == k ? Vector3d(3 * x(i)) : Vector3d(4 * x(middle[i][k]) - x(i));
+  };
+  std::array<Vector3d, 3> first, second;
+  for (std::size_t k = 0; k < 3; ++k)
+    first[k] = slope(1, k) - slope(0, k), second[k] = slope(2, k) - slope(0, k);
+  const auto m = [&](std::size_t i, std::size_t j) {
+    return normal.dot(first[i].cross(second[j]) + first[j].cross(second[i])) / 2;
+  };
+  const double m0 = m(0, 0), m1 = m(1, 1), m2 = m(2, 2);
+  if (!(m0 > 0 && m1 > 0 && m2 > 0)) return true;
+  const double p01 = m(0, 1) + std::sqrt(m0 * m1), p02 = m(0, 2) + std::sqrt(m0 * m2),
+               p12 = m(1, 2) + std::sqrt(m1 * m2);
+  if (!(p01 > 0 && p02 > 0 && p12 > 0)) return true;
+  return !(std::sqrt(m0 * m1 * m2) + m(0, 1) * std::sqrt(m2) + m(0, 2) * std::sqrt(m1) +
+               m(1, 2) * std::sqrt(m0) + std::sqrt(2 * p01 * p02 * p12) >
+           0);
+}
+
 /// Volume, with the rule of degree 2 of the solid elements.
 Measure measure_tetrahedron(const Mesh& mesh, std::span<const int> nodes) {
   const auto x = [&](int k) -> const Vector3d& { return mesh.nodes[static_cast<std::size_t>(nodes[k])]; };
@@ -82,22 +139,12 @@ Measure measure_tetrahedron(const Mesh& mesh, std::span<const int> nodes) {
     const double volume = (x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) / 6;
     return {volume, !(volume > 0)};
   }
-  constexpr std::array<std::array<int, 3>, 6> sides{
-      {{0, 1, 4}, {1, 2, 5}, {2, 0, 6}, {0, 3, 7}, {1, 3, 8}, {2, 3, 9}}};
   const double near = (5 - std::sqrt(5.0)) / 20;
   Measure result{0, false};
   for (std::size_t point = 0; point < 4; ++point) {
     std::array<double, 4> l{near, near, near, near};
     l[point] = 1 - 3 * near;
-    std::array<Vector3d, 4> slope; // in the barycentric coordinates
-    for (int a = 0; a < 4; ++a)
-      slope[static_cast<std::size_t>(a)] = (4 * l[static_cast<std::size_t>(a)] - 1) * x(a);
-    for (const auto& [a, b, middle] : sides) {
-      const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-      slope[i] += 4 * l[j] * x(middle);
-      slope[j] += 4 * l[i] * x(middle);
-    }
-    const double det = (slope[1] - slope[0]).cross(slope[2] - slope[0]).dot(slope[3] - slope[0]);
+    const double det = determinant(slopes_of_tetrahedron(mesh, nodes, l));
     result.area += det / 24;
     result.inverted |= !(det > 0);
   }
@@ -129,6 +176,12 @@ void add_tetrahedra(const Mesh& mesh, const CellBlock& block, QualityReport& rep
 }
 
 } // namespace
+
+bool folds(const Mesh& mesh, CellType type, std::span<const int> nodes) {
+  return type == CellType::triangle6       ? folds_triangle(mesh, nodes)
+         : type == CellType::tetrahedron10 ? folds_tetrahedron(mesh, nodes)
+                                           : false;
+}
 
 QualityReport quality(const Mesh& mesh) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

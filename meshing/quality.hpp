@@ -4,6 +4,7 @@
 #include "meshing/mesh.hpp"
 
 #include <array>
+#include <span>
 
 namespace dielast::meshing {
 
@@ -23,6 +24,12 @@ struct QualityReport {
   int inverted = 0;
   std::array<int, 6> angles{}; ///< cells whose smallest angle is in [10 k, 10 k + 10) degrees
 };
+
+/// Whether the middle nodes of a cell fold it: somewhere det dx/dxi, seen from its corners' side, is not
+/// positive in a 6-node triangle (exactly: a quadratic form of barycentric coordinates that is not strictly
+/// copositive, Hadeler, Linear Algebra Appl. 49, 79, 1983), or at a corner or middle node of a 10-node
+/// tetrahedron. Cells of corners alone do not fold.
+bool folds(const Mesh& mesh, CellType type, std::span<const int> nodes);
 
 /// For triangles in the x-y or the x-z plane, and for tetrahedra.
 QualityReport quality(const Mesh& mesh);

@@ -4,6 +4,7 @@
 #include "meshing/gmsh/gmsh_contents.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/middle_nodes.hpp"
+#include "meshing/quality.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -79,6 +80,7 @@ class Converter {
     for (CellBlock& block : mesh_.blocks) {
       turn_counter_clockwise(block);
       turn_outwards(block);
+      require_unfolded(block);
     }
     for (const GmshContents::PhysicalGroup& group : contents_.groups) add_place(group);
     if (block_of(3) != mesh_.blocks.end() && block_of(3)->type == CellType::tetrahedron4)
@@ -164,6 +166,21 @@ class Converter {
       if (n == 4) continue;
       std::swap(cell[5], cell[6]);
       std::swap(cell[7], cell[8]);
+    }
+  }
+
+  void require_unfolded(const CellBlock& block) const {
+    for (int c = 0; c < block.size(); ++c) {
+      const auto nodes = block.cell(c);
+      if (!folds(mesh_, block.type, nodes)) continue;
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+      const int corners = corners_per_cell(block.type);
+      for (int a = 0; a < corners; ++a) middle += mesh_.nodes[static_cast<std::size_t>(nodes[a])] / corners;
+      throw MeshError(fmt::format(
+          "the {} about ({:.6g}, {:.6g}, {:.6g}) is folded: a node of its sides lies too far from their "
+          "middle, "
+          "or its corners on a line; let gmsh mend it (Mesh.HighOrderOptimize = 2), or save with order 1",
+          is_triangle(block.type) ? "triangle" : "tetrahedron", middle.x(), middle.y(), middle.z()));
     }
   }
 

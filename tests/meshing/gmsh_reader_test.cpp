@@ -160,6 +160,23 @@ TEST_F(GmshReader, RefusesContentsThatDoNotFitTogether) {
   EXPECT_EQ(refused([](auto& c) { c.groups[0].dimension = -1; }), damaged);
 }
 
+TEST_F(GmshReader, RefusesWhatItsMiddleNodesFold) {
+  GmshContents contents{.error = "",
+                        .node_tags = {1, 2, 3, 4, 5, 6},
+                        .coordinates = {0, 0, 0, 3, 0, 0, 0, 3, 0, 0.8, 0, 0, 1.5, 1.5, 0, 0, 1.5, 0},
+                        .elements = {{2, 1, "Triangle 6", 6, {1, 2, 3, 4, 5, 6}}},
+                        .groups = {}};
+  EXPECT_EQ(mesh_of(contents).film()->size(), 1);
+  contents.coordinates[9] = 0.7;
+  try {
+    mesh_of(contents);
+    FAIL() << "accepted";
+  } catch (const MeshError& error) {
+    EXPECT_NE(std::string(error.what()).find("the triangle about (1, 1, 0) is folded"), std::string::npos)
+        << error.what();
+  }
+}
+
 // A node's tag of 9e18 makes gmsh reserve memory and count without an end.
 TEST_F(GmshReader, ComesToAnEndWithDamagedCounts) {
   EXPECT_THROW(read_gmsh(DIELAST_SOURCE_DIR "/tests/fuzz/corpus/gmsh/endless_binary.msh"), MeshError);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <random>
 
 namespace dielast::meshing {
 namespace {
@@ -49,6 +50,55 @@ TEST(Quality, FindsInvertedTriangles) {
   add_middle_nodes(folded);
   folded.nodes[folded.blocks[0].cell(1)[4]] -= Eigen::Vector3d(0.6e-3, 0.6e-3, 0); // past the opposite corner
   EXPECT_EQ(quality(folded).inverted, 1);
+}
+
+// The determinant is a quadratic form of the barycentric coordinates; a grid finds where it is negative.
+TEST(Quality, FindsWhatFoldsBetweenItsIntegrationPoints) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> shift(-0.45, 0.45);
+  int folded = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Mesh mesh{{{0, 0, 0}, {1, 0, 0.5}, {0, 1, 0}, {0.5, 0, 0.25}, {0.5, 0.5, 0.25}, {0, 0.5, 0}}, {}, {}, {}};
+    for (std::size_t a = 3; a < 6; ++a)
+      mesh.nodes[a] += Eigen::Vector3d(shift(generator), shift(generator), 0);
+    for (std::size_t a = 3; a < 6; ++a)
+      mesh.nodes[a].z() = mesh.nodes[a].x() / 2; // in a plane that is inclined
+    const auto& x = mesh.nodes;
+    double least = 1;
+    constexpr int n = 40;
+    for (int a = 0; a <= n; ++a)
+      for (int b = 0; a + b <= n; ++b) {
+        const double l1 = double(a) / n, l2 = double(b) / n, l0 = 1 - l1 - l2;
+        const Eigen::Vector3d from = (4 * l0 - 1) * x[0] + 4 * l1 * x[3] + 4 * l2 * x[5];
+        const Eigen::Vector3d along_1 = (4 * l1 - 1) * x[1] + 4 * l0 * x[3] + 4 * l2 * x[4] - from;
+        const Eigen::Vector3d along_2 = (4 * l2 - 1) * x[2] + 4 * l1 * x[4] + 4 * l0 * x[5] - from;
+        least = std::min(least, along_1.cross(along_2).z());
+      }
+    const std::vector<int> nodes{0, 1, 2, 3, 4, 5};
+    const bool folds_there = folds(mesh, CellType::triangle6, nodes);
+    folded += folds_there;
+    if (std::abs(least) > 5e-3) { // what the grid is sure of
+      EXPECT_EQ(folds_there, least < 0) << i << ' ' << least;
+    }
+  }
+  EXPECT_GT(folded, 200);
+  EXPECT_LT(folded, 1990);
+  // Beside a quarter of a side there is a corner at which it folds, far from every integration point.
+  Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.24, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}}, {}, {}, {}};
+  const std::vector<int> nodes{0, 1, 2, 3, 4, 5};
+  EXPECT_TRUE(folds(mesh, CellType::triangle6, nodes));
+  mesh.nodes[3].x() = 0.26;
+  EXPECT_FALSE(folds(mesh, CellType::triangle6, nodes));
+}
+
+TEST(Quality, FindsTetrahedraThatFoldAtACorner) {
+  Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{CellType::tetrahedron4, {0, 1, 2, 3}}}, {}, {}};
+  add_middle_nodes(mesh);
+  const CellBlock& block = mesh.blocks.front();
+  EXPECT_FALSE(folds(mesh, block.type, block.cell(0)));
+  for (Eigen::Vector3d& x : mesh.nodes)
+    if (x == Eigen::Vector3d(0.5, 0, 0)) x.x() = 0.24;
+  EXPECT_TRUE(folds(mesh, block.type, block.cell(0)));
 }
 
 TEST(Quality, IntegratesCurvedSides) {
