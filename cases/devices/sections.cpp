@@ -78,9 +78,11 @@ std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh) {
     if (!one.parts[p].has_mesh() && one.parts[p].film) claim(p, one.parts[p].place, true);
   if (const auto without = std::ranges::count(parts, -1); without > 0)
     throw meshing::MeshError(
-        fmt::format("{} of the film's {} elements belong to no part with a film; add [film], or a "
-                    "[part.NAME] with their place",
-                    without, film.size()));
+        fmt::format("{} of the film's {} elements belong to no part with a film; {}", without, film.size(),
+                    one.unnamed() && one.unnamed()->film
+                        ? "[film] is that of the mesh's own group \"film\": rename the group, or add a "
+                          "[part.NAME] with the others' place"
+                        : "add [film], or a [part.NAME] with their place"));
   return parts;
 }
 

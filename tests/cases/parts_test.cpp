@@ -253,6 +253,15 @@ TEST_F(Parts, FilmOfNoPartOverlapsAndWrongPlacesAreErrors) {
   EXPECT_EQ(mesh_error(with("place = \"thick\"", "place = \"film\"")), "parts \"a\" and \"b\" overlap");
   EXPECT_EQ(mesh_error(with("place = \"thick\"", "place = \"left\"")),
             "part \"b\": the place \"left\" is no film of the mesh");
+  meshing::Mesh half = strip(); // with a group of its own that has the name of all
+  half.node_sets["film"] = half.node_sets["thin"], half.cell_sets["film"] = half.cell_sets["thin"];
+  write("strip.msh", meshing::gmsh_text(half));
+  EXPECT_EQ(
+      mesh_error("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+                 "relative_permittivity = 4\n[mesh]\nfile = \"strip.msh\"\nunit = \"1 m\"\n"
+                 "[[support]]\nplace = \"left\"\nfix = [\"x\", \"y\"]\n[[step]]\nkind = \"voltage\"\n"),
+      "8 of the film's 16 elements belong to no part with a film; [film] is that of the mesh's own group "
+      "\"film\": rename the group, or add a [part.NAME] with the others' place");
 }
 
 // The lattice of the template, written as a gmsh file and read back with its walls as bars along lines.
