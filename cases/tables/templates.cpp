@@ -238,14 +238,11 @@ std::vector<TemplatePart> parts_with_geometry(const Node& tree) {
   return found;
 }
 
-/// Whether there are bars whose yield strain means something: that of leaf springs and cables where it is
-/// said.
 bool may_yield(const Node& tree) {
-  const auto says = [](const Node* of) { return of && of->find("yield_strain"); };
-  const auto leaf_says = [&](const Node* leaf) { return leaf && says(leaf->find("material")); };
-  const auto brings = [&](const Node& table) {
-    return table.find("honeycomb") || table.find("beam") || says(table.find("cable")) ||
-           leaf_says(table.find("hinge")) || leaf_says(table.find("ribbon"));
+  const auto brings = [](const Node& table) {
+    const Node* cable = table.find("cable"); // without a yield strain no limit is known
+    return table.find("honeycomb") || table.find("beam") || table.find("antagonistic_rolls") ||
+           (cable && cable->find("yield_strain"));
   };
   const Node* parts = tree.find("part");
   return brings(tree) || (parts && std::ranges::any_of(parts->items, brings));
