@@ -7,6 +7,7 @@
 #include "meshing/solids/grid.hpp"
 #include "meshing/solids/sides.hpp"
 #include "meshing/solids/slab.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -129,7 +130,8 @@ TEST(SphereEighth, HasItsVolumeAndIsEnclosed) {
 
 TEST(Tetrahedra, ComeBackFromGmsh) {
   const Mesh mesh = block_mesh({{4, 0.6, 0, {1, 3}, 0.1}, 3, 2}, 2, 6);
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "tetrahedra.msh";
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "tetrahedra.msh";
   std::ofstream(file) << gmsh_text(mesh);
   const Mesh back = read_gmsh(file);
   EXPECT_EQ(back.film()->type, CellType::tetrahedron10);
@@ -143,7 +145,8 @@ TEST(Tetrahedra, ComeBackFromGmsh) {
 /// A tetrahedron of four nodes, drawn inside out, with a named face: it gets middle nodes, and so does the
 /// face, which stays whole when all is refined.
 TEST(Tetrahedra, OfFourNodesGetMiddleNodesWithTheirFaces) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "one_tetrahedron.msh";
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "one_tetrahedron.msh";
   std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"base\"\n3 2 "
                          "\"film\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 "
                          "1\n$EndNodes\n$Elements\n2\n1 2 2 1 1 1 2 3\n2 4 2 2 1 1 3 2 4\n$EndElements\n";

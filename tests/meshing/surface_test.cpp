@@ -4,6 +4,7 @@
 #include "meshing/quality.hpp"
 #include "meshing/solids/fill.hpp"
 #include "meshing/solids/surface.hpp"
+#include "tests/scratch_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -24,7 +25,8 @@ const std::vector<Triangle> sides{{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0
                                   {2, 3, 7}, {2, 7, 6}, {1, 2, 6}, {1, 6, 5}, {0, 4, 7}, {0, 7, 3}};
 
 std::filesystem::path write(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  static const test::ScratchFolder folder;
+  const std::filesystem::path path = folder / name;
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }
