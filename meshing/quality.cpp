@@ -233,17 +233,39 @@ QualityReport quality(const Mesh& mesh) {
   return report;
 }
 
+namespace {
+
+/// Places of nodes as whole numbers, in steps within which two are the same.
+class Grid {
+ public:
+  explicit Grid(const Mesh& mesh) : mesh_(mesh), step_(1e-9 * mesh.bounds().diagonal().norm()) {}
+  std::array<double, 3> at(int node) const {
+    const Eigen::Vector3d& x = mesh_.nodes[static_cast<std::size_t>(node)];
+    return {std::round(x.x() / step_), std::round(x.y() / step_), std::round(x.z() / step_)};
+  }
+
+ private:
+  const Mesh& mesh_;
+  double step_;
+};
+
+} // namespace
+
 int nodes_on_others(const Mesh& mesh, const CellBlock& cells) {
   const std::set<int> nodes(cells.nodes.begin(), cells.nodes.end());
-  const double same_point = 1e-9 * mesh.bounds().diagonal().norm();
+  const Grid grid(mesh);
   std::set<std::array<double, 3>> points;
-  for (const int node : nodes) {
-    const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(node)];
-    std::array<double, 3> point{};
-    for (std::size_t i = 0; i < 3; ++i) point[i] = std::round(x[static_cast<Eigen::Index>(i)] / same_point);
-    points.insert(point);
-  }
+  for (const int node : nodes) points.insert(grid.at(node));
   return static_cast<int>(nodes.size() - points.size());
+}
+
+int nodes_beside(const Mesh& mesh, const std::set<int>& nodes, const CellBlock& cells) {
+  const std::set<int> own(cells.nodes.begin(), cells.nodes.end());
+  const Grid grid(mesh);
+  std::set<std::array<double, 3>> points;
+  for (const int node : own) points.insert(grid.at(node));
+  return static_cast<int>(std::ranges::count_if(
+      nodes, [&](int node) { return !own.contains(node) && points.contains(grid.at(node)); }));
 }
 
 std::string format(const QualityReport& report) {

@@ -4,6 +4,7 @@
 #include "meshing/mesh.hpp"
 
 #include <array>
+#include <set>
 #include <span>
 
 namespace dielast::meshing {
@@ -36,6 +37,10 @@ QualityReport quality(const Mesh& mesh);
 
 /// Nodes of cells that lie on others of these: where parts of a drawing meet without being joined, it is cut.
 int nodes_on_others(const Mesh& mesh, const CellBlock& cells);
+
+/// How many of some nodes lie on nodes of cells without being these: what they hold or carry is not joined to
+/// the cells.
+int nodes_beside(const Mesh& mesh, const std::set<int>& nodes, const CellBlock& cells);
 
 /// Readable text of several lines, angles in degrees, lengths in mm.
 std::string format(const QualityReport& report);

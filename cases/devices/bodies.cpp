@@ -124,10 +124,14 @@ void pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::
   const int first = best([&](const Eigen::Vector3d& x) { return (x - middle).norm(); });
   if (dimension == fem::Dimension::axisymmetric) return dofs.hold(first, 2); // it moves along the axis alone
   const Eigen::Vector3d anchor = drawn(first);
-  const int along_x =
-      best([&](const Eigen::Vector3d& x) { return x.x() - anchor.x() + 2 * std::abs(x.y() - anchor.y()); });
-  const int along_y =
-      best([&](const Eigen::Vector3d& x) { return x.y() - anchor.y() + 2 * std::abs(x.x() - anchor.x()); });
+  // Along x and along y as exactly as nodes allow: what is beside turns the body with its strain.
+  const auto along = [&](int axis) {
+    return best([&](const Eigen::Vector3d& x) {
+      const Eigen::Vector3d from = x - anchor;
+      return from[axis] + 2 * (from.cwiseAbs().sum() - std::abs(from[axis]));
+    });
+  };
+  const int along_x = along(0), along_y = along(1);
   for (const int c : {0, 1, 2}) dofs.hold(first, c);
   for (const int c : {1, 2}) dofs.hold(along_x, c);
   dofs.hold(along_y, 2);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 
 namespace dielast::cases {
 
@@ -386,7 +387,9 @@ Outcome Simulation::run(const SimulationObserver& observer) {
     if (refusal_) return *std::exchange(refusal_, std::nullopt);
     if (outcome.ending != Ending::complete) return outcome;
   }
-  return {Ending::complete};
+  const auto last = std::ranges::find_if(steps_ | std::views::reverse,
+                                         [](const Step& step) { return !step.is_analysis(); });
+  return last == steps_.rend() || last->duration ? Outcome{} : end_at_rest(*equilibrium_, state());
 }
 
 } // namespace dielast::cases

@@ -15,6 +15,11 @@ namespace {
 
 /// Eigenvalue of a mode, over the stiffness as drawn, that is one of rounding.
 constexpr double no_stiffness = 1e-10;
+constexpr const char* can_move =
+    "the tangent is singular. Part of the device can move freely: hold it with [[support]], the edge of a "
+    "shell "
+    "or of beams by its turns, too, a [[body]] by its fix; with model = \"3d\" an unstretched film has no "
+    "stiffness normal to itself: stretch it or use model = \"planar\"";
 /// Of what friction may hold, but for what barriers and springs leave of it.
 constexpr double all_of_it = 0.99;
 
@@ -35,16 +40,16 @@ bool StepRun::moves_freely() const {
   return mode && std::abs(mode->eigenvalue) < no_stiffness;
 }
 
+Outcome end_at_rest(fem::Equilibrium& equilibrium, const fem::State& last) {
+  if (!fem::moves_freely(equilibrium, last)) return {};
+  return {Ending::gave_up, "singular tangent", fmt::format("at the end {}", can_move)};
+}
+
 Outcome StepRun::failure(const Trouble& trouble) const {
   const double reached = progress_.ramp.load_factor;
   const auto singular = [&] {
-    return Outcome{
-        Ending::gave_up, "singular tangent",
-        fmt::format(
-            "step \"{}\" stopped at {}: the tangent is singular. Part of the device can move freely: "
-            "hold it with [[support]], a [[body]] by its fix; with model = \"3d\" an unstretched film "
-            "has no stiffness normal to itself: stretch it or use model = \"planar\"",
-            step_.name, load_text(reached))};
+    return Outcome{Ending::gave_up, "singular tangent",
+                   fmt::format("step \"{}\" stopped at {}: {}", step_.name, load_text(reached), can_move)};
   };
   if (trouble.ramp.failure.outcome == fem::Outcome::singular) return singular();
   if (fem::edges_meet(model(), last()))

@@ -47,6 +47,10 @@ struct Outcome {
   std::string message{}; ///< gave_up: what happened and what to do
 };
 
+/// Complete, unless something meets no stiffness in the last state of a run: where it is found is of
+/// rounding.
+Outcome end_at_rest(fem::Equilibrium& equilibrium, const fem::State& last);
+
 /// Takes a device through one step: under load control and, where that ends, along the path by arclength or
 /// to the next stable state, as the step wants it.
 class StepRun {

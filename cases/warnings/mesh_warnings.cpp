@@ -70,6 +70,20 @@ std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mes
   return warnings;
 }
 
+namespace {
+
+/// But for those of bodies, which a body carries.
+std::set<int> nodes_of_lines_and_places(const Case& one, const meshing::Mesh& mesh) {
+  std::set<int> all;
+  if (mesh.walls()) all.insert(mesh.walls()->nodes.begin(), mesh.walls()->nodes.end());
+  for (const auto& [place, nodes] : mesh.node_sets)
+    if (std::ranges::find(one.bodies, place, &Body::name) == one.bodies.end())
+      all.insert(nodes.begin(), nodes.end());
+  return all;
+}
+
+} // namespace
+
 std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh& mesh,
                                             std::span<const int> parts) {
   constexpr double largest = 1; // m, of the templates' dimensions
@@ -90,6 +104,13 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
           fmt::format("{}the film is cut: {} of its nodes lie on others; let gmsh fragment the drawing to "
                       "join its parts",
                       part.empty() ? "" : part + "mesh: ", cut));
+    // of several meshes nodes may lie on others to which they are tied
+    if (std::ranges::count_if(one.parts, &Part::has_mesh) == 1)
+      if (const int beside = meshing::nodes_beside(mesh, nodes_of_lines_and_places(one, mesh), film))
+        warnings.push_back(fmt::format(
+            "lines or places are not joined to the film: {} of their nodes lie on nodes of the film and are "
+            "others, so that what they hold or stiffen is not the film; let gmsh join them (Coherence Mesh)",
+            beside));
     if (const std::string key = part + "mesh.quadrature";
         film.type == meshing::CellType::triangle3 && owner.mesh.quadrature != MeshOptions{}.quadrature)
       warnings.push_back(Diagnostic{

@@ -16,6 +16,7 @@ namespace {
 constexpr int subspace = 4, most_iterations = 200;
 constexpr double eigen_tolerance = 1e-6;  ///< of the mode; that of the eigenvalue is its square
 constexpr double round_off = 1e-13;       ///< of the eigenvalue
+constexpr double free_motion = 1e13;      ///< inverse of an eigenvalue that is of rounding
 constexpr double singular_shift = 1e-9;   ///< of the stiffness as drawn, where the tangent cannot be factored
 constexpr double negligible = 1e-7;       ///< eigenvalue, over the largest seen on the way
 constexpr double zero = 1e-3;             ///< likewise, of a bracket that has closed
@@ -48,6 +49,23 @@ struct LoadPoint {
 };
 
 } // namespace
+
+bool moves_freely(Equilibrium& equilibrium, const State& state) {
+  const Eigen::VectorXd root = equilibrium.stiffness().cwiseSqrt();
+  if (root.size() == 0) return false;
+  if (!equilibrium.factor(state)) return true;
+  std::mt19937 random(1);
+  Eigen::VectorXd x(root.size()), y;
+  for (double& one : x) one = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  double growth = 0;
+  for (int solve = 0; solve < 2; ++solve) { // the first one brings out the weakest mode
+    x.normalize();
+    equilibrium.tangent().solve(root.cwiseProduct(x), y);
+    x = root.cwiseProduct(y);
+    growth = x.norm();
+  }
+  return !(growth < free_motion);
+}
 
 std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
                                            const Eigen::VectorXd& direction) {

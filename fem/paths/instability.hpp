@@ -18,6 +18,10 @@ struct Mode {
 /// not converge.
 std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state);
 
+/// Whether something meets no stiffness at a state: an eigenvalue below 1e-13. Rounding leaves 1e-16, and
+/// thin shells and long beams have 1e-9. One factorisation and two solves.
+bool moves_freely(Equilibrium& equilibrium, const State& state);
+
 /// Displacements of the nodes along a direction in the free equations, at a state.
 std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
                                            const Eigen::VectorXd& direction);

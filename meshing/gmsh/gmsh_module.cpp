@@ -32,6 +32,24 @@ void collect(const std::string& path, GmshContents& contents) {
     }
   }
 
+  // Of elements of two orders on one entity gmsh hands out those of the first one's.
+  const auto counted = [](const char* of) {
+    double number = 0;
+    gmsh::option::getNumber(of, number);
+    return number;
+  };
+  for (const auto& [dimension, in_all] :
+       {std::pair{2, counted("Mesh.NbTriangles") + counted("Mesh.NbQuadrangles")},
+        {3, counted("Mesh.NbTetrahedra")}}) {
+    double found = 0;
+    for (const GmshContents::Elements& block : contents.elements)
+      if (block.dimension == dimension) found += static_cast<double>(block.nodes.size()) / block.nodes_each;
+    if (in_all > found)
+      contents.error =
+          "it mixes elements of order 1 and 2; save the whole mesh with one order (gmsh -order 1 or "
+          "-order 2)";
+  }
+
   gmsh::model::getPhysicalGroups(groups);
   for (const auto& [dimension, tag] : groups) {
     GmshContents::PhysicalGroup group{.dimension = dimension, .tag = tag, .name = {}, .entities = {}};

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -22,7 +24,29 @@ namespace dielast::meshing {
 
 namespace {
 
+constexpr double flat = 1e-9; ///< of a mesh's diagonal: a film within it is in one plane
 constexpr std::array dimension_names{"point", "line", "surface", "volume"};
+
+/// Of a text of version 2.2 gmsh leaves out what stands behind as many elements as it says that it has.
+void require_all_elements(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  const auto next = [&] {
+    const bool found = static_cast<bool>(std::getline(file, line));
+    if (found && line.ends_with('\r')) line.pop_back();
+    return found;
+  };
+  if (!next() || !next() || !line.starts_with("2.2 0")) return;
+  while (line != "$Elements")
+    if (!next()) return;
+  if (!next()) return;
+  const std::string said = line;
+  std::size_t there = 0;
+  while (next() && line != "$EndElements") there += !line.empty();
+  if (line == "$EndElements" && there > std::strtoull(said.c_str(), nullptr, 10))
+    throw MeshError(
+        fmt::format("it says that it has {} elements, and {} stand there; correct the number", said, there));
+}
 
 GmshContents contents_of(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) throw MeshError("there is no such mesh file");
@@ -30,6 +54,7 @@ GmshContents contents_of(const std::filesystem::path& path) {
   if (path.extension() == ".geo")
     throw MeshError(
         fmt::format("this is a geometry script; mesh it first, with: gmsh -2 {}", path.filename().string()));
+  require_all_elements(path);
   GmshContents contents = read_gmsh_contents(path);
   if (!contents.error.empty()) throw MeshError(contents.error);
   return contents;
@@ -81,6 +106,7 @@ class Converter {
       turn_counter_clockwise(block);
       turn_outwards(block);
       require_unfolded(block);
+      require_spread_out(block);
     }
     for (const GmshContents::PhysicalGroup& group : contents_.groups) add_place(group);
     if (block_of(3) != mesh_.blocks.end() && block_of(3)->type == CellType::tetrahedron4)
@@ -182,6 +208,28 @@ class Converter {
           "or its corners on a line; let gmsh mend it (Mesh.HighOrderOptimize = 2), or save with order 1",
           is_triangle(block.type) ? "triangle" : "tetrahedron", middle.x(), middle.y(), middle.z()));
     }
+  }
+
+  /// Of a film in one plane, whose triangles all turn alike: a side that two of them lead along the same way
+  /// has both on one side.
+  void require_spread_out(const CellBlock& block) const {
+    if (!is_triangle(block.type) || mesh_.bounds().sizes().z() > flat * mesh_.bounds().diagonal().norm())
+      return;
+    std::set<std::array<int, 2>> sides;
+    for (int c = 0; c < block.size(); ++c)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto nodes = block.cell(c);
+        const std::array<int, 2> side{nodes[k], nodes[(k + 1) % 3]};
+        if (sides.insert(side).second) continue;
+        const Eigen::Vector3d middle = (mesh_.nodes[static_cast<std::size_t>(side[0])] +
+                                        mesh_.nodes[static_cast<std::size_t>(side[1])]) /
+                                       2;
+        throw MeshError(
+            fmt::format("the film lies on itself: two triangles are on the same side of their common "
+                        "side about ({:.6g}, {:.6g}, {:.6g}); a node was moved past others, or "
+                        "triangles overlap",
+                        middle.x(), middle.y(), middle.z()));
+      }
   }
 
   void turn_counter_clockwise(CellBlock& block) const {

@@ -160,6 +160,37 @@ TEST_F(GmshReader, RefusesContentsThatDoNotFitTogether) {
   EXPECT_EQ(refused([](auto& c) { c.groups[0].dimension = -1; }), damaged);
 }
 
+// A node that was moved past its neighbours: triangles are turned one by one, and two then lie on each other.
+TEST_F(GmshReader, RefusesAFilmThatLiesOnItself) {
+  GmshContents contents{.error = "",
+                        .node_tags = {1, 2, 3, 4},
+                        .coordinates = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
+                        .elements = {{2, 1, "Triangle 3", 3, {1, 2, 3, 1, 3, 4}}},
+                        .groups = {}};
+  EXPECT_EQ(mesh_of(contents).film()->size(), 2);
+  contents.coordinates[9] = 0.9, contents.coordinates[10] = 0.2; // to the other side of the diagonal
+  try {
+    mesh_of(contents);
+    FAIL() << "accepted";
+  } catch (const MeshError& error) {
+    EXPECT_NE(std::string(error.what()).find("the film lies on itself"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(GmshReader, LosesNoElements) {
+  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
+                    nodes =
+                        "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0.5 0\n6 0.5 1 0\n$EndNodes\n",
+                    two = "1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n";
+  EXPECT_EQ(read(head + nodes + "$Elements\n2\n" + two).film()->size(), 2);
+  expect_error(head + nodes + "$Elements\n1\n" + two, "it says that it has 1 elements, and 2 stand there");
+  // of two orders on one surface
+  expect_error(replaced(head + nodes, "$Nodes\n6", "$Nodes\n7")
+                       .replace(head.size() + nodes.size() - 10, 0, "7 0.5 0.5 0\n") +
+                   "$Elements\n2\n1 2 2 1 1 1 2 3\n" + "2 9 2 1 1 1 3 4 7 6 5\n$EndElements\n",
+               "mixes elements of order 1 and 2");
+}
+
 TEST_F(GmshReader, RefusesWhatItsMiddleNodesFold) {
   GmshContents contents{.error = "",
                         .node_tags = {1, 2, 3, 4, 5, 6},
