@@ -212,8 +212,8 @@ class SheetOracle {
     const Eigen::Vector4d cofactor = G * f;
     const double J = F.determinant();
     const auto volumetric = [&](double factor, Eigen::Vector4d& P, Eigen::Matrix4d& A) { // factor/(2 J^2)
-      P -= factor / std::pow(J, 3) * cofactor;
-      A += factor * (3 / std::pow(J, 4) * cofactor * cofactor.transpose() - G / std::pow(J, 3));
+      P -= factor / (J * J * J) * cofactor;
+      A += factor / (J * J * J) * (3 / J * cofactor * cofactor.transpose() - G);
     };
     Eigen::Vector4d P = modulus * f;
     Eigen::Matrix4d A = modulus * Eigen::Matrix4d::Identity();
