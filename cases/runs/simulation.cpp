@@ -310,7 +310,7 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, Me
     if (work > 0 && unseen_.kinetic > notable * work) news_.push_back(left_out(unseen_.kinetic / work, step));
   }
   std::vector<post::Event> events = std::exchange(news_, {});
-  for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes))
+  for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes, ends))
     events.push_back(std::move(event));
   const post::StepRecord record{.index = records_++,
                                 .step = is_drawn ? drawn : step.name,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/watch.hpp"
 
+#include "meshing/solids/crossings.hpp"
 #include "post/engineering.hpp"
 #include "post/reductions.hpp"
 
@@ -49,7 +50,8 @@ double smallest_stress(const Case& one) {
 }
 
 Watch::Watch(const Case& one, const Device& device)
-    : device_(device), smallest_stress_(smallest_stress(one)), lines_(device.mesh.walls()) {
+    : device_(device), smallest_stress_(smallest_stress(one)), lines_(device.mesh.walls()),
+      kept_apart_(one.contact ? one.contact->between : std::vector<std::string>()) {
   if (lines_) contacts_.emplace(device.mesh, *lines_, device.bars.widths);
 }
 
@@ -94,7 +96,7 @@ std::string Watch::cell_of(int line, int other) const {
 }
 
 std::vector<post::Event> Watch::check(const fem::State& state, const post::Extremes& extremes,
-                                      int unstable_modes) {
+                                      int unstable_modes, bool ends) {
   std::vector<post::Event> events;
   const auto begins = [&](bool holds, const std::string& kind) {
     if (!holds) active.erase(kind);
@@ -145,6 +147,17 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
                        worst.distance > 1e-9 ? post::engineering(worst.distance, "m") : "0",
                        post::engineering(width, "m"))});
     }
+  }
+  if (ends) {
+    std::vector<Eigen::Vector3d> x = device_.mesh.nodes;
+    for (std::size_t n = 0; n < x.size(); ++n) x[n] += state.displacement[n];
+    const auto found = meshing::FilmSurface(device_.mesh, device_.film_parts, kept_apart_).crossing(x);
+    if (begins(found.has_value(), "passes through itself"))
+      events.push_back(
+          {"passes through itself", place_of_triangle(found->cells[0]),
+           fmt::format("what stands here passes through {}, which nothing keeps it from: the shape beyond "
+                       "it is not what a device does; a [contact] keeps solids apart",
+                       place_of_element(device_.mesh.film()->cell(found->cells[1])))});
   }
   const double leak = leak_beyond_drawn(device_.model, state);
   if (begins(std::abs(leak) > largest_leak, "leak as drawn"))

@@ -19,8 +19,8 @@ namespace dielast::cases {
 double smallest_stress(const Case& one);
 
 /// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
-/// that touch, fins that turn far, leaks that steady voltages leave out, unstable equilibrium. An event is
-/// told when its condition begins, not again while it lasts.
+/// that touch, film that passes through itself, fins that turn far, leaks that steady voltages leave out,
+/// unstable equilibrium. An event is told when its condition begins, not again while it lasts.
 class Watch {
  public:
   /// Those of which extremes are needed.
@@ -30,7 +30,9 @@ class Watch {
   /// Of a case's device, which must outlive this.
   Watch(const Case& one, const Device& device);
 
-  std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes);
+  /// `ends`: the state is one that a step leads to; whether film passes through itself is asked of these.
+  std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes,
+                                 bool ends = false);
 
   /// Kinds of the conditions that hold now; stored with a checkpoint.
   std::set<std::string> active;
@@ -45,6 +47,7 @@ class Watch {
   double smallest_stress_;
   std::optional<fem::WallContactSearch> contacts_;
   const meshing::CellBlock* lines_;
+  std::vector<std::string> kept_apart_; ///< surfaces between which there is contact
 };
 
 /// The energy balance is not known well enough in one of the `steps`; `sudden`: what a support was asked for
