@@ -14,7 +14,21 @@ namespace {
 /// Electrode or ground at each node of solids with a potential.
 std::vector<int> potential_map(const Case& one, const meshing::Mesh& mesh) {
   std::vector<int> map(mesh.nodes.size(), fem::NodePotential::follows);
+  const meshing::CellBlock& film = *mesh.film();
+  // the field of a point, or of a line in space, has no limit, and its charge is that of the mesh
+  const auto sides = static_cast<std::ptrdiff_t>(meshing::is_tetrahedron(film.type) ? 3 : 2);
+  const auto is_surface = [&](const std::vector<int>& nodes) {
+    for (int cell = 0; cell < film.size(); ++cell)
+      if (std::ranges::count_if(film.cell(cell).first(static_cast<std::size_t>(sides) + 1),
+                                [&](int node) { return std::ranges::binary_search(nodes, node); }) >= sides)
+        return true;
+    return false;
+  };
   const auto claim = [&](const Electrode& electrode, const std::string& place, int potential) {
+    if (!is_surface(mesh.node_sets.at(place)))
+      throw meshing::MeshError(fmt::format("electrode \"{}\": \"{}\" is no surface of the solid, but a "
+                                           "point or line, whose field has no limit",
+                                           electrode.name, place));
     for (const int node : mesh.node_sets.at(place)) {
       int& known = map[static_cast<std::size_t>(node)];
       if (known != fem::NodePotential::follows && known != potential)

@@ -19,6 +19,9 @@ namespace dielast::meshing {
 
 namespace {
 
+constexpr double most_tetrahedra = 3e6; ///< their mesh takes minutes, and no factor of it fits a machine
+constexpr double most_of_mean = 2;      ///< the largest volume over the mean one, about
+
 /// Marks every triangle with its number, from 1 on: 0 is none.
 void give(const Surface& surface, const std::vector<Eigen::Vector3d>& cavities, tetgenio& in) {
   const auto copied = [](const std::vector<Eigen::Vector3d>& points) {
@@ -115,6 +118,17 @@ std::vector<Eigen::Vector3d> cavities(const Surface& surface) {
   return points;
 }
 
+double volume(const Surface& surface) {
+  double sixfold = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const auto x = [&](int n) -> const Eigen::Vector3d& {
+      return surface.points[static_cast<std::size_t>(n)];
+    };
+    sixfold += x(a).dot(x(b).cross(x(c)));
+  }
+  return sixfold / 6;
+}
+
 void add_tetrahedra(const tetgenio& out, Mesh& mesh) {
   for (int n = 0; n < out.numberofpoints; ++n)
     mesh.nodes.emplace_back(out.pointlist[3 * n], out.pointlist[3 * n + 1], out.pointlist[3 * n + 2]);
@@ -133,6 +147,12 @@ void add_tetrahedra(const tetgenio& out, Mesh& mesh) {
 } // namespace
 
 Mesh filled(const Surface& surface, double size) {
+  const double estimate = most_of_mean * volume(surface) / (size * size * size / (6 * std::sqrt(2.0)));
+  if (estimate > most_tetrahedra)
+    throw MeshError(fmt::format(
+        "{}: sides of {:.3g} of its units would take about {:.2g} tetrahedra, at most {:.0e} are made; give "
+        "mesh.size larger, or the file's unit by mesh.unit",
+        surface.file, size, estimate, most_tetrahedra));
   tetgenio out;
   tetrahedralize(surface, cavities(surface),
                  fmt::format("pq1.4a{:.17g}Q", size * size * size / (6 * std::sqrt(2.0))), out);
