@@ -19,9 +19,27 @@ void report_at(SectionReader& reader, const Node& tree, const std::string& secti
   reader.report(node ? node->source : tree.source, section, message);
 }
 
+/// Reports at the first step that is such.
+template<class Rule>
+void report_step(SectionReader& reader, const Node& tree, const Case& one, const Rule& is_such,
+                 const std::string& message) {
+  const auto found = std::ranges::find_if(one.steps, is_such);
+  if (found == one.steps.end()) return;
+  const StepPlace at = place_of_step(tree, static_cast<std::size_t>(found - one.steps.begin()));
+  reader.report(at.source, at.key, message);
+}
+auto of_kind(StepKind kind) {
+  return [kind](const Step& step) { return step.kind == kind; };
+}
+/// That has no target of its own.
+auto open_of_kind(StepKind kind) {
+  return [kind](const Step& step) { return step.kind == kind && !step.to; };
+}
+
 void check_loads(SectionReader& reader, const Node& tree, const Case& one) {
-  if (has_step(one, {StepKind::force}) && one.loads.empty())
-    report_at(reader, tree, "step", "a step of kind \"force\" has nothing to apply; add a [[load]]");
+  if (one.loads.empty())
+    report_step(reader, tree, one, of_kind(StepKind::force),
+                "a step of kind \"force\" has nothing to apply; add a [[load]]");
   if (one.loads.empty() || has_step(one, {StepKind::force, StepKind::transient})) return;
   report_at(reader, tree, one.loads.front().standard ? "patch" : "load",
             "no step applies it; add a [[step]] with kind = \"force\"");
@@ -30,8 +48,7 @@ void check_loads(SectionReader& reader, const Node& tree, const Case& one) {
 void check_motions(SectionReader& reader, const Node& tree, const Case& one) {
   const auto moved = std::ranges::find_if(one.supports, &Support::moves);
   if (moved == one.supports.end()) {
-    if (has_step(one, {StepKind::move}))
-      report_at(reader, tree, "step",
+    report_step(reader, tree, one, of_kind(StepKind::move),
                 "a step of kind \"move\" has nothing to move; give a [[support]] a displacement");
   } else if (!has_step(one, {StepKind::move, StepKind::transient})) {
     report_at(reader, tree,
@@ -52,15 +69,12 @@ void check_drives(SectionReader& reader, const Node& tree, const Case& one) {
       std::ranges::any_of(one.drives, [](const auto& d) { return d.second.voltage.has_value(); });
   const bool charge =
       std::ranges::any_of(one.drives, [](const auto& d) { return d.second.charge.has_value(); });
-  const auto has_open_step = [&one](StepKind kind) {
-    return std::ranges::any_of(one.steps, [kind](const Step& step) { return step.kind == kind && !step.to; });
-  };
-  if (!charge && has_open_step(StepKind::charge))
-    report_at(reader, tree, "step",
-              "a step of kind \"charge\" has no charge to reach; give [drive] a charge");
-  if (charge && !voltage && has_open_step(StepKind::voltage))
-    report_at(reader, tree, "step",
-              "a step of kind \"voltage\" has no voltage to reach; give [drive] a voltage");
+  if (!charge)
+    report_step(reader, tree, one, open_of_kind(StepKind::charge),
+                "a step of kind \"charge\" has no charge to reach; give [drive] a charge");
+  if (charge && !voltage)
+    report_step(reader, tree, one, open_of_kind(StepKind::voltage),
+                "a step of kind \"voltage\" has no voltage to reach; give [drive] a voltage");
   const bool follows_charge = std::ranges::any_of(one.steps, [](const Step& step) {
     return (step.kind == StepKind::charge && !step.to) ||
            (step.kind == StepKind::transient && step.control == Control::charge);
@@ -109,6 +123,9 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
       reader.report(
           at.source, at.key,
           "nothing has a weight; add [plate], a [[point_mass]], a [[body]] or [gravity] with film = true");
+    if (step.kind == StepKind::weight && one.plate && one.plate->mass == 0 && one.point_masses.empty() &&
+        one.bodies.empty() && !one.gravity.film)
+      reader.warn(at.source, at.key, "has no effect here: plate.mass is 0");
     if (step.kind == StepKind::relax && !when::branches().met(one, nullptr) && one.circuits.empty() &&
         !lets_go(one, s))
       reader.warn(

@@ -63,6 +63,8 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                         "limit (in {} of {} integration points at {}), whatever its wrinkles take up. Lower "
                         "the drive or stretch the film more",
                         step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
+  // without tension, or stiffness, any load leads far away, and seems to be too large
+  if (reached == 0 && !timed() && fem::moves_freely(equilibrium_, loaded(last(), 0))) return singular();
   if (!trouble.critical && !timed() && equilibrium_.is_slack(last()))
     return {Ending::gave_up, "slack film",
             fmt::format("slack film: step \"{}\" stopped at {}, where the film carries no tension, and no "

@@ -187,7 +187,12 @@ Region sector(std::string name, const RoundFilm& between, double from, double to
   const double inner = between.inner_radius + (between.inner_radius > 0 ? gap_along : 0);
   const double outer = between.outer_radius - gap_along, angle = to - from;
   if (!(angle > 0 && angle < 2 * pi - 1e-9))
-    throw std::invalid_argument("a sector leads counter-clockwise over less than a full turn");
+    throw std::invalid_argument(
+        fmt::format("it leads from {:.6g} to {:.6g} deg: a sector leads counter-clockwise, \"to\" above "
+                    "\"from\" by less than a full turn (from = \"-90 deg\" is 270 deg, too)",
+                    from * 180 / pi, to * 180 / pi));
+  if (!(between.outer_radius > between.inner_radius))
+    throw std::invalid_argument("its outer_radius is not above its inner_radius");
   const double apex = gap_beside / std::sin(angle / 2); // where its sides meet
   if (!(outer > std::max(inner, apex)) || !(outer > gap_beside))
     throw std::invalid_argument("the gap leaves nothing of it");
@@ -218,6 +223,8 @@ Region sector(std::string name, const RoundFilm& between, double from, double to
 Region ring(std::string name, const RoundFilm& between, double gap) {
   const double inner = between.inner_radius + (between.inner_radius > 0 ? gap : 0);
   const double outer = between.outer_radius - gap;
+  if (!(between.outer_radius > between.inner_radius))
+    throw std::invalid_argument("its outer_radius is not above its inner_radius");
   if (!(outer > inner)) throw std::invalid_argument("the gap leaves nothing of it");
   Region region{std::move(name), {circle(outer)}};
   if (inner > 0) {
