@@ -325,6 +325,9 @@ Device build_device(const Case& one) {
           fmt::format("{}: the prestretch {:.4g} is below 1: it compresses the film, which buckles",
                       part.called("film"), std::ranges::min(part.film->prestretch)));
 
+  if (model.dofs.free_count() == 0 && !one.any_geometry<Patch>())
+    warnings.push_back("nothing can move: every node is held");
+
   Device device{.mesh = std::move(mesh),
                 .shares = std::move(shares),
                 .model = std::move(model),

@@ -18,6 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using post::Cell, post::Tone;
 
+constexpr double poor = 0.2; ///< rms error, relative
+
 std::string ending(const IdentifyOutcome& outcome) {
   return fmt::format("{} after {} iterations", word(outcome.ending), outcome.iterations);
 }
@@ -81,7 +83,9 @@ std::vector<std::string> identify_warnings(const Identification& asked, const Id
   for (std::size_t i = 0; i < outcome.unknowns.size(); ++i) {
     const std::string& key = asked.unknowns[i].key;
     if (outcome.unknowns[i].at_bound)
-      all.push_back(fmt::format("{} is at its bound: the tests do not tell it", key));
+      all.push_back(fmt::format("{} is at its bound: the tests do not tell it, or would have it beyond what "
+                                "the key or the range of unknowns allows",
+                                key));
     else if (!outcome.unknowns[i].determined())
       all.push_back(
           fmt::format("{} is not identifiable: the fitted tests tell only its combination with others", key));
@@ -91,6 +95,11 @@ std::vector<std::string> identify_warnings(const Identification& asked, const Id
         all.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
                                   asked.unknowns[j].key, key, r));
   }
+  for (std::size_t t = 0; t < outcome.errors.size(); ++t)
+    if (outcome.errors[t] > poor)
+      all.push_back(fmt::format("{}: the model misses what was measured by {:.0f} % (rms): columns, their "
+                                "units, or the case may not be those of the test",
+                                asked.tests[t].name(), 100 * outcome.errors[t]));
   return all;
 }
 

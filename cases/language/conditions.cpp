@@ -15,6 +15,11 @@ bool has_step(const Case& one, std::initializer_list<StepKind> kinds) {
       one.steps, [&](const Step& step) { return std::ranges::find(kinds, step.kind) != kinds.end(); });
 }
 
+bool has_bars(const Part& part) {
+  return part.beam || part.cable || part.hinge || part.ribbon ||
+         std::holds_alternative<Honeycomb>(part.geometry);
+}
+
 namespace {
 
 bool has_heavy_bars(const Part& part) {

@@ -53,6 +53,9 @@ Condition plane_strain();    ///< the section is a solid, of a planar model
 /// Whether a step is of one of these kinds.
 bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
 
+/// Beams, cables, or the walls of a lattice.
+bool has_bars(const Part& part);
+
 /// Whether film, bars, the plate, a point mass, a body or what is around a fin has a mass.
 bool has_mass(const Case& one);
 /// Whether a step or a quantity knows what masses do as they accelerate.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is read from the fields of the film.
+#include "cases/language/conditions.hpp"
 #include "cases/quantities/film_values.hpp"
 #include "cases/quantities/probing.hpp"
 #include "meshing/solids/sides.hpp"
@@ -126,6 +127,14 @@ Probe extreme(const Probing& probing) {
   };
 }
 
+std::string without_bars(const Case& one, const Quantity& quantity) {
+  const std::vector<post::Scalar> all = post::scalars();
+  const auto field = std::ranges::find(all, quantity.of, &post::Scalar::name);
+  if (field == all.end() || field->part != post::Part::walls || std::ranges::any_of(one.parts, has_bars))
+    return "";
+  return fmt::format("there are no beams, cables or walls, whose {} it would be", quantity.of);
+}
+
 } // namespace
 
 std::vector<QuantityKind> field_kinds() {
@@ -166,6 +175,7 @@ std::vector<QuantityKind> field_kinds() {
            },
        .probe = extreme,
        .unit_by = unit_of_field,
+       .refusal = without_bars,
        .fields = true,
        .extreme = true,
        .orders = {{0.5, 1}}},

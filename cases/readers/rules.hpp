@@ -16,7 +16,8 @@ StepPlace place_of_step(const Node& tree, std::size_t number);
 /// something to apply, a patch can do what it is asked.
 void check_rules(SectionReader& reader, const Node& tree, const Case& one);
 
-/// Every wave has a step that follows it, in time steps that resolve it. Of the rules above, too.
+/// Every wave has a step that follows it, in time steps that resolve it; no step leads a voltage to where it
+/// is. Of the rules above, too.
 void check_waves(SectionReader& reader, const Node& tree, const Case& one);
 
 /// What a part must have, and what goes with what in it. Of the rules above, too.

@@ -81,6 +81,29 @@ void check_jumps(SectionReader& reader, const Node& tree, const Case& one) {
       }
 }
 
+/// Voltages that are there already. A support may need the step, to let go in it.
+void check_repeated_voltages(SectionReader& reader, const Node& tree, const Case& one) {
+  if (std::ranges::any_of(one.supports, [](const Support& s) { return !s.from.empty() || !s.until.empty(); }))
+    return;
+  const Step* before = nullptr; // that has led the voltages to where they are
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    const bool ramps = step.kind == StepKind::voltage;
+    if (ramps && !step.duration && before && step.to == before->to && step.electrode == before->electrode &&
+        step.response == before->response) {
+      const StepPlace at = place_of_step(tree, s);
+      reader.warn(
+          at.source, at.key,
+          fmt::format("has no effect here: step \"{}\" has led the voltage there already", before->name));
+    }
+    if (ramps)
+      before = &step;
+    else if (step.control == Control::charge || step.kind == StepKind::charge ||
+             step.kind == StepKind::transient)
+      before = nullptr;
+  }
+}
+
 } // namespace
 
 void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
@@ -95,6 +118,7 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
                               wave.start, end));
   }
   check_jumps(reader, tree, one);
+  check_repeated_voltages(reader, tree, one);
   for (const WrittenWave& written : reader.waves()) {
     if (written.wave.kind != Waveform::Kind::file) continue;
     const auto& rows = written.wave.samples;

@@ -60,10 +60,46 @@ std::vector<std::string> drilling_warnings(const Case& one, const meshing::Mesh&
   return warnings;
 }
 
+/// Of film, or of a layer on it, as drawn.
+template<class Layer>
+double drawn_thickness(const Layer& layer) {
+  return layer.thickness / (layer.prestretch[0] * layer.prestretch[1]);
+}
+
+/// A sentence for every part whose layers are thicker than what they fill.
+std::vector<std::string> layer_warnings(const Case& one) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](const Part& part, const std::string& message) {
+    warnings.push_back(
+        fmt::format("{}film.thickness: {}", part.name.empty() ? "" : "part." + part.name + ".", message));
+  };
+  for (const Part& part : one.parts) {
+    if (!part.film) continue;
+    const auto* slab = std::get_if<Slab>(&part.geometry);
+    if (slab && part.film->is_solid() && !part.film->stacked_along) {
+      const double height = slab->height - 2 * slab->cover_thickness;
+      if (part.film->thickness > height * (1 + 1e-9))
+        warn(part, fmt::format("a layer is {} thick, and where there is a field the slab is {} high: not one "
+                               "layer fits",
+                               post::engineering(part.film->thickness, "m"), post::engineering(height, "m")));
+    }
+    if (const auto* roll = std::get_if<Roll>(&part.geometry)) {
+      const double wall = roll->turns * drawn_thickness(*part.film);
+      if (wall > 2 * roll->radius)
+        warn(part,
+             fmt::format("the wall of {} layers is {} thick, more than twice the radius of its middle, "
+                         "{}: a roll cannot be wound like that",
+                         roll->turns, post::engineering(wall, "m"), post::engineering(roll->radius, "m")));
+    }
+  }
+  return warnings;
+}
+
 } // namespace
 
 std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mesh) {
   std::vector<std::string> warnings = drilling_warnings(one, mesh);
+  std::ranges::move(layer_warnings(one), std::back_inserter(warnings));
   if (one.dimension == fem::Dimension::spatial && one.any_geometry<HollowSphere>())
     warnings.push_back("hollow_sphere: in space its eighth at x, y, z >= 0 is computed; volumes, charges, "
                        "capacitances, energies and masses are those of the eighth");
@@ -148,12 +184,9 @@ std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh
       continue;
     Eigen::Vector3d size = bounds[p].sizes();
     std::ranges::sort(size, std::greater<>());
-    const auto drawn = [](const auto& layer) {
-      return layer.thickness / (layer.prestretch[0] * layer.prestretch[1]);
-    };
     const double width = meridian ? size[0] : size[1];
-    double thickness = drawn(*film);
-    for (const Layer& layer : film->further_layers) thickness += drawn(layer);
+    double thickness = drawn_thickness(*film);
+    for (const Layer& layer : film->further_layers) thickness += drawn_thickness(layer);
     if (width < thin * thickness)
       warnings.push_back(
           fmt::format("{}film.thickness: the film is {} thick and {} wide; membranes and shells are "

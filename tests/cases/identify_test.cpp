@@ -295,8 +295,9 @@ TEST_F(Identify, TellsThatAnUnknownEndsAtTheLimitOfItsKey) {
   EXPECT_NEAR(found.unknowns[0].value, 1, 2e-3);
   EXPECT_TRUE(found.unknowns[0].at_bound);
   const std::vector<std::string> warnings = identify_warnings(asked, found);
-  ASSERT_EQ(warnings.size(), 1u);
+  ASSERT_EQ(warnings.size(), 2u);
   EXPECT_NE(warnings[0].find("is at its bound"), std::string::npos);
+  EXPECT_NE(warnings[1].find("the model misses what was measured by"), std::string::npos);
 }
 
 TEST_F(Identify, ConvertsFrequenciesAndPercent) {

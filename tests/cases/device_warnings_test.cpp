@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Devices that can be computed and cannot be built, or do not what was meant: told, or refused with the
+// reason.
+#include "cases/devices/device.hpp"
+#include "tests/cases/path_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dielast::cases {
+namespace {
+
+class DeviceWarnings : public Paths {
+ protected:
+  bool warns(const std::string& text, const std::string& of) {
+    const Device device = build_device(read(text));
+    return std::ranges::any_of(device.warnings,
+                               [&](const std::string& warning) { return warning.find(of) != warning.npos; });
+  }
+  static std::string film(const std::string& more) {
+    return "[film]\n" + more +
+           "\n[film.material]\nshear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n";
+  }
+};
+
+TEST_F(DeviceWarnings, LayersThatDoNotFit) {
+  const auto slab = [&](double thickness, const std::string& cover) {
+    return film(fmt::format("thickness = \"{} mm\"", thickness)) +
+           "[slab]\nlength = \"10 mm\"\nheight = \"2 mm\"\n" + cover +
+           "[[support]]\nplace = \"left\"\nfix = [\"x\", \"y\"]\n";
+  };
+  const std::string told = "film.thickness: a layer is";
+  EXPECT_TRUE(warns(slab(2.1, ""), told));
+  EXPECT_FALSE(warns(slab(2, ""), told));
+  EXPECT_TRUE(warns(slab(2, "cover_thickness = \"0.1 mm\"\n"), told));
+  EXPECT_FALSE(warns(slab(1.8, "cover_thickness = \"0.1 mm\"\n"), told));
+}
+
+TEST_F(DeviceWarnings, RollsThatCannotBeWound) {
+  const auto roll = [&](int turns) {
+    return film("thickness = \"1 mm\"\nprestretch = 2") +
+           fmt::format("[roll]\nlength = \"20 mm\"\nradius = \"1 mm\"\nturns = {}\n", turns);
+  };
+  EXPECT_FALSE(warns(roll(8), "a roll cannot be wound like that"));
+  EXPECT_TRUE(warns(roll(9), "a roll cannot be wound like that"));
+}
+
+TEST_F(DeviceWarnings, NothingCanMove) {
+  const auto sheet = [&](const std::string& place) {
+    return film("thickness = \"1 mm\"") +
+           "[rectangle]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[[support]]\nplace = \"" + place +
+           "\"\nfix = [\"x\", \"y\"]\n";
+  };
+  EXPECT_TRUE(warns(sheet("film"), "nothing can move"));
+  EXPECT_FALSE(warns(sheet("left"), "nothing can move"));
+}
+
+TEST_F(DeviceWarnings, APointIsNoElectrodeOfASolid) {
+  write("square.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n0 4 \"corner\"\n1 1 \"top\"\n1 3 "
+        "\"bottom\"\n2 2 \"film\"\n$EndPhysicalNames\n$Nodes\n9\n1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 0 "
+        "0\n6 2 1 0\n7 1 1 0\n8 1 2 0\n9 0 1 0\n"
+        "$EndNodes\n$Elements\n5\n1 15 2 4 1 1\n2 8 2 1 1 3 4 8\n3 8 2 3 2 1 2 5\n4 9 2 2 5 1 2 3 5 6 7\n"
+        "5 9 2 2 5 1 3 4 7 8 9\n$EndElements\n");
+  const auto built = [&](const std::string& ground) {
+    return build_device(
+        read(film("thickness = \"2 mm\"\nsection = \"solid\"\nfield = \"potential\"") +
+             "[mesh]\nfile = \"square.msh\"\nunit = \"1 mm\"\n[[support]]\nplace = \"bottom\"\nfix = "
+             "[\"x\", \"y\"]\n[[electrode]]\nname = \"e\"\nplace = \"top\"\nground = \"" +
+             ground + "\"\n[drive]\nvoltage = \"1 kV\"\n[[step]]\nkind = \"voltage\"\n"));
+  };
+  EXPECT_NO_THROW(built("bottom"));
+  try {
+    built("corner");
+    FAIL();
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("\"corner\" is no surface of the solid"), std::string::npos)
+        << error.what();
+  }
+}
+
+// One sheet of film is drawn through another.
+TEST_F(DeviceWarnings, WhatPassesThroughSomethingIsTold) {
+  const auto told = [&](double way) {
+    std::string text;
+    for (const char* part : {"a", "b"})
+      text +=
+          fmt::format("[part.{0}]\nat = [\"{1} mm\", 0, 0]\n[part.{0}.film]\nthickness = \"1 mm\"\n"
+                      "[part.{0}.film.material]\nshear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n"
+                      "[part.{0}.rectangle]\nlength = \"10 mm\"\nwidth = \"10 mm\"\n"
+                      "[part.{0}.mesh]\nacross = 2\n",
+                      part, part[0] == 'a' ? 0 : 15);
+    text +=
+        fmt::format("[[support]]\nplace = \"b.film\"\nfix = [\"x\", \"y\"]\n[[support]]\nplace = \"a.left\"\n"
+                    "fix = [\"y\"]\ndisplacement = {{ x = \"{} mm\" }}\n[[step]]\nkind = \"move\"\n",
+                    way);
+    return std::ranges::count(run(text, "a_areal_strain").events, "passes through itself",
+                              &post::Event::kind);
+  };
+  EXPECT_EQ(told(4.9), 0);
+  EXPECT_EQ(told(5.1), 1);
+}
+
+// Two rods in a row, without tension: their joint has no stiffness across.
+TEST_F(DeviceWarnings, AJointThatNothingHoldsAcrossIsNoLimitPoint) {
+  std::string text = "model = \"planar\"\n";
+  for (const char* part : {"a", "b"})
+    text += fmt::format("[part.{0}.film]\nthickness = \"0.1 mm\"\n[part.{0}.film.material]\nshear_modulus = "
+                        "\"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[part.{0}.rod]\nwidth = \"10 mm\"\n"
+                        "[part.{0}.line]\nfrom = [\"{1} mm\", 0, 0]\nto = [\"{2} mm\", 0, 0]\n",
+                        part, part[0] == 'a' ? 0 : 20, part[0] == 'a' ? 20 : 40);
+  const Outcome ended =
+      run(text + "[[tie]]\nbetween = [\"a.end\", \"b.start\"]\n[[support]]\nplace = \"a.start\"\nfix = "
+                 "[\"x\", \"y\"]\n[[support]]\nplace = \"b.end\"\nfix = [\"x\", \"y\"]\n[[load]]\nplace = "
+                 "\"a.end\"\nforce = [\"1 mN\", 0, 0]\n[[step]]\nkind = \"force\"\n"
+                 "[[quantity]]\nname = \"u\"\nkind = \"displacement\"\nof = \"a.end\"\nalong = \"x\"\n",
+          "u")
+          .outcome;
+  EXPECT_EQ(ended.kind, "singular tangent") << ended.message;
+}
+
+} // namespace
+} // namespace dielast::cases
