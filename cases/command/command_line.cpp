@@ -53,7 +53,10 @@ void add_commands(CLI::App& app, Arguments& arguments) {
         ->add_option(
             "-o,--output", arguments.directory,
             "directory of the results [<case>-results, -study, -fit, -linear, -mesh: one for each command]")
-        ->type_name("DIR");
+        ->type_name("DIR")
+        ->check([](const std::string& directory) {
+          return directory.empty() ? "needs the name of a directory, found \"\"" : "";
+        });
   };
   const auto takes_threads = [&](CLI::App* command, const char* meaning) {
     command->add_option("-j,--threads", arguments.threads, meaning)->check(CLI::Range(0, 1024));

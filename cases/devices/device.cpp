@@ -302,7 +302,7 @@ Device build_device(const Case& one) {
   } catch (const std::invalid_argument& error) {
     throw CaseError(
         {{{one.source.string()},
-          "body.places",
+          one.bodies.empty() ? "support.place" : "body.places",
           fmt::format(
               "{}: what a [[body]], or a wall over its width, carries no [[support]], [plate] or side of "
               "a patch can hold",

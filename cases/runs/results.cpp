@@ -113,6 +113,13 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                   .event_remarks = estimates.events,
                   .time_error = simulation.time_error(),
                   .margins = with_estimates(std::move(margins), estimates.margins)};
+  constexpr double poor_time_error = 0.02;
+  if (results.time_error > poor_time_error)
+    results.warnings.push_back(
+        fmt::format("time steps: their errors of internal variables and motion may add up to {:.2g}, "
+                    "relative: give the steps more increments or [solver] a smaller time_tolerance, or let "
+                    "loads set out smoothly",
+                    results.time_error));
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];
     post::QuantityRow row{.name = quantity.name,

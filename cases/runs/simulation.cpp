@@ -389,7 +389,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
   }
   const auto last = std::ranges::find_if(steps_ | std::views::reverse,
                                          [](const Step& step) { return !step.is_analysis(); });
-  return last == steps_.rend() || last->duration ? Outcome{} : end_at_rest(*equilibrium_, state());
+  return last == steps_.rend() || last->inertia ? Outcome{} : end_at_rest(*equilibrium_, state());
 }
 
 } // namespace dielast::cases

@@ -302,6 +302,21 @@ TEST_F(IdleKeys, AStepThatLetsASupportGoHasAnEffect) {
   EXPECT_EQ(keys(film + disc + ramp + relax + held("until = \"voltage\"\n")), Keys{});
 }
 
+TEST_F(IdleKeys, AVoltageThatIsThereAlready) {
+  const std::string to = "[[step]]\nkind = \"voltage\"\nto = \"2 kV\"\n";
+  const std::string back = "[[step]]\nname = \"back\"\nkind = \"voltage\"\nto = \"0 V\"\n";
+  const std::string shorted =
+      "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\n[drive]\nvoltage = { wave = \"sine\", amplitude = "
+      "\"1 kV\", frequency = \"1 Hz\" }\n";
+  const auto named = [](std::string step, const std::string& name) {
+    return step + "name = \"" + name + "\"\n";
+  };
+  EXPECT_EQ(keys(film + disc + to + named(to, "again")), Keys{"step[2]"});
+  EXPECT_EQ(keys(film + disc + to + back + named(to, "again")), Keys{});
+  EXPECT_EQ(keys(film + disc + to + "[[step]]\nkind = \"release\"\n" + named(to, "again")), Keys{"step[3]"});
+  EXPECT_EQ(keys(film + disc + to + shorted + named(to, "again")), Keys{});
+}
+
 TEST_F(IdleKeys, TheGalleryHasNone) {
   for (const char* folder : {"cases/gallery", "tests/cases/valid"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder / folder)) {

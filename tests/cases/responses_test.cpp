@@ -178,6 +178,23 @@ TEST_F(Responses, AFastMotionWithoutInertiaIsToldAndItsPeakAsWell) {
   EXPECT_FALSE(is_told(dielast(asked)));
 }
 
+// A jump of the voltage sets every mode in motion, and nothing damps them.
+TEST_F(Responses, ErrorsOfTimeStepsThatAddUpAreTold) {
+  write("jump.toml",
+        disc.substr(0, disc.find("[mesh]")) +
+            "[mesh]\nrings = 2\n[drive]\nvoltage = \"4 kV\"\n[output]\nerror_estimate = false\nfields = "
+            "false\n[[step]]\nkind = \"transient\"\nduration = \"5 ms\"\ninertia = true\nincrements = 20\n");
+  const auto warnings = [&](const std::string& tolerance) {
+    EXPECT_EQ(dielast({"run", "jump.toml", "-o", "jump", "--set", "film.material.density=1000", "--set",
+                       "solver.time_tolerance=" + tolerance})
+                  .exit_code,
+              0);
+    return json_of("jump/summary.json")["warnings"].dump();
+  };
+  EXPECT_NE(warnings("1e-2").find("time steps: their errors"), std::string::npos);
+  EXPECT_EQ(warnings("1e-5").find("time steps: their errors"), std::string::npos);
+}
+
 TEST_F(Responses, RefuseTheRadiusOfAnArea) {
   std::string area = disc;
   area.replace(area.find("of = \"electrode_edge\""), 21, "of = \"electrode\"");

@@ -52,7 +52,7 @@ error_estimate = false
 
 // A strip that swings about its edge: Newton's method finds it somewhere.
 TEST_F(Unheld, AShellThatMaySwingIsNoResult) {
-  const auto ended = [&](const std::string& turns) {
+  const auto ended = [&](const std::string& turns, const std::string& then = "") {
     return run(R"toml(
 model = "3d"
 [film]
@@ -86,7 +86,7 @@ increments = 4
 [[support]]
 place = "left"
 fix = ["x", "y", "z")toml" +
-                   turns + "]\n",
+                   turns + "]\n" + then,
                "capacitance")
         .outcome;
   };
@@ -94,6 +94,9 @@ fix = ["x", "y", "z")toml" +
   EXPECT_EQ(swings.ending, Ending::gave_up);
   EXPECT_NE(swings.message.find("can move freely"), std::string::npos) << swings.message;
   EXPECT_EQ(ended(", \"turn_y\"").ending, Ending::complete);
+  const std::string hold = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\n";
+  EXPECT_EQ(ended("", hold).ending, Ending::gave_up);
+  EXPECT_EQ(ended(", \"turn_y\"", hold).ending, Ending::complete);
 }
 
 // Lines with nodes of their own, drawn a second time: what is said of "frame" is not said of the film.

@@ -155,6 +155,18 @@ TEST(Surface, ThatBoundsNoVolumeIsRefused) {
 }
 
 /// Told by the head of the file, before 500 MB are read.
+TEST(Surface, ThatWouldTakeMillionsOfTetrahedraIsRefusedAtOnce) {
+  const Surface box = read_surface(write("millions.off", off(corners, sides)));
+  try {
+    filled(box, 1e-3);
+    FAIL();
+  } catch (const MeshError& error) { // 2 x 1 x 1 over 1e-9/(6 sqrt 2), and half as large on the mean
+    EXPECT_NE(std::string(error.what()).find("would take about 3.4e+10 tetrahedra"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("mesh.unit"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Surface, OfTenMillionTrianglesIsRefusedAtOnce) {
   constexpr std::uint32_t count = 10'000'000;
   std::string head(80, ' ');
