@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <set>
@@ -76,12 +77,17 @@ std::vector<std::string> layer_warnings(const Case& one) {
   for (const Part& part : one.parts) {
     if (!part.film) continue;
     const auto* slab = std::get_if<Slab>(&part.geometry);
-    if (slab && part.film->is_solid() && !part.film->stacked_along) {
+    const bool charged = std::ranges::any_of(one.electrodes, [&](const Electrode& electrode) {
+      return named_part_of(electrode.place, one) == &part;
+    });
+    if (slab && charged && part.film->is_solid() && !part.film->stacked_along) {
       const double height = slab->height - 2 * slab->cover_thickness;
-      if (part.film->thickness > height * (1 + 1e-9))
-        warn(part, fmt::format("a layer is {} thick, and where there is a field the slab is {} high: not one "
-                               "layer fits",
-                               post::engineering(part.film->thickness, "m"), post::engineering(height, "m")));
+      const double layers = height / part.film->thickness;
+      if (layers < 1 - 1e-9 || (!part.film->potential && std::abs(layers - std::round(layers)) > 0.01))
+        warn(part, fmt::format("a layer is {} thick, and where there is a field the slab is {} high, {:.4g} "
+                               "layers: a stack has a whole number of them",
+                               post::engineering(part.film->thickness, "m"), post::engineering(height, "m"),
+                               layers));
     }
     if (const auto* roll = std::get_if<Roll>(&part.geometry)) {
       const double wall = roll->turns * drawn_thickness(*part.film);

@@ -33,6 +33,8 @@ TEST_F(DeviceWarnings, LayersThatDoNotFit) {
   const std::string told = "film.thickness: a layer is";
   EXPECT_TRUE(warns(slab(2.1, ""), told));
   EXPECT_FALSE(warns(slab(2, ""), told));
+  EXPECT_FALSE(warns(slab(0.2, ""), told));
+  EXPECT_TRUE(warns(slab(0.3, ""), "6.667 layers"));
   EXPECT_TRUE(warns(slab(2, "cover_thickness = \"0.1 mm\"\n"), told));
   EXPECT_FALSE(warns(slab(1.8, "cover_thickness = \"0.1 mm\"\n"), told));
 }
