@@ -124,13 +124,14 @@ std::string unit_of_subject(const Quantity& quantity, const std::vector<Quantity
 }
 
 std::vector<Key> margin_keys() {
-  return {word("of",
-               {{"breakdown", "somewhere the field is the breakdown field"},
-                {"loss of tension", "somewhere the film has lost its tension"},
-                {"pull-in", "a limit point, beyond which no voltage is larger"},
-                {"buckling", "a bifurcation, from which the device leaves its way"},
-                {"wall yield", "somewhere a wall yields"}},
-               to(&Quantity::of), "the limit")};
+  return {word(
+      "of",
+      {{"breakdown", "somewhere the field is the breakdown field"},
+       {"loss of tension", "somewhere the film has lost its tension; shells and solids bear compression"},
+       {"pull-in", "a limit point, beyond which no voltage is larger"},
+       {"buckling", "a bifurcation, from which the device leaves its way"},
+       {"wall yield", "somewhere a wall yields"}},
+      to(&Quantity::of), "the limit")};
 }
 
 } // namespace

@@ -288,7 +288,8 @@ Margin crossing(const std::vector<Passed>& way, const Value& value, FurtherWay& 
 
 /// Why nothing is known of a limit; empty where something is. `branches`: a bifurcation was met.
 std::string unknown_limit(const Case& one, const Simulation& run, const std::string& limit, bool branches) {
-  const bool walls = run.device().mesh.walls() != nullptr;
+  const bool walls = run.device().mesh.walls() != nullptr, bears = run.device().bears_compression;
+  if (limit == "loss of tension" && bears) return "shells and solids bear compression";
   if (limit == "wall yield" && !walls) return "there are no walls";
   if (limit == "buckling" && !branches && one.dimension != fem::Dimension::spatial && !walls)
     return "film does not leave its plane, or its meridian's, in this model";
@@ -301,6 +302,8 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
                                const Outcome& outcome, int threads) {
   std::vector<Margin> margins;
   std::string unknown_because;
+  const double smallest =
+      simulation.device().bears_compression ? std::numeric_limits<double>::infinity() : smallest_stress(one);
   const fem::State& state = simulation.state();
   if (one.electrodes.empty() || journal.records.empty() || journal.records.back().largest_voltage() == 0)
     unknown_because = "no voltage is applied at the end";
@@ -320,7 +323,7 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     const bool complete = outcome.ending == Ending::complete;
     // Something else than the voltages has led there, or they were not in proportion.
     if (complete && way.front().factor > 0 &&
-        is_beyond(way.front(), simulation.device().tension_field, smallest_stress(one))) {
+        is_beyond(way.front(), simulation.device().tension_field, smallest)) {
       std::string unused;
       const double least = way.front().factor;
       for (Passed& passed : further->to(0, unused))
@@ -360,17 +363,12 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     margin.up_to = up_to;
     margins.push_back(std::move(margin));
   };
-  add("breakdown", [&] {
-    return crossing(
-        way, [](const Passed& p) { return p.breakdown - 1; }, *further);
-  });
+  const auto where = [&](const auto& value) { return crossing(way, value, *further); };
+  add("breakdown", [&] { return where([](const Passed& p) { return p.breakdown - 1; }); });
   add("loss of tension", [&] {
     if (simulation.device().tension_field)
-      return crossing(
-          way, [](const Passed& p) { return p.slack > 0 ? 1.0 : -1.0; }, *further);
-    const double smallest = smallest_stress(one);
-    Margin lost = crossing(
-        way, [smallest](const Passed& p) { return -smallest - p.least_stress; }, *further);
+      return where([](const Passed& p) { return p.slack > 0 ? 1.0 : -1.0; });
+    Margin lost = where([&](const Passed& p) { return -smallest - p.least_stress; });
     // Film leaves its plane where its tension ends: the path ends there, and no state of it is beyond.
     if (!lost.factor && lost.remark.empty() && stopped == Critical{true}.kind() &&
         way.back().least_stress < 1e3 * smallest)
@@ -385,10 +383,7 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   };
   add("pull-in", [&] { return critical(false); });
   add("buckling", [&] { return critical(true); });
-  add("wall yield", [&] {
-    return crossing(
-        way, [](const Passed& p) { return p.yield - 1; }, *further);
-  });
+  add("wall yield", [&] { return where([](const Passed& p) { return p.yield - 1; }); });
   return margins;
 }
 

@@ -183,6 +183,16 @@ TEST_F(Margins, WhatAForcePassesIsTheFactorOnTheVoltage) {
   EXPECT_EQ(held.at("loss of tension").remark, "passed without voltage");
 }
 
+// Any voltage compresses a slab: that is no limit of what bears compression.
+TEST_F(Margins, SolidsAndShellsLoseNoTension) {
+  const auto found =
+      margins("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"50 kPa\"\npermittivity = "
+              "\"4e-11 F/m\"\n[slab]\nlength = \"4 mm\"\nheight = \"1 mm\"\n[[support]]\nplace = "
+              "\"bottom\"\nfix = [\"x\", \"y\"]\n[[step]]\nkind = \"voltage\"\nto = \"1 kV\"\n");
+  EXPECT_FALSE(found.at("loss of tension").factor);
+  EXPECT_EQ(found.at("loss of tension").remark, "not known: shells and solids bear compression");
+}
+
 // A support that holds until the end of the run held no longer behind it.
 TEST_F(Margins, WhatHoldsAtTheEndGoesOnHolding) {
   const double lost = thickness / 4 * std::sqrt(modulus / permittivity * (4 - 1.0 / 16));
