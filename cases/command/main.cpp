@@ -18,6 +18,7 @@
 #include "cases/runs/run.hpp"
 #include "cases/studies/study.hpp"
 #include "fem/equilibrium/tangent_check.hpp"
+#include "fem/machine/blas_kernels.hpp"
 #include "meshing/gmsh/gmsh_text.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/quality.hpp"
@@ -26,8 +27,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <malloc.h>
 #include <map>
+#include <unistd.h>
 
 using namespace dielast;
 using cases::Arguments;
@@ -185,6 +189,17 @@ ExitCode guarded(ExitCode (*command)(const Arguments&), const Arguments& argumen
 
 } // namespace
 
+/// Starts the program once more where the BLAS would take kernels that do not suit the processor: it chooses
+/// them while it is loaded. Where that is not possible the program goes on with them.
+void take_better_blas_kernels(char** argv) {
+  const char* const kernels = fem::better_blas_kernels();
+  if (!kernels) return;
+  std::error_code unknown;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  setenv(fem::blas_kernels_variable, kernels, 1);
+  execv(program.c_str(), argv);
+}
+
 int main(int argc, char** argv) {
   // Workspaces that come and go with every factorisation keep their pages: faulting them in again costs a
   // tenth of a run.
@@ -210,5 +225,7 @@ int main(int argc, char** argv) {
     return static_cast<int>(ExitCode::usage_or_file);
   }
   const std::string name = app.get_subcommands().front()->get_name();
+  if (name == "run" || name == "study" || name == "fit" || name == "linearise")
+    take_better_blas_kernels(argv);
   return static_cast<int>(finish_output(guarded(functions.at(name), arguments)));
 }

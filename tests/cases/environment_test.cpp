@@ -94,5 +94,21 @@ TEST_F(Environment, LittleMemoryForSolidsIsEnoughOrTold) {
   run_with_little_memory("stack.toml", 220, 80);
 }
 
+// OpenBLAS says on stderr which kernels it takes, each time that it is loaded.
+TEST_F(Environment, ProgramTakesKernelsOfItsProcessor) {
+  const auto kernels = [&](const char* asked) {
+    const Ended ended = dielast({"run", "disc.toml", "-o", directory / "disc"}, [&] {
+      setenv("OPENBLAS_VERBOSE", "2", 1);
+      asked ? setenv("OPENBLAS_CORETYPE", asked, 1) : unsetenv("OPENBLAS_CORETYPE");
+    });
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const std::size_t at = ended.err.rfind("Core: ");
+    return at == std::string::npos ? "" : ended.err.substr(at + 6, ended.err.find('\n', at) - at - 6);
+  };
+  EXPECT_EQ(kernels("Prescott"), "Prescott"); // as asked
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "a processor whose kernels OpenBLAS knows";
+  EXPECT_NE(kernels(nullptr), "Prescott");
+}
+
 } // namespace
 } // namespace dielast::test
