@@ -21,7 +21,7 @@ extern "C" void* malloc(std::size_t size) noexcept {
   return __libc_malloc(size);
 }
 
-namespace dielast::bench {
+namespace dielast::bench::allocations_test {
 namespace {
 
 struct Asked {
@@ -59,4 +59,4 @@ TEST(Allocations, none_after_newtons_first_iteration) {
 }
 
 } // namespace
-} // namespace dielast::bench
+} // namespace dielast::bench::allocations_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::bench {
+namespace dielast::bench::counts_test {
 namespace {
 
 struct Outcome {
@@ -56,4 +56,4 @@ TEST(Benchmarks, a_shell_next_to_a_membrane_goes_its_way) {
 }
 
 } // namespace
-} // namespace dielast::bench
+} // namespace dielast::bench::counts_test

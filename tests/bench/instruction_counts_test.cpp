@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <regex>
 
-namespace dielast::test {
+namespace dielast::test::instruction_counts_test {
 namespace {
 
 constexpr double most = 1.5, least = 0.5; ///< of the recorded counts
@@ -43,4 +43,4 @@ INSTANTIATE_TEST_SUITE_P(Small, InstructionCounts, testing::Values("patch", "rin
                          [](const auto& test) { return std::string(test.param); });
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::instruction_counts_test

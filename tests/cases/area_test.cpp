@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::area_test {
 namespace {
 
 /// A disc of which an electrode covers the middle; parameters: model and order of its elements.
@@ -120,4 +120,4 @@ INSTANTIATE_TEST_SUITE_P(Elements, Area,
                                          std::pair("axisymmetric", "1"), std::pair("axisymmetric", "2")));
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::area_test

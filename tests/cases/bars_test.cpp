@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace dielast::cases {
+namespace dielast::cases::bars_test {
 namespace {
 
 class Bars : public test::CaseTest {};
@@ -191,4 +191,4 @@ TEST_F(Bars, ABowThatOpensLiesFlat) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::bars_test

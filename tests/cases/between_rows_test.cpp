@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::between_rows_test {
 namespace {
 
 class BetweenRows : public test::CaseTest {
@@ -119,4 +119,4 @@ TEST_F(BetweenRows, AResumedRunTellsWhatWasBeforeIt) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::between_rows_test

@@ -6,7 +6,7 @@
 
 // Rigid bodies that carry places of the film, through case files.
 
-namespace dielast::cases {
+namespace dielast::cases::bodies_test {
 namespace {
 
 /// An annulus in space or in the plane whose inner edge a body of 2 g carries, 3 mm beside the middle.
@@ -381,4 +381,4 @@ TEST_F(Bodies, a_fin_that_turns_far_is_told) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::bodies_test

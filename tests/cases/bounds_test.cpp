@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 
 // What a careless or hostile file could ask for without an end.
-namespace dielast::cases {
+namespace dielast::cases::bounds_test {
 namespace {
 
 class Bounds : public test::ScratchTest {
@@ -135,4 +135,4 @@ TEST_F(Bounds, DamagedResultsOfAPointAreNone) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::bounds_test

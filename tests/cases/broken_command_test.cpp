@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace dielast::test {
+namespace dielast::test::broken_command_test {
 namespace {
 
 const std::filesystem::path folder = source_folder / "tests/cases/broken";
@@ -51,4 +51,4 @@ INSTANTIATE_TEST_SUITE_P(Files, BrokenCommand, testing::ValuesIn(broken_files())
                          [](const auto& file) { return file.param.substr(0, file.param.find('.')); });
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::broken_command_test

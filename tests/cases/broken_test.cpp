@@ -11,7 +11,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace dielast::cases {
+namespace dielast::cases::broken_test {
 namespace {
 
 const std::filesystem::path folder = std::filesystem::path(DIELAST_SOURCE_DIR) / "tests/cases/broken";
@@ -68,4 +68,4 @@ INSTANTIATE_TEST_SUITE_P(Files, BrokenCase, testing::ValuesIn(broken_files()), [
 });
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::broken_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::cables_test {
 namespace {
 
 constexpr double shear_modulus = 50e3, film_permittivity = 3 * 8.8541878128e-12;
@@ -264,4 +264,4 @@ TEST_F(Cables, WhatASlackCableLeavesFreeIsTold) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::cables_test

@@ -11,7 +11,7 @@
 
 // Which states a run of a film with a chamber accepts, see paths_test.cpp.
 
-namespace dielast::cases {
+namespace dielast::cases::chamber_paths_test {
 namespace {
 
 /// A balloon of a Gent material, pumped past its greatest pressure: 1454.17 Pa at stretch 1.445 (closed
@@ -305,4 +305,4 @@ TEST_F(Paths, a_plate_closes_its_part_of_the_chamber_below_a_quarter) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::chamber_paths_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::contact_test {
 namespace {
 
 std::string honeycomb(double angle, const std::string& rest) {
@@ -350,4 +350,4 @@ TEST_F(Contacts, refuse_surfaces_that_touch_or_cross_as_drawn) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::contact_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::controlled_loads_test {
 namespace {
 
 constexpr double modulus = 50e3;
@@ -232,4 +232,4 @@ highest = "100 ml"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::controlled_loads_test

@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::controller_test {
 namespace {
 
 constexpr double mu = 40e3, permittivity = 4 * 8.8541878128e-12, thickness = 1e-3, size = 10e-3, across = 2;
@@ -204,4 +204,4 @@ TEST_F(ControllerTest, WithoutATransientItIsIdle) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::controller_test

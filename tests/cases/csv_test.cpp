@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-namespace dielast::cases {
+namespace dielast::cases::csv_test {
 namespace {
 
 const test::ScratchFolder folder;
@@ -100,4 +100,4 @@ TEST(Csv, AnEmptyFileHasNoRowsAndAMissingOneIsAnError) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::csv_test

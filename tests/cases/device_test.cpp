@@ -12,7 +12,7 @@
 #include <fstream>
 #include <set>
 
-namespace dielast::cases {
+namespace dielast::cases::device_test {
 namespace {
 
 const std::filesystem::path valid = std::filesystem::path(DIELAST_SOURCE_DIR) / "tests/cases/valid";
@@ -160,4 +160,4 @@ TEST(Patch, InEqualBiaxialTensionBothSidesCarryTheStress) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::device_test

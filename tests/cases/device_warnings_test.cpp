@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace dielast::cases {
+namespace dielast::cases::device_warnings_test {
 namespace {
 
 class DeviceWarnings : public Paths {
@@ -123,4 +123,4 @@ TEST_F(DeviceWarnings, AJointThatNothingHoldsAcrossIsNoLimitPoint) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::device_warnings_test

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-namespace dielast::test {
+namespace dielast::test::diaphragm_test {
 namespace {
 
 /// The diaphragm's gallery as a user runs it; the numbers are those of the independent solutions.
@@ -244,4 +244,4 @@ TEST_F(MovingDiaphragm, a_full_disk_is_told_and_leaves_what_there_is) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::diaphragm_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::cases {
+namespace dielast::cases::discretisation_test {
 namespace {
 
 const std::filesystem::path valid = std::filesystem::path(DIELAST_SOURCE_DIR) / "tests/cases/valid";
@@ -86,4 +86,4 @@ TEST(OtherDiscretisations, AreNoneWithTheCoarsestMeshWhereTimePasses) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::discretisation_test

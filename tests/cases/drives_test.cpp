@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::drives_test {
 namespace {
 
 /// Two electrodes on cells of a honeycomb, cut free and driven by 3 kV each.
@@ -397,4 +397,4 @@ TEST_F(OwnMesh, TrianglesOfTwoPhysicalGroupsCountOnce) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::drives_test

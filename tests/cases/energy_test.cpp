@@ -13,7 +13,7 @@
 // Works, heat and peaks of runs in which they once were wrong in silence. Works and heat of random transients
 // are in works_test.cpp.
 
-namespace dielast::cases {
+namespace dielast::cases::energy_test {
 namespace {
 
 constexpr double volume = 1e-7; ///< of the patch, m^3
@@ -394,4 +394,4 @@ TEST_F(Energy, without_time_the_source_gives_what_leaks) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::energy_test

@@ -7,7 +7,7 @@
 #include <langinfo.h>
 
 // What the surroundings of the program must not change.
-namespace dielast::test {
+namespace dielast::test::environment_test {
 namespace {
 
 class Environment : public CommandTest {
@@ -111,4 +111,4 @@ TEST_F(Environment, ProgramTakesKernelsOfItsProcessor) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::environment_test

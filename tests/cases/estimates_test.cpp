@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
-namespace dielast::test {
+namespace dielast::test::estimates_test {
 namespace {
 
 const std::filesystem::path cases = source_folder / "tests/verification/error_estimates";
@@ -397,4 +397,4 @@ TEST_F(Estimates, SayWhyThereAreNone) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::estimates_test

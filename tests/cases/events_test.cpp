@@ -4,7 +4,7 @@
 #include <optional>
 #include <regex>
 
-namespace dielast::test {
+namespace dielast::test::events_test {
 namespace {
 
 class Events : public CommandTest {
@@ -150,4 +150,4 @@ TEST_F(Events, NoStressAcrossARodIsNoTensionThatDependsOnTheMesh) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::events_test

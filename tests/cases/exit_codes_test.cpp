@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
-namespace dielast::test {
+namespace dielast::test::exit_codes_test {
 namespace {
 
 class ExitCodes : public CommandTest {
@@ -186,4 +186,4 @@ TEST_F(ExitCodes, FiveForAFailedCheck) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::exit_codes_test

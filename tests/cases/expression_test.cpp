@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::cases {
+namespace dielast::cases::expression_test {
 namespace {
 
 using Variables = std::map<std::string, std::string>;
@@ -74,4 +74,4 @@ TEST(Expression, UnitsOfTheLanguageAreProductsOfBaseUnits) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::expression_test

@@ -4,7 +4,7 @@
 #include <cmath>
 
 // Values that are allowed, and far from what anyone builds.
-namespace dielast::test {
+namespace dielast::test::extremes_test {
 namespace {
 
 class Extremes : public CommandTest {
@@ -35,4 +35,4 @@ TEST_F(Extremes, WorksAreNumbersBehindTheSmallestResistance) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::extremes_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/faults_command.hpp"
 
-namespace dielast::test {
+namespace dielast::test::faults_long_test {
 namespace {
 
 class FaultsLong : public FaultTest {};
@@ -23,4 +23,4 @@ TEST_F(FaultsLong, AFullDiskIsToldAndResumeGoesOn) {
 TEST_F(FaultsLong, DamagedCheckpointsChangeNoResult) { damage_checkpoints(500); }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::faults_long_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/faults_command.hpp"
 
-namespace dielast::test {
+namespace dielast::test::faults_test {
 namespace {
 
 // Few of many: faults_long_test.cpp has the others.
@@ -46,4 +46,4 @@ TEST_F(Faults, AFullDiskIsToldAndResumeGoesOn) { fill_the_disk("run", 3); }
 TEST_F(Faults, DamagedCheckpointsChangeNoResult) { damage_checkpoints(12); }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::faults_test

@@ -5,7 +5,7 @@
 
 // Chambers, slack and wrinkled films, through case files.
 
-namespace dielast::cases {
+namespace dielast::cases::film_cases_test {
 namespace {
 
 const std::string plain = "[output]\nfields = false\nerror_estimate = false\n";
@@ -156,4 +156,4 @@ TEST_F(FilmCases, the_height_of_a_disc_in_space_is_that_of_its_meridian) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::film_cases_test

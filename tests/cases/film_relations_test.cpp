@@ -9,7 +9,7 @@
 
 // Random relations between runs that must agree, twenty draws each.
 
-namespace dielast::cases {
+namespace dielast::cases::film_relations_test {
 namespace {
 
 constexpr int draws = 20;
@@ -185,4 +185,4 @@ TEST_F(FilmRelations, a_fit_has_the_model_of_a_run) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::film_relations_test

@@ -6,7 +6,7 @@
 
 // Fields of the film at a point or at a place, as quantities.
 
-namespace dielast::cases {
+namespace dielast::cases::film_values_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -374,4 +374,4 @@ TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::film_values_test

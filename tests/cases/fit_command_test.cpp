@@ -5,7 +5,7 @@
 
 #include <regex>
 
-namespace dielast::test {
+namespace dielast::test::fit_command_test {
 namespace {
 
 class FitCommand : public CommandTest {
@@ -333,4 +333,4 @@ TEST_F(FitCommand, TheGalleryFitConverges) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::fit_command_test

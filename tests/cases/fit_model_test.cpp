@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::fit_model_test {
 namespace {
 
 using materials::Material;
@@ -140,4 +140,4 @@ TEST(FitModel, BeyondTheLawThereIsNoStress) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::fit_model_test

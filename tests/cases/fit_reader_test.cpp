@@ -4,7 +4,7 @@
 #include "cases/readers/study_reader.hpp"
 #include "tests/cases/scratch.hpp"
 
-namespace dielast::cases {
+namespace dielast::cases::fit_reader_test {
 namespace {
 
 class FitReader : public test::ScratchTest {
@@ -222,4 +222,4 @@ TEST_F(FitReader, RunsAndStudiesRefuseAFit) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::fit_reader_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace dielast::cases {
+namespace dielast::cases::fit_solver_test {
 namespace {
 
 using materials::Gent;
@@ -266,4 +266,4 @@ TEST(FitStatistics, OnlyTheSumOfTwoIsKnown) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::fit_solver_test

@@ -3,7 +3,7 @@
 
 #include <set>
 
-namespace dielast::test {
+namespace dielast::test::folders_test {
 namespace {
 
 /// What the folders of results hold, and whose they are.
@@ -151,4 +151,4 @@ TEST_F(Folders, WhatIsMissingOfAFinishedRunIsMadeAgain) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::folders_test

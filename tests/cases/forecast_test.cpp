@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::cases {
+namespace dielast::cases::forecast_test {
 namespace {
 
 TEST(Forecast, SpeaksAfterHalfAMinuteAndWheneverTheTimeHasDoubled) {
@@ -27,4 +27,4 @@ TEST(Forecast, TellsNoTimeOfAStepThatDoesNotMove) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::forecast_test

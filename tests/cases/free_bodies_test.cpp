@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::free_bodies_test {
 namespace {
 
 class FreeBodies : public FilmCases {};
@@ -104,4 +104,4 @@ kind = "weight"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::free_bodies_test

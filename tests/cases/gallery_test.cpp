@@ -5,7 +5,7 @@
 #include "tests/cases/command.hpp"
 #include "tests/cases/gallery_files.hpp"
 
-namespace dielast::test {
+namespace dielast::test::gallery_test {
 namespace {
 
 std::string test_name(const testing::TestParamInfo<std::string>& file) { return word_of(file.param); }
@@ -50,4 +50,4 @@ TEST_P(GalleryStudy, IsValid) {
 INSTANTIATE_TEST_SUITE_P(Gallery, GalleryStudy, testing::ValuesIn(gallery_files(true)), test_name);
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::gallery_test

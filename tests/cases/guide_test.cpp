@@ -5,7 +5,7 @@
 
 // docs/guide.md, read as a user does: its files are written, its commands run, and what it shows of their
 // output is there.
-namespace dielast::test {
+namespace dielast::test::guide_test {
 namespace {
 
 class Guide : public CommandTest {
@@ -75,4 +75,4 @@ TEST_F(Guide, EveryCommandDoesWhatItSays) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::guide_test

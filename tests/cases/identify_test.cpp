@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace dielast::cases {
+namespace dielast::cases::identify_test {
 namespace {
 
 const std::string stack = R"toml(
@@ -373,4 +373,4 @@ TEST_F(Identify, RefusesTestsThatTheCaseCannotAnswer) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::identify_test

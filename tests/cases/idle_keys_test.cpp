@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace dielast::cases {
+namespace dielast::cases::idle_keys_test {
 namespace {
 
 const std::string film = R"(
@@ -330,4 +330,4 @@ TEST_F(IdleKeys, TheGalleryHasNone) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::idle_keys_test

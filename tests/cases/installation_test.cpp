@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
-namespace dielast::test {
+namespace dielast::test::installation_test {
 namespace {
 
 class Installation : public CommandTest {};
@@ -26,4 +26,4 @@ TEST_F(Installation, WorksInAnyPlace) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::installation_test

@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace dielast::test {
+namespace dielast::test::interrupt_test {
 namespace {
 
 class Interrupt : public CommandTest {
@@ -180,4 +180,4 @@ TEST_F(Interrupt, ResumingAFinishedRunRepeatsIt) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::interrupt_test

@@ -8,7 +8,7 @@
 
 // Electrodes that are isolated and leak, or charge through a resistance.
 
-namespace dielast::cases {
+namespace dielast::cases::leak_test {
 namespace {
 
 class Leak : public FilmCases {};
@@ -327,4 +327,4 @@ TEST_F(Leak, ASourceThatJumpsGivesAllOfTheChargeAtItsNewVoltage) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::leak_test

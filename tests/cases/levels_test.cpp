@@ -3,7 +3,7 @@
 
 // Levels of a drive: ramps that say where they lead.
 
-namespace dielast::cases {
+namespace dielast::cases::levels_test {
 namespace {
 
 using Levels = FilmCases;
@@ -45,4 +45,4 @@ TEST_F(Levels, may_be_of_one_electrode) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::levels_test

@@ -11,7 +11,7 @@
 // The truth is the path by arclength from the beginning of the last step; where a chamber is closed, of which
 // arclength knows nothing, many more increments.
 
-namespace dielast::cases {
+namespace dielast::cases::limit_paths_test {
 namespace {
 
 /// A device and its loads; the last step is what is looked at.
@@ -237,4 +237,4 @@ TEST_F(LimitPaths, of_devices_end_where_they_end_whatever_the_increments) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::limit_paths_test

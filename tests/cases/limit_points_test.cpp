@@ -10,7 +10,7 @@
 // depend on the number of increments. The truth comes from the path itself, walked through in the stretch,
 // and where dashpots flow in time from an integration of its own.
 
-namespace dielast::cases {
+namespace dielast::cases::limit_points_test {
 namespace {
 
 constexpr double thickness = 1e-3, side = 1e-2, permittivity = 4e-11;
@@ -275,4 +275,4 @@ TEST_F(LimitPoints, of_random_films_are_found_whatever_the_increments) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::limit_points_test

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace dielast::test {
+namespace dielast::test::long_runs_test {
 namespace {
 
 class LongRuns : public CommandTest {
@@ -89,4 +89,4 @@ TEST_F(LongRuns, LimitPointOfTheActuator) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::long_runs_test

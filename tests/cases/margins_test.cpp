@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::margins_test {
 namespace {
 
 class Margins : public test::ScratchTest {
@@ -275,4 +275,4 @@ TEST_F(Margins, TensionEndsWhereFilmLeavesItsPlane) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::margins_test

@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::measurement_test {
 namespace {
 
 /// A small disc as clamped at 5 kV, every kind of quantity read at a deformation of our choice.
@@ -190,4 +190,4 @@ since = "voltage"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::measurement_test

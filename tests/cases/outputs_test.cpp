@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <regex>
 
-namespace dielast::test {
+namespace dielast::test::outputs_test {
 namespace {
 
 class Outputs : public CommandTest {
@@ -365,4 +365,4 @@ TEST_F(Outputs, ASecondRunReplacesTheFirst) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::outputs_test

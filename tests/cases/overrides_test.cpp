@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
-namespace dielast::test {
+namespace dielast::test::overrides_test {
 namespace {
 
 class OverrideCommand : public CommandTest {
@@ -80,4 +80,4 @@ TEST_F(OverrideCommand, WrongOnesAreReportedByTheirOwnWords) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::overrides_test

@@ -15,7 +15,7 @@
 #include <map>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::parts_test {
 namespace {
 
 class Parts : public test::CaseTest {
@@ -397,4 +397,4 @@ TEST_F(Parts, TiesJoinNodesThatCoincide) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::parts_test

@@ -11,7 +11,7 @@
 
 // The patch device against closed forms and independent integrations of material points, through case files.
 
-namespace dielast::cases {
+namespace dielast::cases::patch_validation_test {
 namespace {
 
 constexpr double mu = 45e3, permittivity = 4e-11, thickness = 1e-3;
@@ -286,4 +286,4 @@ relaxation_time = "2 s"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::patch_validation_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::paths_test {
 namespace {
 
 /// A free film of a Gent material that pulls in under a dead stress of mu: at 12516.7 V and stretch 1.781.
@@ -284,4 +284,4 @@ TEST_F(Paths, AThinCantileverNeedsNoKeysOfTheSolver) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::paths_test

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace dielast::cases {
+namespace dielast::cases::rational_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -202,4 +202,4 @@ TEST_F(RationalFile, TellsWhatIsWrong) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::rational_test

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace dielast::cases {
+namespace dielast::cases::reader_test {
 namespace {
 
 const std::filesystem::path valid = std::filesystem::path(DIELAST_SOURCE_DIR) / "tests/cases/valid";
@@ -344,4 +344,4 @@ TEST(Reader, ChecksStayWhereOnlyTheWayThereIsSet) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::reader_test

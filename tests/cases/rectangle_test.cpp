@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::rectangle_test {
 namespace {
 
 constexpr double mu = 40e3, permittivity = 4 * 8.8541878128e-12, thickness = 1e-3, prestretch = 2;
@@ -137,4 +137,4 @@ TEST_F(RectangleTest, HasCoarserMeshes) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::rectangle_test

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <set>
 
-namespace dielast::cases {
+namespace dielast::cases::regions_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -266,4 +266,4 @@ TEST_F(Regions, TheResponseOfATiltIsItsSlope) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::regions_test

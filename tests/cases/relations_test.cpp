@@ -14,7 +14,7 @@
 #include <numbers>
 #include <random>
 
-namespace dielast::cases {
+namespace dielast::cases::relations_test {
 namespace {
 
 /// Random cases that one device answers in two ways: what is true of one must be true of the other. Seeds are
@@ -245,4 +245,4 @@ TEST_F(Relations, AHarmonicResponseIsThatOfASmallSine) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::relations_test

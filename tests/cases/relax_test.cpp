@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::relax_test {
 namespace {
 
 const std::string film =
@@ -395,4 +395,4 @@ branch = [{ shear_modulus = "30 MPa", relaxation_time = "1 s" }]
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::relax_test

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace dielast::test {
+namespace dielast::test::responses_test {
 namespace {
 
 /// Planar actuators have radii and distances instead of strokes.
@@ -241,4 +241,4 @@ TEST_F(Responses, OfAPointIsItsSlope) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::responses_test

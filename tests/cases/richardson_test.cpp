@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace dielast::cases {
+namespace dielast::cases::richardson_test {
 namespace {
 
 /// exact + size^order, with a field that is as steep at its extreme as the error says.
@@ -102,4 +102,4 @@ TEST(ErrorEstimate, OfWhatIsNotKnownIsNone) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::richardson_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-namespace dielast::cases {
+namespace dielast::cases::rods_test {
 namespace {
 
 class Rods : public test::CaseTest {};
@@ -153,4 +153,4 @@ TEST_F(Rods, AnElectrodeLongerThanTheRodIsRefused) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::rods_test

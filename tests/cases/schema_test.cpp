@@ -17,7 +17,7 @@
 #include <regex>
 #include <set>
 
-namespace dielast::cases {
+namespace dielast::cases::schema_test {
 namespace {
 
 void visit_sections(const Section& section, const std::string& path,
@@ -309,4 +309,4 @@ TEST(JsonSchema, RefusesWhatTheLanguageDoesNotKnow) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::schema_test

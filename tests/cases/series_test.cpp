@@ -17,7 +17,7 @@
 #include <map>
 #include <set>
 
-namespace dielast::test {
+namespace dielast::test::series_test {
 namespace {
 
 /// What ParaView sees of a run, read by VTK's own readers.
@@ -175,4 +175,4 @@ TEST_F(Series, PartsAreNumbered) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::series_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::shell_layers_test {
 namespace {
 
 /// A strip along x that is clamped at its left end, in plane strain; `film` and `layers` as they are written.
@@ -195,4 +195,4 @@ along = "z"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::shell_layers_test

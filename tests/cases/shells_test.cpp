@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::shells_test {
 namespace {
 
 constexpr double radius = 0.1, thickness = 1e-3, modulus = 1e5, density = 1000,
@@ -382,4 +382,4 @@ TEST_F(Paths, a_ring_that_resists_bending_carries_a_plate) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::shells_test

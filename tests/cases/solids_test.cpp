@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::solids_test {
 namespace {
 
 constexpr double mu = 40e3, eps = 4e-11;
@@ -388,4 +388,4 @@ TEST_F(Solids, what_is_held_everywhere_is_told_to_have_no_pressures) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::solids_test

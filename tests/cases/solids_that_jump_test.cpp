@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace dielast::cases {
+namespace dielast::cases::solids_that_jump_test {
 namespace {
 
 constexpr double jump = 4e-6;         ///< s
@@ -85,4 +85,4 @@ TEST_F(SolidsThatJump, fields_follow_voltages_and_charges_that_jump) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::solids_that_jump_test

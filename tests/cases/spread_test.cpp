@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::spread_test {
 namespace {
 
 class Spread : public test::CaseTest {};
@@ -203,4 +203,4 @@ kind = "natural frequency"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::spread_test

@@ -5,7 +5,7 @@
 
 // What a step leaves to the one that follows it.
 
-namespace dielast::cases {
+namespace dielast::cases::step_order_test {
 namespace {
 
 using StepOrder = FilmCases;
@@ -156,4 +156,4 @@ of = "kinetic"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::step_order_test

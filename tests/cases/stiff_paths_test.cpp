@@ -8,7 +8,7 @@
 // Transients in which something flows much faster than the smallest increment lasts, and in which what has no
 // mass follows what has one.
 
-namespace dielast::cases {
+namespace dielast::cases::stiff_paths_test {
 namespace {
 
 class StiffPaths : public Paths {
@@ -205,4 +205,4 @@ kind = "voltage"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::stiff_paths_test

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace dielast::cases {
+namespace dielast::cases::strips_test {
 namespace {
 
 const std::string stack = R"toml(
@@ -195,4 +195,4 @@ TEST_F(Strips, AStackOfShellsPullsLikeTheMembrane) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::strips_test

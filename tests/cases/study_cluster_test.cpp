@@ -6,7 +6,7 @@
 
 // A study's points as a job array: sbatch and squeue are scripts of the test that run the tasks on this
 // machine.
-namespace dielast::test {
+namespace dielast::test::study_cluster_test {
 namespace {
 
 class StudyOnCluster : public CommandTest {
@@ -78,4 +78,4 @@ TEST_F(StudyOnCluster, PointsMayBeNamed) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::study_cluster_test

@@ -4,7 +4,7 @@
 #include <map>
 #include <regex>
 
-namespace dielast::test {
+namespace dielast::test::study_command_test {
 namespace {
 
 TEST_F(StudyCommand, RunsEveryPointOfTheGrid) {
@@ -259,4 +259,4 @@ TEST_F(StudyCommand, CrashedPointsAreRecordedAndDoNotStopTheRest) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::study_command_test

@@ -5,7 +5,7 @@
 
 #include <regex>
 
-namespace dielast::test {
+namespace dielast::test::study_questions_test {
 namespace {
 
 using StudyQuestions = StudyCommand;
@@ -146,4 +146,4 @@ TEST_F(StudyQuestions, QuestionsWithoutAnAnswerAreToldByTheExitCode) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::study_questions_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::cases {
+namespace dielast::cases::study_test {
 namespace {
 
 const std::filesystem::path valid = std::filesystem::path(DIELAST_SOURCE_DIR) / "tests/cases/valid";
@@ -46,4 +46,4 @@ TEST(Study, PairsParametersAndDerivedKeys) {
 TEST(Study, MissingFile) { EXPECT_THROW(read_study(valid / "nowhere.toml"), FileError); }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::study_test

@@ -5,7 +5,7 @@
 
 // Supports that hold in some steps only.
 
-namespace dielast::cases {
+namespace dielast::cases::supports_test {
 namespace {
 
 constexpr double modulus = 40e3, thickness = 1e-3, width = 20e-3;
@@ -380,4 +380,4 @@ TEST_F(Supports, ThatHoldTheFilmAreNotBlamedForASpring) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::supports_test

@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <regex>
 
-namespace dielast::test {
+namespace dielast::test::terminal_test {
 namespace {
 
 /// What becomes of a run when its terminal, its streams or its user go away.
@@ -131,4 +131,4 @@ TEST_F(Terminal, ProgressAndResultsSpeakAlike) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::terminal_test

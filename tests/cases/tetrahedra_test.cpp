@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::tetrahedra_test {
 namespace {
 
 constexpr double mu = 40e3, eps = 4e-11;
@@ -299,4 +299,4 @@ TEST_F(Tetrahedra, filled_surface_pulls_as_the_closed_form) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::tetrahedra_test

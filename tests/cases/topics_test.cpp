@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <regex>
 
-namespace dielast::test {
+namespace dielast::test::topics_test {
 namespace {
 
 class Topics : public CommandTest {};
@@ -237,4 +237,4 @@ TEST_F(Topics, LongTextsGoThroughThePagerOnATerminal) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::topics_test

@@ -9,7 +9,7 @@
 
 // Bodies that turn more than once, and bars whose sections turn.
 
-namespace dielast::cases {
+namespace dielast::cases::turns_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, length = 50e-3;
@@ -235,4 +235,4 @@ TEST_F(Turns, of_a_bar_that_winds_and_unwinds_keep_their_energy) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::turns_test

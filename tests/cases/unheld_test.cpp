@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::unheld_test {
 namespace {
 
 class Unheld : public Paths {};
@@ -118,4 +118,4 @@ TEST_F(Unheld, LinesThatAreNotJoinedToTheFilmAreTold) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::unheld_test

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace dielast::cases {
+namespace dielast::cases::units_test {
 namespace {
 
 struct Written {
@@ -120,4 +120,4 @@ TEST(Units, IndependentOfTheLocale) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::units_test

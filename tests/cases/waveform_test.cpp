@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::waveform_test {
 namespace {
 
 using Kind = Waveform::Kind;
@@ -106,4 +106,4 @@ TEST(Waveform, AffineMapsEveryForm) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::waveform_test

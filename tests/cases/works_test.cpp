@@ -16,7 +16,7 @@
 // an independent integration: every wave, jumps, kinks beside the ends of increments, dashpots, circuits,
 // leaks, given charges.
 
-namespace dielast::cases {
+namespace dielast::cases::works_test {
 namespace {
 
 using test::PatchOracle, test::SheetOracle;
@@ -377,4 +377,4 @@ TEST_F(Works, of_random_transients_agree_with_an_independent_integration) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::works_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace dielast::fem {
+namespace dielast::fem::assembler_test {
 namespace {
 
 /// Film and walls of a honeycomb; some unknowns are held.
@@ -141,4 +141,4 @@ TEST(Assembler, an_unknown_without_elements_has_a_zero_diagonal) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::assembler_test

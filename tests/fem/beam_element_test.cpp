@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::beam_element_test {
 namespace {
 
 struct Kind {
@@ -233,4 +233,4 @@ TEST(Beam, samples_tell_section_forces_and_the_strain_of_the_outermost_fibre) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::beam_element_test

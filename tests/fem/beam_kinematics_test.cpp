@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::beam_kinematics_test {
 namespace {
 
 using Dual11 = materials::Dual<11>;
@@ -82,4 +82,4 @@ TEST(BeamKinematics, circular_arc_has_its_curvature) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::beam_kinematics_test

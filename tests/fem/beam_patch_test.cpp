@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::beam_patch_test {
 namespace {
 
 /// Cantilever of unit length along x, clamped at the first node, four unequal elements, with a dead load at
@@ -87,4 +87,4 @@ TEST_P(BeamPatch, small_transverse_load) {
 INSTANTIATE_TEST_SUITE_P(Order, BeamPatch, ::testing::Values(1, 2), ::testing::PrintToStringParamName());
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::beam_patch_test

@@ -11,7 +11,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::bordered_tangent_test {
 namespace {
 
 int negative_eigenvalues(const Eigen::MatrixXd& symmetric) {
@@ -144,4 +144,4 @@ TEST(BorderedTangent, shifts_a_film_at_pull_in) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::bordered_tangent_test

@@ -8,7 +8,7 @@
 
 #include <stdexcept>
 
-namespace dielast::fem {
+namespace dielast::fem::cable_block_test {
 namespace {
 
 /// Three cables in space, straight or bent where they have a node between their ends.
@@ -116,4 +116,4 @@ TEST(Cable, OfNoLengthIsRejected) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::cable_block_test

@@ -14,7 +14,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::chamber_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -327,4 +327,4 @@ TEST(Chamber, a_lid_carries_pressure_times_its_area) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::chamber_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::charge_control_test {
 namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
@@ -89,4 +89,4 @@ TEST(ChargeControl, gives_back_the_states_of_voltage_control_when_two_electrodes
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::charge_control_test

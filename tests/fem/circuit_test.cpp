@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::circuit_test {
 namespace {
 
 constexpr double side = 0.01, resistance = 1e9, source = 5e3; ///< m, Ohm, V
@@ -174,4 +174,4 @@ TEST(Circuit, the_source_pays_for_the_film_the_resistance_and_the_leak) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::circuit_test

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace dielast::fem {
+namespace dielast::fem::continuation_test {
 namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
@@ -135,4 +135,4 @@ TEST(Continuation, follows_a_free_film_past_pull_in) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::continuation_test

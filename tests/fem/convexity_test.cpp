@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::convexity_test {
 namespace {
 
 class Convexity : public ::testing::TestWithParam<bool> {};
@@ -55,4 +55,4 @@ TEST_P(Convexity, is_told_of_positive_definite_tangents_only) {
 INSTANTIATE_TEST_SUITE_P(Films, Convexity, ::testing::Values(true, false));
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::convexity_test

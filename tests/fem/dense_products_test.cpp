@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace dielast::fem {
+namespace dielast::fem::dense_products_test {
 namespace {
 
 template<class Real>
@@ -81,4 +81,4 @@ TYPED_TEST(DenseProducts, what_is_not_positive_definite_is_told) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::dense_products_test

@@ -9,7 +9,7 @@
 
 #include <stdexcept>
 
-namespace dielast::fem {
+namespace dielast::fem::distance_block_test {
 namespace {
 
 const meshing::Mesh mesh = test::distorted_square(2, 1, 0.1);
@@ -51,4 +51,4 @@ TEST(DistanceBlock, a_spring_without_an_end_is_rejected) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::distance_block_test

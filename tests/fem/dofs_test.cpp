@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::dofs_test {
 namespace {
 
 TEST(DofMap, free_unknowns_come_first_in_the_order_of_the_nodes_then_held_ones) {
@@ -183,4 +183,4 @@ TEST(DofMap, tilts_turn_with_the_node_and_never_about_the_director) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::dofs_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::energy_balance_test {
 namespace {
 
 Conjugates pair(double force, double coordinate) {
@@ -281,4 +281,4 @@ TEST(EnergyBalance, goes_on_from_its_record) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::energy_balance_test

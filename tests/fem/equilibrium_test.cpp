@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::equilibrium_test {
 namespace {
 
 /// Film strip of 10 mm side whose width is kept (pure shear), pulled along x by dead forces on its right
@@ -129,4 +129,4 @@ TEST(Column, without_a_support_finds_no_equilibrium) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::equilibrium_test

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::face_contact_block_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -209,4 +209,4 @@ TEST(FaceEnds, AreNotWhereTheSurfaceGoesOnMirrored) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::face_contact_block_test

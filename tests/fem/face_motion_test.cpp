@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::face_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -127,4 +127,4 @@ TEST(FaceMotion, keeps_edges_of_surfaces_in_contact_apart) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::face_motion_test

@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::film_mass_test {
 namespace {
 
 /// Twice the kinetic energy of the velocities v(X), J.
@@ -69,4 +69,4 @@ TEST(FilmMass, of_meridians_is_exact_for_linear_velocities) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::film_mass_test

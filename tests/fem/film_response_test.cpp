@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-namespace dielast::fem {
+namespace dielast::fem::film_response_test {
 namespace {
 
 constexpr double side = 0.01;
@@ -204,4 +204,4 @@ TEST(Charges, are_the_derivatives_of_the_energy_in_the_voltage) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::film_response_test

@@ -6,7 +6,7 @@
 #include "tests/fem/diaphragm.hpp"
 #include "tests/fem/sample_meshes.hpp"
 
-namespace dielast::fem {
+namespace dielast::fem::harmonic_test {
 namespace {
 
 using Complex = Linearisation::Complex;
@@ -271,4 +271,4 @@ TEST(ComplexSolver, solves_and_tells_singular_matrices) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::harmonic_test

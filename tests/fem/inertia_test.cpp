@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-namespace dielast::fem {
+namespace dielast::fem::inertia_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -283,4 +283,4 @@ TEST(Inertia, what_is_stored_behind_a_jump_knows_of_the_corner) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::inertia_test

@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::instability_test {
 namespace {
 
 LoadPath voltage_path(const Model& model, double volts) {
@@ -257,4 +257,4 @@ TEST_F(EulerColumn, lowest_mode_is_that_of_the_dense_eigenproblem) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::instability_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::jump_test {
 namespace {
 
 State at_stretch(const Model& model, double J, double l) {
@@ -77,4 +77,4 @@ TEST(Jump, lets_a_column_buckle) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::jump_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::kept_factor_test {
 namespace {
 
 /// Matrices on the way from one to another of its pattern.
@@ -140,4 +140,4 @@ TEST(KeptFactor, costs_more_iterations_in_larger_matrices) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::kept_factor_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::membrane_element_test {
 namespace {
 
 struct Kind {
@@ -189,4 +189,4 @@ TEST(MembraneTriangle, an_inverted_drawing_is_rejected_by_name) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::membrane_element_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::membrane_patch_test {
 namespace {
 
 struct Kind {
@@ -91,4 +91,4 @@ INSTANTIATE_TEST_SUITE_P(All, MembranePatch,
                          name);
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::membrane_patch_test

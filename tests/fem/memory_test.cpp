@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace dielast::fem {
+namespace dielast::fem::memory_test {
 namespace {
 
 TEST(Memory, what_there_is_not_is_told_with_how_much_it_takes) {
@@ -26,4 +26,4 @@ TEST(Memory, some_is_free_on_a_machine_that_runs_this) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::memory_test

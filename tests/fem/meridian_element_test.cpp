@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::meridian_element_test {
 namespace {
 
 /// A dome of 6 elements from the radius 1.4 to the axis, middle nodes off the middle.
@@ -288,4 +288,4 @@ TEST(Meridian, degenerate_drawings_are_rejected_by_name) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::meridian_element_test

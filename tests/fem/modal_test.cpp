@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::modal_test {
 namespace {
 
 /// Prestretched disc of 10 mm undeformed radius, mu = 45 kPa, H = 1 mm, 960 kg/m^3: f = j_mn / (2 pi lp A)
@@ -276,4 +276,4 @@ TEST(VibrationModes, of_a_cantilever_of_beams_are_those_of_the_closed_form) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::modal_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::multifrontal_cholesky_test {
 namespace {
 
 /// Sizes of one panel, of a few, of many.
@@ -106,4 +106,4 @@ TEST_P(MultifrontalCholeskyOfSize, tells_what_is_not_positive_definite_wherever_
 INSTANTIATE_TEST_SUITE_P(Grids, MultifrontalCholeskyOfSize, testing::Values(3, 8, 40, 250));
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::multifrontal_cholesky_test

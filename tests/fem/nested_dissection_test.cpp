@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-namespace dielast::fem {
+namespace dielast::fem::nested_dissection_test {
 namespace {
 
 /// Squares of two 6-node triangles, `side` a side, two unknowns a node; `hub`: an equation that all join.
@@ -102,4 +102,4 @@ TEST(NestedDissection, takes_what_has_nothing_to_dissect) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::nested_dissection_test

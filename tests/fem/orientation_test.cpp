@@ -7,7 +7,7 @@
 
 #include <Eigen/QR>
 
-namespace dielast::fem {
+namespace dielast::fem::orientation_test {
 namespace {
 
 Eigen::MatrixXd orthonormal(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
@@ -62,4 +62,4 @@ TEST(Orientation, turns_only_vectors_whose_eigenvalues_coincide) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::orientation_test

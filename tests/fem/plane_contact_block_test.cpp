@@ -17,7 +17,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace dielast::fem {
+namespace dielast::fem::plane_contact_block_test {
 namespace {
 
 constexpr double mu = 45e3;
@@ -288,4 +288,4 @@ TEST(PlaneContact, film_presses_on_its_core_and_lifts_where_it_would_pull) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::plane_contact_block_test

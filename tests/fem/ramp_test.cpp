@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::ramp_test {
 namespace {
 
 /// Free square film under voltage: pull-in at the equal-biaxial stretch 2^(1/3).
@@ -169,4 +169,4 @@ TEST(Ramp, closes_in_on_a_bifurcation) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::ramp_test

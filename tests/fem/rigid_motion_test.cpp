@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::rigid_motion_test {
 namespace {
 
 /// One honeycomb cell: prestretched, charged film and walls that share their nodes; element order and
@@ -95,4 +95,4 @@ TEST(CurvedBeam, rigid_motion_makes_no_stress) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::rigid_motion_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::rod_test {
 namespace {
 
 constexpr double width = 0.1; // m
@@ -134,4 +134,4 @@ TEST(Rod, ItsBranchesRelaxAsACylinderDoes) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::rod_test

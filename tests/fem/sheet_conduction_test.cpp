@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::sheet_conduction_test {
 namespace {
 
 /// A square film, held at its left edge, whose electrode is connected at the corner there.
@@ -317,4 +317,4 @@ TEST_F(ResistingFilm, must_be_connected) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::sheet_conduction_test

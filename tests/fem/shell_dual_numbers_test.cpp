@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::shell_dual_numbers_test {
 namespace {
 
 using test::dome;
@@ -212,4 +212,4 @@ TEST(Shell, energy_residual_and_tangent_equal_dual_numbers) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::shell_dual_numbers_test

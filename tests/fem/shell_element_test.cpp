@@ -11,7 +11,7 @@
 #include <cmath>
 #include <set>
 
-namespace dielast::fem {
+namespace dielast::fem::shell_element_test {
 namespace {
 
 using test::dome;
@@ -246,4 +246,4 @@ TEST(Shell, one_element_has_the_six_rigid_motions_and_no_other_modes_without_ene
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::shell_element_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::snap_in_time_test {
 namespace {
 
 constexpr double side = 0.01, modulus = 45e3, stretch_limit = 100;
@@ -91,4 +91,4 @@ TEST(SnapInTime, the_film_rings_about_the_far_branch_and_comes_to_rest_there) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::snap_in_time_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::solid_element_test {
 namespace {
 
 /// Curved triangles on the unit square, in the plane of the model, off the axis.
@@ -122,4 +122,4 @@ TEST(Solid, column_buckles_at_eulers_loads) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::solid_element_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <map>
 
-namespace dielast::fem {
+namespace dielast::fem::solid_orders_test {
 namespace {
 
 constexpr double A = 1, B = 2, inner = 1.3, mu = 45e3;
@@ -130,4 +130,4 @@ TEST(SolidOrders, tetrahedra) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::solid_orders_test

@@ -9,7 +9,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::state_space_test {
 namespace {
 
 /// The controlled diaphragm: 100 g, damped, 4.5 ms circuit, 0.1 Hz to 50 Hz.
@@ -179,4 +179,4 @@ TEST(BalancedTruncation, keeps_what_is_reached_and_seen) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::state_space_test

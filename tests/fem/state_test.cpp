@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::state_test {
 namespace {
 
 TEST(Rotation, spin_of_inverts_rotation_of) {
@@ -140,4 +140,4 @@ TEST(Predictor, adds_nothing_to_what_is_left_in_rotations) { // those of thin sh
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::state_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::surface_contact_block_test {
 namespace {
 
 constexpr double thickness = 0.2, stiffness = 5;
@@ -147,4 +147,4 @@ TEST(SurfaceContactBlock, refuses_surfaces_with_a_common_node) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::surface_contact_block_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::surface_sliders_test {
 namespace {
 
 /// Two sides, or two faces, one above the other at a quarter of the barrier's thickness.
@@ -103,4 +103,4 @@ TEST(SurfaceSliders, slide_with_the_coefficient_times_the_force) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::surface_sliders_test

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace dielast::fem {
+namespace dielast::fem::symmetric_solver_test {
 namespace {
 
 Workers one_thread(1);
@@ -207,4 +207,4 @@ TEST(SymmetricSolver, proves_what_is_positive_definite_and_counts_what_is_not) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::symmetric_solver_test

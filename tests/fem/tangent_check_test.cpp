@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::fem {
+namespace dielast::fem::tangent_check_test {
 namespace {
 
 constexpr double side = 0.01;
@@ -97,4 +97,4 @@ TEST(TangentCheck, IsRepeatable) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::tangent_check_test

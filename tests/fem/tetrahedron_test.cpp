@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::tetrahedron_test {
 namespace {
 
 meshing::Mesh drawn_out(const meshing::Mesh& drawing, const std::vector<double>& levels) {
@@ -229,4 +229,4 @@ TEST(Tetrahedron, mass_is_consistent) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::tetrahedron_test

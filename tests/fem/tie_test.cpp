@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::tie_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -317,4 +317,4 @@ TEST(Tie, lets_a_plate_on_a_film_tilt) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::tie_test

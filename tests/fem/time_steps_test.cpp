@@ -10,7 +10,7 @@
 #include <cmath>
 #include <map>
 
-namespace dielast::fem {
+namespace dielast::fem::time_steps_test {
 namespace {
 
 /// A free square film of a Gent spring beside a Gent branch (Zhao, Koh & Suo 2011), mu_a = mu_b = 22.5 kPa,
@@ -141,4 +141,4 @@ TEST_F(CreepingFilm, without_time_it_answers_at_once_or_relaxed) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::time_steps_test

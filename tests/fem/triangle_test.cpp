@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace dielast::fem {
+namespace dielast::fem::triangle_test {
 namespace {
 
 constexpr std::array<std::array<double, 2>, 6> places{
@@ -70,4 +70,4 @@ TEST(ShapeFunctions, are_one_at_their_node_and_gradients_are_their_derivatives) 
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::triangle_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::wall_contact_block_test {
 namespace {
 
 constexpr double width = 0.3, thickness = 0.2;
@@ -154,4 +154,4 @@ TEST(WallContactBlock, way_ends_before_faces_meet) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::wall_contact_block_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace dielast::fem {
+namespace dielast::fem::wall_contact_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -132,4 +132,4 @@ TEST_F(Walls, ABeamsDirectionDoesNotMatter) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::wall_contact_test

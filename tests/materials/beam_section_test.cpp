@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace dielast::materials {
+namespace dielast::materials::beam_section_test {
 namespace {
 
 constexpr ElasticSolid tpu{.youngs_modulus = 78e6, .poisson_ratio = 0.36, .yield_strain = 0.55};
@@ -66,4 +66,4 @@ TEST(TwoFacedSection, bars_on_either_face_bend_as_one_and_twist_one_by_one) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::beam_section_test

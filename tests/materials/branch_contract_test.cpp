@@ -2,7 +2,7 @@
 #include "materials/branches/branch.hpp"
 #include "tests/materials/law_examples.hpp"
 
-namespace dielast::materials::test {
+namespace dielast::materials::test::branch_contract_test {
 namespace {
 
 /// A branch of every law with both dashpots. The relaxation time is 2 s.
@@ -155,4 +155,4 @@ TYPED_TEST(BranchContract, power_balances_what_a_held_branch_loses) {
 }
 
 } // namespace
-} // namespace dielast::materials::test
+} // namespace dielast::materials::test::branch_contract_test

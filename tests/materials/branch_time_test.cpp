@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace dielast::materials {
+namespace dielast::materials::branch_time_test {
 namespace {
 
 /// A film that is pulled along axes which turn.
@@ -126,4 +126,4 @@ TEST(BranchTime, packs_of_the_closed_form_compute_what_single_numbers_do) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::branch_time_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-namespace dielast::materials {
+namespace dielast::materials::catalog_test {
 namespace {
 
 TEST(Catalog, every_film_says_where_its_numbers_come_from_and_can_be_stretched) {
@@ -39,4 +39,4 @@ TEST(Catalog, every_solid_says_where_its_numbers_come_from) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::catalog_test

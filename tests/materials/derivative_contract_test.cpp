@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace dielast::materials::test {
+namespace dielast::materials::test::derivative_contract_test {
 namespace {
 
 enum class Time { frozen, backward_euler, bdf2, relaxed };
@@ -233,4 +233,4 @@ TYPED_TEST(DerivativeContract, solid) {
 }
 
 } // namespace
-} // namespace dielast::materials::test
+} // namespace dielast::materials::test::derivative_contract_test

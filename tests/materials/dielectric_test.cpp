@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace dielast::materials {
+namespace dielast::materials::dielectric_test {
 namespace {
 
 TEST(Dielectric, ideal_film_has_the_capacitance_of_its_area_squared) {
@@ -43,4 +43,4 @@ TEST(Dielectric, breakdown_field_follows_a_power_of_the_equal_biaxial_stretch) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::dielectric_test

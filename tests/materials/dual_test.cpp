@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::materials {
+namespace dielast::materials::dual_test {
 namespace {
 
 using Dual2 = Dual<2>;
@@ -50,4 +50,4 @@ TEST_F(DualTest, functions_of_a_product) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::dual_test

@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace dielast::materials::test {
+namespace dielast::materials::test::elastic_law_contract_test {
 namespace {
 
 template<class Law>
@@ -167,4 +167,4 @@ TEST(Ogden, tells_what_is_wrong_with_its_lists) {
 }
 
 } // namespace
-} // namespace dielast::materials::test
+} // namespace dielast::materials::test::elastic_law_contract_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dielast::materials {
+namespace dielast::materials::material_point_test {
 namespace {
 
 /// A material point that remembers its steps of time, from rest at t = 0.
@@ -222,4 +222,4 @@ TEST(MaterialPoint, a_dashpot_beside_the_law_is_a_newtonian_liquid) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::material_point_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dielast::materials {
+namespace dielast::materials::power_sum_test {
 namespace {
 
 /// y on both sides of where the series ends, and up to where one of the principal values vanishes.
@@ -40,4 +40,4 @@ TEST(PowerSum, negative_and_half_exponents_have_closed_forms) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::power_sum_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::materials {
+namespace dielast::materials::pull_in_test {
 namespace {
 
 /// Closed forms of the neo-Hookean ideal dielectric film (Zhao & Suo 2007, Appl. Phys. Lett. 91, 061921); mu
@@ -67,4 +67,4 @@ TEST(PullIn, clamped_film_loses_its_tension) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::pull_in_test

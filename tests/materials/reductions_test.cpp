@@ -4,7 +4,7 @@
 #include "materials/material_point.hpp"
 #include "tests/materials/law_examples.hpp"
 
-namespace dielast::materials::test {
+namespace dielast::materials::test::reductions_test {
 namespace {
 
 template<class Law>
@@ -104,4 +104,4 @@ TEST(ArrudaBoyceLaw, of_long_chains_is_the_neo_hookean_law) {
 }
 
 } // namespace
-} // namespace dielast::materials::test
+} // namespace dielast::materials::test::reductions_test

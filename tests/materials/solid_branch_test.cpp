@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace dielast::materials::test {
+namespace dielast::materials::test::solid_branch_test {
 namespace {
 
 using Vector6 = Eigen::Vector<double, 6>;
@@ -207,4 +207,4 @@ TYPED_TEST(SolidBranch, nominal_dashpots_are_refused) {
 }
 
 } // namespace
-} // namespace dielast::materials::test
+} // namespace dielast::materials::test::solid_branch_test

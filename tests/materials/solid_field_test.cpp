@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::materials {
+namespace dielast::materials::solid_field_test {
 namespace {
 
 using Dual9 = Dual<9>; // C11, C22, C33, C12, C23, C13, E1, E2, E3
@@ -61,4 +61,4 @@ TEST(SolidField, FieldHasTheDerivativesOfDualNumbers) {
 }
 
 } // namespace
-} // namespace dielast::materials
+} // namespace dielast::materials::solid_field_test

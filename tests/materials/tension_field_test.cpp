@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace dielast::materials::test {
+namespace dielast::materials::test::tension_field_test {
 namespace {
 
 /// Film of every law, alone or beside a branch of the same law, charged or not.
@@ -217,4 +217,4 @@ TEST(TensionField, wrinkles_next_to_the_stretch_limit_too) {
 }
 
 } // namespace
-} // namespace dielast::materials::test
+} // namespace dielast::materials::test::tension_field_test

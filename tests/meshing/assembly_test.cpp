@@ -21,7 +21,7 @@
 #include <tuple>
 #include <vector>
 
-namespace dielast::meshing {
+namespace dielast::meshing::assembly_test {
 namespace {
 
 Mesh pair_of_patches(double gap) {
@@ -213,4 +213,4 @@ TEST(GmshText, IsTheMeshAgain) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::assembly_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dielast::meshing {
+namespace dielast::meshing::bars_test {
 namespace {
 
 TEST(Line, HasEqualElementsFromStartToEnd) {
@@ -36,4 +36,4 @@ TEST(Rolls, HingeRibbonsAndRollsMeetWhereTheyShould) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::bars_test

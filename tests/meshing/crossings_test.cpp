@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-namespace dielast::meshing {
+namespace dielast::meshing::crossings_test {
 namespace {
 
 using Motion = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
@@ -105,4 +105,4 @@ TEST(FilmSurface, of_parts_that_stand_apart_as_drawn_may_cross) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::crossings_test

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace dielast::meshing {
+namespace dielast::meshing::gmsh_reader_test {
 namespace {
 
 /// A unit square of two triangles, the second one clockwise; line "rim" at the bottom, point "corner", and a
@@ -264,4 +264,4 @@ TEST_F(GmshReader, NamesTheMissingFile) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::gmsh_reader_test

@@ -12,7 +12,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace dielast::meshing {
+namespace dielast::meshing::honeycomb_mesh_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -195,4 +195,4 @@ TEST(HoneycombMesh, RejectsDensitiesOutOfRange) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::honeycomb_mesh_test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace dielast::meshing {
+namespace dielast::meshing::honeycomb_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -108,4 +108,4 @@ TEST(Honeycomb, RejectsImpossibleShapes) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::honeycomb_test

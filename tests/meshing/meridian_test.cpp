@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace dielast::meshing {
+namespace dielast::meshing::meridian_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -148,4 +148,4 @@ TEST(Meridian, ARollHasItsElectrodeInTheMiddle) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::meridian_test

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace dielast::meshing {
+namespace dielast::meshing::patch_test {
 namespace {
 
 TEST(Patch, IsARectangleWithNamedSides) {
@@ -71,4 +71,4 @@ TEST(Strip, HasNodesAlongItsElectrodeAndIsItsOwnMirrorImage) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::patch_test

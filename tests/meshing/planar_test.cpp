@@ -6,7 +6,7 @@
 
 #include <set>
 
-namespace dielast::meshing {
+namespace dielast::meshing::planar_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -69,4 +69,4 @@ TEST(Planar, RejectsAnOutlineThatCrossesItself) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::planar_test

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace dielast::meshing {
+namespace dielast::meshing::quality_test {
 namespace {
 
 /// A right-angled triangle with legs 3 mm and 4 mm, and one with 1 mm and 1 mm beside it.
@@ -138,4 +138,4 @@ TEST(Quality, IsReadable) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::quality_test

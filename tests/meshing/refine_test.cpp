@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace dielast::meshing {
+namespace dielast::meshing::refine_test {
 namespace {
 
 double area_of(const Mesh& mesh) {
@@ -83,4 +83,4 @@ TEST(Refined, CurvedSidesKeepTheirCurve) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::refine_test

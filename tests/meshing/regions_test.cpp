@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace dielast::meshing {
+namespace dielast::meshing::regions_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -178,4 +178,4 @@ TEST(Regions, NeedNamesOfTheirOwn) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::regions_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace dielast::meshing {
+namespace dielast::meshing::rings_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -120,4 +120,4 @@ TEST(Rings, RejectWhatCannotBeDrawn) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::rings_test

@@ -11,7 +11,7 @@
 #include <functional>
 #include <numeric>
 
-namespace dielast::meshing {
+namespace dielast::meshing::shares_test {
 namespace {
 
 /// The mean of a function over a place.
@@ -123,4 +123,4 @@ TEST(Shares, WhatNodesHaveInCommonIsTheProductOfTheirShapeFunctions) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::shares_test

@@ -17,7 +17,7 @@
 #include <map>
 #include <numbers>
 
-namespace dielast::meshing {
+namespace dielast::meshing::solids_test {
 namespace {
 
 TEST(GradedLine, IsFineWhereItIsAskedToBe) {
@@ -169,4 +169,4 @@ TEST(Tetrahedra, KeepTheirCurveWhenRefined) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::solids_test

@@ -14,7 +14,7 @@
 #include <functional>
 #include <tuple>
 
-namespace dielast::meshing {
+namespace dielast::meshing::surface_test {
 namespace {
 
 using Triangle = std::array<int, 3>;
@@ -178,4 +178,4 @@ TEST(Surface, OfTenMillionTrianglesIsRefusedAtOnce) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::surface_test

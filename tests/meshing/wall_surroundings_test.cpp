@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::meshing {
+namespace dielast::meshing::wall_surroundings_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -98,4 +98,4 @@ TEST(WallSurroundings, ThatFillACellAreRefused) {
 }
 
 } // namespace
-} // namespace dielast::meshing
+} // namespace dielast::meshing::wall_surroundings_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace dielast::post {
+namespace dielast::post::bode_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -51,4 +51,4 @@ TEST(Bode, StartsWithinHalfATurnAndSkipsWhatHasNoPhase) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::bode_test

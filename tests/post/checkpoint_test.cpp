@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace dielast::post {
+namespace dielast::post::checkpoint_test {
 namespace {
 
 using nlohmann::json;
@@ -282,4 +282,4 @@ TEST_F(CheckpointFile, ShorterLongerOlderAndMissingOnesAreRefused) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::checkpoint_test

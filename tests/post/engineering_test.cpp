@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dielast::post {
+namespace dielast::post::engineering_test {
 
 TEST(Engineering, ChoosesThePrefixThatReadsBetweenOneAndThousand) {
   EXPECT_EQ(engineering(8.497e7, "V/m"), "84.97 MV/m");
@@ -42,4 +42,4 @@ TEST(Engineering, SurvivesEveryNumber) {
   EXPECT_EQ(engineering(1e-30, "m"), "1e-18 pm");
 }
 
-} // namespace dielast::post
+} // namespace dielast::post::engineering_test

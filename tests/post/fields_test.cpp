@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dielast::post {
+namespace dielast::post::fields_test {
 namespace {
 
 /// A field's values by name.
@@ -135,4 +135,4 @@ TEST(WallFields, ReadTheSample) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::fields_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <sstream>
 
-namespace dielast::post {
+namespace dielast::post::history_test {
 namespace {
 
 const std::vector<Column> columns{{"load_factor", "1"}, {"voltage", "V"}, {"length, outer", "m"}};
@@ -80,4 +80,4 @@ TEST_F(HistoryTest, ReportsAMissingDirectory) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::history_test

@@ -19,7 +19,7 @@
 #include <random>
 #include <set>
 
-namespace dielast::post {
+namespace dielast::post::picture_test {
 namespace {
 
 /// Whether no channel differs by more than rounding.
@@ -368,4 +368,4 @@ TEST(Picture, FilmInAFrameLooksAsIfItsEdgesWereSmooth) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::picture_test

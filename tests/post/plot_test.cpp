@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace dielast::post {
+namespace dielast::post::plot_test {
 namespace {
 
 bool has_gnuplot() { return std::system("command -v gnuplot > /dev/null") == 0; }
@@ -276,4 +276,4 @@ TEST(Plot, ReadingsLieOnTheDrawnPoints) {
 TEST(Plot, NothingToDraw) { EXPECT_TRUE(svgs_of({}).empty()); }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::plot_test

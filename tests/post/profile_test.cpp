@@ -9,7 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace dielast::post {
+namespace dielast::post::profile_test {
 namespace {
 
 TEST(Profile, IsACurvePerStateInMillimetres) {
@@ -49,4 +49,4 @@ TEST(Profile, RejectsWhatHasNone) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::profile_test

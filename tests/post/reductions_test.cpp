@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-namespace dielast::post {
+namespace dielast::post::reductions_test {
 namespace {
 
 fem::Samples two_points_in_cell_one() {
@@ -159,4 +159,4 @@ TEST(Reductions, EveryScalarHasOneNameThatWorks) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::reductions_test

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace dielast::post {
+namespace dielast::post::report_test {
 namespace {
 
 Report sample_report() {
@@ -170,4 +170,4 @@ TEST(ReportTables, EventsAndIncrements) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::report_test

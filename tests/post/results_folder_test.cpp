@@ -6,7 +6,7 @@
 
 #include <sys/wait.h>
 
-namespace dielast::post {
+namespace dielast::post::results_folder_test {
 namespace {
 
 class ResultsFolderTest : public ScratchTest {
@@ -187,4 +187,4 @@ TEST_F(ResultsFolderTest, AFullDiskKeepsTheOldFile) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::results_folder_test

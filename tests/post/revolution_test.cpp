@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-namespace dielast::post {
+namespace dielast::post::revolution_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -51,4 +51,4 @@ TEST(Revolution, KnowsTheCellsOfItsFacets) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::revolution_test

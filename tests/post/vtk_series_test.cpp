@@ -22,7 +22,7 @@
 #include <set>
 #include <vector>
 
-namespace dielast::post {
+namespace dielast::post::vtk_series_test {
 namespace {
 
 class VtkSeriesTest : public ScratchTest {
@@ -363,4 +363,4 @@ TEST_F(VtkSeriesTest, ContactPressuresAreThoseOfTheNodes) {
 }
 
 } // namespace
-} // namespace dielast::post
+} // namespace dielast::post::vtk_series_test

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-namespace dielast::test {
+namespace dielast::test::rooms_test {
 namespace {
 
 using Names = std::set<std::string>;
@@ -221,4 +221,4 @@ TEST(Rooms, UseNothingUnknown) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::rooms_test

@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace dielast::test {
+namespace dielast::test::sizes_test {
 namespace {
 
 const std::vector<std::string> rooms{"materials", "meshing", "fem", "post", "cases"};
@@ -28,4 +28,4 @@ TEST(Sizes, NoFolderHasMoreThan25SourceFiles) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::sizes_test

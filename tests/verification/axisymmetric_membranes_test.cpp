@@ -12,7 +12,7 @@
 
 // References: the ordinary differential equations of the film's meridian (Green & Adkins 1960, ch. IV),
 // integrated to a relative 1e-11.
-namespace dielast::fem {
+namespace dielast::fem::axisymmetric_membranes_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -232,4 +232,4 @@ TEST(AxisymmetricMembranes, a_pushed_annulus_converges_with_the_order_of_its_ele
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::axisymmetric_membranes_test

@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::balloon_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -99,4 +99,4 @@ TEST(Balloon, a_voltage_lowers_its_pressure) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::balloon_test

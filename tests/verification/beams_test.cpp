@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::beams_test {
 namespace {
 
 using Curve = Eigen::Vector3d (*)(double);
@@ -167,4 +167,4 @@ TEST(RollUp, passes_the_arcs_on_its_way) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::beams_test

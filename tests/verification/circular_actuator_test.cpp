@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::circular_actuator_test {
 namespace {
 
 /// Disc prestretched 3 x 3 and clamped, electrode of 30 mm drawn (10 mm undeformed) radius in the middle; mu
@@ -142,4 +142,4 @@ TEST(CircularActuator, edge_radius_of_given_meshes_equals_that_of_other_codes) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::circular_actuator_test

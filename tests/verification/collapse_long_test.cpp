@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::collapse_long_test {
 namespace {
 
 std::map<std::string, double> collapsed(int beams, const char* thickness) {
@@ -32,4 +32,4 @@ TEST(CollapsedHoneycomb, HasTheStrainsOfHalfTheBarrier) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::collapse_long_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::contact_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -174,4 +174,4 @@ TEST(Contact, strip_lifted_off_a_table_weighs_what_the_closed_form_says) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::contact_test

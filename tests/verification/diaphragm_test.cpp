@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::diaphragm_test {
 namespace {
 
 struct Row {
@@ -61,4 +61,4 @@ TEST(Diaphragm, of_triangles_has_the_reference_states) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::diaphragm_test

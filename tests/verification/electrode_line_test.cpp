@@ -10,7 +10,7 @@
 #include <map>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::electrode_line_test {
 namespace {
 
 constexpr double length = 0.1, resistance = 1e6;
@@ -147,4 +147,4 @@ TEST(ElectrodeLine, a_disc_connected_at_its_rim_is_one_of_bessel_functions) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::electrode_line_test

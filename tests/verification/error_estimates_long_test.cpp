@@ -6,7 +6,7 @@
 
 // The table of docs/verification.md.
 
-namespace dielast::test {
+namespace dielast::test::error_estimates_long_test {
 namespace {
 
 TEST(ErrorEstimates, HoldInFortyCases) {
@@ -18,4 +18,4 @@ TEST(ErrorEstimates, HoldInFortyCases) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::error_estimates_long_test

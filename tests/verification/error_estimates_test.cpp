@@ -5,7 +5,7 @@
 
 // Printed errors against solutions with elements and time steps four times smaller.
 
-namespace dielast::test {
+namespace dielast::test::error_estimates_test {
 namespace {
 
 TEST(ErrorEstimates, HoldInEightCases) {
@@ -17,4 +17,4 @@ TEST(ErrorEstimates, HoldInEightCases) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::error_estimates_test

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <map>
 
-namespace dielast::test {
+namespace dielast::test::golden_test {
 namespace {
 
 /// Every case of the gallery has a file of what all its quantities are at the end, at full digits:
@@ -88,4 +88,4 @@ TEST(Golden, FilesAreOfCasesThatExist) {
 }
 
 } // namespace
-} // namespace dielast::test
+} // namespace dielast::test::golden_test

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::harmonic_test {
 namespace {
 
 using Complex = Linearisation::Complex;
@@ -78,4 +78,4 @@ TEST(Harmonic, equals_the_steady_state_of_the_transient) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::harmonic_test

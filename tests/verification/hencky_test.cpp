@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::hencky_test {
 namespace {
 
 struct Row {
@@ -59,4 +59,4 @@ TEST(Hencky, a_pressed_disc_has_his_deflection_and_stresses) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::hencky_test

@@ -20,7 +20,7 @@
 //   G1 = -theta w' - theta t/2, G2 = phi w' + phi t/2, K3 = (theta phi' - phi theta')/2,
 // where t = x1 theta - x2 phi, (x1, x2) being the slope of the line in those axes, next to (1, 0).
 
-namespace dielast::fem {
+namespace dielast::fem::honeycomb_buckling_test {
 namespace {
 
 using test::Honeycomb;
@@ -201,4 +201,4 @@ TEST(HoneycombActuator, low_walls_let_it_twist_as_the_forces_in_its_plane_say) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::honeycomb_buckling_test

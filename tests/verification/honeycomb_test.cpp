@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/verification/honeycomb_model.hpp"
 
-namespace dielast::fem {
+namespace dielast::fem::honeycomb_test {
 namespace {
 
 using test::Honeycomb;
@@ -46,4 +46,4 @@ TEST(HoneycombActuator, in_space_the_flat_actuator_moves_as_in_the_plane) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::honeycomb_test

@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace dielast::cases {
+namespace dielast::cases::identify_long_test {
 namespace {
 
 TEST(Identification, IntervalsHoldTheTruth) {
@@ -38,4 +38,4 @@ TEST(Identification, IntervalsHoldTheTruth) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::identify_long_test

@@ -8,7 +8,7 @@
 
 #include "cases/readers/reader.hpp"
 
-namespace dielast::cases {
+namespace dielast::cases::identify_test {
 namespace {
 
 std::vector<std::string> assignments(const Identification& asked, const IdentifyOutcome& found) {
@@ -91,4 +91,4 @@ quantity = "stroke"
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::identify_test

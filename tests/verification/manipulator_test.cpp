@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::manipulator_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -53,4 +53,4 @@ TEST(Manipulator, SectorsAreAlikeAndSuperposeAtOneKilovolt) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::manipulator_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::roll_test {
 namespace {
 
 constexpr double unstretched = 40e-3; ///< m
@@ -146,4 +146,4 @@ TEST(Roll, StrokesForTwentyMinutesAsTheLumpedMuscle) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::roll_test

@@ -14,7 +14,7 @@
 #include <array>
 #include <cmath>
 
-namespace dielast::cases {
+namespace dielast::cases::rolls_test {
 namespace {
 
 struct Rolls {
@@ -298,4 +298,4 @@ TEST(AntagonisticRolls, BeatTheirFinAsATailThatOnlyTurnsDoes) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::rolls_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::shells_large_test {
 namespace {
 
 using std::numbers::pi;
@@ -149,4 +149,4 @@ TEST(HingedRoof, snaps_through_its_limit_points_as_published) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::shells_large_test

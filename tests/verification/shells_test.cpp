@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::shells_test {
 namespace {
 
 using std::numbers::pi;
@@ -260,4 +260,4 @@ TEST(Tilts, give_what_three_spins_give) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::shells_test

@@ -11,7 +11,7 @@
 #include <complex>
 #include <numbers>
 
-namespace dielast::cases {
+namespace dielast::cases::solid_vibrations_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -174,4 +174,4 @@ TEST_F(SolidVibrations, cantilever_rings_as_a_beam) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::solid_vibrations_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace dielast::cases {
+namespace dielast::cases::strip_test {
 namespace {
 
 Case gallery_case(const char* file, const std::vector<std::string>& overrides) {
@@ -144,4 +144,4 @@ TEST(HungStack, CreepsBelowTheCornerOfASlowBranch) {
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::strip_test

@@ -16,7 +16,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dielast::fem {
+namespace dielast::fem::surface_contact_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -300,4 +300,4 @@ TEST(SurfaceContact, sphere_in_space_bears_the_force_of_hertz) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::surface_contact_test

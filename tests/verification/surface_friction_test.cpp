@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace dielast::fem {
+namespace dielast::fem::surface_friction_test {
 namespace {
 
 constexpr double thickness = 1e-3, friction = 0.3;
@@ -191,4 +191,4 @@ TEST(SurfaceFriction, block_on_an_incline_sticks_and_slips_at_the_right_angle_in
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::surface_friction_test

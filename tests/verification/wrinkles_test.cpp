@@ -15,7 +15,7 @@
 
 // Sheared and electrically loosened films that resist bending, beside their tension fields: gallery/wrinkles.
 
-namespace dielast::cases {
+namespace dielast::cases::wrinkles_test {
 namespace {
 
 constexpr double shear = 2e-3, height = 50e-3, thickness = 0.2e-3; // m
@@ -130,4 +130,4 @@ TEST(Wrinkles, a_charged_film_loosens_and_wrinkles_across_the_tension_that_is_le
 }
 
 } // namespace
-} // namespace dielast::cases
+} // namespace dielast::cases::wrinkles_test

@@ -15,7 +15,7 @@
 // it is a beam; beyond, a band of height b at the compressed edge carries nothing, b/h = 3M/(Ph) - 1/2, and
 // the strip gives way: E t h^2 kappa/(2P) = 4/(9 (1 - 2M/(Ph))^2).
 
-namespace dielast::fem {
+namespace dielast::fem::wrinkling_test {
 namespace {
 
 constexpr double height = 0.1, length = 0.2, thickness = 1e-4;
@@ -227,4 +227,4 @@ TEST(SlackFilm, a_sheared_sheet_carries_its_tension_at_45_degrees) {
 }
 
 } // namespace
-} // namespace dielast::fem
+} // namespace dielast::fem::wrinkling_test
