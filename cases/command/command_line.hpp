@@ -21,6 +21,7 @@ struct Arguments {
   std::optional<std::string> slurm, points;
   int batch = 1;
   const CLI::App* app = nullptr; ///< all commands
+  char** words = nullptr;        ///< of the command line, the program's first
   bool resume = false, quiet = false, tangent = false, dry_run = false;
 
   /// Where results go unless the user says so: beside where the command was given, named after the case.

@@ -19,6 +19,7 @@
 #include "cases/studies/study.hpp"
 #include "fem/equilibrium/tangent_check.hpp"
 #include "fem/machine/blas_kernels.hpp"
+#include "fem/machine/memory.hpp"
 #include "meshing/gmsh/gmsh_text.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/quality.hpp"
@@ -29,7 +30,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <malloc.h>
+#include <functional>
 #include <map>
 #include <unistd.h>
 
@@ -39,9 +40,21 @@ using cases::ExitCode;
 
 namespace {
 
+/// Starts the program once more where solids would be solved by kernels of the BLAS that do not suit the
+/// processor: it chooses them while it is loaded. Where that is not possible the program goes on with them.
+void take_better_blas_kernels(const cases::Case& one, const Arguments& arguments) {
+  const char* const kernels = fem::better_blas_kernels();
+  if (!kernels || !one.any_film(std::mem_fn(&cases::Film::is_solid))) return;
+  std::error_code unknown;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  setenv(fem::blas_kernels_variable, kernels, 1);
+  execv(program.c_str(), arguments.words);
+}
+
 ExitCode run(const Arguments& arguments) {
-  return run_case(cases::read_case(arguments.case_file, arguments.overrides),
-                  {arguments.output("-results"), arguments.threads, arguments.resume, arguments.quiet});
+  const cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
+  take_better_blas_kernels(one, arguments);
+  return run_case(one, {arguments.output("-results"), arguments.threads, arguments.resume, arguments.quiet});
 }
 
 ExitCode check(const Arguments& arguments) {
@@ -124,6 +137,7 @@ cases::Cluster cluster(const Arguments& arguments, const std::filesystem::path& 
 
 ExitCode study(const Arguments& arguments) {
   const cases::Study asked = cases::read_study(arguments.case_file, arguments.overrides);
+  take_better_blas_kernels(cases::read_case(asked.base, asked.settings), arguments);
   cases::StudySettings settings{arguments.output("-study"), arguments.threads, arguments.resume};
   if (arguments.points) return run_points(asked, settings, cases::list_of(*arguments.points));
   if (arguments.slurm) settings.cluster = cluster(arguments, settings.directory);
@@ -189,27 +203,13 @@ ExitCode guarded(ExitCode (*command)(const Arguments&), const Arguments& argumen
 
 } // namespace
 
-/// Starts the program once more where the BLAS would take kernels that do not suit the processor: it chooses
-/// them while it is loaded. Where that is not possible the program goes on with them.
-void take_better_blas_kernels(char** argv) {
-  const char* const kernels = fem::better_blas_kernels();
-  if (!kernels) return;
-  std::error_code unknown;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  setenv(fem::blas_kernels_variable, kernels, 1);
-  execv(program.c_str(), argv);
-}
-
 int main(int argc, char** argv) {
-  // Workspaces that come and go with every factorisation keep their pages: faulting them in again costs a
-  // tenth of a run.
-  mallopt(M_MMAP_THRESHOLD, 1 << 30);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  fem::keep_pages();
   cases::open_standard_streams();
   cases::catch_signals();
 
   CLI::App app;
-  Arguments arguments;
+  Arguments arguments{.words = argv};
   cases::add_commands(app, arguments);
   const std::map<std::string, ExitCode (*)(const Arguments&)> functions{
       {"run", run}, {"check", check}, {"mesh", mesh},     {"study", study}, {"linearise", linearise},
@@ -225,7 +225,5 @@ int main(int argc, char** argv) {
     return static_cast<int>(ExitCode::usage_or_file);
   }
   const std::string name = app.get_subcommands().front()->get_name();
-  if (name == "run" || name == "study" || name == "fit" || name == "linearise")
-    take_better_blas_kernels(argv);
   return static_cast<int>(finish_output(guarded(functions.at(name), arguments)));
 }

@@ -3,10 +3,14 @@
 
 #include "fem/machine/one_thread.hpp"
 
+#include <malloc.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -68,6 +72,20 @@ void require_blas_buffer() {
     dpotrf_("L", &one, &number, &one, &info);
     return info == 0;
   }();
+}
+
+void keep_pages() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;
+  constexpr std::size_t heap = 512 << 20, page = 2 << 20;
+  void* const all = std::malloc(heap); // of the end of the heap, to which it returns untouched
+  if (!all) return;
+  const auto begin = reinterpret_cast<std::uintptr_t>(all);
+  const std::uintptr_t first = (begin + page - 1) / page * page, end = (begin + heap) / page * page;
+  madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+  std::free(all);
 }
 
 } // namespace dielast::fem

@@ -17,4 +17,9 @@ void require_memory(double bytes, const std::string& what, double available = av
 /// ever to get one where memory is limited.
 void require_blas_buffer();
 
+/// To be called before anything else takes memory: workspaces that come and go with every factorisation keep
+/// their pages, and the heap has large ones, where Linux gives these to those who ask. A page is a fault the
+/// first time, which takes up to 10 us in a virtual machine.
+void keep_pages();
+
 } // namespace dielast::fem

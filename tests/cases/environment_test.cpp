@@ -95,9 +95,10 @@ TEST_F(Environment, LittleMemoryForSolidsIsEnoughOrTold) {
 }
 
 // OpenBLAS says on stderr which kernels it takes, each time that it is loaded.
-TEST_F(Environment, ProgramTakesKernelsOfItsProcessor) {
+TEST_F(Environment, SolidsTakeKernelsOfTheProcessor) {
+  std::filesystem::copy(source_folder / "cases/gallery/stack_on_table/case.toml", directory / "stack.toml");
   const auto kernels = [&](const char* asked) {
-    const Ended ended = dielast({"run", "disc.toml", "-o", directory / "disc"}, [&] {
+    const Ended ended = dielast({"run", "stack.toml", "-o", directory / "stack"}, [&] {
       setenv("OPENBLAS_VERBOSE", "2", 1);
       asked ? setenv("OPENBLAS_CORETYPE", asked, 1) : unsetenv("OPENBLAS_CORETYPE");
     });
