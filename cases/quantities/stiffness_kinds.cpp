@@ -101,7 +101,8 @@ Give give_of(const Probing& probing, const std::string& place, const Measured& m
 
 /// With the charge Q = C(u) Phi the electrode pulls with Phi^2/2 dC/du; that moves the place by Phi^2/2 times
 /// the flexibility's product with dC/du, and the force that takes it back is that over its own. Capacitance
-/// and length are those as drawn: a strip free across itself has 1/2, one of held width 1.
+/// and length are those as drawn: a strip free across itself has 1/2, one of held width 1. Of wrinkled film C
+/// depends on the voltage, too: what another volt adds, per Phi.
 double coupling(const Probing& probing, const Measured& measured) {
   const fem::Model& model = probing.device.model;
   const std::size_t e = probing.electrode();
@@ -109,12 +110,15 @@ double coupling(const Probing& probing, const Measured& measured) {
   connected.supply[e] = fem::Supply::voltage; // which the force is per square of, whoever has charged it
   const Give give = give_of(probing, probing.quantity.place, measured, connected);
   if (std::isnan(give.force)) return no_value;
-  fem::State one_volt = measured.state;
-  one_volt.voltage[e] = 1;
-  one_volt.sheet_drop.setZero();
-  fem::Charges charges = model.charges(one_volt, true);
-  model.dofs.gather(one_volt, charges.coupling[e]);
-  const double force = charges.coupling[e].head(give.displacement.size()).dot(give.displacement) / 2;
+  constexpr double hardly_any = 1e-6; // V
+  fem::State charged = measured.state;
+  double& voltage = charged.voltage[e];
+  if (std::abs(voltage) < hardly_any) voltage = hardly_any;
+  charged.sheet_drop.setZero();
+  fem::Charges charges = model.charges(charged, true);
+  model.dofs.gather(charged, charges.coupling[e]);
+  const double force =
+      charges.coupling[e].head(give.displacement.size()).dot(give.displacement) / (2 * voltage);
   const double drawn = model.charges(model.initial_state(), false).capacitance[e];
   return force * probing.quantity.length / drawn;
 }

@@ -89,7 +89,8 @@ INSTANTIATE_TEST_SUITE_P(Gallery, Similarity,
                          testing::Values("antagonistic_rolls/case.toml", "benders/unimorph.toml",
                                          "circular/case.toml", "diaphragm/case.toml", "diaphragm/tilt.toml",
                                          "honeycomb/case.toml", "hung_stack/case.toml",
-                                         "rolled_muscle/step.toml", "strip/case.toml", "tendons/case.toml",
+                                         "rolled_muscle/step.toml", "strip/case.toml",
+                                         "wrinkles/tension_field.toml", "tendons/case.toml",
                                          "thick_sphere/case.toml"),
                          [](const auto& file) { return test::word_of(file.param); });
 

@@ -183,6 +183,51 @@ extreme = "minimum"
   EXPECT_LT(std::abs(without.at("energy_error")), 1e-9 * without.at("mechanical_work"));
 }
 
+// The charge of film that wrinkles is no multiple of its voltage: what couples is what another volt adds to
+// the force.
+TEST_F(Strips, WrinkledFilmCouplesAsItsForceChangesWithTheVoltage) {
+  const std::string sheared = R"toml(
+[film]
+thickness = "0.2 mm"
+prestretch = [1, 1.01]
+wrinkling = "tension field"
+[film.material]
+shear_modulus = "45 kPa"
+relative_permittivity = 4.7
+[strip]
+length = "50 mm"
+width = "100 mm"
+[mesh]
+across = 8
+[[body]]
+name = "bar"
+places = ["lower_end"]
+fix = ["x", "y", "turn_z"]
+[[support]]
+place = "upper_end"
+fix = ["x", "y"]
+displacement = { x = "2 mm" }
+[drive]
+voltage = "1 kV"
+[[step]]
+kind = "move"
+increments = 2
+[[step]]
+kind = "voltage"
+increments = 2
+[[quantity]]
+name = "pull"
+kind = "force"
+of = "upper_end"
+along = "y"
+)toml";
+  const auto at = values(sheared), below = values(sheared, {"drive.voltage=990"}),
+             above = values(sheared, {"drive.voltage=1010"});
+  const double per_squared_voltage = (below.at("pull") - above.at("pull")) / (1010.0 * 1010 - 990.0 * 990);
+  const double capacitance = 4.7 * 8.8541878128e-12 * 0.05 * 0.1 * 1.01 / 0.2e-3; // as drawn
+  EXPECT_NEAR(at.at("coupling"), per_squared_voltage * 0.05 / capacitance, 1e-4 * at.at("coupling"));
+}
+
 // Stretched by the weight without a bending moment, a stack of shells is the membrane.
 TEST_F(Strips, AStackOfShellsPullsLikeTheMembrane) {
   const std::vector<std::string> few{"strip.layers=3", "strip.cover_thickness=25 um", "weight.mass=15 g"};
