@@ -104,6 +104,34 @@ void check_repeated_voltages(SectionReader& reader, const Node& tree, const Case
   }
 }
 
+/// A wave's time counts from the start of each step: a second transient that follows it jumps back.
+void check_beginnings(SectionReader& reader, const Case& one) {
+  constexpr double little = 1e-3, at_once = 1e-9; // of its range, of a step
+  for (const WrittenWave& written : reader.waves()) {
+    const auto [least, most] = written.wave.extremes();
+    const Step* before = nullptr; // that followed it, and from which on it has stayed
+    for (const Step& step : one.steps) {
+      if (step.is_analysis() || step.kind == StepKind::hold || step.kind == StepKind::relax) continue;
+      if (!follows(step, written)) {
+        before = nullptr;
+        continue;
+      }
+      const double jump =
+          before ? written.wave.at(at_once * *step.duration) - written.wave.before(*before->duration) : 0;
+      if (std::abs(jump) > little * (most - least)) {
+        reader.warn(
+            written.source, written.key,
+            fmt::format("begins anew in step \"{}\", by a jump of {:.2g} % of its range from where step "
+                        "\"{}\" has left it: its time counts from the start of each step; let one step "
+                        "follow all of it, or whole periods",
+                        step.name, 100 * std::abs(jump) / (most - least), before->name));
+        break;
+      }
+      before = &step;
+    }
+  }
+}
+
 } // namespace
 
 void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
@@ -118,6 +146,7 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
                               wave.start, end));
   }
   check_jumps(reader, tree, one);
+  check_beginnings(reader, one);
   check_repeated_voltages(reader, tree, one);
   for (const WrittenWave& written : reader.waves()) {
     if (written.wave.kind != Waveform::Kind::file) continue;

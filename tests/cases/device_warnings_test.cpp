@@ -122,5 +122,30 @@ TEST_F(DeviceWarnings, AJointThatNothingHoldsAcrossIsNoLimitPoint) {
   EXPECT_EQ(ended.kind, "singular tangent") << ended.message;
 }
 
+TEST_F(DeviceWarnings, WavesThatBeginAnew) {
+  const auto begins_anew = [&](const std::string& wave, const std::string& steps) {
+    const Case one =
+        read(film("thickness = \"1 mm\"") + "[patch]\n[drive]\nvoltage = { wave = " + wave + " }\n" + steps);
+    return std::ranges::any_of(one.warnings, [](const Diagnostic& warning) {
+      return warning.key == "drive.voltage" && warning.message.find("begins anew") != std::string::npos;
+    });
+  };
+  const auto step = [](const std::string& kind) { return "[[step]]\nkind = \"" + kind + "\"\n"; };
+  const std::string transient = step("transient") + "duration = \"3 s\"\nincrements = 200\ninertia = false\n",
+                    again = transient + "name = \"again\"\n", hold = step("hold") + "duration = \"1 s\"\n";
+  const std::string sine = "\"sine\", amplitude = \"1 kV\", frequency = \"0.25 Hz\"",
+                    ramp = "\"ramp\", to = \"1 kV\", duration = \"2 s\"",
+                    whole = "\"sine\", amplitude = \"1 kV\", frequency = \"1 Hz\"",
+                    at_once = "\"step\", to = \"1 kV\"";
+  for (const std::string& wave : {sine, ramp}) {
+    EXPECT_FALSE(begins_anew(wave, transient)) << wave;
+    EXPECT_TRUE(begins_anew(wave, transient + again)) << wave;
+    EXPECT_TRUE(begins_anew(wave, transient + hold + again)) << wave;
+    EXPECT_FALSE(begins_anew(wave, transient + step("voltage") + again)) << wave;
+  }
+  EXPECT_FALSE(begins_anew(whole, transient + again));
+  EXPECT_FALSE(begins_anew(at_once, transient + again)); // stays where it is
+}
+
 } // namespace
 } // namespace dielast::cases::device_warnings_test
