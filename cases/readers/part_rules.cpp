@@ -224,8 +224,6 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
       else if (part.turned != 0)
         report("turned", "a solid of revolution is drawn upright");
     }
-    if (!geometries.empty() && one.dimension == fem::Dimension::planar && part.at[2] != 0)
-      report("at", "a planar model has no z: parts that lie above one another are of model = \"3d\"");
     if (!geometries.empty() && (one.plate || one.chamber))
       report("", "[plate] and [chamber] are for a case without geometries in parts; use [[body]]");
     const double half_turns = part.turned / std::numbers::pi;
