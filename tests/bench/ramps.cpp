@@ -6,6 +6,7 @@
 // peak_mb = memory of the process until then, so that only the largest task of a run tells.
 //   build/bin/dielast_bench --benchmark_filter=disc --benchmark_out=FILE --benchmark_out_format=json
 
+#include "fem/machine/memory.hpp"
 #include "tests/bench/models.hpp"
 
 #include <benchmark/benchmark.h>
@@ -17,6 +18,8 @@
 namespace dielast::bench {
 
 namespace {
+
+[[maybe_unused]] const bool as_the_program = (fem::keep_pages(), true);
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
