@@ -137,7 +137,8 @@ cases::Cluster cluster(const Arguments& arguments, const std::filesystem::path& 
 
 ExitCode study(const Arguments& arguments) {
   const cases::Study asked = cases::read_study(arguments.case_file, arguments.overrides);
-  take_better_blas_kernels(cases::read_case(asked.base, asked.settings), arguments);
+  if (fem::better_blas_kernels())
+    take_better_blas_kernels(cases::read_case(asked.base, asked.settings), arguments);
   cases::StudySettings settings{arguments.output("-study"), arguments.threads, arguments.resume};
   if (arguments.points) return run_points(asked, settings, cases::list_of(*arguments.points));
   if (arguments.slurm) settings.cluster = cluster(arguments, settings.directory);
