@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/algebra/orientation.hpp"
 
+#include "fem/algebra/dense_algebra.hpp"
 #include "tests/fem/sample_models.hpp"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/QR>
 
 namespace dielast::fem::orientation_test {
 namespace {
 
 Eigen::MatrixXd orthonormal(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(
-      Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return std::normal_distribution()(random); }));
-  return qr.householderQ() * Eigen::MatrixXd::Identity(rows, columns);
+  const Eigen::MatrixXd drawn =
+      Eigen::MatrixXd::NullaryExpr(rows, rows, [&] { return std::normal_distribution()(random); });
+  return symmetric_eigen(drawn + drawn.transpose()).vectors.leftCols(columns);
 }
 
 TEST(Orientation, depends_on_what_the_twins_span_alone) {
