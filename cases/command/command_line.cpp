@@ -16,6 +16,22 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+/// The first of the words that looks like an option and is none of the command's; empty: there is none.
+std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words,
+                           std::vector<std::string>& known) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) known.push_back("-" + name);
+  }
+  for (const std::string& word : words) {
+    if (word == "--") break;
+    const std::string name = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    const bool is_option = name.size() > 1 && name[0] == '-' && (name[1] < '0' || name[1] > '9');
+    if (is_option && std::ranges::find(known, name) == known.end()) return name;
+  }
+  return "";
+}
+
 } // namespace
 
 void add_commands(CLI::App& app, Arguments& arguments) {
@@ -135,9 +151,13 @@ std::string explanation(const CLI::App& app, const CLI::ParseError& error,
     const std::string advice = did_you_mean(first, names);
     return fmt::format("error: \"{}\" is no command{}", first, advice.empty() ? ": write " + usage : advice);
   }
+  const CLI::App* command = first.starts_with('-') ? &app : app.get_subcommand(first);
+  std::vector<std::string> known;
   std::string message = error.what();
-  if (std::ranges::find(words, "--set") != words.end() &&
-      error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
+  if (const std::string option = unknown_option(*command, words, known); !option.empty())
+    message = fmt::format("\"{}\" is no option{}", option, did_you_mean(option, known));
+  else if (std::ranges::find(words, "--set") != words.end() &&
+           error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
     message +=
         "\nEvery --set takes one setting; one with blanks stands in quotes: --set \"drive.voltage=5 kV\"";
   return fmt::format("error: {}\nMore with: dielast {}--help", message,

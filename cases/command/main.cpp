@@ -156,8 +156,9 @@ ExitCode fit(const Arguments& arguments) {
 }
 
 ExitCode linearise(const Arguments& arguments) {
-  return linearise_case(cases::read_case_to_linearise(arguments.case_file, arguments.overrides),
-                        {arguments.output("-linear"), arguments.threads});
+  const cases::Case one = cases::read_case_to_linearise(arguments.case_file, arguments.overrides);
+  take_better_blas_kernels(one, arguments);
+  return linearise_case(one, {arguments.output("-linear"), arguments.threads});
 }
 
 ExitCode info(const Arguments& arguments) {

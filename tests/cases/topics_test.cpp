@@ -158,6 +158,10 @@ TEST_F(Topics, WhatIsNoCommandIsExplained) {
             std::string::npos);
   EXPECT_EQ(error({"run", "small.toml", "-j", "x"}).find("--set"), std::string::npos);
   EXPECT_NE(error({"run"}).find("dielast run --help"), std::string::npos);
+  EXPECT_EQ(error({"run", "--resum"}),
+            "error: \"--resum\" is no option; did you mean \"--resume\"?\nMore with: dielast run --help\n");
+  EXPECT_EQ(error({"--foo"}), "error: \"--foo\" is no option\nMore with: dielast --help\n");
+  EXPECT_EQ(error({"run", "small.toml", "-j", "-1"}).find("is no option"), std::string::npos);
 }
 
 TEST_F(Topics, ThePagesAreWhatTheTablesSay) {
