@@ -159,15 +159,12 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   const std::string resolved = resolved_text(base);
   if (settings.resume) require_unchanged(settings.directory, resolved);
   const std::vector<StudyPoint> points = study_points(study, settings.directory);
-  std::vector<std::string> names;
-  for (const StudyPoint& point : points) names.push_back(point.directory.filename());
-  std::vector<std::string> keep{resolved_name};
-  keep.insert(keep.end(), names.begin(), names.end());
-  for (const std::string& name : folder.names())
-    if (name.starts_with(target_folder)) keep.push_back(name);
-  folder.begin(settings.resume ? std::move(keep) : std::vector<std::string>{});
+  if (settings.resume)
+    begin_again(folder, study, points);
+  else
+    folder.begin();
   folder.write(resolved_name, resolved);
-  for (const std::string& name : names) folder.add(name);
+  for (const StudyPoint& point : points) folder.add(point.directory.filename());
   const std::size_t processes = settings.processes > 0 ? static_cast<std::size_t>(settings.processes)
                                                        : std::max(1U, std::thread::hardware_concurrency());
   say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,

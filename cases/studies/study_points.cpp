@@ -46,7 +46,7 @@ std::vector<StudyPoint> study_points(const Study& study, const std::filesystem::
   for (auto& values : grid_of(study)) {
     StudyPoint& point = points.emplace_back(study_point(study, std::move(values)));
     point.number = static_cast<int>(points.size());
-    point.directory = directory / fmt::format("point-{:04d}", point.number);
+    point.directory = directory / fmt::format("{}{:04d}", point_folder, point.number);
   }
   return points;
 }

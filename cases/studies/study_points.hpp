@@ -11,6 +11,9 @@
 
 namespace dielast::cases {
 
+/// Folders of points are called this and their number.
+inline constexpr const char* point_folder = "point-";
+
 /// One case of a study's grid.
 struct StudyPoint {
   int number = 0;                     ///< from 1, the last axis running fastest

@@ -5,12 +5,17 @@
 #include "cases/readers/reader.hpp"
 #include "cases/readers/resolved.hpp"
 #include "cases/runs/run.hpp"
+#include "cases/studies/study_targets.hpp"
 #include "meshing/mesh_error.hpp"
 #include "post/files/results_folder.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -52,15 +57,68 @@ namespace {
   _exit(code);
 }
 
+/// The case of a folder of a point, with every default; empty where there is none.
+std::string case_in(const std::filesystem::path& folder) {
+  std::ostringstream resolved;
+  resolved << std::ifstream(folder / resolved_name).rdbuf();
+  return resolved.str();
+}
+
+/// Empty where the point has no valid case: it fails again as quickly.
+std::string case_of(const Study& study, const StudyPoint& point) {
+  try {
+    return resolved_text(read_case(study.base, point.overrides));
+  } catch (const CaseError&) {
+    return "";
+  }
+}
+
 } // namespace
 
 bool is_current(const Study& study, const StudyPoint& point) {
-  std::ostringstream resolved;
-  resolved << std::ifstream(point.directory / resolved_name).rdbuf();
-  try {
-    return resolved.str() == resolved_text(read_case(study.base, point.overrides));
-  } catch (const CaseError&) {
-    return false; // it fails again as quickly
+  const std::string now = case_of(study, point);
+  return !now.empty() && case_in(point.directory) == now;
+}
+
+void begin_again(post::ResultsFolder& folder, const Study& study, const std::vector<StudyPoint>& points) {
+  const std::string on_its_way = "moving-";
+  std::multimap<std::string, std::string> there; // by the case, names of folders
+  std::vector<std::string> kept{resolved_name};
+  for (const std::string& name : folder.names()) {
+    if (name.starts_with(target_folder)) kept.push_back(name);
+    if (name.starts_with(point_folder) || name.starts_with(on_its_way))
+      if (std::string found = case_in(folder / name); !found.empty()) there.emplace(std::move(found), name);
+  }
+  std::vector<std::pair<std::string, std::string>> moves; // from, to
+  for (const StudyPoint& point : points) {
+    const std::string name = point.directory.filename();
+    const auto [begin, end] = there.equal_range(case_of(study, point));
+    auto own =
+        std::find_if(begin, end, [&](const auto& folder_there) { return folder_there.second == name; });
+    if (own == end && begin != end)
+      moves.emplace_back((own = begin)->second, name);
+    else
+      kept.push_back(name);
+    if (own != end) there.erase(own);
+  }
+  if (!there.empty())
+    throw std::runtime_error(fmt::format("{}: {} of the points that have run there {} not in this study any "
+                                         "more, and --resume would remove {}; "
+                                         "choose another folder with -o, or run it again without --resume",
+                                         folder.path().string(), there.size(),
+                                         there.size() == 1 ? "is" : "are",
+                                         there.size() == 1 ? "it" : "them"));
+  for (auto& [from, to] : moves) {
+    const post::ResultsFolder owned(folder / from, "run"); // no other job is in it
+    const std::string between = on_its_way + to;
+    folder.add(between);
+    std::filesystem::rename(folder / from, folder / between);
+    kept.push_back(from = between);
+  }
+  folder.begin(kept);
+  for (const auto& [from, to] : moves) {
+    folder.add(to);
+    std::filesystem::rename(folder / from, folder / to);
   }
 }
 

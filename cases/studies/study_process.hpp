@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/studies/study_points.hpp"
+#include "post/files/results_folder.hpp"
 
 #include <functional>
 #include <sys/types.h>
@@ -25,6 +26,11 @@ struct Kept {
 
 /// The point's directory, as far as it goes, is of the case as it is now.
 bool is_current(const Study& study, const StudyPoint& point);
+
+/// Goes on with a study's folder. Points that have other numbers now than when they ran get the folders of
+/// these numbers: a study whose axes have grown keeps what is done. Throws std::runtime_error where a point
+/// that has run is in the study no more, before anything is changed.
+void begin_again(post::ResultsFolder& folder, const Study& study, const std::vector<StudyPoint>& points);
 
 /// A point that has crashed or could not write its files is run again.
 Kept kept_of(const Study& study, const StudyPoint& point, bool resume);

@@ -176,13 +176,40 @@ TEST_F(StudyCommand, WithoutResumeEverythingIsRepeated) {
   EXPECT_NE(std::filesystem::last_write_time(directory / mark(1)), time);
 }
 
-TEST_F(StudyCommand, PointsOfAnotherGridAreNotReused) {
-  write_study("{ \"drive.voltage\" = [\"2 kV\", \"4 kV\"] }");
+// A study that has grown keeps what is done, whatever the numbers of its points are now.
+TEST_F(StudyCommand, PointsThatHaveRunKeepTheirResultsUnderNewNumbers) {
+  write_study(R"({ "drive.voltage" = ["2 kV", "4 kV"] })");
   ASSERT_EQ(dielast(into("out")).exit_code, 0);
-  write_study("{ \"drive.voltage\" = [\"4 kV\", \"2 kV\"] }");
+  const auto written = [&](int point) { return std::filesystem::last_write_time(directory / mark(point)); };
+  const auto of_2_kV = written(1), of_4_kV = written(2);
+  write_study(R"({ "drive.voltage" = ["3 kV", "4 kV", "1 kV", "2 kV"] })");
   ASSERT_EQ(dielast(into("out", {"--resume"})).exit_code, 0);
+  EXPECT_EQ(written(2), of_4_kV);
+  EXPECT_EQ(written(4), of_2_kV);
   ASSERT_EQ(dielast(into("fresh")).exit_code, 0);
   EXPECT_EQ(content("out/study.csv"), content("fresh/study.csv"));
+  EXPECT_EQ(content("out/report.html"), content("fresh/report.html"));
+
+  write_study(R"({ "drive.voltage" = ["4 kV", "3 kV", "2 kV", "1 kV"] })"); // all of them move, two in a ring
+  ASSERT_EQ(dielast(into("out", {"--resume"})).exit_code, 0);
+  EXPECT_EQ(written(1), of_4_kV);
+  EXPECT_EQ(written(3), of_2_kV);
+  for (const auto& entry : std::filesystem::directory_iterator(directory / "out"))
+    EXPECT_FALSE(entry.path().filename().string().starts_with("moving")) << entry.path();
+}
+
+TEST_F(StudyCommand, ResumingAStudyWithoutPointsThatHaveRunRemovesNothing) {
+  write_study(R"({ "drive.voltage" = ["2 kV", "4 kV"] })");
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  const std::string table = content("out/study.csv");
+  write_study(R"({ "drive.voltage" = ["3 kV", "4 kV"] })");
+  const Ended resumed = dielast(into("out", {"--resume"}));
+  EXPECT_EQ(resumed.exit_code, 1);
+  EXPECT_EQ(resumed.err, "error: out: 1 of the points that have run there is not in this study any more, and "
+                         "--resume would remove it; choose another folder with -o, or run it again without "
+                         "--resume\n");
+  EXPECT_EQ(content("out/study.csv"), table);
+  EXPECT_TRUE(exists(mark(1)));
 }
 
 // The case file is part of what a finished point is a result of.
