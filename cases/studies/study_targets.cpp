@@ -15,7 +15,7 @@ namespace dielast::cases {
 
 namespace {
 
-constexpr int most_runs = 40;
+constexpr int most_runs_of_target = 40;
 constexpr int most_runs_to_failure = 12;
 constexpr double usual_tolerance = 1e-4; ///< of the value or its change between the two points, the smaller
 constexpr double rounding = 1e-8;        ///< of the value: what runs are good to
@@ -93,7 +93,7 @@ class Search {
                      const PointRunner& run_point) {
     for (const Point& end : {curve_[i_], curve_[i_ + 1]})
       if (std::abs(end.second) <= tolerance_) return found(end);
-    while (solution_.runs < most_runs) {
+    while (solution_.runs < most_runs_of_target) {
       const double low = curve_[i_].first, high = curve_[i_ + 1].first;
       // A curve that the polynomial does not follow is halved now and then.
       const double key = solution_.runs % 4 == 3 ? (low + high) / 2 : root_near(curve_, i_);
