@@ -102,12 +102,9 @@ void begin_again(post::ResultsFolder& folder, const Study& study, const std::vec
     if (own != end) there.erase(own);
   }
   if (!there.empty())
-    throw std::runtime_error(fmt::format("{}: {} of the points that have run there {} not in this study any "
-                                         "more, and --resume would remove {}; "
-                                         "choose another folder with -o, or run it again without --resume",
-                                         folder.path().string(), there.size(),
-                                         there.size() == 1 ? "is" : "are",
-                                         there.size() == 1 ? "it" : "them"));
+    say("{}: results of {} that {} in this study no more are removed\n", folder.path().string(),
+        there.size() == 1 ? "a point" : fmt::format("{} points", there.size()),
+        there.size() == 1 ? "is" : "are");
   for (auto& [from, to] : moves) {
     const post::ResultsFolder owned(folder / from, "run"); // no other job is in it
     const std::string between = on_its_way + to;

@@ -28,8 +28,8 @@ struct Kept {
 bool is_current(const Study& study, const StudyPoint& point);
 
 /// Goes on with a study's folder. Points that have other numbers now than when they ran get the folders of
-/// these numbers: a study whose axes have grown keeps what is done. Throws std::runtime_error where a point
-/// that has run is in the study no more, before anything is changed.
+/// these numbers: a study whose axes have grown keeps what is done. Points that are in the study no more are
+/// removed, and told.
 void begin_again(post::ResultsFolder& folder, const Study& study, const std::vector<StudyPoint>& points);
 
 /// A point that has crashed or could not write its files is run again.
