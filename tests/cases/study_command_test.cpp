@@ -198,6 +198,15 @@ TEST_F(StudyCommand, PointsThatHaveRunKeepTheirResultsUnderNewNumbers) {
     EXPECT_FALSE(entry.path().filename().string().starts_with("moving")) << entry.path();
 }
 
+TEST_F(StudyCommand, PointsOfAnotherGridAreNotTakenForTheirs) {
+  write_study("{ \"drive.voltage\" = [\"2 kV\", \"4 kV\"] }");
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  write_study("{ \"drive.voltage\" = [\"4 kV\", \"2 kV\"] }");
+  ASSERT_EQ(dielast(into("out", {"--resume"})).exit_code, 0);
+  ASSERT_EQ(dielast(into("fresh")).exit_code, 0);
+  EXPECT_EQ(content("out/study.csv"), content("fresh/study.csv"));
+}
+
 TEST_F(StudyCommand, PointsThatAreInTheStudyNoMoreAreToldToBeRemoved) {
   write_study(R"({ "drive.voltage" = ["2 kV", "4 kV"] })");
   ASSERT_EQ(dielast(into("out")).exit_code, 0);
