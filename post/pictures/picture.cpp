@@ -199,11 +199,12 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
                                                             CAIRO_FORMAT_ARGB32, film.width(), film.height(),
                                                             4 * film.width()),
                         cairo_surface_destroy);
-  if (cairo_surface_supports_mime_type(cairo_get_target(cr), CAIRO_MIME_TYPE_PNG)) keep_as_png(surface.get());
+  const bool is_svg = cairo_surface_supports_mime_type(cairo_get_target(cr), CAIRO_MIME_TYPE_PNG) != 0;
+  if (is_svg) keep_as_png(surface.get());
   cairo_save(cr);
   cairo_translate(cr, left, top);
   cairo_set_source_surface(cr, surface.get(), 0, 0);
-  cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST); // whole pixels
+  if (!is_svg) cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST); // whole pixels
   cairo_paint(cr);
   cairo_translate(cr, std::ceil(width) / 2, std::ceil(height) / 2);
   cairo_scale(cr, scale, -scale);
@@ -367,10 +368,7 @@ std::string render_png(const meshing::Mesh& mesh, Picture picture) {
 Image draw(const meshing::Mesh& mesh, Picture picture, const std::string& name) {
   const Drawing drawing(mesh, picture, picture.panels.size());
   std::vector<Raster> films = drawing.films(picture.panels);
-  return {.data = drawing.png(picture.panels, films),
-          .name = name,
-          .drawing = name.empty() ? "" : drawing.svg(picture.panels, films),
-          .readings = drawing.readings()};
+  return {.svg = drawing.svg(picture.panels, films), .name = name, .readings = drawing.readings()};
 }
 
 Slides draw_slides(const meshing::Mesh& mesh, Picture picture) {
@@ -378,7 +376,7 @@ Slides draw_slides(const meshing::Mesh& mesh, Picture picture) {
   Slides slides{.readings = drawing.readings()};
   for (const Panel& panel : picture.panels) {
     std::vector<Raster> film = drawing.films({&panel, 1}, Edges::hard);
-    slides.pictures.push_back(drawing.png({&panel, 1}, film));
+    slides.pictures.push_back(drawing.svg({&panel, 1}, film));
   }
   return slides;
 }

@@ -43,11 +43,11 @@ struct Picture {
 // None of these needs a display. Each throws std::invalid_argument when a panel does not fit the mesh and for
 // a mesh of meridians (post/pictures/profile.hpp draws those), std::runtime_error when it cannot be drawn.
 
-/// The picture as the bytes of a PNG file.
+/// The picture's pixels as the bytes of a PNG file: what is tested of the drawings below.
 std::string render_png(const meshing::Mesh& mesh, Picture picture);
 
-/// The picture for a page, with its values as readings; with a name also as SVG: texts and walls as curves,
-/// the film as an image.
+/// The picture for a page and, with a name, a file beside it, with its values as readings: texts and walls
+/// are curves, the film is pixels.
 Image draw(const meshing::Mesh& mesh, Picture picture, const std::string& name = "");
 
 /// A picture of each panel alone, of the picture's width, all to one scale of length and one of colour.

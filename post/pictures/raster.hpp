@@ -49,7 +49,8 @@ class Palette {
   }
 
  private:
-  static constexpr int last = 511;
+  static constexpr int last =
+      253; ///< with those of missing film and of none a PNG file numbers them by bytes
   double low_ = 0, steps_ = 0;
   std::array<std::uint32_t, last + 1> colours_{};
   std::uint32_t missing_ = 0;

@@ -137,14 +137,13 @@ std::string html_of(const Table& table) {
   return html + "</tbody></table></div>\n";
 }
 
-/// As a data URI also for SVG: inline, the identifiers of several drawings would clash.
-std::string img(const std::string& data, const std::string& words, bool hidden = false) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(data.data());
-  std::string base64((data.size() + 2) / 3 * 4, '\0');
-  base64.resize(vtksysBase64_Encode(bytes, data.size(), reinterpret_cast<unsigned char*>(base64.data()), 0));
-  return fmt::format("<img alt=\"{}\"{} src=\"data:image/{};base64,{}\"/>", escape_markup(words),
-                     hidden ? " hidden=\"hidden\"" : "", data.starts_with("\x89PNG") ? "png" : "svg+xml",
-                     base64);
+/// A drawing as a data URI: inline, the identifiers of several would clash.
+std::string img(const std::string& svg, const std::string& words, bool hidden = false) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(svg.data());
+  std::string base64((svg.size() + 2) / 3 * 4, '\0');
+  base64.resize(vtksysBase64_Encode(bytes, svg.size(), reinterpret_cast<unsigned char*>(base64.data()), 0));
+  return fmt::format("<img alt=\"{}\"{} src=\"data:image/svg+xml;base64,{}\"/>", escape_markup(words),
+                     hidden ? " hidden=\"hidden\"" : "", base64);
 }
 
 std::string figure(const std::string& css_class, const std::string& readings, const std::string& drawing,
@@ -156,7 +155,7 @@ std::string figure(const std::string& css_class, const std::string& readings, co
 }
 
 std::string html_of(const Image& image) {
-  return figure(image.wide ? "wide" : "", image.readings, img(image.data, image.caption), image.caption);
+  return figure(image.wide ? "wide" : "", image.readings, img(image.svg, image.caption), image.caption);
 }
 
 std::string html_of(const Slides& slides) {
@@ -169,7 +168,7 @@ std::string html_of(const Slides& slides) {
 bool could_be_drawn(const Block& block) {
   const auto* image = std::get_if<Image>(&block);
   const auto* slides = std::get_if<Slides>(&block);
-  return !(image && image->data.empty()) && !(slides && slides->pictures.empty());
+  return !(image && image->svg.empty()) && !(slides && slides->pictures.empty());
 }
 
 std::string html_of(const Section& section, std::size_t number) {
@@ -232,7 +231,7 @@ std::vector<Figure> Report::figures() const {
   for (const Section& section : sections)
     for (const Block& block : section.blocks)
       if (const auto* image = std::get_if<Image>(&block);
-          image && !image->name.empty() && !image->data.empty()) {
+          image && !image->name.empty() && !image->svg.empty()) {
         std::string name;
         for (const char c : image->name)
           if (std::isalnum(static_cast<unsigned char>(c)) != 0)
@@ -241,8 +240,7 @@ std::vector<Figure> Report::figures() const {
             name += '_';
         if (name.ends_with('_')) name.pop_back();
         if (const int before = taken[name]++; before > 0) name += fmt::format("_{}", before + 1);
-        figures.push_back(
-            {fmt::format("figure_{}.svg", name), image->drawing.empty() ? image->data : image->drawing});
+        figures.push_back({fmt::format("figure_{}.svg", name), image->svg});
       }
   return figures;
 }

@@ -24,7 +24,7 @@ Plot line(const std::string& label) { return {"title", "x", "y", {{label, {0, 1,
 
 std::vector<std::string> svgs_of(const std::vector<Plot>& plots) {
   std::vector<std::string> svgs;
-  for (const Image& image : draw(plots)) svgs.push_back(image.data);
+  for (const Image& image : draw(plots)) svgs.push_back(image.svg);
   return svgs;
 }
 
@@ -210,7 +210,7 @@ TEST(Plot, LogarithmicAxesHavePowersOfTenOrEnoughOtherTicks) {
     Plot plot{"title", "x", "y", {{"one", {low, high}, {1, 2}}}};
     plot.log_x = true;
     std::set<std::string> found;
-    for (const auto& [text, size] : texts_of(draw({plot}).at(0).data)) found.insert(text);
+    for (const auto& [text, size] : texts_of(draw({plot}).at(0).svg)) found.insert(text);
     return found;
   };
   for (const char* label : {"10⁻⁷", "10⁻³", "0.1", "10"})
@@ -228,7 +228,7 @@ TEST(Plot, LogarithmicAxesOfValuesThatAreNearlyEqual) {
     Plot plot{"title", "x", "y", {{"one", {1, 2, 3}, {low, high, low}}}};
     plot.log_y = true;
     std::set<std::string> found;
-    for (const auto& [text, size] : texts_of(draw({plot}).at(0).data)) found.insert(text);
+    for (const auto& [text, size] : texts_of(draw({plot}).at(0).svg)) found.insert(text);
     return found;
   };
   for (const double value : {1.9398396347822490e-8, 1.0, 4e12})
@@ -247,8 +247,8 @@ TEST(Plot, ReadingsLieOnTheDrawnPoints) {
     plot.log_x = logarithmic;
     const Image image = draw({plot, line("next")}).at(0);
     EXPECT_EQ(image.name, "title");
-    EXPECT_TRUE(image.data.ends_with("</svg>\n") || image.data.ends_with("</svg>\n\n"))
-        << image.data.substr(image.data.size() - 80);
+    EXPECT_TRUE(image.svg.ends_with("</svg>\n") || image.svg.ends_with("</svg>\n\n"))
+        << image.svg.substr(image.svg.size() - 80);
     const auto readings = nlohmann::json::parse(image.readings);
     EXPECT_EQ(readings["x"]["label"], "x [mm]");
     EXPECT_EQ(readings["x"]["log"], logarithmic);
@@ -261,7 +261,7 @@ TEST(Plot, ReadingsLieOnTheDrawnPoints) {
       if (readings[axis]["log"]) low = std::log(low), high = std::log(high), value = std::log(value);
       return from + (value - low) / (high - low) * (to - from);
     };
-    const auto drawn = marks(image.data);
+    const auto drawn = marks(image.svg);
     std::size_t mark = 0;
     for (const std::size_t k : {0, 2, 3}) {
       ASSERT_LT(mark, drawn.size());
