@@ -84,13 +84,15 @@ Box extent(const meshing::Mesh& mesh, const Picture& picture, const Panel& panel
   return {box.min() - half, box.max() + half};
 }
 
-/// How the film's edges are drawn: slides are many.
-enum class Edges { smooth, hard };
+/// How the film's edges are drawn: as means of four pixels, by whole pixels (slides are many), or where walls
+/// hide them, by pixels twice as large, between which the colour of the film changes gradually.
+enum class Edges { smooth, hard, hidden };
+constexpr double pixel_within_walls = 2; // px
 
 /// Whether walls are drawn over all edges at which the colour of the film jumps.
 bool hides_edges(const meshing::Mesh& mesh, const Picture& picture, double scale) {
-  constexpr double wide = 3; // px: an edge that is not smooth stays within one of where it should be
-  return scale * picture.wall_width >= wide && is_framed(mesh) &&
+  // A pixel that is drawn may end as far as its width on either side of where it should.
+  return scale * picture.wall_width >= 2 * pixel_within_walls && is_framed(mesh) &&
          std::ranges::all_of(picture.panels, [](const Panel& panel) {
            const auto is_first = [&](int region) { return region == panel.regions.front(); };
            const auto is_level = [&](const Eigen::Vector3d& x) { return x.z() == panel.positions[0].z(); };
@@ -190,10 +192,11 @@ void keep_as_png(cairo_surface_t* surface) {
   bytes.release();
 }
 
-/// Draws a panel with its box centred in the rectangle at (left, top), y upwards. `film`: as large.
+/// Draws a panel with its box centred in the rectangle at (left, top), y upwards. `film`: as large, its
+/// pixels `pixel` px wide.
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
-                std::pair<double, double> range, double scale, Raster& film, double left, double top,
-                double width, double height) {
+                std::pair<double, double> range, double scale, Raster& film, double pixel, double left,
+                double top, double width, double height) {
   const Box box = extent(mesh, picture, panel, picture.wall_width);
   const Surface surface(cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(film.pixels()),
                                                             CAIRO_FORMAT_ARGB32, film.width(), film.height(),
@@ -203,9 +206,13 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
   if (is_svg) keep_as_png(surface.get());
   cairo_save(cr);
   cairo_translate(cr, left, top);
+  cairo_save(cr);
+  cairo_scale(cr, pixel, pixel);
   cairo_set_source_surface(cr, surface.get(), 0, 0);
-  if (!is_svg) cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST); // whole pixels
+  if (!is_svg && pixel == 1)
+    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST); // whole ones
   cairo_paint(cr);
+  cairo_restore(cr);
   cairo_translate(cr, std::ceil(width) / 2, std::ceil(height) / 2);
   cairo_scale(cr, scale, -scale);
   cairo_translate(cr, -box.center().x(), -box.center().y());
@@ -262,7 +269,7 @@ cairo_status_t append_bytes(void* target, const unsigned char* data, unsigned le
 class Drawing {
  public:
   /// Moves the picture's positions into the view.
-  Drawing(const meshing::Mesh& mesh, Picture& picture, std::size_t together)
+  Drawing(const meshing::Mesh& mesh, Picture& picture, std::size_t together, Edges smoothness = Edges::smooth)
       : mesh_(mesh), picture_(picture), range_((check(mesh, picture), value_range(picture))) {
     view_ = view_of(picture.panels);
     for (Panel& panel : picture.panels)
@@ -279,14 +286,13 @@ class Drawing {
     panel_title_ = picture.title.empty() ? margin : margin + 54; // baseline
     panel_top_ = titled ? panel_title_ + 22 : panel_title_;
     legend_top_ = panel_top_ + panel_height_ + 64;
-    edges_ = hides_edges(mesh, picture, scale_) ? Edges::hard : Edges::smooth;
+    edges_ = hides_edges(mesh, picture, scale_) ? Edges::hidden : smoothness;
     coloured_ = std::ranges::any_of(picture.panels, [](const Panel& panel) { return !panel.values.empty(); });
   }
 
   /// The films of panels, each as large as a panel's rectangle.
-  std::vector<Raster> films(std::span<const Panel> panels) const { return films(panels, edges_); }
-  std::vector<Raster> films(std::span<const Panel> panels, Edges edges) const {
-    const int finer = edges == Edges::smooth ? 2 : 1;
+  std::vector<Raster> films(std::span<const Panel> panels) const {
+    const double finer = edges_ == Edges::smooth ? 2 : 1 / pixel();
     const Eigen::Vector2d size(std::ceil(panel_width_), std::ceil(panel_height_));
     std::vector<Raster> films;
     for (const Panel& panel : panels) {
@@ -294,7 +300,7 @@ class Drawing {
       Raster film = film_raster(
           mesh_, panel, range_,
           {finer * scale_, {box.center().x(), box.center().y(), 0}, finer * size, view_.light, view_.relief});
-      films.push_back(edges == Edges::smooth ? film.halved() : std::move(film));
+      films.push_back(edges_ == Edges::smooth ? film.halved() : std::move(film));
     }
     return films;
   }
@@ -327,6 +333,7 @@ class Drawing {
   }
 
  private:
+  double pixel() const { return edges_ == Edges::hidden ? pixel_within_walls : 1; } ///< of the film, px
   int height() const { return static_cast<int>(std::ceil(legend_top_ + legend_height - margin / 2)); }
   void draw(cairo_t* cr, std::span<const Panel> panels, std::vector<Raster>& films) const {
     cairo_set_source_rgb(cr, 1, 1, 1);
@@ -337,8 +344,8 @@ class Drawing {
     for (std::size_t p = 0; p < panels.size(); ++p) {
       const Panel& panel = panels[p];
       draw_text(cr, panel.title, left + panel_width_ / 2, panel_title_, 20, faint_ink, Align::centre);
-      draw_panel(cr, mesh_, picture_, panel, range_, scale_, films[p], left, panel_top_, panel_width_,
-                 panel_height_);
+      draw_panel(cr, mesh_, picture_, panel, range_, scale_, films[p], pixel(), left, panel_top_,
+                 panel_width_, panel_height_);
       left += panel_width_ + gap;
     }
     draw_scale_bar(cr, scale_, margin, legend_top_ + 8);
@@ -372,10 +379,10 @@ Image draw(const meshing::Mesh& mesh, Picture picture, const std::string& name) 
 }
 
 Slides draw_slides(const meshing::Mesh& mesh, Picture picture) {
-  const Drawing drawing(mesh, picture, 1);
+  const Drawing drawing(mesh, picture, 1, Edges::hard);
   Slides slides{.readings = drawing.readings()};
   for (const Panel& panel : picture.panels) {
-    std::vector<Raster> film = drawing.films({&panel, 1}, Edges::hard);
+    std::vector<Raster> film = drawing.films({&panel, 1});
     slides.pictures.push_back(drawing.svg({&panel, 1}, film));
   }
   return slides;
