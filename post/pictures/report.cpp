@@ -137,32 +137,44 @@ std::string html_of(const Table& table) {
   return html + "</tbody></table></div>\n";
 }
 
-/// A drawing as a data URI: inline, the identifiers of several would clash.
-std::string img(const std::string& svg, const std::string& words, bool hidden = false) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(svg.data());
-  std::string base64((svg.size() + 2) / 3 * 4, '\0');
-  base64.resize(vtksysBase64_Encode(bytes, svg.size(), reinterpret_cast<unsigned char*>(base64.data()), 0));
-  return fmt::format("<img alt=\"{}\"{} src=\"data:image/svg+xml;base64,{}\"/>", escape_markup(words),
-                     hidden ? " hidden=\"hidden\"" : "", base64);
+std::size_t base64_size(const std::string& bytes) { return (bytes.size() + 2) / 3 * 4; }
+
+/// Adds a drawing as a data URI: inline, the identifiers of several would clash.
+void add_img(std::string& html, const std::string& svg, const std::string& words, bool hidden = false) {
+  html += fmt::format("<img alt=\"{}\"{} src=\"data:image/svg+xml;base64,", escape_markup(words),
+                      hidden ? " hidden=\"hidden\"" : "");
+  const std::size_t begin = html.size();
+  html.resize(begin + base64_size(svg));
+  html.resize(begin + vtksysBase64_Encode(reinterpret_cast<const unsigned char*>(svg.data()), svg.size(),
+                                          reinterpret_cast<unsigned char*>(&html[begin]), 0));
+  html += "\"/>";
 }
 
-std::string figure(const std::string& css_class, const std::string& readings, const std::string& drawing,
-                   const std::string& caption) {
-  return fmt::format("<figure{}{}><div class=\"drawing\">{}</div><figcaption>{}</figcaption></figure>\n",
-                     css_class.empty() ? "" : fmt::format(" class=\"{}\"", css_class),
-                     readings.empty() ? "" : fmt::format(" data-readings=\"{}\"", escape_markup(readings)),
-                     drawing, escape_markup(caption));
+template<class AddDrawings>
+void add_figure(std::string& html, const std::string& css_class, const std::string& readings,
+                const std::string& caption, AddDrawings&& add_drawings) {
+  html += fmt::format("<figure{}{}><div class=\"drawing\">",
+                      css_class.empty() ? "" : fmt::format(" class=\"{}\"", css_class),
+                      readings.empty() ? "" : fmt::format(" data-readings=\"{}\"", escape_markup(readings)));
+  add_drawings();
+  html += fmt::format("</div><figcaption>{}</figcaption></figure>\n", escape_markup(caption));
 }
 
-std::string html_of(const Image& image) {
-  return figure(image.wide ? "wide" : "", image.readings, img(image.svg, image.caption), image.caption);
+template<class Content>
+void add(std::string& html, const Content& content) {
+  html += html_of(content);
 }
 
-std::string html_of(const Slides& slides) {
-  std::string pictures;
-  for (const std::string& picture : slides.pictures)
-    pictures += img(picture, slides.caption, &picture != &slides.pictures.back());
-  return figure("slides", slides.readings, pictures, slides.caption);
+void add(std::string& html, const Image& image) {
+  add_figure(html, image.wide ? "wide" : "", image.readings, image.caption,
+             [&] { add_img(html, image.svg, image.caption); });
+}
+
+void add(std::string& html, const Slides& slides) {
+  add_figure(html, "slides", slides.readings, slides.caption, [&] {
+    for (const std::string& picture : slides.pictures)
+      add_img(html, picture, slides.caption, &picture != &slides.pictures.back());
+  });
 }
 
 bool could_be_drawn(const Block& block) {
@@ -171,18 +183,29 @@ bool could_be_drawn(const Block& block) {
   return !(image && image->svg.empty()) && !(slides && slides->pictures.empty());
 }
 
-std::string html_of(const Section& section, std::size_t number) {
-  std::string html =
-      fmt::format("<section id=\"part{}\"><h2>{}</h2>\n", number, escape_markup(section.title));
+void add(std::string& html, const Section& section, std::size_t number) {
+  html += fmt::format("<section id=\"part{}\"><h2>{}</h2>\n", number, escape_markup(section.title));
   bool in_images = false;
   for (const Block& block : section.blocks) {
     if (!could_be_drawn(block)) continue;
     const bool is_image = std::holds_alternative<Image>(block) || std::holds_alternative<Slides>(block);
     if (is_image != in_images) html += in_images ? "</div>\n" : "<div class=\"images\">\n";
     in_images = is_image;
-    html += std::visit([](const auto& content) { return html_of(content); }, block);
+    std::visit([&](const auto& content) { add(html, content); }, block);
   }
-  return html + (in_images ? "</div>\n" : "") + "</section>\n";
+  html += in_images ? "</div>\n</section>\n" : "</section>\n";
+}
+
+/// Characters that the drawings will take.
+std::size_t size_of_drawings(const std::vector<Section>& sections) {
+  std::size_t size = 0;
+  for (const Section& section : sections)
+    for (const Block& block : section.blocks) {
+      if (const auto* image = std::get_if<Image>(&block)) size += base64_size(image->svg);
+      if (const auto* slides = std::get_if<Slides>(&block))
+        for (const std::string& picture : slides->pictures) size += base64_size(picture);
+    }
+  return size;
 }
 
 } // namespace
@@ -220,9 +243,12 @@ std::string Report::html() const {
       page += fmt::format("<a href=\"#part{}\">{}</a>", s, escape_markup(sections[s].title));
     page += "</nav>\n";
   }
-  for (std::size_t s = 0; s < sections.size(); ++s) page += html_of(sections[s], s);
-  return page + "<footer>" + escape_markup(footer) + "</footer>\n</main>\n<script>//<![CDATA[" +
-         report_script() + "//]]></script>\n</body>\n</html>\n";
+  constexpr std::size_t all_else = 100'000; // more or less
+  page.reserve(size_of_drawings(sections) + all_else);
+  for (std::size_t s = 0; s < sections.size(); ++s) post::add(page, sections[s], s);
+  page += fmt::format("<footer>{}</footer>\n</main>\n<script>//<![CDATA[{}//]]></script>\n</body>\n</html>\n",
+                      escape_markup(footer), report_script());
+  return page;
 }
 
 std::vector<Figure> Report::figures() const {
