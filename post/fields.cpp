@@ -18,13 +18,11 @@ double norm(double x, double y) { return std::sqrt(x * x + y * y); }
 FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   if (sample.solid) {
     const fem::SolidSample& solid = *sample.solid;
-    const Eigen::Matrix3d green = solid.F.transpose() * solid.F;
-    C = green;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> strain(green), stress(solid.cauchy);
-    stretch = strain.eigenvalues().reverse().cwiseSqrt();
-    direction = (solid.F * strain.eigenvectors().rowwise().reverse()).colwise().normalized();
-    cauchy = solid.cauchy;
-    principal_stress = {stress.eigenvalues()[2], stress.eigenvalues()[0]};
+    C = solid.F.transpose() * solid.F;
+    stretch = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C, Eigen::EigenvaluesOnly)
+                  .eigenvalues()
+                  .reverse()
+                  .cwiseSqrt();
     thickness = solid.thickness;
     electric_field = solid.field.norm();
     return;
@@ -32,40 +30,64 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   const auto& F = sample.F;
   C.setZero();
   C.topLeftCorner<2, 2>().noalias() = F.transpose() * F;
-  const Eigen::Vector3d area = F.col(0).cross(F.col(1));
-  const double given_stretch = area.norm(), area_stretch = given_stretch * sample.widening;
-
-  const double half_difference = (C(0, 0) - C(1, 1)) / 2;
-  const double radius = norm(half_difference, C(0, 1));
+  const double given_stretch = F.col(0).cross(F.col(1)).norm(),
+               area_stretch = given_stretch * sample.widening;
+  const double radius = norm((C(0, 0) - C(1, 1)) / 2, C(0, 1));
   stretch(0) = std::sqrt((C(0, 0) + C(1, 1)) / 2 + radius);
   stretch(1) = given_stretch / stretch(0); // not the other root: it cancels when the stretches differ much
   stretch(2) = 1 / area_stretch;
   C(2, 2) = stretch(2) * stretch(2);
-
-  // Cosine and sine of half the angle of (half_difference, C12), the larger one first: the other would
-  // cancel.
-  double cosine = 1, sine = 0;
-  if (radius > 0) {
-    const double larger = std::sqrt((1 + std::abs(half_difference) / radius) / 2);
-    const double smaller = C(0, 1) / (2 * radius * larger);
-    cosine = half_difference >= 0 ? larger : std::abs(smaller);
-    sine = half_difference >= 0 ? smaller : std::copysign(larger, C(0, 1));
-  }
-  Eigen::Matrix2d material; // columns: principal directions in the unstretched film
-  material << cosine, -sine, sine, cosine;
-  direction.col(0) = (F * material.col(0)).normalized();
-  direction.col(2) = area / given_stretch;
-  direction.col(1) = direction.col(2).cross(direction.col(0));
-
-  cauchy = F * sample.S * F.transpose();
-  Eigen::Matrix2d in_plane = material.transpose() * sample.S * material;
-  in_plane.array() *= (stretch.head<2>() * stretch.head<2>().transpose()).array();
-  const double mean = in_plane.trace() / 2;
-  const double deviation = norm((in_plane(0, 0) - in_plane(1, 1)) / 2, in_plane(0, 1));
-  principal_stress = {mean + deviation, mean - deviation};
-
   thickness = sample.thickness * stretch(2);
   electric_field = std::abs(sample.voltage) / thickness;
+}
+
+/// Of half the angle of ((C11 - C22)/2, C12), the larger one first: the other would cancel.
+FilmPoint::Angle FilmPoint::material_angle() const {
+  const double half_difference = (C(0, 0) - C(1, 1)) / 2, radius = norm(half_difference, C(0, 1));
+  if (radius == 0) return {1, 0};
+  const double larger = std::sqrt((1 + std::abs(half_difference) / radius) / 2);
+  const double smaller = C(0, 1) / (2 * radius * larger);
+  return half_difference >= 0 ? Angle{larger, smaller}
+                              : Angle{std::abs(smaller), std::copysign(larger, C(0, 1))};
+}
+
+Eigen::Vector3d FilmPoint::normal() const {
+  return sample.F.col(0).cross(sample.F.col(1)) / (stretch(0) * stretch(1));
+}
+
+Eigen::Matrix3d FilmPoint::direction() const {
+  if (sample.solid) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> strain(C);
+    return (sample.solid->F * strain.eigenvectors().rowwise().reverse()).colwise().normalized();
+  }
+  const auto [cosine, sine] = material_angle();
+  Eigen::Matrix3d direction;
+  direction.col(0) = (cosine * sample.F.col(0) + sine * sample.F.col(1)) / stretch(0);
+  direction.col(2) = normal();
+  direction.col(1) = direction.col(2).cross(direction.col(0));
+  return direction;
+}
+
+Eigen::Matrix3d FilmPoint::cauchy() const {
+  if (sample.solid) return sample.solid->cauchy;
+  return sample.F * sample.S * sample.F.transpose();
+}
+
+Eigen::Vector2d FilmPoint::principal_stress() const {
+  if (sample.solid) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> stress(sample.solid->cauchy, Eigen::EigenvaluesOnly);
+    return {stress.eigenvalues()[2], stress.eigenvalues()[0]};
+  }
+  const auto [cosine, sine] = material_angle();
+  const auto& S = sample.S;
+  const double first = stretch(0) * stretch(0) *
+                       (cosine * cosine * S(0, 0) + 2 * cosine * sine * S(0, 1) + sine * sine * S(1, 1)),
+               second = stretch(1) * stretch(1) *
+                        (sine * sine * S(0, 0) - 2 * cosine * sine * S(0, 1) + cosine * cosine * S(1, 1)),
+               shear = stretch(0) * stretch(1) *
+                       (cosine * sine * (S(1, 1) - S(0, 0)) + (cosine * cosine - sine * sine) * S(0, 1));
+  const double mean = (first + second) / 2, deviation = norm((first - second) / 2, shear);
+  return {mean + deviation, mean - deviation};
 }
 
 namespace {
@@ -101,7 +123,8 @@ const std::vector<FilmField> film_table{
      "0, y around, of films in ParaView turned with them",
      [](const FilmPoint& p, double* v) {
        const Eigen::Vector3d principal = p.stretch.array().log();
-       symmetric_components(p.direction * principal.asDiagonal() * p.direction.transpose(), v);
+       const Eigen::Matrix3d direction = p.direction();
+       symmetric_components(direction * principal.asDiagonal() * direction.transpose(), v);
      },
      std::nullopt,
      true},
@@ -118,7 +141,7 @@ const std::vector<FilmField> film_table{
      {"xx", "yy", "zz", "xy", "yz", "xz"},
      "true stress in space, elastic and electrostatic; of a stack with covers the mean over its section; of "
      "revolution in the half plane y = 0, y around, of films in ParaView turned with them",
-     [](const FilmPoint& p, double* v) { symmetric_components(p.cauchy, v); },
+     [](const FilmPoint& p, double* v) { symmetric_components(p.cauchy(), v); },
      std::nullopt,
      true},
     {"min_principal_stress",
@@ -126,13 +149,13 @@ const std::vector<FilmField> film_table{
      {},
      "smaller principal true stress in the film's plane; negative: the film has lost its tension; of a stack "
      "with covers of the mean stress over its section, of a solid the smallest",
-     [](const FilmPoint& p, double* v) { *v = p.principal_stress(1); },
+     [](const FilmPoint& p, double* v) { *v = p.principal_stress()(1); },
      Extreme::minimum},
     {"max_principal_stress",
      "Pa",
      {},
      "larger principal true stress in the film's plane; of a solid the largest",
-     [](const FilmPoint& p, double* v) { *v = p.principal_stress(0); }},
+     [](const FilmPoint& p, double* v) { *v = p.principal_stress()(0); }},
     {"thickness",
      "m",
      {},
@@ -149,8 +172,9 @@ const std::vector<FilmField> film_table{
          *v = 0; // it has no middle surface
          return;
        }
-       const Eigen::Vector3d normal = p.direction.col(2);
-       *v = std::atan2(normal.head<2>().norm(), std::abs(normal.z()));
+       const Eigen::Vector3d normal = p.normal();
+       const double across = norm(normal.x(), normal.y());
+       *v = across == 0 ? 0 : std::atan2(across, std::abs(normal.z()));
      }},
     {"electric_field",
      "V/m",

@@ -12,22 +12,36 @@
 
 namespace dielast::post {
 
-/// The film at one integration point, with what several fields share worked out once.
+/// The film at one integration point, with what most fields share worked out once.
 ///
 /// Incompressible membrane: \f$ C = F^T F, \lambda_3 = 1/\sqrt{\det C}, h = \lambda_3 H, E = |\Phi|/h \f$,
 /// \f$ \sigma = F S F^T \f$ (J = 1, plane stress). A solid's sample says F, sigma and E itself; its stretches
 /// are sorted.
-struct FilmPoint {
+class FilmPoint {
+ public:
   explicit FilmPoint(const fem::MembraneSample& sample);
 
   const fem::MembraneSample& sample;
   Eigen::Matrix3d C;         ///< right Cauchy-Green tensor, w.r.t. the unstretched film; Z through it
   Eigen::Vector3d stretch;   ///< lambda1 >= lambda2 in the plane, lambda3 through the thickness
-  Eigen::Matrix3d direction; ///< columns: unit vectors of these stretches in space; the third is the normal
-  Eigen::Matrix3d cauchy;    ///< sigma in space, Pa
-  Eigen::Vector2d principal_stress; ///< in the plane, larger first, of a solid largest and smallest, Pa
-  double thickness = 0;             ///< h, m
-  double electric_field = 0;        ///< true field E, V/m
+  double thickness = 0;      ///< h, m
+  double electric_field = 0; ///< true field E, V/m
+
+  /// Columns: unit vectors of the stretches in space; the third is normal().
+  Eigen::Matrix3d direction() const;
+  /// Unit vector in space; not of a solid.
+  Eigen::Vector3d normal() const;
+  /// sigma in space, Pa.
+  Eigen::Matrix3d cauchy() const;
+  /// In the plane, larger first, of a solid largest and smallest, Pa.
+  Eigen::Vector2d principal_stress() const;
+
+ private:
+  struct Angle {
+    double cosine, sine;
+  };
+  /// From X to the direction of the larger stretch in the unstretched film.
+  Angle material_angle() const;
 };
 
 enum class Extreme { minimum, maximum };

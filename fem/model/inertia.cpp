@@ -3,11 +3,13 @@
 
 #include "fem/model/element_block.hpp"
 
+#include <deque>
+
 namespace dielast::fem {
 
 namespace {
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
+using Triplets = std::deque<Eigen::Triplet<double>>; // hundreds of an element: none of them is moved
 
 void scatter(const std::vector<double>& packed, const std::vector<int>& equations, Triplets& triplets) {
   std::size_t at = 0;

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace dielast::fem {
@@ -33,7 +33,7 @@ struct MembraneSample {
   int electrode = -1;           ///< number of the electrode that covers it; -1: none
   int layer = 0;                ///< of a shell with several: 0 is the film itself, others lie on it
   double breakdown_field = 0;   ///< true field at which this film breaks down, V/m
-  std::optional<SolidSample> solid{}; ///< of a solid: F and S above are NaN
+  std::shared_ptr<const SolidSample> solid{}; ///< of a solid, F and S above are NaN; otherwise null
 };
 
 /// A wall at one integration point. Components: 1 along the wall, 2 across it in the film's plane, 3 normal

@@ -49,10 +49,10 @@ void SolidBlock<Element>::sample(const State& state, Samples& samples) const {
         s.electrode = electrode(e);
         s.voltage = state.voltage[static_cast<std::size_t>(s.electrode)];
       }
-      s.solid =
+      s.solid = std::make_shared<const SolidSample>(
           SolidSample{turned(F), turned(F * S * F.transpose() / J), in_space * (inverse.transpose() * E0),
-                      has_potential() ? none_here : part(e).thickness / across};
-      samples.film.push_back(s);
+                      has_potential() ? none_here : part(e).thickness / across});
+      samples.film.push_back(std::move(s));
     }
   }
 }
