@@ -98,6 +98,7 @@ struct TriangleKinematics {
   static std::vector<FilmPlace<Nodes, corners>> places(const Eigen::Matrix<double, 3, Nodes>& X,
                                                        const MembraneSection& section, int points) {
     std::vector<FilmPlace<Nodes, corners>> all;
+    all.reserve(static_cast<std::size_t>(points));
     const Eigen::Vector2d prestretch(section.prestretch.data());
     for (const TrianglePoint& at : triangle_rule(points)) {
       const Eigen::Matrix<double, Nodes, 2> dN = shape_gradients<Nodes>(at.xi, at.eta);

@@ -85,15 +85,12 @@ Box extent(const meshing::Mesh& mesh, const Picture& picture, const Panel& panel
 }
 
 /// How the film's edges are drawn: as means of four pixels, by whole pixels (slides are many), or where walls
-/// hide them, by pixels twice as large, between which the colour of the film changes gradually.
+/// hide them, by larger pixels, between which the colour of the film changes gradually.
 enum class Edges { smooth, hard, hidden };
-constexpr double pixel_within_walls = 2; // px
 
 /// Whether walls are drawn over all edges at which the colour of the film jumps.
-bool hides_edges(const meshing::Mesh& mesh, const Picture& picture, double scale) {
-  // A pixel that is drawn may end as far as its width on either side of where it should.
-  return scale * picture.wall_width >= 2 * pixel_within_walls && is_framed(mesh) &&
-         std::ranges::all_of(picture.panels, [](const Panel& panel) {
+bool hides_edges(const meshing::Mesh& mesh, const Picture& picture) {
+  return is_framed(mesh) && std::ranges::all_of(picture.panels, [](const Panel& panel) {
            const auto is_first = [&](int region) { return region == panel.regions.front(); };
            const auto is_level = [&](const Eigen::Vector3d& x) { return x.z() == panel.positions[0].z(); };
            return std::ranges::all_of(panel.regions, is_first) &&
@@ -286,13 +283,17 @@ class Drawing {
     panel_title_ = picture.title.empty() ? margin : margin + 54; // baseline
     panel_top_ = titled ? panel_title_ + 22 : panel_title_;
     legend_top_ = panel_top_ + panel_height_ + 64;
-    edges_ = hides_edges(mesh, picture, scale_) ? Edges::hidden : smoothness;
+    // A film's pixel may end as far as its width on either side of where it should.
+    constexpr double least = 2, most = 3; // px
+    const double within = std::min(std::floor(scale_ * picture.wall_width / 2), most);
+    edges_ = within >= least && hides_edges(mesh, picture) ? Edges::hidden : smoothness;
+    if (edges_ == Edges::hidden) pixel_ = within;
     coloured_ = std::ranges::any_of(picture.panels, [](const Panel& panel) { return !panel.values.empty(); });
   }
 
   /// The films of panels, each as large as a panel's rectangle.
   std::vector<Raster> films(std::span<const Panel> panels) const {
-    const double finer = edges_ == Edges::smooth ? 2 : 1 / pixel();
+    const double finer = edges_ == Edges::smooth ? 2 : 1 / pixel_;
     const Eigen::Vector2d size(std::ceil(panel_width_), std::ceil(panel_height_));
     std::vector<Raster> films;
     for (const Panel& panel : panels) {
@@ -333,7 +334,6 @@ class Drawing {
   }
 
  private:
-  double pixel() const { return edges_ == Edges::hidden ? pixel_within_walls : 1; } ///< of the film, px
   int height() const { return static_cast<int>(std::ceil(legend_top_ + legend_height - margin / 2)); }
   void draw(cairo_t* cr, std::span<const Panel> panels, std::vector<Raster>& films) const {
     cairo_set_source_rgb(cr, 1, 1, 1);
@@ -344,8 +344,8 @@ class Drawing {
     for (std::size_t p = 0; p < panels.size(); ++p) {
       const Panel& panel = panels[p];
       draw_text(cr, panel.title, left + panel_width_ / 2, panel_title_, 20, faint_ink, Align::centre);
-      draw_panel(cr, mesh_, picture_, panel, range_, scale_, films[p], pixel(), left, panel_top_,
-                 panel_width_, panel_height_);
+      draw_panel(cr, mesh_, picture_, panel, range_, scale_, films[p], pixel_, left, panel_top_, panel_width_,
+                 panel_height_);
       left += panel_width_ + gap;
     }
     draw_scale_bar(cr, scale_, margin, legend_top_ + 8);
@@ -361,6 +361,7 @@ class Drawing {
   View view_;
   double scale_ = 1, panel_width_ = 0, panel_height_ = 0, panel_title_ = 0, panel_top_ = 0, legend_top_ = 0;
   Edges edges_ = Edges::smooth;
+  double pixel_ = 1; ///< of the film, px
   bool coloured_ = false;
 };
 
