@@ -24,31 +24,38 @@ std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::sp
                                         int cell_count) {
   const auto cells = static_cast<std::size_t>(cell_count);
   std::vector<CellValues> result;
-  for (const auto& field : fields)
-    result.push_back({std::vector<double>(cells * static_cast<std::size_t>(field.width())),
-                      std::vector<double>(field.worst ? cells : 0, not_a_number)});
-  std::vector<double> weights(cells);
-  std::array<double, widest_field> values;
+  std::size_t row = 0; // values of all fields at a point
+  for (const auto& field : fields) {
+    row += static_cast<std::size_t>(field.width());
+    result.push_back({{}, std::vector<double>(field.worst ? cells : 0, not_a_number)});
+  }
+  std::vector<double> values(row), weights(cells), sums(cells * row);
   for (const Sample& sample : samples) {
     const Point point(sample);
     const auto cell = static_cast<std::size_t>(sample.cell);
     const double counts = layer_of(sample) == 0 ? weight(sample) : 0;
     weights[cell] += counts;
+    double* value = values.data();
     for (std::size_t i = 0; i < fields.size(); ++i) {
-      const auto width = static_cast<std::size_t>(fields[i].width());
-      fields[i].evaluate(point, values.data());
-      for (std::size_t c = 0; c < width; ++c) result[i].average[cell * width + c] += counts * values[c];
-      if (!fields[i].worst) continue;
-      double& known = result[i].worst[cell];
-      known =
-          *fields[i].worst == Extreme::minimum ? std::fmin(known, values[0]) : std::fmax(known, values[0]);
+      fields[i].evaluate(point, value);
+      if (fields[i].worst) {
+        double& known = result[i].worst[cell];
+        known = *fields[i].worst == Extreme::minimum ? std::fmin(known, *value) : std::fmax(known, *value);
+      }
+      value += fields[i].width();
     }
+    double* const sum = &sums[cell * row];
+    for (std::size_t c = 0; c < row; ++c) sum[c] += counts * values[c];
   }
+  std::size_t first = 0;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto width = static_cast<std::size_t>(fields[i].width());
-    std::vector<double>& sums = result[i].average;
-    for (std::size_t k = 0; k < sums.size(); ++k)
-      sums[k] = weights[k / width] > 0 ? sums[k] / weights[k / width] : not_a_number;
+    std::vector<double>& average = result[i].average;
+    average.reserve(cells * width);
+    for (std::size_t cell = 0; cell < cells; ++cell)
+      for (std::size_t c = first; c < first + width; ++c)
+        average.push_back(weights[cell] > 0 ? sums[cell * row + c] / weights[cell] : not_a_number);
+    first += width;
   }
   return result;
 }

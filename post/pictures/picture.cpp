@@ -127,7 +127,7 @@ void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, do
   cairo_set_line_width(cr, width);
   set_colour(cr, wall_colour);
   constexpr int most_together = 32; // cells: Cairo's time grows faster than the length of a path
-  const double unseen = px / 10;
+  const double unseen = px / 5;
   for (const CellBlock& block : mesh.blocks) {
     if (!is_line(block.type)) continue;
     Way way;
