@@ -101,6 +101,7 @@ void Assembler::build_pattern() {
   // Elements at each equation.
   struct ElementRef {
     int block, element;
+    bool operator==(const ElementRef&) const = default;
   };
   std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
   for (const auto& equations : equations_)
@@ -118,24 +119,36 @@ void Assembler::build_pattern() {
   }
 
   // Rows of each column; an unknown without elements keeps its diagonal so that the factorisation reports it.
+  // Unknowns of one node have the same elements, and so the same rows but for those above the diagonal.
   matrix_.column_start.assign(1, 0);
   std::vector<int> seen(static_cast<std::size_t>(n), -1);
+  const auto elements_of = [&](int column) {
+    const auto u = static_cast<std::size_t>(column);
+    return std::span(elements).subspan(static_cast<std::size_t>(start[u]),
+                                       static_cast<std::size_t>(start[u + 1] - start[u]));
+  };
   for (int column = 0; column < n; ++column) {
     const std::size_t first = matrix_.rows.size();
-    matrix_.rows.push_back(column);
-    seen[static_cast<std::size_t>(column)] = column;
-    for (int k = start[static_cast<std::size_t>(column)]; k < start[static_cast<std::size_t>(column) + 1];
-         ++k) {
-      const auto [block, element] = elements[static_cast<std::size_t>(k)];
-      const int dofs = model_.blocks[static_cast<std::size_t>(block)]->dofs_per_element();
-      const int* equation = equations_[static_cast<std::size_t>(block)].data() + element * dofs;
-      for (int i = 0; i < dofs; ++i)
-        if (const int u = unknown(equation[i]); u > column && seen[static_cast<std::size_t>(u)] != column) {
-          seen[static_cast<std::size_t>(u)] = column;
-          matrix_.rows.push_back(u);
-        }
+    const auto above = column > 0 ? static_cast<std::size_t>(matrix_.column_start.rbegin()[1]) : 0;
+    if (first > above + 1 && matrix_.rows[above + 1] == column &&
+        std::ranges::equal(elements_of(column - 1), elements_of(column))) {
+      matrix_.rows.resize(2 * first - above - 1);
+      std::copy_n(matrix_.rows.begin() + static_cast<std::ptrdiff_t>(above) + 1, first - above - 1,
+                  matrix_.rows.begin() + static_cast<std::ptrdiff_t>(first));
+    } else {
+      matrix_.rows.push_back(column);
+      seen[static_cast<std::size_t>(column)] = column;
+      for (const auto& [block, element] : elements_of(column)) {
+        const int dofs = model_.blocks[static_cast<std::size_t>(block)]->dofs_per_element();
+        const int* equation = equations_[static_cast<std::size_t>(block)].data() + element * dofs;
+        for (int i = 0; i < dofs; ++i)
+          if (const int u = unknown(equation[i]); u > column && seen[static_cast<std::size_t>(u)] != column) {
+            seen[static_cast<std::size_t>(u)] = column;
+            matrix_.rows.push_back(u);
+          }
+      }
+      std::sort(matrix_.rows.begin() + static_cast<std::ptrdiff_t>(first), matrix_.rows.end());
     }
-    std::sort(matrix_.rows.begin() + static_cast<std::ptrdiff_t>(first), matrix_.rows.end());
     if (matrix_.rows.size() > INT32_MAX) throw std::length_error("the tangent has more than 2^31 entries");
     matrix_.column_start.push_back(static_cast<int>(matrix_.rows.size()));
   }
