@@ -103,7 +103,7 @@ Eigen::VectorXd weight_of(const Case& one, const std::vector<BodyNodes>& bodies,
     for (int n = 0; n < dofs.node_count(); ++n)
       for (int c = 0; c < 3; ++c)
         if (const int e = dofs.equation(n, c); e != fem::DofMap::absent) falls[e] = one.gravity.down()[c];
-    weight = one.gravity.acceleration * (model.inertia.mass * falls);
+    weight = one.gravity.acceleration * (model.inertia().mass * falls);
     for (const FinPoints& fin : fins) // the mass that they add is of a fluid, which floats
       for (const FinPoints::Point& at : fin.points)
         weight[dofs.equation(at.node, fin.along)] -= at.mass * pull[fin.along];

@@ -309,7 +309,6 @@ Device build_device(const Case& one) {
               error.what())}});
   }
   add_chamber(one, mesh, free_body, model); // behind what holds its edges
-  model.inertia = fem::Inertia::of(model.blocks, model.dofs);
   try {
     model.place_histories();
     share_leaks(model);

@@ -295,7 +295,7 @@ fem::RampOptions StepLoads::options(int number) const {
   options.longest_relaxation = times.longest;
   if (!step.duration) return options;
   options.duration = *step.duration;
-  options.inertia = step.inertia && device_.model.inertia.mass.nonZeros() > 0;
+  options.inertia = step.inertia && device_.model.inertia().mass.nonZeros() > 0;
   if (step.record) options.landing = *step.record / *step.duration;
   return options;
 }

@@ -199,7 +199,7 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     energy_.add(std::move(point));
   if (records_ == 0) return;
   const Step& step = steps_[static_cast<std::size_t>(step_)];
-  const bool unseen = step.duration && !step.inertia && device_.model.inertia.mass.nonZeros() > 0;
+  const bool unseen = step.duration && !step.inertia && device_.model.inertia().mass.nonZeros() > 0;
   if (reached == Reached::by_jump) {
     news_.push_back(jumped(release, unseen));
     unseen_ = {}; // neither the jump nor the way to the limit before it has a speed that time steps resolve

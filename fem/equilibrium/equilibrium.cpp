@@ -159,7 +159,7 @@ void Equilibrium::balance(State& state, Balance& balance, Pressure pressure) {
   if (follows) balance.energy += model_.ports.supply_energy(state);
   balance.force -= state.dead_force;
   if (!state.motion_scheme.is_static()) {
-    const InertialForce inertial(model_.inertia, model_.dofs, state);
+    const InertialForce inertial(model_.inertia(), model_.dofs, state);
     balance.force += inertial.force();
     balance.energy += inertial.energy();
   }

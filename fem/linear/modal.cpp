@@ -63,7 +63,7 @@ double VibrationMode::frequency() const { return std::sqrt(std::max(stiffness, 0
 
 std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibrium, const State& state,
                                                           const ModalOptions& options) {
-  const Inertia& inertia = equilibrium.model().inertia;
+  const Inertia& inertia = equilibrium.model().inertia();
   if (inertia.empty()) return std::vector<VibrationMode>{};
   const Eigen::Index free = equilibrium.model().dofs.free_count();
   const Eigen::SparseMatrix<double> all = equilibrium.model().dofs.jacobian(state);

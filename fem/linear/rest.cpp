@@ -140,7 +140,7 @@ bool moves_on(Equilibrium& equilibrium, const State& state) {
   Balance balance;
   equilibrium.balance(at, balance);
   const Eigen::VectorXd velocity = state.motion->velocity.head(free);
-  Eigen::VectorXd momentum = equilibrium.model().inertia.mass * state.motion->velocity;
+  Eigen::VectorXd momentum = equilibrium.model().inertia().mass * state.motion->velocity;
   equilibrium.model().dofs.gather(state, momentum);
   momentum.conservativeResize(free);
   if (!equilibrium.factor(at)) return !momentum.isZero(0);

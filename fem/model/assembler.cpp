@@ -79,8 +79,6 @@ void Assembler::find_pattern() {
   slots_.assign(equations_.size(), {});
   pairs_.assign(equations_.size(), {});
   for (std::size_t b = 0; b < equations_.size(); ++b) place_elements(b);
-  mass_ = on_pattern(model_.inertia.mass);
-  damping_ = on_pattern(model_.inertia.damping);
   if (model_.dofs.ties().empty()) return;
   reduction_.emplace(model_.dofs, matrix_);
   reduced_ = reduction_->pattern();
@@ -222,6 +220,12 @@ int Assembler::equation(int unknown) const {
   return model_.dofs.is_free(unknown) ? unknown : unknown + model_.dofs.held_count();
 }
 
+const Assembler::Resistance& Assembler::resistance() const {
+  if (resistance_.of_pattern != patterns_)
+    resistance_ = {on_pattern(model_.inertia().mass), on_pattern(model_.inertia().damping), patterns_};
+  return resistance_;
+}
+
 std::vector<double> Assembler::on_pattern(const Eigen::SparseMatrix<double>& constant) const {
   if (constant.nonZeros() == 0) return {};
   std::vector<double> values(matrix_.values.size(), 0.0);
@@ -322,7 +326,7 @@ void Assembler::tangent(const State& state) {
   Eigen::VectorXd force = -state.dead_force;
   for (const auto& block : block_residual_) force += block;
   if (!state.motion_scheme.is_static() && state.motion)
-    force += InertialForce(model_.inertia, model_.dofs, state).force();
+    force += InertialForce(model_.inertia(), model_.dofs, state).force();
   reduction_->add_geometric(state, force, reduced_.values);
 }
 
@@ -331,10 +335,10 @@ void Assembler::add_inertia(const State& state) {
   const auto add = [this](double factor, const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) matrix_.values[i] += factor * values[i];
   };
-  add(state.motion_scheme.mass_factor(), mass_);
-  add(state.motion_scheme.damping_factor(), damping_);
-  if (model_.inertia.drag.isZero(0) || !state.motion) return;
-  const Eigen::VectorXd stiffness = InertialForce(model_.inertia, model_.dofs, state).drag_stiffness();
+  add(state.motion_scheme.mass_factor(), resistance().mass);
+  add(state.motion_scheme.damping_factor(), resistance().damping);
+  if (model_.inertia().drag.isZero(0) || !state.motion) return;
+  const Eigen::VectorXd stiffness = InertialForce(model_.inertia(), model_.dofs, state).drag_stiffness();
   for (int column = 0; column < matrix_.size; ++column) // the lower triangle: a column starts on the diagonal
     matrix_.values[static_cast<std::size_t>(matrix_.column_start[static_cast<std::size_t>(column)])] +=
         stiffness[equation(column)];

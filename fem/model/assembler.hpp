@@ -38,8 +38,8 @@ class Assembler {
   std::vector<double> relaxation(const State& state, const RateWeight& weight) const;
 
   /// Mass and damping in that pattern; empty where there is none.
-  std::vector<double> mass(const State& state) const { return without_ties(state, mass_); }
-  std::vector<double> damping(const State& state) const { return without_ties(state, damping_); }
+  std::vector<double> mass(const State& state) const { return without_ties(state, resistance().mass); }
+  std::vector<double> damping(const State& state) const { return without_ties(state, resistance().damping); }
   const SparseSymmetric& matrix() const { return reduction_ ? reduced_ : matrix_; }
   /// How often the pattern of matrix() has been found: tangent() may find another one.
   int patterns() const { return patterns_; }
@@ -59,6 +59,13 @@ class Assembler {
     std::size_t choice;
   };
 
+  /// Of the model's inertia, values in the pattern of matrix_; empty without.
+  struct Resistance {
+    std::vector<double> mass, damping;
+    int of_pattern = 0; ///< the number of that pattern
+  };
+
+  const Resistance& resistance() const;
   void number_elements(std::size_t block);
   void choose_elements(const State& state);
   void find_pattern();
@@ -88,7 +95,7 @@ class Assembler {
   std::vector<Eigen::VectorXd> block_residual_;
   std::vector<Evaluation> parts_; ///< of the chunks of a colour
   bool convex_ = false;
-  std::vector<double> mass_, damping_; ///< values in the pattern of matrix_; empty without
+  mutable Resistance resistance_;
 };
 
 } // namespace dielast::fem

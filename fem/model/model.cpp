@@ -5,6 +5,11 @@
 
 namespace dielast::fem {
 
+const Inertia& Model::inertia() const {
+  if (!known_inertia) known_inertia = Inertia::of(blocks, dofs);
+  return *known_inertia;
+}
+
 void Model::place_histories() {
   int first = 0;
   for (const auto& block : blocks) {
@@ -122,7 +127,7 @@ EnergyParts Model::energies(const State& state) const {
   }
   if (state.motion) {
     const Eigen::VectorXd& velocity = state.motion->velocity;
-    parts.kinetic = velocity.dot(inertia.mass * velocity) / 2;
+    parts.kinetic = velocity.dot(inertia().mass * velocity) / 2;
   }
   return parts;
 }
@@ -156,7 +161,7 @@ State Model::settled(State state) const {
   state.history = advanced_history(state);
   state.scheme = materials::TimeScheme::frozen();
   if (!state.motion_scheme.is_static()) {
-    state.motion = std::make_shared<const Motion>(InertialForce(inertia, dofs, state).arrived());
+    state.motion = std::make_shared<const Motion>(InertialForce(inertia(), dofs, state).arrived());
     state.motion_scheme = {};
   }
   return state;

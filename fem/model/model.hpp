@@ -7,6 +7,7 @@
 #include "fem/model/turnover.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace dielast::fem {
@@ -16,12 +17,15 @@ struct Model {
   DofMap dofs;
   std::vector<std::unique_ptr<ElementBlock>> blocks;
   Ports ports;             ///< a state has one voltage (pressure) for each; at most one chamber
-  Inertia inertia;         ///< Inertia::of(blocks, dofs), where something has a mass
   double length_scale = 1; ///< m, an element's size: makes moments comparable with forces in residual norms
   double extent = 1;       ///< m, the whole mesh's: tells which forces are round-off
   std::vector<Eigen::Vector3d>
       drawn; ///< m, nodes of the mesh; needed for `corners` and where a film starts without tension
   std::vector<ElementCorners> corners; ///< of the elements that no increment may turn over; may be empty
+  mutable std::optional<Inertia> known_inertia{}; ///< see inertia()
+
+  /// Of the blocks and unknowns as they are when it is first asked for: most models never move in time.
+  const Inertia& inertia() const;
 
   /// Tells every block and the ports where their internal variables and the points of sheets are; to be
   /// called once, when they are there. Throws std::invalid_argument for sheets that cannot be.

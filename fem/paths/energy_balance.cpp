@@ -284,7 +284,7 @@ Holding holding(Equilibrium& equilibrium, const State& state) {
   const Model& model = equilibrium.model();
   const Motion& motion = *state.motion;
   Eigen::VectorXd inertial =
-      model.inertia.mass * motion.acceleration_now + model.inertia.resistance(motion.velocity);
+      model.inertia().mass * motion.acceleration_now + model.inertia().resistance(motion.velocity);
   model.dofs.gather(state, inertial);
   held.force += inertial;
   return held;
@@ -304,7 +304,7 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
   EnergyPoint point{.length = length, .time = state.time, .moves = state.motion != nullptr};
   if (state.motion) {
     const Eigen::VectorXd& velocity = state.motion->velocity;
-    point.power[EnergyPoint::dampers] = velocity.dot(model.inertia.resistance(velocity));
+    point.power[EnergyPoint::dampers] = velocity.dot(model.inertia().resistance(velocity));
   }
   // The reactions are external, too; dead forces on tied nodes do work of their own.
   const auto supported = Eigen::seqN(dofs.free_count(), dofs.held_count());

@@ -19,7 +19,7 @@ Eigen::VectorXd masses(const Model& model, const State& state) {
   constexpr double round_off = 1e-9;
   const DofMap& dofs = model.dofs;
   const Eigen::SparseMatrix<double> jacobian = dofs.jacobian(state);
-  const Eigen::SparseMatrix<double> reduced = jacobian.transpose() * model.inertia.mass * jacobian;
+  const Eigen::SparseMatrix<double> reduced = jacobian.transpose() * model.inertia().mass * jacobian;
   const Eigen::VectorXd diagonal = reduced.diagonal();
   Eigen::VectorXd masses = diagonal;
   for (const Tie& tie : dofs.ties())

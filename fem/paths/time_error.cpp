@@ -32,7 +32,7 @@ double history_error(const History& past, const History& next) {
 
 double motion_error(const Model& model, const GeneralisedAlpha& scheme, const Motion& past,
                     const Motion& next) {
-  const auto heavy = model.inertia.mass.diagonal().array() > 0;
+  const auto heavy = model.inertia().mass.diagonal().array() > 0;
   const bool starts = past.step == 0; // the whole acceleration is new to backward Euler
   const double factor = starts ? scheme.dt * scheme.dt / 2 : scheme.error_factor();
   const Eigen::VectorXd change = starts ? next.acceleration : next.acceleration - past.acceleration;

@@ -48,7 +48,6 @@ struct Diaphragm {
     model.dofs.number();
     model.ports[0].circuit = data.circuit;
     model.place_histories();
-    model.inertia = Inertia::of(model.blocks, model.dofs);
     model.length_scale = 1e-3;
     model.extent = 68.58e-3;
     plate = model.dofs.equation(inner.front(), 2);

@@ -37,6 +37,7 @@ TEST(Linearisation, is_the_tangent_of_a_backward_euler_step_at_real_s) {
     MembraneSection film = test::viscoelastic_vhb();
     if (!nominal) film.material.branches.pop_back();
     const PulledSquare square(film);
+    square.model->known_inertia.emplace(); // none
     Equilibrium equilibrium(*square.model, 1);
     State state = square.pulled(equilibrium, 1.5);
     const Linearisation linear(equilibrium, state);
@@ -97,7 +98,6 @@ struct Oscillator {
     model.dofs.number();
     model.ports[0].circuit = {.resistance = R, .leakage = G};
     model.place_histories();
-    model.inertia = Inertia::of(model.blocks, model.dofs);
     model.length_scale = model.extent = side;
   }
   State settled(Equilibrium& equilibrium, double volts) const {

@@ -26,7 +26,6 @@ struct Oscillator {
         make_point_mass_block({{.node = 1, .axis = 0, .mass = 0.7}}));
     model->dofs.hold(1, 0);
     model->dofs.number();
-    model->inertia = Inertia::of(model->blocks, model->dofs);
     equilibrium = std::make_unique<Equilibrium>(*model, 1);
   }
   /// Let go from x at rest.
@@ -123,7 +122,6 @@ TEST(Inertia, drag_lets_a_pulled_mass_reach_its_terminal_velocity) {
   const std::unique_ptr<Model> falling =
       test::free_model(1, true, make_point_mass_block({{.node = 0, .axis = 0, .mass = mass, .drag = drag}}));
   Model& model = *falling;
-  model.inertia = Inertia::of(model.blocks, model.dofs);
   Equilibrium equilibrium(model, 1);
   State start = model.initial_state();
   start.dead_force[0] = force;

@@ -198,7 +198,6 @@ TEST(PlaneContact, bounce_conserves_the_energy) {
   auto model = test::unnumbered_model(1, true, make_plane_contact_block(mesh, std::move(contact)),
                                       make_point_mass_block({{.node = 0, .axis = 1, .mass = mass}}));
   model->dofs.number();
-  model->inertia = Inertia::of(model->blocks, model->dofs);
   model->extent = fall;
   Equilibrium equilibrium(*model, 1);
   State start = model->initial_state();

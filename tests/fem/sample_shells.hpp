@@ -74,7 +74,6 @@ inline std::unique_ptr<Model> shell_with_mass(meshing::Mesh& mesh, const ShellSe
   model->blocks.back()->claim_dofs(model->dofs, Dimension::spatial);
   for (int n = 0; n < drawn; ++n) model->dofs.tie({drawn + n, n, {0, 0, mass.lever}});
   model->dofs.number();
-  model->inertia = Inertia::of(model->blocks, model->dofs);
   return model;
 }
 

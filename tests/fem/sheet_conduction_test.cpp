@@ -259,7 +259,6 @@ TEST_F(ResistingFilm, charges_stay_where_no_time_passes) {
 
 TEST_F(ResistingFilm, only_the_terminal_follows_a_jump_of_the_voltage_at_once_when_masses_rest) {
   const auto model = film(true);
-  model->inertia = Inertia::of(model->blocks, model->dofs);
   Equilibrium equilibrium(*model, 1);
   RampOptions timed = options(1e-2 * tau);
   timed.inertia = true;

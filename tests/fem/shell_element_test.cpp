@@ -149,7 +149,7 @@ TEST(Shell, has_the_mass_of_its_layers_where_their_centre_is) {
   rounded.offset = 1e-8;
   EXPECT_EQ(ShellMass::of(rounded).lever, 0);
   const Eigen::SparseMatrix<double> J = model->dofs.jacobian(model->initial_state());
-  const Eigen::SparseMatrix<double> M = J.transpose() * model->inertia.mass * J;
+  const Eigen::SparseMatrix<double> M = J.transpose() * model->inertia().mass * J;
   const auto energy = [&](const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(model->dofs.free_count());
     for (int n = 0; n < drawn; ++n) {

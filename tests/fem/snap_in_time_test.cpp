@@ -26,7 +26,6 @@ struct Square {
     for (const auto& [node, axis] : {std::pair{0, 0}, {0, 1}, {1, 1}, {2, 0}}) model->dofs.hold(node, axis);
     for (const auto& [node, axis] : {std::pair{2, 1}, {3, 0}, {3, 1}}) model->dofs.share(1, 0, node, axis);
     model->dofs.number();
-    model->inertia = Inertia::of(model->blocks, model->dofs);
     model->length_scale = model->extent = side;
     equilibrium = std::make_unique<Equilibrium>(*model, 1);
   }

@@ -93,6 +93,7 @@ TEST(StateSpace, of_an_isolated_electrode_that_leaks_is_the_response) {
   model->ports = {{"driven"}, {"leaking"}};
   model->ports[1].circuit = {.resistance = 1e6, .leakage = 1e-12};
   model->place_histories();
+  model->known_inertia.emplace(); // none
   Equilibrium equilibrium(*model, 1);
   State state = model->initial_state();
   state.scheme = materials::TimeScheme::relaxed();
@@ -122,7 +123,7 @@ TEST_F(LinearDiaphragm, has_none_where_rates_vary_or_nothing_is_stable) {
   auto film = test::material_point(std::numeric_limits<double>::infinity());
   Eigen::SparseMatrix<double> mass(1, 1);
   mass.insert(0, 0) = 1;
-  film->inertia = {mass, Eigen::SparseMatrix<double>(1, 1)};
+  film->known_inertia = Inertia{mass, Eigen::SparseMatrix<double>(1, 1)};
   Equilibrium of_film(*film, 1);
   State state = film->initial_state();
   state.displacement[0].x() = 0.5;

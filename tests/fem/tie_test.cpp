@@ -47,7 +47,6 @@ struct FilmOnBody {
     tied.push_back(master + 1);
     model->dofs.tie({master + 1, master, mesh.nodes[master + 1] - beside});
     model->dofs.number();
-    model->inertia = Inertia::of(model->blocks, model->dofs);
     model->length_scale = 5e-3;
     model->extent = 0.04;
     model->drawn = mesh.nodes;
@@ -239,7 +238,6 @@ TEST(Tie, lets_a_pendulum_swing_far) {
   for (const int c : {0, 1}) model->dofs.hold(0, c);
   model->dofs.tie({1, 0, {1, 0, 0}});
   model->dofs.number();
-  model->inertia = Inertia::of(model->blocks, model->dofs);
   Equilibrium equilibrium(*model, 1);
   State start = model->initial_state();
   start.dead_force[model->dofs.equation(1, 1)] = -9.81;
@@ -292,7 +290,6 @@ TEST(Tie, lets_a_plate_on_a_film_tilt) {
     model.dofs.tie({n, master, mesh.nodes[static_cast<std::size_t>(n)]});
   model.dofs.number();
   model.place_histories();
-  model.inertia = Inertia::of(model.blocks, model.dofs);
   model.length_scale = 4e-3;
   model.extent = 2 * b;
   model.drawn = mesh.nodes;
