@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace dielast::post {
@@ -125,11 +124,14 @@ void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const std::vector<E
   };
   for (std::size_t m = 0; m < marks.size(); ++m) {
     set_colour(cr, colours[m % colours.size()]);
-    for (const int node : marks[m].nodes) {
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cr, 2 * dot);
+    for (const int node : marks[m].nodes) { // lines without length: a tenth of what circles take in a file
       const Eigen::Vector2d p = to_px(at(node));
-      cairo_arc(cr, p.x(), p.y(), dot, 0, 2 * std::numbers::pi);
-      cairo_fill(cr);
+      cairo_move_to(cr, p.x(), p.y());
+      cairo_line_to(cr, p.x(), p.y());
     }
+    cairo_stroke(cr);
   }
   std::vector<Box> taken;
   for (std::size_t m = 0; m < marks.size(); ++m) {
