@@ -55,10 +55,11 @@ struct FitOutcome {
 /// by Levenberg-Marquardt (Ceres) in q = ln(p - lower limit) of parameters with one and q = p / |start| of
 /// others, derivatives by central differences. Steps of time are so fine that halving them changes no row by
 /// more than 2e-4 of the largest stress; they are verified at the solution, and the fit goes on with finer
-/// ones where needed. When it does not converge, or only at a bound, it is tried once more from stiffnesses
-/// scaled to the data and relaxation times spread over the times of the tests, and the better of the two is
-/// kept. Intervals and correlations: see fit_statistics.hpp, those of q carried over to p. The start must
-/// give finite stresses.
+/// ones where needed. When it does not converge, or only
+/// at a bound, or has relaxation times or exponents, it is tried again from stiffnesses scaled to the data
+/// and relaxation times spread over the times of the tests; with several sequences of exponents, and with
+/// limits near the largest stretch where one has come to its bound. The best is kept. Intervals and
+/// correlations: see fit_statistics.hpp, those of q carried over to p. The start must give finite stresses.
 FitOutcome solve_fit(const FitTask& task);
 
 } // namespace dielast::cases

@@ -43,20 +43,29 @@ class Follower final : public ceres::IterationCallback {
   explicit Follower(const LeastSquares& problem) : problem_(problem) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
+    constexpr std::size_t steps = 10;
     if (now.iteration > 0) ++iterations;
-    if (problem_.on_iteration &&
-        !problem_.on_iteration(iterations, std::sqrt(2 * now.cost / problem_.rows))) {
+    if (now.step_is_successful || now.iteration == 0) costs_.push_back(now.cost);
+    const double cost = costs_.back();
+    if (problem_.on_iteration && !problem_.on_iteration(iterations, std::sqrt(2 * cost / problem_.rows))) {
       stopped = true;
+      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    }
+    const bool crawls =
+        costs_.size() > steps && costs_[costs_.size() - 1 - steps] - cost <= problem_.crawl_tolerance * cost;
+    if (crawls) {
+      arrived = true;
       return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     }
     return ceres::SOLVER_CONTINUE;
   }
 
   int iterations = 0;
-  bool stopped = false;
+  bool stopped = false, arrived = false;
 
  private:
   const LeastSquares& problem_;
+  std::vector<double> costs_; ///< at the start and after each step that was taken
 };
 
 } // namespace
@@ -86,9 +95,10 @@ LeastSquaresEnd minimise(const LeastSquares& problem, Eigen::VectorXd& q) {
   options.callbacks.push_back(&follower);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &solved, &summary);
-  const FitEnding ending = follower.stopped                                 ? FitEnding::interrupted
-                           : summary.termination_type == ceres::CONVERGENCE ? FitEnding::converged
-                                                                            : FitEnding::gave_up;
+  const bool converged = follower.arrived || summary.termination_type == ceres::CONVERGENCE;
+  const FitEnding ending = follower.stopped ? FitEnding::interrupted
+                           : converged      ? FitEnding::converged
+                                            : FitEnding::gave_up;
   return {ending, follower.iterations, summary.final_cost};
 }
 

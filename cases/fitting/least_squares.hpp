@@ -24,6 +24,9 @@ struct LeastSquares {
   int max_invalid_steps = 30; ///< one after another, to where there is no model
   double first_radius = 1e4;  ///< of the trust region
   double function_tolerance = 0, parameter_tolerance = 0, gradient_tolerance = 0;
+  /// Converged, too, where ten steps one after another have lessened the squares by no more than this part,
+  /// as along the floor of a valley.
+  double crawl_tolerance = 0;
   /// After every iteration, with the rms of the residuals; false stops. May be left out.
   std::function<bool(int iteration, double rms)> on_iteration;
 };

@@ -28,7 +28,7 @@ Section fit_section() {
       integer(
           "max_iterations", to(&Fit::max_iterations),
           "iterations before an attempt gives up; a fit that does not converge, that ends at a bound or that "
-          "has relaxation times is tried once more, from another start")
+          "has relaxation times or exponents is tried again, from other starts")
           .at_least(1)
           .at_most(10000)
           .otherwise("200"),

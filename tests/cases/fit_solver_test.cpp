@@ -81,6 +81,37 @@ TEST(FitSolver, TwoRelaxationTimesComeBackFromAPoorStart) {
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i] / expected[i], 1, 5e-3) << i;
 }
 
+// From a quarter beside the truth the misfit leads down to two equal exponents with moduli against each
+// other.
+TEST(FitSolver, exponents_come_back_where_the_first_start_leads_to_two_alike) {
+  const materials::Ogden truth{{87.9e3, 258}, {2.0, 4.68}};
+  std::vector<MeasuredTest> tests;
+  for (const auto& [mode, largest] :
+       {std::pair{materials::Mode::uniaxial, 2.14}, std::pair{materials::Mode::equal_biaxial, 2.265}}) {
+    MeasuredTest test{.history = {.mode = mode}};
+    for (int i = 1; i <= 40; ++i) test.history.stretch.push_back(1 + (largest - 1) * i / 40);
+    test.stress = nominal_stress({.law = truth}, test.history, 1);
+    tests.push_back(std::move(test));
+  }
+  const FitOutcome fit = solve_fit(task_from({.law = materials::Ogden{{104e3, 229}, {2.33, 4.74}}}, tests));
+  std::vector<double> found;
+  for (const FittedParameter& one : fit.parameters) found.push_back(one.value);
+  ASSERT_EQ(found.size(), 4U);
+  if (found[2] > found[3]) std::swap(found[0], found[1]), std::swap(found[2], found[3]);
+  const std::vector<double> expected{87.9e3, 258, 2.0, 4.68};
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i] / expected[i], 1, 1e-5) << i;
+}
+
+// From this start the misfit leads to chains without end.
+TEST(FitSolver, a_locking_stretch_comes_back_where_the_first_start_leads_to_none) {
+  MeasuredTest test{.history = {.mode = materials::Mode::pure_shear}};
+  for (int i = 1; i <= 40; ++i) test.history.stretch.push_back(1 + 1.1 * i / 40);
+  test.stress = nominal_stress({.law = materials::ArrudaBoyce{272.5e3, 5.638}}, test.history, 1);
+  const FitOutcome fit = solve_fit(task_from({.law = materials::ArrudaBoyce{313e3, 7.42}}, {test}));
+  EXPECT_NEAR(fit.parameters[0].value / 272.5e3, 1, 1e-5);
+  EXPECT_NEAR(fit.parameters[1].value / 5.638, 1, 1e-5);
+}
+
 // P = 2 (c1 + c2/l) (l - 1/l^2) with c2 = -c1/10: at stretches above sqrt(10) film pulled sideways free is
 // not stable, and the fit ends there.
 TEST(FitSolver, TellsWhereTheMaterialIsStableNoLonger) {
