@@ -5,7 +5,6 @@
 #include "materials/laws/dielectric.hpp"
 #include "materials/laws/elastic_law.hpp"
 
-#include <utility>
 #include <vector>
 
 namespace dielast::materials {
@@ -20,15 +19,13 @@ struct Material {
   double viscosity = 0; ///< of a dashpot beside the law (Kelvin & Voigt), Pa s
 };
 
-/// The dashpot beside the law as one more branch, with a spring that hardly gives: 1e4 times as stiff as the
-/// law, so that in motions with omega the complex modulus mu + i omega eta is off by less than 1e-4 omega
-/// eta/mu of itself, and loads that jump move the film by 1e-4 of where they lead at once.
-inline Material with_dashpot(Material material) {
-  constexpr double stiffer = 1e4;
-  if (material.viscosity > 0)
-    material.branches.push_back({.law = NeoHookean{stiffer * initial_shear_modulus(material.law)},
-                                 .viscosity = std::exchange(material.viscosity, 0.0)});
-  return material;
-}
+/// How many times as stiff as the law at small strain the spring of a dashpot beside it is, see
+/// with_dashpot(): rounding of its stress is a ten-billionth of the law's modulus.
+constexpr double stiffness_of_dashpots_spring = 1e6;
+
+/// The dashpot beside the law as one more branch, with a spring that hardly gives: in motions with omega the
+/// complex modulus mu + i omega eta is off by less than 1e-6 omega eta/mu of itself, and loads that jump move
+/// the film by 1e-6 of where they lead at once (mu: at small strain).
+Material with_dashpot(Material material);
 
 } // namespace dielast::materials

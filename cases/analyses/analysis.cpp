@@ -163,9 +163,8 @@ std::vector<double> frequencies(const Sweep& sweep) {
 std::string no_response(const std::string& quantity, std::string_view key, bool device_moves) {
   if (device_moves)
     return fmt::format("{} does not move, though the device does: let {} name what moves", quantity, key);
-  return "nothing moves: a film feels the square of its voltage, and here it has none about which small "
-         "sines "
-         "could swing; take a step of kind \"voltage\" before";
+  return "nothing moves: a film feels the square of its voltage, and here none swings about one; take a step "
+         "of kind \"voltage\" before, and see that the source is not at its current_limit";
 }
 
 void require_rest(fem::Equilibrium& equilibrium, const fem::State& state) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/device.hpp"
 
+#include "cases/case/holding.hpp"
 #include "cases/devices/attachments.hpp"
 #include "cases/devices/bodies.hpp"
 #include "cases/devices/chamber.hpp"
@@ -287,7 +288,7 @@ Device build_device(const Case& one) {
   tie_mass_nodes(of_shells, mesh, model.dofs);
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   keep_spins(one, mesh, model.dofs);
-  const bool free_body = one.supports.empty() && one.bodies.empty() && !one.table;
+  const bool free_body = is_free(one, std::vector<char>(one.supports.size(), 1));
   if (free_body)
     pin(std::span(mesh.nodes).first(static_cast<std::size_t>(without_arms)), dimension, model.dofs);
   if (dimension == fem::Dimension::axisymmetric)

@@ -25,8 +25,8 @@ Course::Course(const DeviceTest& test, const std::vector<RecordedRow>& rows, std
     points_.push_back(point);
     largest = std::max(largest, std::abs(point.x));
   }
-  constexpr double time_round_off = 1e-12, balance = 1e-7; // what forces are known to
-  same_x_ = largest * (test.against == "time" ? time_round_off : balance);
+  constexpr double digits = 2e-8, balance = 1e-7; // of a time in another unit, and what forces are known to
+  same_x_ = largest * (test.against == "time" ? digits : balance);
   constexpr double negligible = 1e-5;
   double low = INFINITY, high = -INFINITY;
   for (const auto& value : test.measured) {

@@ -136,12 +136,20 @@ std::string device_text(const Template& device) {
     text += fmt::format("  {:<21} {}\n", place.name, place.meaning);
   text += "\nunless the case has its own\n";
   const Node defaults = parse_tree(device.defaults, "");
-  for (std::size_t i = 0; i < defaults.items.size(); ++i)
-    text += fmt::format("  {} = {}\n", defaults.keys[i], text_of(defaults.items[i]));
+  text += defaults_text(defaults, "  ");
   text += "\nstandard quantities\n";
   for (const Node& quantity : standard_quantities(defaults, &device))
     text += fmt::format("  {}\n", text_of(quantity));
   return text + "\n";
+}
+
+std::string defaults_text(const Node& defaults, std::string_view indent) {
+  std::string text;
+  for (std::size_t i = 0; i < defaults.items.size(); ++i)
+    text += fmt::format(
+        "{}{} = {}{}\n", indent, defaults.keys[i], text_of(defaults.items[i]),
+        defaults.keys[i] == "support" ? " # of a shell \"turn_x\", \"turn_y\", \"turn_z\", too" : "");
+  return text;
 }
 
 } // namespace dielast::cases

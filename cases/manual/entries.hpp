@@ -33,6 +33,9 @@ struct Term {
 };
 std::span<const Term> terms();
 
+/// A line for each section that a device brings, as TOML.
+std::string defaults_text(const Node& defaults, std::string_view indent);
+
 /// Keys, places, defaults and standard quantities of a device.
 std::string device_text(const Template& device);
 

@@ -65,8 +65,7 @@ std::string device_of(const Template& device) {
     text += fmt::format("| `{}` | {} |\n", place.name, cell(place.meaning));
   text += "\nUnless the case has its own:\n\n```toml\n";
   const Node defaults = parse_tree(device.defaults, "");
-  for (std::size_t i = 0; i < defaults.items.size(); ++i)
-    text += fmt::format("{} = {}\n", defaults.keys[i], text_of(defaults.items[i]));
+  text += defaults_text(defaults, "");
   text += "```\n\nStandard quantities:";
   for (const Node& quantity : standard_quantities(defaults, &device))
     text += fmt::format(" `{}`,", quantity.find("name")->text);

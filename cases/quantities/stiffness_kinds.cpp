@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What small forces and vibrations about a state at rest find.
+#include "cases/case/holding.hpp"
 #include "cases/quantities/probing.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rest.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -148,6 +150,13 @@ std::vector<Key> mode_keys() {
               .otherwise("1")};
 }
 
+std::string of_free_device(const Case& one, const Quantity& quantity) {
+  const auto at = std::ranges::find(one.steps, quantity.at, &Step::name);
+  return is_free(one, holding_in(one, one.steps, static_cast<int>(at - one.steps.begin())))
+             ? borne_by_pins("forces of inertia")
+             : "";
+}
+
 std::string without_mass(const Case& one, const Quantity&) {
   return has_mass(one) ? "" : "has no value here: nothing has a mass";
 }
@@ -202,11 +211,12 @@ std::vector<QuantityKind> stiffness_kinds() {
            return std::sqrt(modal_stiffness(quantity, measured));
          };
        },
+       .refusal = of_free_device,
        .idle = without_mass,
        .vibrates = true},
       {.word = "modal stiffness",
        .meaning = "square of a natural frequency, of those nearest to zero: negative where the state is "
-                  "unstable (1/s^2)",
+                  "unstable; of a device that nothing holds the sign alone tells (1/s^2)",
        .unit = "1/s^2",
        .keys = mode_keys,
        .in_words =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/readers/rules.hpp"
 
+#include "cases/case/holding.hpp"
 #include "cases/case/quantities.hpp"
 #include "cases/language/conditions.hpp"
 
@@ -269,6 +270,21 @@ void check_supports(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
+/// A device that nothing holds bears no weight, and does not vibrate about its pins.
+void check_held(SectionReader& reader, const Node& tree, const Case& one) {
+  bool weighs = false;
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    weighs = weighs || step.kind == StepKind::weight;
+    if (!is_free(one, holding_in(one, one.steps, static_cast<int>(s)))) continue;
+    if (!weighs && !step.inertia && !step.is_analysis()) continue;
+    const StepPlace at = place_of_step(tree, s);
+    return reader.report(at.source, at.key, borne_by_pins(weighs ? "weight" : "forces of inertia"));
+  }
+  if (one.linearise && is_free(one, holding_in(one, one.steps, static_cast<int>(one.steps.size()))))
+    reader.report(tree.find("linearise")->source, "linearise", borne_by_pins("forces of inertia"));
+}
+
 void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   const auto need = [&](StepKind kind, const char* word, bool given) {
     for (std::size_t s = 0; s < one.steps.size(); ++s)
@@ -367,6 +383,7 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_leaks(reader, tree, one);
   check_bodies(reader, tree, one);
   check_supports(reader, tree, one);
+  check_held(reader, tree, one);
   check_chamber(reader, tree, one);
   check_contact(reader, tree, one);
   check_sheets(reader, tree, one);

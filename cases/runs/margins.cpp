@@ -309,8 +309,11 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     unknown_because = "no voltage is applied at the end";
   else if (std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); }))
     unknown_because = "time passes: a run tells of its own course of the voltage only";
-  else if (std::ranges::any_of(state.supply, [](fem::Supply supply) { return fem::is_isolated(supply); }))
-    unknown_because = "an electrode is isolated: its voltage follows";
+  else if (const auto found = std::ranges::find_if(state.supply, fem::is_isolated);
+           found != state.supply.end())
+    unknown_because = found - state.supply.begin() < std::ssize(one.electrodes)
+                          ? "an electrode is isolated: its voltage follows"
+                          : "the chamber is closed: its pressure follows";
   std::vector<Passed> way;
   std::vector<Critical> criticals;
   std::optional<FurtherWay> further;

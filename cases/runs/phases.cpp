@@ -14,19 +14,6 @@
 
 namespace dielast::cases {
 
-std::vector<char> holding_in(const Case& one, const std::vector<Step>& steps, int step) {
-  step = std::min(step, static_cast<int>(steps.size()) - 1);
-  while (step > 0 && steps[static_cast<std::size_t>(step)].is_analysis()) --step;
-  const auto number = [&](const std::string& name) {
-    return static_cast<int>(std::ranges::find(steps, name, &Step::name) - steps.begin());
-  };
-  std::vector<char> holding;
-  for (const Support& support : one.supports)
-    holding.push_back((support.from.empty() || step >= number(support.from)) &&
-                      (support.until.empty() || step <= number(support.until)));
-  return holding;
-}
-
 Case with_supports(Case one, const std::vector<char>& holding) {
   std::vector<Support> all = std::exchange(one.supports, {});
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/case/case.hpp"
+#include "cases/case/holding.hpp"
 #include "fem/model/dofs.hpp"
 #include "meshing/mesh.hpp"
 
 namespace dielast::cases {
-
-/// Which supports of the case hold in this step (its number). An analysis is about the state as the step
-/// before has left it: no support lets go or takes hold in it.
-std::vector<char> holding_in(const Case& one, const std::vector<Step>& steps, int step);
 
 /// The case with these supports alone.
 Case with_supports(Case one, const std::vector<char>& holding);
