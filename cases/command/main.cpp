@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/command/command_line.hpp"
+#include "cases/console/as_warning.hpp"
 #include "cases/console/terminal.hpp"
 #include "cases/devices/device.hpp"
 #include "cases/fits/fit.hpp"
@@ -64,7 +65,7 @@ ExitCode check(const Arguments& arguments) {
   const cases::Measurement measurable(one, device); // or says what is not
   const auto quality = meshing::quality(device.mesh);
   for (const cases::Diagnostic& warning : one.warnings) cases::say(stderr, "{}\n", warning.text());
-  for (const std::string& warning : device.warnings) cases::say(stderr, "{}\n", warning);
+  for (const std::string& warning : device.warnings) cases::say(stderr, "{}\n", cases::as_warning(warning));
   cases::say("{}: valid\n{}unknowns: {} free, {} held{}\n", arguments.case_file, meshing::format(quality),
              device.model.dofs.free_count(), device.model.dofs.held_count(),
              device.free_body ? " (a free body, pinned against rigid motion)" : "");

@@ -150,11 +150,17 @@ std::vector<Key> mode_keys() {
               .otherwise("1")};
 }
 
-std::string of_free_device(const Case& one, const Quantity& quantity) {
+std::string of_free_device(const Case& one, const Quantity& quantity, std::string_view bears) {
   const auto at = std::ranges::find(one.steps, quantity.at, &Step::name);
   return is_free(one, holding_in(one, one.steps, static_cast<int>(at - one.steps.begin())))
-             ? borne_by_pins("forces of inertia")
+             ? borne_by_pins(bears)
              : "";
+}
+std::string cannot_resist(const Case& one, const Quantity& quantity) {
+  return of_free_device(one, quantity, "reactions");
+}
+std::string cannot_vibrate(const Case& one, const Quantity& quantity) {
+  return of_free_device(one, quantity, "forces of inertia");
 }
 
 std::string without_mass(const Case& one, const Quantity&) {
@@ -182,7 +188,8 @@ std::vector<QuantityKind> stiffness_kinds() {
          return [probing](const Measured& measured) {
            return give_of(probing, probing.quantity.of, measured, fem::relaxed(measured.state)).force;
          };
-       }},
+       },
+       .refusal = cannot_resist},
       {.word = "coupling",
        .meaning = "force on a held place per squared voltage, over the electrode's capacitance per length as "
                   "drawn, branches relaxed; none where the state is not at rest (-)",
@@ -196,7 +203,8 @@ std::vector<QuantityKind> stiffness_kinds() {
            },
        .probe = [](const Probing& probing) -> Probe {
          return [probing](const Measured& measured) { return coupling(probing, measured); };
-       }},
+       },
+       .refusal = cannot_resist},
       {.word = "natural frequency",
        .meaning = "of small vibrations about the state, branches relaxed; none where it is "
                   "not at rest (rad/s)",
@@ -211,7 +219,7 @@ std::vector<QuantityKind> stiffness_kinds() {
            return std::sqrt(modal_stiffness(quantity, measured));
          };
        },
-       .refusal = of_free_device,
+       .refusal = cannot_vibrate,
        .idle = without_mass,
        .vibrates = true},
       {.word = "modal stiffness",

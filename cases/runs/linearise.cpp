@@ -2,6 +2,7 @@
 #include "cases/runs/linearise.hpp"
 
 #include "cases/case/quantities.hpp"
+#include "cases/console/as_warning.hpp"
 #include "cases/console/terminal.hpp"
 #include "cases/runs/simulation.hpp"
 #include "fem/algebra/dense_algebra.hpp"
@@ -224,7 +225,7 @@ ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
   post::ResultsFolder folder(settings.directory, "linearise");
   folder.begin();
   Simulation simulation(one, settings.threads);
-  for (const std::string& warning : simulation.warnings()) say(stderr, "{}\n", warning);
+  for (const std::string& warning : simulation.warnings()) say(stderr, "{}\n", as_warning(warning));
   const Outcome outcome = simulation.run({});
   if (outcome.ending != Ending::complete) {
     say(stderr, "error: {}\n", outcome.message);

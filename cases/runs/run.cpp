@@ -2,6 +2,7 @@
 #include "cases/runs/run.hpp"
 
 #include "cases/case/quantities.hpp"
+#include "cases/console/as_warning.hpp"
 #include "cases/console/forecast.hpp"
 #include "cases/console/terminal.hpp"
 #include "cases/readers/resolved.hpp"
@@ -160,7 +161,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
              quality.triangles + quality.tetrahedra > 0
                  ? fmt::format("; smallest angle {:.1f} deg", quality.smallest_angle)
                  : "");
-  for (const std::string& warning : simulation.warnings()) log.warn("{}", warning);
+  for (const std::string& warning : simulation.warnings()) log.warn("{}", as_warning(warning));
   if (!recorder.journal().records.empty())
     log.info("resumed behind {} accepted states", recorder.journal().records.size());
 
@@ -208,7 +209,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.info("time steps: their errors of internal variables and motion add up to {:.1e}, relative",
              results.time_error);
   for (std::size_t w = simulation.warnings().size(); w < results.warnings.size(); ++w)
-    log.warn("{}", results.warnings[w]);
+    log.warn("{}", as_warning(results.warnings[w]));
   const fem::Timings& t = simulation.timings();
   log.info("{} Newton iterations; CPU {:.2f} s: residual {:.2f}, tangent {:.2f}, factor {:.2f}, solve {:.2f}",
            t.iterations, static_cast<double>(std::clock()) / CLOCKS_PER_SEC, t.residual, t.tangent, t.factor,

@@ -221,6 +221,10 @@ TEST_F(Identify, AsksWhichSideOfAJumpWasMeasured) {
   expect_measured(read_identification(directory / "identify.toml"), 30, 1e-4); // by its own time steps
   write_test("\"film.material.shear_modulus\"", test + "at_jump = \"after\"\n");
   EXPECT_NEAR(model_of(read_identification(directory / "identify.toml"), 30)[0], 0.0202241096, 1e-9);
+  // Eight digits in another unit: 20 ns behind the run's end.
+  write("v.csv", "time_min,strain\n0,0\n0.0083333333,0.023098704\n0.016666667,0.025715204\n");
+  write_test("\"film.material.shear_modulus\"", test + "at_jump = \"before\"\n");
+  expect_measured(read_identification(directory / "identify.toml"), 30, 1e-4);
   write("v.csv", "time_s,strain\n0.5,0.023098704\n1.0,0.025715204\n");
   EXPECT_NE(message().find("at_jump has no effect"), std::string::npos) << message();
 }
