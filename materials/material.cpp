@@ -5,11 +5,10 @@
 
 namespace dielast::materials {
 
-Material with_dashpot(Material material) {
+Material with_dashpot(Material material, double stiffer) {
   if (material.viscosity > 0)
-    material.branches.push_back(
-        {.law = NeoHookean{stiffness_of_dashpots_spring * initial_shear_modulus(material.law)},
-         .viscosity = std::exchange(material.viscosity, 0.0)});
+    material.branches.push_back({.law = NeoHookean{stiffer * initial_shear_modulus(material.law)},
+                                 .viscosity = std::exchange(material.viscosity, 0.0)});
   return material;
 }
 

@@ -20,12 +20,14 @@ struct Material {
 };
 
 /// How many times as stiff as the law at small strain the spring of a dashpot beside it is, see
-/// with_dashpot(): rounding of its stress is a ten-billionth of the law's modulus.
-constexpr double stiffness_of_dashpots_spring = 1e6;
+/// with_dashpot(): film's stress and energy are rounded to a ten-billionth of the law's modulus, those of
+/// solids to more, so that their spring is softer.
+constexpr double spring_of_films_dashpot = 1e6, spring_of_solids_dashpot = 1e4;
 
-/// The dashpot beside the law as one more branch, with a spring that hardly gives: in motions with omega the
-/// complex modulus mu + i omega eta is off by less than 1e-6 omega eta/mu of itself, and loads that jump move
-/// the film by 1e-6 of where they lead at once (mu: at small strain).
-Material with_dashpot(Material material);
+/// The dashpot beside the law as one more branch, with a spring that hardly gives, `stiffer` times as stiff
+/// as the law: in motions with omega the complex modulus mu + i omega eta is off by less than omega eta/(mu
+/// stiffer) of itself, and loads that jump move the film by 1/stiffer of where they lead at once (mu: at
+/// small strain).
+Material with_dashpot(Material material, double stiffer = spring_of_films_dashpot);
 
 } // namespace dielast::materials

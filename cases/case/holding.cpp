@@ -26,8 +26,8 @@ bool is_free(const Case& one, const std::vector<char>& holding) {
 
 std::string borne_by_pins(std::string_view what) {
   return fmt::format(
-      "nothing holds the device, and the nodes that keep it from drifting would bear its {}; hold it "
-      "with [[support]]",
+      "nothing holds the device: the nodes that keep it from drifting bear here its {}; hold it with "
+      "[[support]]",
       what);
 }
 

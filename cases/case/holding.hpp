@@ -13,11 +13,11 @@ namespace dielast::cases {
 /// before has left it: no support lets go or takes hold in it.
 std::vector<char> holding_in(const Case& one, const std::vector<Step>& steps, int step);
 
-/// Whether nothing but pins against rigid motion holds the device while these supports do: no force that does
-/// not balance, and no inertia, can act on it.
+/// Whether nothing but pins against rigid motion holds the device while these supports do. They bear nothing
+/// where all forces balance: no weight, and inertia of motions alone that leave the pins at rest by symmetry.
 bool is_free(const Case& one, const std::vector<char>& holding);
 
-/// Why a free device cannot be asked for what the pins would have to bear, such as "weight".
+/// What to say of a free device whose pins would have to bear something, such as "weight".
 std::string borne_by_pins(std::string_view what);
 
 } // namespace dielast::cases

@@ -50,7 +50,8 @@ struct QuantityKind {
   void (*begin)(References& references, const Quantity& quantity, double time) = nullptr;
   /// A shape's derivative, over all equations.
   Eigen::VectorXd (*gradient)(const Probing& probing, const fem::State& state) = nullptr;
-  /// What is wrong with it in a case; what leaves it without a value there. Empty: nothing.
+  /// What is wrong with it in a case; what leaves it without a value there, or with one to be warned of.
+  /// Empty: nothing.
   std::string (*refusal)(const Case& one, const Quantity& quantity) = nullptr;
   std::string (*idle)(const Case& one, const Quantity& quantity) = nullptr;
   /// What is said of it instead of an estimate of its error. Empty: there is one.

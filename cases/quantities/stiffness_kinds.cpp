@@ -156,15 +156,20 @@ std::string of_free_device(const Case& one, const Quantity& quantity, std::strin
              ? borne_by_pins(bears)
              : "";
 }
-std::string cannot_resist(const Case& one, const Quantity& quantity) {
+
+std::string without_support(const Case& one, const Quantity& quantity) {
   return of_free_device(one, quantity, "reactions");
-}
-std::string cannot_vibrate(const Case& one, const Quantity& quantity) {
-  return of_free_device(one, quantity, "forces of inertia");
 }
 
 std::string without_mass(const Case& one, const Quantity&) {
   return has_mass(one) ? "" : "has no value here: nothing has a mass";
+}
+
+std::string without_mass_or_support(const Case& one, const Quantity& quantity) {
+  const std::string massless = without_mass(one, quantity);
+  return !massless.empty()
+             ? massless
+             : of_free_device(one, quantity, "forces of inertia, which symmetry alone would balance");
 }
 
 } // namespace
@@ -189,7 +194,7 @@ std::vector<QuantityKind> stiffness_kinds() {
            return give_of(probing, probing.quantity.of, measured, fem::relaxed(measured.state)).force;
          };
        },
-       .refusal = cannot_resist},
+       .idle = without_support},
       {.word = "coupling",
        .meaning = "force on a held place per squared voltage, over the electrode's capacitance per length as "
                   "drawn, branches relaxed; none where the state is not at rest (-)",
@@ -204,7 +209,7 @@ std::vector<QuantityKind> stiffness_kinds() {
        .probe = [](const Probing& probing) -> Probe {
          return [probing](const Measured& measured) { return coupling(probing, measured); };
        },
-       .refusal = cannot_resist},
+       .idle = without_support},
       {.word = "natural frequency",
        .meaning = "of small vibrations about the state, branches relaxed; none where it is "
                   "not at rest (rad/s)",
@@ -219,8 +224,7 @@ std::vector<QuantityKind> stiffness_kinds() {
            return std::sqrt(modal_stiffness(quantity, measured));
          };
        },
-       .refusal = cannot_vibrate,
-       .idle = without_mass,
+       .idle = without_mass_or_support,
        .vibrates = true},
       {.word = "modal stiffness",
        .meaning = "square of a natural frequency, of those nearest to zero: negative where the state is "

@@ -114,6 +114,12 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
        film + "density = \"1000 kg/m^3\"\n" + disc + transient + "inertia = true\n"},
       {"honeycomb.wall_material.density", film + honeycomb,
        film + honeycomb + "[[step]]\nkind = \"modes\"\n"},
+      {"step[1]", film + honeycomb + "[[step]]\nkind = \"modes\"\n",
+       film + disc + "[[step]]\nkind = \"modes\"\n"},
+      {"quantity[1]",
+       film + honeycomb +
+           "[[quantity]]\nname = \"k\"\nkind = \"stiffness\"\nof = \"left_apex\"\nalong = \"x\"\n",
+       film + disc + "[[quantity]]\nname = \"k\"\nkind = \"stiffness\"\nof = \"centre\"\nalong = \"x\"\n"},
       {"film.material.electrostriction",
        film + "electrostriction = 0.1\n" + balloon + inflate + "[[step]]\nkind = \"pressure\"\n",
        film + "electrostriction = 0.1\n" + disc},
