@@ -5,6 +5,7 @@
 #include "materials/laws/dielectric.hpp"
 #include "materials/laws/elastic_law.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace dielast::materials {
@@ -19,15 +20,15 @@ struct Material {
   double viscosity = 0; ///< of a dashpot beside the law (Kelvin & Voigt), Pa s
 };
 
-/// How many times as stiff as the law at small strain the spring of a dashpot beside it is, see
-/// with_dashpot(): film's stress and energy are rounded to a ten-billionth of the law's modulus, those of
-/// solids to more, so that their spring is softer.
-constexpr double spring_of_films_dashpot = 1e6, spring_of_solids_dashpot = 1e4;
-
-/// The dashpot beside the law as one more branch, with a spring that hardly gives, `stiffer` times as stiff
-/// as the law: in motions with omega the complex modulus mu + i omega eta is off by less than omega eta/(mu
-/// stiffer) of itself, and loads that jump move the film by 1/stiffer of where they lead at once (mu: at
-/// small strain).
-Material with_dashpot(Material material, double stiffer = spring_of_films_dashpot);
+/// The dashpot beside the law as one more branch, with a spring that hardly gives: 1e4 times as stiff as the
+/// law, so that in motions with omega the complex modulus mu + i omega eta is off by less than 1e-4 omega
+/// eta/mu of itself, and loads that jump move the film by 1e-4 of where they lead at once.
+inline Material with_dashpot(Material material) {
+  constexpr double stiffer = 1e4;
+  if (material.viscosity > 0)
+    material.branches.push_back({.law = NeoHookean{stiffer * initial_shear_modulus(material.law)},
+                                 .viscosity = std::exchange(material.viscosity, 0.0)});
+  return material;
+}
 
 } // namespace dielast::materials

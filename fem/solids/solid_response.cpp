@@ -26,7 +26,7 @@ void write(std::vector<double>& all, std::size_t place, const materials::SolidIn
 } // namespace
 
 SolidResponse::SolidResponse(const SolidSection& section)
-    : material_(materials::with_dashpot(section.material, materials::spring_of_solids_dashpot)),
+    : material_(materials::with_dashpot(section.material)),
       has_pressure_(!std::holds_alternative<materials::StVenantKirchhoff>(section.material.law)),
       compliance_(1 / section.bulk_modulus) {}
 

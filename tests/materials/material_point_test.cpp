@@ -198,30 +198,26 @@ TEST(MaterialPoint, gent_film_snaps_to_its_stiff_side) {
 // The stretch grows as exp(r t): a Newtonian liquid beside the rubber adds 2 eta d, d the rate of
 // deformation.
 TEST(MaterialPoint, a_dashpot_beside_the_law_is_a_newtonian_liquid) {
-  const double rate = 1, dt = 1e-3;
+  const double mu = 1e5, eta = 1e4, rate = 1, dt = 1e-3;
+  const Material material{.law = NeoHookean{mu}, .viscosity = eta};
   struct Pulled {
     Mode mode;
     double power, liquid;
   };
-  const auto pull = [&](double mu, double eta, double tolerance, const Pulled& pulled) {
-    const auto& [mode, power, liquid] = pulled;
-    TimedPoint point({.law = NeoHookean{mu}, .viscosity = eta}, mode);
+  for (const auto& [mode, power, liquid] :
+       {Pulled{Mode::uniaxial, 2, 3}, Pulled{Mode::pure_shear, 3, 4}, Pulled{Mode::equal_biaxial, 5, 6}}) {
+    TimedPoint point(material, mode);
     double l = 1;
     for (int i = 0; i < 700; ++i) {
       l *= std::exp(rate * dt);
       const double stress = point.stress(l, dt);
       if (i > 50) {
         const double exact = mu * (l - std::pow(l, -power)) + liquid * eta * rate / l;
-        EXPECT_NEAR(stress, exact, tolerance * exact) << mu << ' ' << l;
+        EXPECT_NEAR(stress, exact, 1e-3 * exact) << l;
       }
       point.accept(l, dt);
     }
     EXPECT_GT(point.stress(1.001 * l, 0), 3 * mu); // in no time it is all but rigid
-  };
-  for (const Pulled& pulled :
-       {Pulled{Mode::uniaxial, 2, 3}, Pulled{Mode::pure_shear, 3, 4}, Pulled{Mode::equal_biaxial, 5, 6}}) {
-    pull(1e5, 1e4, 1e-3, pulled);
-    pull(1e3, 1e6, 5e-3, pulled); // a thousand times what the law bears
   }
 }
 
