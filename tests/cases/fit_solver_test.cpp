@@ -102,16 +102,6 @@ TEST(FitSolver, exponents_come_back_where_the_first_start_leads_to_two_alike) {
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i] / expected[i], 1, 1e-5) << i;
 }
 
-// From this start the misfit leads to chains without end.
-TEST(FitSolver, a_locking_stretch_comes_back_where_the_first_start_leads_to_none) {
-  MeasuredTest test{.history = {.mode = materials::Mode::pure_shear}};
-  for (int i = 1; i <= 40; ++i) test.history.stretch.push_back(1 + 1.1 * i / 40);
-  test.stress = nominal_stress({.law = materials::ArrudaBoyce{272.5e3, 5.638}}, test.history, 1);
-  const FitOutcome fit = solve_fit(task_from({.law = materials::ArrudaBoyce{313e3, 7.42}}, {test}));
-  EXPECT_NEAR(fit.parameters[0].value / 272.5e3, 1, 1e-5);
-  EXPECT_NEAR(fit.parameters[1].value / 5.638, 1, 1e-5);
-}
-
 // P = 2 (c1 + c2/l) (l - 1/l^2) with c2 = -c1/10: at stretches above sqrt(10) film pulled sideways free is
 // not stable, and the fit ends there.
 TEST(FitSolver, TellsWhereTheMaterialIsStableNoLonger) {
