@@ -63,14 +63,17 @@ Attempt minimise_in_time(const FitTask& task, const std::vector<Coordinate>& coo
 /// Whether another start may lead to less: the misfit of relaxation times and exponents has valleys of
 /// its own, and a parameter that has come to its bound has left one.
 bool deserves_another_start(const FitTask& task, const std::vector<Coordinate>& coordinates,
-                            const Attempt& attempt) {
+                            const Eigen::VectorXd& start, const Attempt& attempt) {
   constexpr double nothing = 1e-12; // of the squares of relative errors
   if (attempt.ending == FitEnding::gave_up) return true;
   if (attempt.cost < nothing) return false;
-  for (std::size_t i = 0; i < coordinates.size(); ++i)
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
     if (task.parameters[i].unit == "s" || is_exponent(task.parameters[i]) ||
-        coordinates[i].at_bound(attempt.q[static_cast<Eigen::Index>(i)]))
+        coordinates[i].at_bound(attempt.q[at]) ||
+        has_run_away(task.parameters[i], coordinates[i], attempt.q[at], start[at]))
       return true;
+  }
   return false;
 }
 
@@ -147,7 +150,7 @@ FitOutcome solve_fit(const FitTask& task) {
   const std::vector<int> first_steps = outcome.steps;
   Attempt best = minimise_in_time(task, coordinates, outcome.steps, start, outcome.iterations);
   std::vector<FitStart> others;
-  if (best.ending != FitEnding::interrupted && deserves_another_start(task, coordinates, best))
+  if (best.ending != FitEnding::interrupted && deserves_another_start(task, coordinates, start, best))
     others = other_starts(task, coordinates, first_steps, start, best.q);
   for (const FitStart& other : others) {
     if (!Misfit(task, coordinates, first_steps).residuals(other.q)) continue; // no stress there
@@ -159,7 +162,7 @@ FitOutcome solve_fit(const FitTask& task) {
       outcome.steps = std::move(steps);
     }
     if (ending == FitEnding::interrupted) best.ending = ending;
-    if (ending == FitEnding::interrupted || !deserves_another_start(task, coordinates, best)) break;
+    if (ending == FitEnding::interrupted || !deserves_another_start(task, coordinates, start, best)) break;
   }
 
   const Misfit misfit(task, coordinates, outcome.steps);

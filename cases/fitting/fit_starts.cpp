@@ -9,6 +9,10 @@
 namespace dielast::cases {
 namespace {
 
+bool is_limit(const FitParameter& parameter) {
+  return parameter.unit == "1" && std::isfinite(parameter.above);
+}
+
 class OtherStarts {
  public:
   OtherStarts(const FitTask& task, const std::vector<Coordinate>& coordinates, const std::vector<int>& steps)
@@ -19,8 +23,8 @@ class OtherStarts {
     bool exponents = false, limits = false;
     for (std::size_t i = 0; i < coordinates_.size(); ++i) {
       exponents = exponents || is_exponent(task_.parameters[i]);
-      limits = limits || (is_limit(task_.parameters[i]) &&
-                          coordinates_[i].at_bound(ended[static_cast<Eigen::Index>(i)]));
+      limits = limits || has_run_away(task_.parameters[i], coordinates_[i],
+                                      ended[static_cast<Eigen::Index>(i)], q[static_cast<Eigen::Index>(i)]);
     }
     spread_times(q);
     std::vector<FitStart> starts{{q}};
@@ -34,10 +38,6 @@ class OtherStarts {
   }
 
  private:
-  static bool is_limit(const FitParameter& parameter) {
-    return parameter.unit == "1" && std::isfinite(parameter.above);
-  }
-
   void set(Eigen::VectorXd& q, std::size_t i, double p) const {
     const Coordinate& c = coordinates_[i];
     q[static_cast<Eigen::Index>(i)] = std::clamp(c.q(p), c.lower, c.upper);
@@ -131,6 +131,11 @@ class OtherStarts {
 
 bool is_exponent(const FitParameter& parameter) {
   return parameter.unit == "1" && !std::isfinite(parameter.above);
+}
+
+bool has_run_away(const FitParameter& parameter, const Coordinate& coordinate, double q, double start) {
+  constexpr double far = 10;
+  return is_limit(parameter) && (coordinate.at_bound(q) || coordinate.p(q) > far * coordinate.p(start));
 }
 
 std::vector<FitStart> other_starts(const FitTask& task, const std::vector<Coordinate>& coordinates,

@@ -16,10 +16,13 @@ struct FitStart {
 /// Of any sign, and not a modulus.
 bool is_exponent(const FitParameter& parameter);
 
+/// Whether a parameter is a limit of its law, and has gone so far beyond `start` that it limits nothing.
+bool has_run_away(const FitParameter& parameter, const Coordinate& coordinate, double q, double start);
+
 /// Starts other than `q`: relaxation times spread evenly, in their logarithms, from the shortest time between
 /// rows to the duration of the tests, moduli and viscosities scaled to the measured stresses. Curves have the
 /// shape of that of `q`, and others where the law has exponents, which follow one another as in rubber, or
-/// where the solver has come to the bound of a limit at `ended`: the limit comes near the largest stretch.
+/// where a limit has run away at `ended`: the limit comes near the largest stretch.
 std::vector<FitStart> other_starts(const FitTask& task, const std::vector<Coordinate>& coordinates,
                                    const std::vector<int>& steps, const Eigen::VectorXd& q,
                                    const Eigen::VectorXd& ended);

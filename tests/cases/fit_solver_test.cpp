@@ -200,6 +200,19 @@ TEST(FitSolver, AParameterAtItsBoundIsToldAndHasNoInterval) {
   EXPECT_TRUE(fit.parameters[0].determined());
 }
 
+// Far beyond the largest stretch a limit that is too high at first looks like none, and runs away; from near
+// that stretch it is found.
+TEST(FitSolver, ALimitThatRunsAwayIsLookedForNearTheLargestStretch) {
+  MeasuredTest test;
+  test.history.mode = materials::Mode::pure_shear;
+  for (int i = 0; i < 55; ++i) test.history.stretch.push_back(1.01 + 0.6276 * i / 54);
+  test.stress = nominal_stress({.law = materials::ArrudaBoyce{272486, 5.638}}, test.history, 1);
+  const FitOutcome fit = solve_fit(task_from({.law = materials::ArrudaBoyce{313001, 7.42}}, {test}));
+  EXPECT_EQ(fit.ending, FitEnding::converged);
+  EXPECT_NEAR(fit.parameters[0].value, 272486, 1e-6 * 272486);
+  EXPECT_NEAR(fit.parameters[1].value, 5.638, 1e-5);
+}
+
 TEST(FitSolver, GivingUpAndInterruptsKeepTheBestSoFar) {
   FitTask task = task_from(film(30e3, 90, 10e3, 2), noisy(exact_tests(), 3));
   const auto squares = [&](const Material& material) {
