@@ -5,6 +5,7 @@
 #include "materials/laws/dielectric.hpp"
 #include "materials/laws/elastic_law.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -17,17 +18,21 @@ struct Material {
   Dielectric dielectric;
   double density = 960; ///< kg/m^3
   std::vector<Branch> branches;
-  double viscosity = 0; ///< of a dashpot beside the law (Kelvin & Voigt), Pa s
+  double viscosity = 0;    ///< of a dashpot beside the law (Kelvin & Voigt), Pa s
+  double fastest_rate = 0; ///< at which what is asked of that dashpot changes, 1/s
 };
 
 /// The dashpot beside the law as one more branch, with a spring that hardly gives: 1e4 times as stiff as the
-/// law, so that in motions with omega the complex modulus mu + i omega eta is off by less than 1e-4 omega
-/// eta/mu of itself, and loads that jump move the film by 1e-4 of where they lead at once.
+/// stiffer of the law and of what the dashpot resists at the fastest rate r, mu and r eta. So in motions with
+/// omega <= r the complex modulus mu + i omega eta is off by less than 1e-4 of itself, and loads that jump
+/// move the film by 1e-4 of where they lead over 1/r, or in the end.
 inline Material with_dashpot(Material material) {
   constexpr double stiffer = 1e4;
-  if (material.viscosity > 0)
-    material.branches.push_back({.law = NeoHookean{stiffer * initial_shear_modulus(material.law)},
-                                 .viscosity = std::exchange(material.viscosity, 0.0)});
+  const double eta = std::exchange(material.viscosity, 0.0);
+  if (eta > 0)
+    material.branches.push_back({.law = NeoHookean{stiffer * std::max(initial_shear_modulus(material.law),
+                                                                      material.fastest_rate * eta)},
+                                 .viscosity = eta});
   return material;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/readers/case_tree.hpp"
 
+#include "cases/case/fastest_rate.hpp"
 #include "cases/case/quantities.hpp"
 #include "cases/language/section_reader.hpp"
 #include "cases/readers/fit_reader.hpp"
@@ -99,6 +100,16 @@ int give_way(Node& tree, int standard) {
   return static_cast<int>(list->items.size() - users.size());
 }
 
+/// Tells the films how fast a dashpot beside their law must be followed.
+void tell_rate(Case& one) {
+  const double rate = fastest_rate(one);
+  for (Part& part : one.parts) {
+    if (!part.film) continue;
+    part.film->material.fastest_rate = rate;
+    for (Layer& layer : part.film->further_layers) layer.material.fastest_rate = rate;
+  }
+}
+
 } // namespace
 
 Case interpret(Node tree, const std::filesystem::path& path) {
@@ -152,6 +163,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
     if (body.pivot || std::ranges::count(body.fixed, true) > 0) supported.push_back(body.name);
   require_known(reader, Reference::supported_place, "supported place", supported);
   check_rules(reader, tree, one);
+  tell_rate(one);
   for (Part& part : one.parts) locate_mesh(reader, tree, one, part);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   one.places = reader.mentions(Reference::place);

@@ -156,8 +156,7 @@ Section material_section() {
   section.keys.push_back(
       measure("viscosity", "Pa s",
               to_part<Owner>([](auto& film) -> auto& { return film.material.viscosity; }),
-              "of a dashpot beside the law (Kelvin & Voigt), per rate of the strain's deviator; "
-              "above 1e4 times the law's modulus over it the film is stiff")
+              "of a dashpot beside the law (Kelvin & Voigt), per rate of the strain's deviator")
           .at_least(0)
           .otherwise("0 Pa.s")
           .only_with(when::film_flows()));

@@ -37,6 +37,7 @@ class FilmCases : public test::ScratchTest {
     std::vector<std::vector<double>> voltages;         ///< V, likewise, per electrode
     std::map<std::string, std::vector<double>> values; ///< per quantity likewise
     std::multiset<std::string> events;                 ///< kinds
+    std::vector<Analysis> analyses;                    ///< of the steps of kind "modes" and "harmonic"
     double last(const std::string& name) const { return values.at(name).back(); }
   };
 
@@ -53,6 +54,9 @@ class FilmCases : public test::ScratchTest {
         ran.values[one.quantities[q].name].push_back(frame.values[q]);
       for (const post::Event& event : frame.record.events) ran.events.insert(event.kind);
       return true;
+    };
+    observer.on_analysis = [&](const Analysis& analysis, const fem::State&) {
+      ran.analyses.push_back(analysis);
     };
     ran.outcome = simulation.run(observer);
     EXPECT_EQ(ran.outcome.ending, Ending::complete) << ran.outcome.message << "\n" << text;

@@ -12,8 +12,11 @@
 namespace dielast::cases::solids_that_jump_test {
 namespace {
 
-constexpr double jump = 4e-6;         ///< s
-constexpr double much = 1e-13;        ///< J, of 20 nJ or more that are exchanged
+constexpr double jump = 4e-6;  ///< s
+constexpr double much = 1e-14; ///< J, of 20 nJ or more that are exchanged
+/// Likewise with a dashpot: its spring takes up 0.2 pJ at the jump and lets them go before the next state. Of
+/// eight viscosities from 0.05 to 1 Pa s the largest error is 2.8e-13.
+constexpr double much_of_springs = 5e-13;
 constexpr double within_a_moment = 2; ///< Pa, of hundreds
 
 class SolidsThatJump : public Paths {
@@ -55,7 +58,7 @@ TEST_F(SolidsThatJump, pressures_follow_a_voltage_that_jumps) {
                                  " }\n" + transient);
       const auto [here, later] = behind(found);
       EXPECT_NEAR(here, later, within_a_moment) << viscosity << wave;
-      EXPECT_LT(at_end(found, "energy_error"), much) << viscosity << wave;
+      EXPECT_LT(at_end(found, "energy_error"), *viscosity ? much_of_springs : much) << viscosity << wave;
     }
 }
 
@@ -80,7 +83,7 @@ TEST_F(SolidsThatJump, fields_follow_voltages_and_charges_that_jump) {
       const Run found = slab("field = \"potential\"\n", viscosity, electrode + driven);
       const auto [here, later] = behind(found);
       EXPECT_NEAR(here, later, within_a_moment) << driven;
-      EXPECT_LT(at_end(found, "energy_error"), much) << viscosity << driven;
+      EXPECT_LT(at_end(found, "energy_error"), *viscosity ? much_of_springs : much) << viscosity << driven;
     }
 }
 
