@@ -2,6 +2,7 @@
 #include "cases/analyses/analysis.hpp"
 
 #include "cases/case/quantities.hpp"
+#include "cases/devices/without_pins.hpp"
 #include "cases/quantities/measurement.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rest.hpp"
@@ -11,14 +12,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace dielast::cases {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
+constexpr std::complex<double> none{no_value, no_value};
 
-Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State state, const Step& step) {
+Analysis modes(const Case& one, const Device& given, fem::Equilibrium& equilibrium, const fem::State& at,
+               const Step& step) {
+  WithoutPins loose(one, given, equilibrium, at);
+  const Device& device = loose.device();
+  fem::State state = loose.state();
   const std::vector<double> held = device.model.charges(state, false).charge;
   for (std::size_t e = 0; e < device.model.ports.size(); ++e) {
     if (device.model.ports[e].chamber) continue;
@@ -29,7 +36,8 @@ Analysis modes(const Device& device, fem::Equilibrium& equilibrium, fem::State s
       state.supply[e] = fem::Supply::voltage;
     }
   }
-  const auto found = fem::vibration_modes(equilibrium, state, {.count = step.count});
+  const auto found =
+      fem::vibration_modes(loose.equilibrium(), state, {.count = step.count, .drifts = loose.drifts()});
   if (!found) throw AnalysisError("no modes found: the device is at a critical point");
   Analysis analysis{.kind = step.kind,
                     .step = step.name,
@@ -78,7 +86,7 @@ void require_stable(fem::Equilibrium& equilibrium, const fem::State& state) {
                                     unstable, unstable == 1 ? "" : "s"));
 }
 
-Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
+Analysis harmonic(const Case& one, const Device& given, fem::Equilibrium& equilibrium,
                   const fem::State& state, const Step& step) {
   const Quantity& quantity = *response_quantity(one, step.response_of);
   Analysis analysis{
@@ -98,9 +106,12 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   for (const char* of_all :
        {"admittance[S]", "admittance_phase[deg]", "impedance[Ohm]", "impedance_phase[deg]"})
     analysis.columns.emplace_back(of_all);
-  const fem::State at_rest = operating_point(device, state, driven);
-  require_rest(equilibrium, at_rest);
-  require_stable(equilibrium, at_rest);
+  const fem::State pinned = operating_point(given, state, driven);
+  require_rest(equilibrium, pinned);
+  require_stable(equilibrium, pinned);
+  WithoutPins loose(one, given, equilibrium, pinned);
+  const Device& device = loose.device();
+  const fem::State& at_rest = loose.state();
   const double bias = common_bias(device, at_rest, driven);
   if (bias != 0)
     analysis.columns.push_back(
@@ -108,9 +119,10 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   const std::vector<double> hertz = frequencies(step.sweep);
   std::vector<double> omega = hertz;
   for (double& w : omega) w *= 2 * std::numbers::pi;
-  const Eigen::VectorXd output = response_row(one, device, state, quantity);
-  const fem::Linearisation linear(equilibrium, at_rest);
-  const auto responses = fem::harmonic_response(linear, common_drive(device, at_rest, driven), omega);
+  const Eigen::VectorXd output = response_row(one, device, at_rest, quantity);
+  const fem::Linearisation linear(loose.equilibrium(), at_rest, loose.drifts());
+  auto responses = fem::harmonic_response(linear, common_drive(device, at_rest, driven), omega);
+  loose.take_off_drift(responses);
   std::size_t strongest = 0;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const fem::HarmonicResponse& at = responses[i];
@@ -120,7 +132,7 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
     append_polar(row, (output.transpose() * at.displacement).value());
     for (const std::size_t port : driven) append_polar(row, at.voltage[static_cast<Eigen::Index>(port)]);
     append_polar(row, current);
-    append_polar(row, 1.0 / current);
+    append_polar(row, current == 0.0 ? none : 1.0 / current); // where nothing flows
     if (bias != 0) row.push_back(row[1] / (2 * std::abs(bias)));
     analysis.rows.push_back(std::move(row));
     if (analysis.rows.back()[1] > analysis.rows[strongest][1]) strongest = i;
@@ -130,7 +142,7 @@ Analysis harmonic(const Case& one, const Device& device, fem::Equilibrium& equil
   const auto shape = [&](const std::string& phase, const Eigen::VectorXd& along) {
     const fem::DofMap& dofs = device.model.dofs;
     analysis.shapes.push_back(
-        {phase + where, fem::displacements(dofs, state, along), fem::spins(dofs, state, along)});
+        {phase + where, fem::displacements(dofs, at_rest, along), fem::spins(dofs, at_rest, along)});
   };
   shape("in phase ", peak.real());
   shape("a quarter period behind ", -peak.imag());
@@ -220,7 +232,7 @@ Analysis analyse(const Case& one, const Device& device, fem::Equilibrium& equili
                  const fem::State& state, const Step& step) {
   require_rest(equilibrium, state);
   try {
-    return step.kind == StepKind::modes ? modes(device, equilibrium, state, step)
+    return step.kind == StepKind::modes ? modes(one, device, equilibrium, state, step)
                                         : harmonic(one, device, equilibrium, state, step);
   } catch (const std::domain_error& error) {
     throw AnalysisError(error.what());

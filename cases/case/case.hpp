@@ -276,6 +276,7 @@ struct Case {
   std::vector<Electrode> electrodes;
   std::vector<Support> supports;
   std::vector<std::string> places_of_spins; ///< where supports that do not hold now hold some rotations
+  bool pinned = true;                       ///< against rigid motion, where nothing holds it; see Holding
   std::vector<Load> loads;
   std::map<std::string, Drive> drives;     ///< by the electrode's name
   std::map<std::string, Circuit> circuits; ///< likewise

@@ -9,13 +9,25 @@
 
 namespace dielast::cases {
 
-/// Which supports of the case hold in this step (its number). An analysis is about the state as the step
-/// before has left it: no support lets go or takes hold in it.
-std::vector<char> holding_in(const Case& one, const std::vector<Step>& steps, int step);
+/// What holds the device in a step.
+struct Holding {
+  std::vector<char> supports; ///< which of the case's
+  /// Where there is nothing else, pins against rigid motion. They bear nothing while all forces balance, and
+  /// with inertia let go: then masses keep the device where it is.
+  bool pins = false;
 
-/// Whether nothing but pins against rigid motion holds the device while these supports do. They bear nothing
-/// where all forces balance: no weight, and inertia of motions alone that leave the pins at rest by symmetry.
-bool is_free(const Case& one, const std::vector<char>& holding);
+  bool operator==(const Holding&) const = default;
+};
+
+/// What holds in this step (its number). An analysis is about the state as the step before has left it: no
+/// support lets go or takes hold in it.
+Holding holding_in(const Case& one, const std::vector<Step>& steps, int step);
+
+/// The case with what holds then alone.
+Case held_by(Case one, const Holding& holding);
+
+/// Whether no support, body or table holds the device while these supports do.
+bool is_free(const Case& one, const std::vector<char>& supports);
 
 /// What to say of a free device whose pins would have to bear something, such as "weight".
 std::string borne_by_pins(std::string_view what);

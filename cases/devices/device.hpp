@@ -29,7 +29,8 @@ struct Device {
   bool tension_field = false;     ///< a film wrinkles where it would be compressed
   bool bears_compression = false; ///< every film is a shell or a solid: it may buckle, and does not wrinkle
   bool solid = false;             ///< its film is meshed across its thickness
-  bool free_body = false;         ///< no support: pinned against rigid motion only, without reactions
+  bool free_body = false;         ///< nothing holds it
+  bool pinned = false;            ///< against rigid motion, as the case has it, where nothing holds it
   Eigen::VectorXd weight;         ///< dead forces of gravity, per equation, N
   std::vector<FinPoints> fins{};  ///< in the order of Case::fins
   std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What small forces and vibrations about a state at rest find.
 #include "cases/case/holding.hpp"
+#include "cases/devices/without_pins.hpp"
 #include "cases/quantities/probing.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rest.hpp"
@@ -125,10 +126,15 @@ double coupling(const Probing& probing, const Measured& measured) {
   return force * probing.quantity.length / drawn;
 }
 
-/// NaN where nothing has a mass, or the state is not at rest.
-double modal_stiffness(const Quantity& quantity, const Measured& measured) {
+/// From the lowest, negative ones first: of those nearest to zero, some of which may be above it. NaN where
+/// nothing has a mass, or the state is not at rest.
+double modal_stiffness(const Probing& probing, const Measured& measured) {
+  constexpr int more = 4;
   if (!at_rest(measured)) return no_value;
-  const auto modes = fem::vibration_modes(measured.equilibrium, measured.state, {.count = quantity.mode});
+  const Quantity& quantity = probing.quantity;
+  WithoutPins loose(probing.one, probing.device, measured.equilibrium, measured.state);
+  const auto modes = fem::vibration_modes(loose.equilibrium(), loose.state(),
+                                          {.count = quantity.mode + more, .drifts = loose.drifts()});
   if (!modes || std::ssize(*modes) < quantity.mode) return no_value;
   return (*modes)[static_cast<std::size_t>(quantity.mode) - 1].stiffness;
 }
@@ -150,26 +156,14 @@ std::vector<Key> mode_keys() {
               .otherwise("1")};
 }
 
-std::string of_free_device(const Case& one, const Quantity& quantity, std::string_view bears) {
-  const auto at = std::ranges::find(one.steps, quantity.at, &Step::name);
-  return is_free(one, holding_in(one, one.steps, static_cast<int>(at - one.steps.begin())))
-             ? borne_by_pins(bears)
-             : "";
-}
-
 std::string without_support(const Case& one, const Quantity& quantity) {
-  return of_free_device(one, quantity, "reactions");
+  const auto at = std::ranges::find(one.steps, quantity.at, &Step::name);
+  const Holding holding = holding_in(one, one.steps, static_cast<int>(at - one.steps.begin()));
+  return is_free(one, holding.supports) ? borne_by_pins("reactions") : "";
 }
 
 std::string without_mass(const Case& one, const Quantity&) {
   return has_mass(one) ? "" : "has no value here: nothing has a mass";
-}
-
-std::string without_mass_or_support(const Case& one, const Quantity& quantity) {
-  const std::string massless = without_mass(one, quantity);
-  return !massless.empty()
-             ? massless
-             : of_free_device(one, quantity, "forces of inertia, which symmetry alone would balance");
 }
 
 } // namespace
@@ -211,8 +205,8 @@ std::vector<QuantityKind> stiffness_kinds() {
        },
        .idle = without_support},
       {.word = "natural frequency",
-       .meaning = "of small vibrations about the state, branches relaxed; none where it is "
-                  "not at rest (rad/s)",
+       .meaning = "of small vibrations about the state, branches relaxed, those of a device that nothing "
+                  "holds without its rigid motions; none where it is not at rest (rad/s)",
        .unit = "rad/s",
        .keys = mode_keys,
        .in_words =
@@ -220,15 +214,15 @@ std::vector<QuantityKind> stiffness_kinds() {
              return fmt::format("natural frequency number {}{}", q.mode, at_words(q));
            },
        .probe = [](const Probing& probing) -> Probe {
-         return [&quantity = probing.quantity](const Measured& measured) { // NaN where it is unstable
-           return std::sqrt(modal_stiffness(quantity, measured));
+         return [probing](const Measured& measured) { // NaN where it is unstable
+           return std::sqrt(modal_stiffness(probing, measured));
          };
        },
-       .idle = without_mass_or_support,
+       .idle = without_mass,
        .vibrates = true},
       {.word = "modal stiffness",
-       .meaning = "square of a natural frequency, of those nearest to zero: negative where the state is "
-                  "unstable; of a device that nothing holds the sign alone tells (1/s^2)",
+       .meaning =
+           "square of a natural frequency, from the lowest: negative where the state is unstable (1/s^2)",
        .unit = "1/s^2",
        .keys = mode_keys,
        .in_words =
@@ -237,9 +231,7 @@ std::vector<QuantityKind> stiffness_kinds() {
                                 q.mode, at_words(q));
            },
        .probe = [](const Probing& probing) -> Probe {
-         return [&quantity = probing.quantity](const Measured& measured) {
-           return modal_stiffness(quantity, measured);
-         };
+         return [probing](const Measured& measured) { return modal_stiffness(probing, measured); };
        },
        .idle = without_mass,
        .vibrates = true},

@@ -270,20 +270,15 @@ void check_supports(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
-/// A device that nothing holds bears no weight, and vibrates about its pins.
+/// A device that nothing holds bears no weight: it would fall.
 void check_held(SectionReader& reader, const Node& tree, const Case& one) {
-  const std::string inertia = borne_by_pins("forces of inertia, which symmetry alone would balance");
   bool weighs = false;
   for (std::size_t s = 0; s < one.steps.size(); ++s) {
-    const Step& step = one.steps[s];
-    weighs = weighs || step.kind == StepKind::weight;
-    if (!is_free(one, holding_in(one, one.steps, static_cast<int>(s)))) continue;
+    weighs = weighs || one.steps[s].kind == StepKind::weight;
+    if (!weighs || !is_free(one, holding_in(one, one.steps, static_cast<int>(s)).supports)) continue;
     const StepPlace at = place_of_step(tree, s);
-    if (weighs) return reader.report(at.source, at.key, borne_by_pins("weight"));
-    if (step.inertia || step.is_analysis()) reader.warn(at.source, at.key, inertia);
+    return reader.report(at.source, at.key, borne_by_pins("weight"));
   }
-  if (one.linearise && is_free(one, holding_in(one, one.steps, static_cast<int>(one.steps.size()))))
-    reader.warn(tree.find("linearise")->source, "linearise", inertia);
 }
 
 void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {

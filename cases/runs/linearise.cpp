@@ -4,6 +4,7 @@
 #include "cases/case/quantities.hpp"
 #include "cases/console/as_warning.hpp"
 #include "cases/console/terminal.hpp"
+#include "cases/devices/without_pins.hpp"
 #include "cases/runs/simulation.hpp"
 #include "fem/algebra/dense_algebra.hpp"
 #include "fem/linear/balanced_truncation.hpp"
@@ -61,12 +62,14 @@ Complex polynomial(const std::vector<double>& coefficients, Complex s) {
 }
 
 Linearised linearise(const Case& one, Simulation& simulation) {
-  const Device& device = simulation.device();
   require_rest(simulation.equilibrium(), simulation.state());
   const Quantity& output = *response_quantity(one, one.linearise->output);
   const std::vector<std::size_t> driven = driven_ports(one, one.linearise->driven);
-  const fem::State state = operating_point(device, simulation.state(), driven);
-  require_rest(simulation.equilibrium(), state);
+  const fem::State at_rest = operating_point(simulation.device(), simulation.state(), driven);
+  require_rest(simulation.equilibrium(), at_rest);
+  WithoutPins loose(one, simulation.device(), simulation.equilibrium(), at_rest);
+  const Device& device = loose.device();
+  const fem::State& state = loose.state();
   const fem::HarmonicDrive drive = common_drive(device, state, driven);
   const fem::Channels channels{driven, response_row(one, device, state, output).transpose(), {}};
   Linearised result{.output = output.name,
@@ -78,9 +81,11 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   }
   std::vector<double> omega = result.frequency;
   for (double& w : omega) w *= 2 * std::numbers::pi;
-  const fem::Linearisation full(simulation.equilibrium(), state);
+  const fem::Linearisation full(loose.equilibrium(), state, loose.drifts());
   bool moves = false;
-  for (const auto& at : fem::harmonic_response(full, drive, omega)) {
+  auto responses = fem::harmonic_response(full, drive, omega);
+  loose.take_off_drift(responses);
+  for (const auto& at : responses) {
     result.full.push_back((channels.rows.row(0) * at.displacement).value());
     moves = moves || !at.displacement.isZero(0);
   }
@@ -88,8 +93,9 @@ Linearised linearise(const Case& one, Simulation& simulation) {
     throw AnalysisError(no_response(output.name, "linearise.output", moves));
   for (const double band : bands) {
     if (band != bands.front() && result.error < good) break;
-    fem::StateSpace large = fem::state_space(simulation.equilibrium(), state, channels,
-                                             {.highest_frequency = band * omega.back()});
+    fem::StateSpace large =
+        fem::state_space(loose.equilibrium(), state, channels,
+                         {.highest_frequency = band * omega.back(), .drifts = loose.drifts()});
     large.B = large.B.rowwise().sum().eval(); // the sources swing together: one input
     large.D = large.D.rowwise().sum().eval();
     std::vector<Complex> reduced;

@@ -202,7 +202,7 @@ class FurtherWay {
   void begin(SimulationProgress progress, double factor) {
     further_.steps = steps_;
     progress.step = std::min(progress.step, static_cast<int>(steps_.size()) - 1);
-    const std::vector<char> holding = holding_in(one_, steps_, progress.step);
+    const std::vector<char> holding = holding_in(one_, steps_, progress.step).supports;
     for (std::size_t i = 0; i < holding.size(); ++i) // goes on holding
       further_.supports[i].until = holding[i] ? "" : one_.supports[i].until;
     further_.steps.resize(static_cast<std::size_t>(progress.step) + 1);

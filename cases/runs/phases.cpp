@@ -3,6 +3,7 @@
 
 #include "cases/runs/simulation.hpp"
 #include "cases/text/diagnostics.hpp"
+#include "fem/paths/renumbering.hpp"
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
@@ -13,16 +14,6 @@
 #include <utility>
 
 namespace dielast::cases {
-
-Case with_supports(Case one, const std::vector<char>& holding) {
-  std::vector<Support> all = std::exchange(one.supports, {});
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (holding[i])
-      one.supports.push_back(std::move(all[i]));
-    else if (all[i].holds_some_rotations())
-      one.places_of_spins.push_back(all[i].place);
-  return one;
-}
 
 namespace {
 
@@ -75,7 +66,7 @@ void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::D
   for (std::size_t s = 0; s < one.steps.size(); ++s) {
     const Step& step = one.steps[s];
     if (step.kind != StepKind::move && step.kind != StepKind::transient) continue;
-    const std::vector<char> holding = holding_in(one, one.steps, static_cast<int>(s));
+    const std::vector<char> holding = holding_in(one, one.steps, static_cast<int>(s)).supports;
     std::vector<Move> moves;
     for (std::size_t i = 0; i < one.supports.size(); ++i)
       for (int axis = 0; axis < 3; ++axis)
@@ -94,57 +85,16 @@ void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::D
   }
 }
 
-Renumbering::Renumbering(const fem::DofMap& from, const fem::DofMap& to)
-    : to_(to), from_(static_cast<std::size_t>(to.count())), was_held_(from_.size()) {
-  for (int node = 0; node < to.node_count(); ++node)
-    for (int c = 0; c < fem::DofMap::unknowns; ++c)
-      if (const int e = to.equation(node, c); e != fem::DofMap::absent) {
-        const auto at = static_cast<std::size_t>(e);
-        from_[at] = from.equation(node, c);
-        if (from_[at] == fem::DofMap::absent)
-          throw std::logic_error("a node turns in another way than before");
-        was_held_[at] = from.is_held(from_[at]);
-      }
-}
-
-Eigen::VectorXd Renumbering::operator()(const Eigen::VectorXd& values) const {
-  Eigen::VectorXd moved = values;
-  for (std::size_t e = 0; e < from_.size(); ++e) moved[static_cast<Eigen::Index>(e)] = values[from_[e]];
-  return moved;
-}
-
-fem::State Renumbering::operator()(fem::State state) const {
-  state.dead_force = (*this)(state.dead_force);
-  if (!state.motion) return state;
-  fem::Motion motion = *state.motion;
-  for (Eigen::VectorXd* part : {&motion.position, &motion.velocity, &motion.acceleration, &motion.unbalanced,
-                                &motion.acceleration_now}) {
-    *part = (*this)(*part);
-    if (part != &motion.position) part->segment(to_.free_count(), to_.held_count()).setZero();
-  }
-  for (int e = 0; e < to_.free_count(); ++e)
-    if (was_held_[static_cast<std::size_t>(e)]) motion.unbalanced[e] = 0;
-  motion.step = 0; // time steps begin anew
-  state.motion = std::make_shared<const fem::Motion>(std::move(motion));
-  return state;
-}
-
-Eigen::VectorXd Renumbering::let_go(const Eigen::VectorXd& values) const {
-  Eigen::VectorXd freed = Eigen::VectorXd::Zero(to_.count());
-  for (int e = 0; e < to_.free_count(); ++e)
-    if (was_held_[static_cast<std::size_t>(e)]) freed[e] = values[from_[static_cast<std::size_t>(e)]];
-  return freed;
-}
-
 /// Supports let go and take hold at the beginning of the current step. What lets go hands its forces to the
 /// loads, so that the state stays in balance.
 void Simulation::change_supports(fem::State& state) {
   loads_->let_go.resize(0);
   if (holding_in(case_, steps_, step_) == holding_) return;
   const fem::DofMap before = device_.model.dofs;
-  const Eigen::VectorXd reaction = fem::reactions(device_.model, state, held_);
+  Eigen::VectorXd reaction = fem::reactions(device_.model, state, held_);
+  if (holding_.pins) reaction.setZero(); // but for rounding
   enter(step_);
-  const Renumbering renumbered(before, device_.model.dofs);
+  const fem::Renumbering renumbered(before, device_.model.dofs);
   const Eigen::VectorXd let_go = renumbered.let_go(reaction);
   state = renumbered(std::move(state));
   state.dead_force += let_go;
@@ -153,7 +103,7 @@ void Simulation::change_supports(fem::State& state) {
   for (fem::EnergyPoint& point : record.points)
     for (Eigen::VectorXd* part : {&point.mechanical.force, &point.mechanical.coordinate})
       *part = renumbered(*part);
-  if (state.motion) catch_what_moves(state, record);
+  if (state.motion && !holding_.pins) catch_what_moves(state, record);
   energy_ = fem::EnergyBalance(std::move(record));
   come_to(state);
 }

@@ -7,6 +7,7 @@
 #include "cases/runs/phases.hpp"
 #include "fem/linear/rest.hpp"
 #include "fem/paths/homotopy.hpp"
+#include "fem/paths/renumbering.hpp"
 #include "post/engineering.hpp"
 #include "post/files/checkpoint_file.hpp"
 
@@ -54,9 +55,9 @@ bool lacks_voltage(const Case& one, const Step& step) {
 } // namespace
 
 Simulation::Simulation(const Case& one, int threads)
-    : case_(one), threads_(threads), holding_(holding_in(one, one.steps, 0)),
-      now_(with_supports(one, holding_)), device_(build_device(now_)), measurement_(one, device_),
-      signals_(signals_of(one)), watch_(one, device_), scalars_(wanted(measurement_)), steps_(one.steps),
+    : case_(one), threads_(threads), holding_(holding_in(one, one.steps, 0)), now_(held_by(one, holding_)),
+      device_(build_device(now_)), measurement_(one, device_), signals_(signals_of(one)),
+      watch_(one, device_), scalars_(wanted(measurement_)), steps_(one.steps),
       results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
   require_one_motion(one, device_.mesh, device_.model.dofs);
   equilibrium_.emplace(device_.model, threads);
@@ -113,16 +114,16 @@ Simulation::Simulation(const Case& one, int threads)
 }
 
 void Simulation::enter(int step) {
-  std::vector<char> holding = holding_in(case_, steps_, step);
+  Holding holding = holding_in(case_, steps_, step);
   if (holding == holding_) return;
   holding_ = std::move(holding);
   const fem::DofMap before = device_.model.dofs;
-  now_ = with_supports(case_, holding_);
+  now_ = held_by(case_, holding_);
   equilibrium_.reset();
   device_ = build_device(now_);
   measurement_.prepare();
   equilibrium_.emplace(device_.model, threads_);
-  frame_ = Renumbering(before, device_.model.dofs)(frame_);
+  frame_ = fem::Renumbering(before, device_.model.dofs)(frame_);
   loads_.emplace(now_, device_, steps_, signals_, frame_);
 }
 
@@ -344,6 +345,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
     }
     if (ramp.load_factor >= 1 || ramp.increment == 0) {
       fem::State state = ramp.points.back().state;
+      if (device_.free_body && !device_.pinned) change_supports(state); // what drifts has no place to rest at
       if (!come_to_rest(state)) return *std::exchange(refusal_, std::nullopt);
       change_supports(state);
       loads_->begin(step_, state);

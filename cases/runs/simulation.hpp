@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/analyses/analysis.hpp"
+#include "cases/case/holding.hpp"
 #include "cases/quantities/measurement.hpp"
 #include "cases/runs/step_run.hpp"
 #include "cases/runs/watch.hpp"
@@ -106,9 +107,9 @@ class Simulation {
 
   const Case& case_;
   int threads_;
-  std::vector<char> holding_; ///< which supports of the case
-  Case now_;                  ///< with these alone
-  Device device_;             ///< of it
+  Holding holding_; ///< what holds the device now
+  Case now_;        ///< the case with that alone
+  Device device_;   ///< of it
   std::optional<fem::Equilibrium> equilibrium_;
   Measurement measurement_;
   Signals signals_;

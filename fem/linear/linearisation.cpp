@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/linear/linearisation.hpp"
 
+#include "fem/linear/rigid_motions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,7 @@ namespace dielast::fem {
 
 namespace {
 
+constexpr double propped = 1e-12;      ///< over the squared frequency of single unknowns
 constexpr std::size_t most_rates = 16; ///< that are worth a matrix each
 constexpr double same_rate = 1e-6;     ///< relative
 constexpr int most_nodes = 32;         ///< between which rates that vary are interpolated
@@ -27,13 +30,17 @@ std::vector<double> or_zeros(const std::vector<double>& values, std::size_t size
 
 } // namespace
 
-Linearisation::Linearisation(Equilibrium& equilibrium, const State& state)
+Linearisation::Linearisation(Equilibrium& equilibrium, const State& state, bool drifts)
     : equilibrium_(equilibrium), state_(relaxed(state)) {
   Assembler& assembler = equilibrium.assembler();
   assembler.tangent(state_);
   stiffness_ = assembler.matrix();
   mass_ = or_zeros(assembler.mass(state_), stiffness_.values.size());
   damping_ = or_zeros(assembler.damping(state_), stiffness_.values.size());
+  if (drifts) {
+    const double shift = propped * free_mass(equilibrium, state_).fastest;
+    for (std::size_t i = 0; i < mass_.size(); ++i) stiffness_.values[i] += shift * mass_[i];
+  }
   find_rates();
   add_ports();
 }

@@ -20,7 +20,9 @@ class Linearisation {
   using Complex = std::complex<double>;
 
   /// Throws std::domain_error where branches are not relaxed or wrinkled. `equilibrium` must outlive this.
-  Linearisation(Equilibrium& equilibrium, const State& state);
+  /// `drifts`: nothing holds the model, but a little of its mass as stiffness, 1e-12 of the squared frequency
+  /// of single unknowns: else Z would be singular where it moves slowly.
+  Linearisation(Equilibrium& equilibrium, const State& state, bool drifts = false);
 
   const Model& model() const { return equilibrium_.model(); }
   const SparseSymmetric& stiffness() const { return stiffness_; } ///< K, N/m

@@ -3,6 +3,7 @@
 
 #include "fem/algebra/dense_algebra.hpp"
 #include "fem/algebra/orientation.hpp"
+#include "fem/linear/rigid_motions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@ namespace {
 
 constexpr int spare_vectors = 6, powers = 4, most_sweeps = 100;
 constexpr double tolerance = 1e-6;        ///< of modes; that of omega^2 is its square
-constexpr double spanned = 1e-10;         ///< part of a vector that is round-off
 constexpr double omega_round_off = 1e-13; ///< of omega^2, over that of the stiffest unknowns
 constexpr double singular_shift = 1e-9;   ///< likewise
 
@@ -29,35 +29,14 @@ State vibrating(const State& state, bool instantaneous) {
   return at;
 }
 
-/// A scheme that adds shift M to the tangent, and nothing of the dampers.
-GeneralisedAlpha mass_times(double shift) { return {.dt = 1 / std::sqrt(shift), .beta = 1}; }
-
 void append(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
   matrix.conservativeResize(Eigen::NoChange, matrix.cols() + columns.cols());
   matrix.rightCols(columns.cols()) = columns;
 }
 
-/// Orthonormal in M, to V too; columns that V spans already are left out.
-Eigen::MatrixXd orthonormal_to(const Eigen::MatrixXd& V, const Eigen::SparseMatrix<double>& M,
-                               Eigen::MatrixXd X) {
-  const auto norm = [&](Eigen::Index i) { return std::sqrt(X.col(i).dot(M * X.col(i))); };
-  Eigen::Index kept = 0;
-  for (Eigen::Index i = 0; i < X.cols(); ++i) {
-    const double whole = norm(i);
-    for (int twice = 0; twice < 2; ++twice) { // once loses digits
-      const Eigen::VectorXd momentum = M * X.col(i);
-      X.col(i) -= V * (V.transpose() * momentum);
-      X.col(i) -= X.leftCols(kept) * (X.leftCols(kept).transpose() * momentum);
-    }
-    const double left = norm(i);
-    if (!(left > spanned * whole)) continue;
-    X.col(kept) = X.col(i) / left;
-    ++kept;
-  }
-  return X.leftCols(kept);
-}
-
 } // namespace
+
+GeneralisedAlpha mass_times(double shift) { return {.dt = 1 / std::sqrt(shift), .beta = 1}; }
 
 double VibrationMode::frequency() const { return std::sqrt(std::max(stiffness, 0.0)); }
 
@@ -66,19 +45,20 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   const Inertia& inertia = equilibrium.model().inertia();
   if (inertia.empty()) return std::vector<VibrationMode>{};
   const Eigen::Index free = equilibrium.model().dofs.free_count();
-  const Eigen::SparseMatrix<double> all = equilibrium.model().dofs.jacobian(state);
-  const Eigen::SparseMatrix<double> M = all.transpose() * inertia.mass * all;
-  const Eigen::VectorXd diagonal = M.diagonal();
-  const Eigen::Index massive = (diagonal.array() > 0).count();
-  const Eigen::Index wanted = std::min<Eigen::Index>(options.count, massive);
-  if (wanted <= 0) return std::vector<VibrationMode>{};
-  const Eigen::Index width = std::min(massive, wanted + spare_vectors);
-
-  const double fastest = equilibrium.stiffness().sum() / diagonal.sum(); // omega^2 of single unknowns
+  const FreeMass mass = free_mass(equilibrium, state);
+  const Eigen::SparseMatrix<double>& M = mass.M;
+  const Eigen::Index massive = (M.diagonal().array() > 0).count();
   State at = vibrating(state, options.instantaneous);
+  RigidMotions rigid;
+  if (options.drifts) rigid = rigid_motions(equilibrium, at, mass);
+  const Eigen::Index elastic = massive - rigid.motions.cols();
+  const Eigen::Index wanted = std::min<Eigen::Index>(options.count, elastic);
+  if (wanted <= 0) return std::vector<VibrationMode>{};
+  const Eigen::Index width = std::min(elastic, wanted + spare_vectors);
+
   double shift = 0;
-  if (!equilibrium.factor(at)) {
-    shift = singular_shift * fastest;
+  if (options.drifts || !equilibrium.factor(at)) {
+    shift = singular_shift * mass.fastest;
     at.motion_scheme = mass_times(shift);
     if (!equilibrium.factor(at)) return std::nullopt;
   }
@@ -89,6 +69,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
       equilibrium.tangent().solve(Y.col(i), y);
       Y.col(i) = y;
     }
+    if (options.drifts) rigid.take_off(Y);
     return Y;
   };
   std::mt19937 random(1);
@@ -96,7 +77,8 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   for (Eigen::Index i = 0; i < X.size(); ++i)
     X.data()[i] = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    Eigen::MatrixXd V(free, 0), W(free, 0); // W = K^-1 M V
+    Eigen::MatrixXd V(free, 0), W(free, 0); // W = K^-1 M V, without rigid motions
+    if (options.drifts && sweep == 0) rigid.take_off(X);
     for (int power = 0; power < powers; ++power) {
       X = orthonormal_to(V, M, std::move(X));
       if (X.cols() == 0) break;
@@ -128,8 +110,9 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
       converged = error <= tolerance * std::abs(inverse_square);
       if (found <= last) continue;
       const double distance = std::abs(inverse_square - theta[order[static_cast<std::size_t>(last)]]);
-      const bool another = converged ? !coincide(stiffness[found], stiffness[last], omega_round_off * fastest)
-                                     : distance > error;
+      const bool another = converged
+                               ? !coincide(stiffness[found], stiffness[last], omega_round_off * mass.fastest)
+                               : distance > error;
       if (!another) continue;
       converged = true;
       break;
@@ -138,7 +121,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
     Eigen::MatrixXd shapes = X.leftCols(found);
     for (auto shape : shapes.colwise()) shape /= std::sqrt(shape.dot(M * shape));
     stiffness.conservativeResize(found);
-    orient(shapes, stiffness, omega_round_off * fastest, equilibrium.weight().head(free).cwiseInverse());
+    orient(shapes, stiffness, omega_round_off * mass.fastest, equilibrium.weight().head(free).cwiseInverse());
     std::vector<VibrationMode> modes;
     for (Eigen::Index i = 0; i <= last; ++i) modes.push_back({stiffness[i], shapes.col(i)});
     std::ranges::stable_sort(modes, {}, &VibrationMode::stiffness);

@@ -11,6 +11,7 @@ namespace dielast::fem {
 struct ModalOptions {
   int count = 6;              ///< of modes wanted; there are as many as unknowns with a mass
   bool instantaneous = false; ///< dashpots stay as they are; otherwise they let go (slow vibration)
+  bool drifts = false;        ///< nothing holds the model: rigid motions are left out, see rigid_motions()
 };
 
 /// Small free vibration u = shape cos(omega t) about an equilibrium: K shape = omega^2 M shape, with K the
@@ -37,5 +38,8 @@ struct VibrationMode {
 /// frequencies in pairs, of which one vector sees a twin only by round-off.
 std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibrium, const State& state,
                                                           const ModalOptions& options);
+
+/// A scheme that adds shift M to the tangent, shift in 1/s^2, and nothing of the dampers.
+GeneralisedAlpha mass_times(double shift);
 
 } // namespace dielast::fem

@@ -19,6 +19,7 @@ namespace {
 /// Energy of a static response, over the whole, below which the modes say it all.
 constexpr double negligible = 1e-10;
 constexpr double energy_round_off = 1e-13; ///< likewise
+constexpr double propped_by = 1e-3;        ///< of the lowest mode's omega^2
 
 Eigen::MatrixXd projected(const SparseSymmetric& pattern, const std::vector<double>& values,
                           const Eigen::MatrixXd& V) {
@@ -56,7 +57,7 @@ struct Basis {
 
 Basis basis_of(Equilibrium& equilibrium, State state, const Linearisation& linear,
                const ModalBasis& options) {
-  const auto found = vibration_modes(equilibrium, state, {.count = options.modes});
+  const auto found = vibration_modes(equilibrium, state, {.count = options.modes, .drifts = options.drifts});
   if (!found) throw std::domain_error("no vibration modes were found at the operating point");
   if (!found->empty() && found->front().stiffness <= 0)
     throw std::domain_error("the operating point is not stable");
@@ -68,6 +69,10 @@ Basis basis_of(Equilibrium& equilibrium, State state, const Linearisation& linea
   for (const VibrationMode& mode : *found)
     if (mode.frequency() <= options.highest_frequency) append(modes, mode.shape);
   std::ranges::fill(state.supply, Supply::voltage);
+  // What drifts has no static response; with a little of its mass as stiffness it has, but for the modes'
+  // part.
+  if (options.drifts && !found->empty())
+    state.motion_scheme = mass_times(propped_by * found->front().stiffness);
   Eigen::VectorXd response;
   for (const auto& scheme : {materials::TimeScheme::relaxed(), materials::TimeScheme::frozen()}) {
     if (scheme.is_frozen() && linear.rates().empty()) continue;
@@ -104,7 +109,7 @@ Eigen::MatrixXcd StateSpace::transfer(std::complex<double> s) const {
 StateSpace state_space(Equilibrium& equilibrium, const State& state, const Channels& channels,
                        const ModalBasis& options) {
   using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-  const Linearisation linear(equilibrium, state);
+  const Linearisation linear(equilibrium, state, options.drifts);
   if (linear.rates_vary())
     throw std::domain_error("nominal dashpots relax at different rates everywhere: no state-space model");
   const auto& ports = linear.ports();

@@ -32,6 +32,7 @@ struct ModalBasis {
   int modes = 12; ///< at most so many vibration modes are taken
   double highest_frequency =
       std::numeric_limits<double>::infinity(); ///< rad/s; faster ones follow statically
+  bool drifts = false; ///< see ModalOptions; forces and voltages then move no mass centre
 };
 
 /// The linearisation about a relaxed equilibrium, projected: du = sum of vibration modes (mass-normalised, at

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rigid bodies that may turn freely, on film that resists nothing.
+// Rigid bodies that may turn freely, on film that resists nothing, and devices that nothing holds at all.
+#include "cases/runs/linearise.hpp"
 #include "tests/cases/film_cases.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
+#include <sstream>
 
 namespace dielast::cases::free_bodies_test {
 namespace {
@@ -101,6 +105,154 @@ kind = "weight"
   const Outcome stopped = Simulation(one, 1).run({});
   EXPECT_EQ(stopped.kind, "singular tangent") << stopped.message;
   EXPECT_NE(stopped.message.find("can move freely"), std::string::npos) << stopped.message;
+}
+
+/// A strip of `cells` times 2 squares of triangles with 6 nodes each, of a length of 1 and `width`.
+std::string strip_mesh(int cells, double width) {
+  std::ostringstream nodes, elements;
+  const int columns = 2 * cells + 1, rows = 5;
+  const auto node = [&](int i, int j) { return j * columns + i + 1; };
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i)
+      nodes << node(i, j) << ' ' << i / (columns - 1.0) << ' ' << width * j / (rows - 1.0) << " 0\n";
+  int count = 0;
+  const auto triangle = [&](std::array<std::pair<int, int>, 3> corners) {
+    elements << ++count << " 9 2 1 1";
+    for (const auto& [i, j] : corners) elements << ' ' << node(i, j);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& [i, j] = corners[c];
+      const auto& [k, l] = corners[(c + 1) % 3];
+      elements << ' ' << node((i + k) / 2, (j + l) / 2);
+    }
+    elements << '\n';
+  };
+  for (int j = 0; j < rows - 1; j += 2)
+    for (int i = 0; i < columns - 1; i += 2) {
+      triangle({{{i, j}, {i + 2, j}, {i + 2, j + 2}}});
+      triangle({{{i, j}, {i + 2, j + 2}, {i, j + 2}}});
+    }
+  return fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"film\"\n$EndPhysicalNames\n"
+      "$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
+      columns * rows, nodes.str(), count, elements.str());
+}
+
+// Neither its six rigid motions nor what would hold these take part: omega = b^2 sqrt(EI/(rho A))/L^2 of a
+// beam with free ends, b L = 4.73004, 7.85320; the strip is wide beside its thickness, 0.1 and 0.4 % stiffer.
+TEST_F(FreeBodies, a_strip_of_shell_vibrates_as_a_beam_with_free_ends) {
+  write("strip.msh", strip_mesh(20, 0.1));
+  const Ran found =
+      run("model = \"3d\"\n[film]\nthickness = \"0.5 mm\"\nsection = \"shell\"\n[film.material]\n"
+          "shear_modulus = \"40 kPa\"\nrelative_permittivity = 4.7\ndensity = \"960 kg/m^3\"\n"
+          "[mesh]\nfile = \"strip.msh\"\nunit = \"40 mm\"\n[output]\nerror_estimate = false\n"
+          "[[step]]\nkind = \"modes\"\ncount = 2\n");
+  const double wave_speed = std::sqrt(3 * 40e3 * std::pow(0.5e-3, 2) / 12 / 960), L = 40e-3;
+  EXPECT_NEAR(found.analyses.at(0).rows.at(0)[2], std::pow(4.73004 / L, 2) * wave_speed, 2e-3 * 22.6);
+  EXPECT_NEAR(found.analyses.at(0).rows.at(1)[2], std::pow(7.85320 / L, 2) * wave_speed, 5e-3 * 62.2);
+}
+
+/// A lattice whose centre is no centre of symmetry, cut free; its mirror image has columns = [2, 1].
+std::string lattice(const std::string& columns, const std::string& rest) {
+  return "model = \"planar\"\n[film]\nthickness = \"1 mm\"\nprestretch = 3\n[film.material]\n"
+         "shear_modulus = \"45 kPa\"\nrelative_permittivity = 4.5\ndensity = \"960 kg/m^3\"\n"
+         "[honeycomb]\nangle = \"130 deg\"\nwall_length = \"8 mm\"\nwall_width = \"0.8 mm\"\n"
+         "wall_height = \"2 mm\"\ncolumns = " +
+         columns +
+         "\n[honeycomb.wall_material]\nyoungs_modulus = \"78 MPa\"\npoisson_ratio = 0.4\n"
+         "density = \"1200 kg/m^3\"\n[mesh]\nwall_elements = 3\n[output]\nerror_estimate = false\n"
+         "[[step]]\nkind = \"release\"\n" +
+         rest;
+}
+
+TEST_F(FreeBodies, a_lattice_and_its_mirror_image_vibrate_alike) {
+  const std::string modes = "[[step]]\nkind = \"modes\"\ncount = 3\n[[quantity]]\nname = \"omega\"\n"
+                            "kind = \"natural frequency\"\nmode = 2\n";
+  const Ran one = run(lattice("[1, 2]", modes)), other = run(lattice("[2, 1]", modes));
+  for (std::size_t mode = 0; mode < 3; ++mode)
+    EXPECT_NEAR(one.analyses.at(0).rows.at(mode)[1], other.analyses.at(0).rows.at(mode)[1],
+                1e-3); // two meshes
+  EXPECT_NEAR(one.last("omega"), one.analyses.at(0).rows.at(1)[2], 1e-6);
+}
+
+std::string displacements() {
+  std::string all;
+  for (const char* place : {"film", "walls", "left_apex", "right_apex"})
+    all += fmt::format("[[quantity]]\nname = \"{0}\"\nkind = \"displacement\"\nof = \"{0}\"\nalong = \"x\"\n"
+                       "since = \"release\"\n",
+                       place);
+  return all;
+}
+
+// Walls and film push each other: what the one gains in momentum the other loses.
+TEST_F(FreeBodies, voltage_moves_no_centre_of_mass) {
+  const Ran moved = run(
+      lattice("[1, 2]", displacements() + "[drive]\nvoltage = { wave = \"ramp\", to = \"5 kV\", duration = "
+                                          "\"2 ms\" }\n[[step]]\nkind = \"transient\"\nduration = \"4 ms\"\n"
+                                          "inertia = true\nrecord = \"1 ms\"\n"));
+  const double cell = std::sin(50 * std::numbers::pi / 180) * 8e-3; // half of its height
+  const double area = 3 * 2 * cell * (8e-3 + std::sqrt(64e-6 - cell * cell));
+  const double film = 960 * 1e-3 * area / 9, walls = 1200 * 0.8e-3 * 2e-3 * (3 * 6 - 3) * 8e-3;
+  for (std::size_t row = 2; row < moved.time.size(); ++row) {
+    const double of_film = moved.values.at("film")[row], of_walls = moved.values.at("walls")[row];
+    EXPECT_GT(std::abs(of_film), 1e-7);
+    EXPECT_NEAR(film * of_film, -walls * of_walls, 1e-8 * std::abs(film * of_film)) << row;
+  }
+  EXPECT_GT(moved.last("left_apex") - moved.last("right_apex"), 3e-4);
+}
+
+// Pins hold it again where inertia no longer does, with all of its motion told as heat.
+TEST_F(FreeBodies, what_has_moved_freely_comes_to_rest) {
+  const std::string drive = "[drive]\nvoltage = { wave = \"ramp\", to = \"5 kV\", duration = \"1 ms\" }\n";
+  const std::string moving = "[[step]]\nkind = \"transient\"\nduration = \"2 ms\"\ninertia = true\n";
+  const std::string standing = "[[step]]\nkind = \"voltage\"\nname = \"standing\"\nto = \"5 kV\"\n";
+  const std::string length =
+      "[[quantity]]\nname = \"length\"\nkind = \"distance\"\nbetween = [\"left_apex\", "
+      "\"right_apex\"]\n[[quantity]]\nname = \"error\"\nkind = \"energy\"\nof = "
+      "\"error\"\n";
+  const Ran moved = run(lattice("[1, 2]", length + drive + moving + standing));
+  const Ran still = run(lattice("[1, 2]", length + "[drive]\nvoltage = \"5 kV\"\n" + standing));
+  EXPECT_NEAR(moved.last("length"), still.last("length"), 1e-9);
+  EXPECT_LT(std::abs(moved.last("error")), 1e-7);
+  EXPECT_EQ(moved.events.count("came to rest"), 1u);
+  EXPECT_EQ(moved.events.count("caught"), 0u);
+}
+
+// Slow sines are what static voltages lead to, however slow: rounding is not taken for a drift.
+TEST_F(FreeBodies, slow_sines_are_static_but_for_the_drift) {
+  const std::string driven = displacements() + "[drive]\nvoltage = \"3 kV\"\n[[step]]\nkind = \"voltage\"\n";
+  const auto per_volt = [&](const std::string& from, const std::string& of) {
+    const Ran found =
+        run(lattice("[1, 2]", driven + "[[step]]\nkind = \"harmonic\"\nfrom = \"" + from +
+                                  "\"\nto = \"1 Hz\"\npoints = 2\nresponse_of = \"" + of + "\"\n"));
+    const double sign = std::abs(found.analyses.at(0).rows.at(0)[2]) > 90 ? -1 : 1;
+    return sign * found.analyses.at(0).rows.at(0)[1];
+  };
+  const auto apart = [&](const std::string& voltage) {
+    const Ran ran = run(lattice("[1, 2]", displacements() + "[drive]\nvoltage = \"" + voltage +
+                                              "\"\n[[step]]\nkind = \"voltage\"\n"));
+    return ran.last("left_apex") - ran.last("right_apex");
+  };
+  const double slope = (apart("3001 V") - apart("2999 V")) / 2;
+  for (const char* from : {"1e-9 Hz", "1e-3 Hz", "0.5 Hz"})
+    EXPECT_NEAR(per_volt(from, "left_apex") - per_volt(from, "right_apex"), slope, 1e-4 * std::abs(slope))
+        << from;
+  EXPECT_NEAR(per_volt("1e-9 Hz", "film"), per_volt("0.01 Hz", "film"),
+              1e-6 * std::abs(per_volt("1e-9 Hz", "film")));
+}
+
+// Rigid motions have no part in its linear model either, which has no poles at rest.
+TEST_F(FreeBodies, a_linear_model_of_it_answers_as_it_does) {
+  write("film.toml",
+        lattice("[1, 2]",
+                displacements() +
+                    "[drive]\nvoltage = \"3 kV\"\n[[step]]\nkind = \"voltage\"\n[linearise]\norder = 20\n"
+                    "output = \"left_apex\"\nfrom = \"1 Hz\"\nto = \"200 Hz\"\npoints = 20\n"));
+  const Case one = read_case_to_linearise(directory / "film.toml", {});
+  EXPECT_EQ(linearise_case(one, {directory / "linear", 1}), ExitCode::ok);
+  const auto model = nlohmann::json::parse(content("linear/linear_model.json"));
+  EXPECT_LT(model.at("largest_relative_error").get<double>(), 0.01);
+  for (const auto& pole : model.at("poles_1_per_s"))
+    EXPECT_GT(std::hypot(pole[0].get<double>(), pole[1].get<double>()), 1000) << pole;
 }
 
 } // namespace

@@ -114,8 +114,6 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
        film + "density = \"1000 kg/m^3\"\n" + disc + transient + "inertia = true\n"},
       {"honeycomb.wall_material.density", film + honeycomb,
        film + honeycomb + "[[step]]\nkind = \"modes\"\n"},
-      {"step[1]", film + honeycomb + "[[step]]\nkind = \"modes\"\n",
-       film + disc + "[[step]]\nkind = \"modes\"\n"},
       {"quantity[1]",
        film + honeycomb +
            "[[quantity]]\nname = \"k\"\nkind = \"stiffness\"\nof = \"left_apex\"\nalong = \"x\"\n",

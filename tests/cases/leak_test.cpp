@@ -326,5 +326,19 @@ TEST_F(Leak, ASourceThatJumpsGivesAllOfTheChargeAtItsNewVoltage) {
   }
 }
 
+// A source at its limit gives no more for another volt: the film has an admittance of 0, and no impedance.
+TEST_F(Leak, WhereNoCurrentFlowsThereIsNoImpedance) {
+  const Ran ran =
+      run("[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+          "relative_permittivity = 4\n[patch]\nlength = \"10 mm\"\n[drive]\nvoltage = \"3.2 kV\"\n[circuit]\n"
+          "resistance = \"100 Mohm\"\nleakage_resistance = \"300 Mohm\"\ncurrent_limit = \"5 uA\"\n[[step]]\n"
+          "kind = \"voltage\"\n[[step]]\nkind = \"harmonic\"\npoints = 2\n[[quantity]]\nname = \"u\"\n"
+          "kind = \"displacement\"\nof = \"right\"\nalong = \"x\"\n");
+  const Analysis& found = ran.analyses.at(0);
+  ASSERT_EQ(found.columns[7], "impedance[Ohm]");
+  EXPECT_EQ(found.rows[0][5], 0);
+  EXPECT_TRUE(std::isnan(found.rows[0][7]) && std::isnan(found.rows[0][8])) << "empty in the table";
+}
+
 } // namespace
 } // namespace dielast::cases::leak_test

@@ -213,7 +213,7 @@ std::string held_centre(const std::string& fix) {
 TEST_F(Paths, shells_tilt_where_nothing_acts_on_single_rotations) {
   const auto of_centre = [this](const std::string& rest, int step = 0) {
     const Case one = read(clamped_disc(rest));
-    const Device device = build_device(with_supports(one, holding_in(one, one.steps, step)));
+    const Device device = build_device(held_by(one, holding_in(one, one.steps, step)));
     const fem::DofMap& dofs = device.model.dofs;
     const int centre = device.mesh.node_sets.at("centre").front();
     for (int n = 0; n < dofs.node_count(); ++n) EXPECT_TRUE(dofs.tilts(n) || n == centre) << n;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cases/devices/device.hpp"
+#include "fem/linear/harmonic.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace dielast::cases {
+
+/// A device in a state as it vibrates: one that is pinned, as nothing else holds it, without its pins. All
+/// that is given must outlive this.
+class WithoutPins {
+ public:
+  WithoutPins(const Case& one, const Device& device, fem::Equilibrium& equilibrium, const fem::State& state);
+
+  const Device& device() const { return own_ ? *own_ : given_; }
+  fem::Equilibrium& equilibrium() { return own_equilibrium_ ? *own_equilibrium_ : equilibrium_; }
+  const fem::State& state() const { return state_; }
+  bool drifts() const { return given_.free_body; }
+  /// Of responses to voltages, which push nothing as a whole.
+  void take_off_drift(std::vector<fem::HarmonicResponse>& responses);
+
+ private:
+  const Device& given_;
+  fem::Equilibrium& equilibrium_;
+  fem::State state_;
+  std::optional<Device> own_;
+  std::optional<fem::Equilibrium> own_equilibrium_;
+};
+
+} // namespace dielast::cases

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/linear/rigid_motions.hpp"
+
+#include "fem/algebra/dense_algebra.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace dielast::fem {
+namespace {
+
+constexpr double spanned = 1e-10;            ///< part of a vector that is round-off
+constexpr double no_stiffness_of_it = 1e-11; ///< over that of the stiffest unknowns
+
+/// Translation along an axis (0..2) or a turn about one (3..5), per free equation.
+Eigen::VectorXd rigid_motion(const Model& model, const State& state, int component) {
+  const DofMap& dofs = model.dofs;
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(component % 3);
+  const bool turns = component >= 3;
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(dofs.free_count());
+  for (int node = 0; node < dofs.node_count(); ++node) {
+    const auto n = static_cast<std::size_t>(node);
+    const Eigen::Vector3d u = turns ? axis.cross(model.drawn[n] + state.displacement[n]) : axis;
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(node, c); dofs.is_free(e)) motion[e] = u[c];
+    if (!turns) continue;
+    const Eigen::Vector3d spin = dofs.turn_axes(state, node).transpose() * axis;
+    const std::array<int, 3> equations = dofs.turns(node);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const int e = equations[c]; dofs.is_free(e)) motion[e] = spin[static_cast<Eigen::Index>(c)];
+  }
+  return motion;
+}
+
+} // namespace
+
+Eigen::MatrixXd orthonormal_to(const Eigen::MatrixXd& V, const Eigen::SparseMatrix<double>& M,
+                               Eigen::MatrixXd X) {
+  const auto norm = [&](Eigen::Index i) { return std::sqrt(X.col(i).dot(M * X.col(i))); };
+  Eigen::Index kept = 0;
+  for (Eigen::Index i = 0; i < X.cols(); ++i) {
+    const double whole = norm(i);
+    for (int twice = 0; twice < 2; ++twice) { // once loses digits
+      const Eigen::VectorXd momentum = M * X.col(i);
+      X.col(i) -= V * (V.transpose() * momentum);
+      X.col(i) -= X.leftCols(kept) * (X.leftCols(kept).transpose() * momentum);
+    }
+    const double left = norm(i);
+    if (!(left > spanned * whole)) continue;
+    X.col(kept) = X.col(i) / left;
+    ++kept;
+  }
+  return X.leftCols(kept);
+}
+
+FreeMass free_mass(const Equilibrium& equilibrium, const State& state) {
+  const Model& model = equilibrium.model();
+  const Eigen::SparseMatrix<double> all = model.dofs.jacobian(state);
+  FreeMass mass{all.transpose() * model.inertia().mass * all};
+  mass.fastest = equilibrium.stiffness().sum() / mass.M.diagonal().sum();
+  return mass;
+}
+
+RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const FreeMass& mass) {
+  const Eigen::SparseMatrix<double>& M = mass.M;
+  Eigen::MatrixXd candidates(M.rows(), DofMap::components);
+  for (int c = 0; c < DofMap::components; ++c)
+    candidates.col(c) = rigid_motion(equilibrium.model(), state, c);
+  const Eigen::MatrixXd X = orthonormal_to(Eigen::MatrixXd(M.rows(), 0), M, std::move(candidates));
+  equilibrium.assembler().tangent(state);
+  Eigen::MatrixXd KX = Eigen::MatrixXd::Zero(X.rows(), X.cols());
+  const SparseSymmetric& K = equilibrium.assembler().matrix();
+  K.for_each_entry([&](std::size_t k, int column, int row) {
+    KX.row(row) += K.values[k] * X.row(column);
+    if (row != column) KX.row(column) += K.values[k] * X.row(row);
+  });
+  const SymmetricEigen stiffness = symmetric_eigen(X.transpose() * KX); // ascending
+  const double none = no_stiffness_of_it * mass.fastest;
+  const Eigen::Index below = (stiffness.values.array() < -none).count();
+  const Eigen::Index free = (stiffness.values.array() <= none).count() - below;
+  const Eigen::MatrixXd motions = X * stiffness.vectors.middleCols(below, free);
+  return {motions, M * motions};
+}
+
+} // namespace dielast::fem

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fem/equilibrium/equilibrium.hpp"
+
+namespace dielast::fem {
+
+/// The mass matrix of the free equations, kg, and omega^2 of single unknowns, 1/s^2: the sum of their
+/// stiffnesses over that of their masses.
+struct FreeMass {
+  Eigen::SparseMatrix<double> M;
+  double fastest = 0;
+};
+FreeMass free_mass(const Equilibrium& equilibrium, const State& state);
+
+/// What of small rigid motions a model resists with its mass alone: of translations along and turns about x,
+/// y and z those that its unknowns admit, and of these those without stiffness. Columns per free equation,
+/// orthonormal in the mass matrix, 1/sqrt(kg).
+struct RigidMotions {
+  Eigen::MatrixXd motions, momenta; ///< momenta = M motions
+
+  /// Where nothing pushes a device as a whole, what of these its motion has is rounding.
+  template<class Columns>
+  void take_off(Columns& X) const {
+    X -= motions * (momenta.transpose() * X).eval();
+  }
+};
+RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const FreeMass& mass);
+
+/// Of the columns of X, one after another, what is not in the span of V (orthonormal in M) nor in that of
+/// those before, orthonormal in M; columns of which nothing is left are left out.
+Eigen::MatrixXd orthonormal_to(const Eigen::MatrixXd& V, const Eigen::SparseMatrix<double>& M,
+                               Eigen::MatrixXd X);
+
+} // namespace dielast::fem
