@@ -21,7 +21,13 @@ void WithoutPins::take_off_drift(std::vector<fem::HarmonicResponse>& responses) 
   if (!drifts()) return;
   const fem::State at = fem::relaxed(state_);
   const fem::RigidMotions rigid = fem::rigid_motions(equilibrium(), at, fem::free_mass(equilibrium(), at));
-  for (fem::HarmonicResponse& response : responses) rigid.take_off(response.displacement);
+  Eigen::MatrixXd parts(rigid.motions.rows(), 2);
+  for (fem::HarmonicResponse& response : responses) {
+    parts << response.displacement.real(), response.displacement.imag();
+    rigid.take_off(parts);
+    response.displacement.real() = parts.col(0);
+    response.displacement.imag() = parts.col(1);
+  }
 }
 
 } // namespace dielast::cases

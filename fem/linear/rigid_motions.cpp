@@ -53,6 +53,11 @@ Eigen::MatrixXd orthonormal_to(const Eigen::MatrixXd& V, const Eigen::SparseMatr
   return X.leftCols(kept);
 }
 
+void RigidMotions::take_off(Eigen::MatrixXd& X) const {
+  const Eigen::MatrixXd shares = momenta.transpose() * X;
+  X -= motions * shares;
+}
+
 FreeMass free_mass(const Equilibrium& equilibrium, const State& state) {
   const Model& model = equilibrium.model();
   const Eigen::SparseMatrix<double> all = model.dofs.jacobian(state);

@@ -19,11 +19,9 @@ FreeMass free_mass(const Equilibrium& equilibrium, const State& state);
 struct RigidMotions {
   Eigen::MatrixXd motions, momenta; ///< momenta = M motions
 
-  /// Where nothing pushes a device as a whole, what of these its motion has is rounding.
-  template<class Columns>
-  void take_off(Columns& X) const {
-    X -= motions * (momenta.transpose() * X).eval();
-  }
+  /// Takes them off columns per free equation: where nothing pushes a device as a whole, what of them its
+  /// motion has is rounding.
+  void take_off(Eigen::MatrixXd& X) const;
 };
 RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const FreeMass& mass);
 
