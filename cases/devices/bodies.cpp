@@ -124,6 +124,7 @@ void pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::
   const int first = best([&](const Eigen::Vector3d& x) { return (x - middle).norm(); });
   if (dimension == fem::Dimension::axisymmetric) return dofs.hold(first, 2); // it moves along the axis alone
   const Eigen::Vector3d anchor = drawn(first);
+  tied[static_cast<std::size_t>(first)] = 1; // no other is that one
   // Along x and along y as exactly as nodes allow: what is beside turns the body with its strain.
   const auto along = [&](int axis) {
     return best([&](const Eigen::Vector3d& x) {

@@ -73,20 +73,34 @@ void require_loads_that_act(const Case& one, const Device& device) {
     }
   if (!device.free_body) return;
   for (const double t : telling_times(one)) {
-    std::array<double, fem::DofMap::components> sum{};
-    std::array<double, 2> largest{}; // force, moment
-    for (const Load& load : one.loads)
-      for (int c = 0; c < fem::DofMap::components; ++c)
-        if (const Waveform* wave = load.component(c)) {
-          sum.at(static_cast<std::size_t>(c)) += wave->at(t);
-          double& most = largest.at(static_cast<std::size_t>(c / 3));
-          most = std::max(most, std::abs(wave->at(t)));
-        }
-    for (std::size_t c = 0; c < sum.size(); ++c)
-      if (std::abs(sum[c]) > 1e-9 * largest.at(c / 3))
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force; // moment about the origin, as drawn
+    double most_force = 0, most_moment = 0;
+    for (const Load& load : one.loads) {
+      Eigen::Vector3d of_load;
+      for (int c = 0; c < 3; ++c) of_load[c] = load.component(load.moment ? c + 3 : c)->at(t);
+      if (load.moment) {
+        moment += of_load;
+        most_moment = std::max(most_moment, of_load.cwiseAbs().maxCoeff());
+        continue;
+      }
+      const auto& nodes = device.mesh.node_sets.at(load.place);
+      const std::vector<double>& shares = device.shares.at(load.place).of_nodes;
+      Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        centroid += shares[n] * device.mesh.nodes[static_cast<std::size_t>(nodes[n])];
+      force += of_load;
+      moment += centroid.cross(of_load);
+      most_force = std::max(most_force, of_load.cwiseAbs().maxCoeff());
+    }
+    most_moment = std::max(most_moment, most_force * device.model.extent);
+    if (one.dimension == fem::Dimension::axisymmetric) force.head<2>().setZero(), moment.setZero();
+    if (one.dimension == fem::Dimension::planar) force.z() = 0, moment.head<2>().setZero();
+    for (int c = 0; c < fem::DofMap::components; ++c)
+      if (c < 3 ? std::abs(force[c]) > 1e-9 * most_force : std::abs(moment[c - 3]) > 1e-6 * most_moment)
         reject_load(one, 0,
                     c < 3 ? "the forces on a free body must balance; hold it with [[support]]"
-                          : "the moments on a free body must balance; hold it with [[support]]");
+                          : "the moments on a free body must balance, those of its forces, too; hold it with "
+                            "[[support]]");
   }
 }
 

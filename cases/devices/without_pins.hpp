@@ -9,7 +9,8 @@
 
 namespace dielast::cases {
 
-/// A device in a state as it vibrates: one that is pinned, as nothing else holds it, without its pins. All
+/// A device in a state as it vibrates: one that is pinned, as nothing else holds it, without its pins, if it
+/// has a mass. All
 /// that is given must outlive this.
 class WithoutPins {
  public:
@@ -18,7 +19,8 @@ class WithoutPins {
   const Device& device() const { return own_ ? *own_ : given_; }
   fem::Equilibrium& equilibrium() { return own_equilibrium_ ? *own_equilibrium_ : equilibrium_; }
   const fem::State& state() const { return state_; }
-  bool drifts() const { return given_.free_body; }
+  /// Nothing holds it but its mass.
+  bool drifts() const { return given_.free_body && given_.model.inertia().mass.nonZeros() > 0; }
   /// Of responses to voltages, which push nothing as a whole.
   void take_off_drift(std::vector<fem::HarmonicResponse>& responses);
 

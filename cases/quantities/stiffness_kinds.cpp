@@ -79,6 +79,7 @@ Give give_of_held(fem::Equilibrium& equilibrium, const fem::State& state, const 
 /// Where the place is free a force, spread evenly over it, moves it.
 Give give_of(const Probing& probing, const std::string& place, const Measured& measured,
              const fem::State& state) {
+  if (probing.device.free_body) return {}; // it goes along
   const int along = *probing.quantity.along;
   const Eigen::Vector3d axis =
       along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(along);

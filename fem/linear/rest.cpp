@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/linear/rest.hpp"
 
+#include "fem/linear/modal.hpp"
+#include "fem/linear/rigid_motions.hpp"
 #include "fem/paths/instability.hpp"
 
 #include <algorithm>
@@ -143,7 +145,12 @@ bool moves_on(Equilibrium& equilibrium, const State& state) {
   Eigen::VectorXd momentum = equilibrium.model().inertia().mass * state.motion->velocity;
   equilibrium.model().dofs.gather(state, momentum);
   momentum.conservativeResize(free);
-  if (!equilibrium.factor(at)) return !momentum.isZero(0);
+  if (!equilibrium.factor(at)) {   // what nothing holds drifts on, if it does, for as long as this takes
+    constexpr double drift = 1e-9; // of the squared frequency of single unknowns
+    if (momentum.isZero(0)) return false;
+    at.motion_scheme = mass_times(drift * free_mass(equilibrium, at).fastest);
+    if (!equilibrium.factor(at)) return true;
+  }
   Eigen::VectorXd step, swing;
   equilibrium.tangent().solve(-balance.force.head(free), step);
   equilibrium.tangent().solve(momentum, swing);

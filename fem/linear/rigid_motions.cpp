@@ -9,8 +9,8 @@
 namespace dielast::fem {
 namespace {
 
-constexpr double spanned = 1e-10;            ///< part of a vector that is round-off
-constexpr double no_stiffness_of_it = 1e-11; ///< over that of the stiffest unknowns
+constexpr double spanned = 1e-10; ///< part of a vector that is round-off
+constexpr double none = 1e-11;    ///< resistance, over that of single unknowns
 
 /// Translation along an axis (0..2) or a turn about one (3..5), per free equation.
 Eigen::VectorXd rigid_motion(const Model& model, const State& state, int component) {
@@ -66,24 +66,30 @@ FreeMass free_mass(const Equilibrium& equilibrium, const State& state) {
   return mass;
 }
 
-RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const FreeMass& mass) {
+RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const FreeMass& mass, bool damped) {
   const Eigen::SparseMatrix<double>& M = mass.M;
   Eigen::MatrixXd candidates(M.rows(), DofMap::components);
   for (int c = 0; c < DofMap::components; ++c)
     candidates.col(c) = rigid_motion(equilibrium.model(), state, c);
   const Eigen::MatrixXd X = orthonormal_to(Eigen::MatrixXd(M.rows(), 0), M, std::move(candidates));
-  equilibrium.assembler().tangent(state);
-  Eigen::MatrixXd KX = Eigen::MatrixXd::Zero(X.rows(), X.cols());
-  const SparseSymmetric& K = equilibrium.assembler().matrix();
-  K.for_each_entry([&](std::size_t k, int column, int row) {
-    KX.row(row) += K.values[k] * X.row(column);
-    if (row != column) KX.row(column) += K.values[k] * X.row(row);
-  });
-  const SymmetricEigen stiffness = symmetric_eigen(X.transpose() * KX); // ascending
-  const double none = no_stiffness_of_it * mass.fastest;
-  const Eigen::Index below = (stiffness.values.array() < -none).count();
-  const Eigen::Index free = (stiffness.values.array() <= none).count() - below;
-  const Eigen::MatrixXd motions = X * stiffness.vectors.middleCols(below, free);
+  Assembler& assembler = equilibrium.assembler();
+  assembler.tangent(state);
+  const SparseSymmetric& K = assembler.matrix();
+  const auto projected = [&](const std::vector<double>& values) {
+    Eigen::MatrixXd AX = Eigen::MatrixXd::Zero(X.rows(), X.cols());
+    K.for_each_entry([&](std::size_t k, int column, int row) {
+      AX.row(row) += values[k] * X.row(column);
+      if (row != column) AX.row(column) += values[k] * X.row(row);
+    });
+    return Eigen::MatrixXd(X.transpose() * AX);
+  };
+  Eigen::MatrixXd resistance = projected(K.values) / (none * mass.fastest);
+  if (const auto damping = assembler.damping(state); damped && !damping.empty())
+    resistance += projected(damping) / (none * std::sqrt(mass.fastest));
+  const SymmetricEigen resisted = symmetric_eigen(resistance); // ascending
+  const Eigen::Index below = (resisted.values.array() < -1).count();
+  const Eigen::Index free = (resisted.values.array() <= 1).count() - below;
+  const Eigen::MatrixXd motions = X * resisted.vectors.middleCols(below, free);
   return {motions, M * motions};
 }
 

@@ -14,8 +14,8 @@ struct FreeMass {
 FreeMass free_mass(const Equilibrium& equilibrium, const State& state);
 
 /// What of small rigid motions a model resists with its mass alone: of translations along and turns about x,
-/// y and z those that its unknowns admit, and of these those without stiffness. Columns per free equation,
-/// orthonormal in the mass matrix, 1/sqrt(kg).
+/// y and z those that its unknowns admit, and of these those without stiffness; where `damped`, without
+/// dampers, too. Columns per free equation, orthonormal in the mass matrix, 1/sqrt(kg).
 struct RigidMotions {
   Eigen::MatrixXd motions, momenta; ///< momenta = M motions
 
@@ -23,7 +23,8 @@ struct RigidMotions {
   /// motion has is rounding.
   void take_off(Eigen::MatrixXd& X) const;
 };
-RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const FreeMass& mass);
+RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const FreeMass& mass,
+                           bool damped = false);
 
 /// Of the columns of X, one after another, what is not in the span of V (orthonormal in M) nor in that of
 /// those before, orthonormal in M; columns of which nothing is left are left out.

@@ -57,6 +57,9 @@ struct Basis {
 
 Basis basis_of(Equilibrium& equilibrium, State state, const Linearisation& linear,
                const ModalBasis& options) {
+  if (options.drifts && std::ranges::any_of(linear.damping(), [](double c) { return c != 0; }))
+    throw std::domain_error(
+        "nothing but dampers holds the device: it drifts, which no linear model here does");
   const auto found = vibration_modes(equilibrium, state, {.count = options.modes, .drifts = options.drifts});
   if (!found) throw std::domain_error("no vibration modes were found at the operating point");
   if (!found->empty() && found->front().stiffness <= 0)

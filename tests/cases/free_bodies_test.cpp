@@ -255,5 +255,53 @@ TEST_F(FreeBodies, a_linear_model_of_it_answers_as_it_does) {
     EXPECT_GT(std::hypot(pole[0].get<double>(), pole[1].get<double>()), 1000) << pole;
 }
 
+// A damper to the ground is something that slow sines push against: it all but holds what it is at.
+TEST_F(FreeBodies, dampers_take_part_in_slow_sines) {
+  const auto at = [&](const std::string& place) {
+    const Ran found = run(lattice(
+        "[1, 2]", displacements() +
+                      "[drive]\nvoltage = \"3 kV\"\n[[point_mass]]\nplace = \"left_apex\"\nmass = \"1 mg\"\n"
+                      "damping = \"1 N.s/m\"\n[[step]]\nkind = \"voltage\"\n[[step]]\nkind = \"harmonic\"\n"
+                      "from = \"0.1 Hz\"\nto = \"1 Hz\"\npoints = 2\nresponse_of = \"" +
+                      place + "\"\n"));
+    return found.analyses.at(0).rows.at(0)[1];
+  };
+  EXPECT_LT(at("left_apex"), 1e-3 * at("right_apex"));
+}
+
+// What stays where it is over time is at rest, though nothing holds it; a force would take it along.
+TEST_F(FreeBodies, a_device_that_stands_is_at_rest_and_resists_no_force) {
+  const std::string standing = "[[step]]\nkind = \"transient\"\nduration = \"1 ms\"\ninertia = true\n";
+  const std::string modes = "[[step]]\nkind = \"modes\"\ncount = 1\n";
+  const std::string stiffness =
+      "[[quantity]]\nname = \"k\"\nkind = \"stiffness\"\nof = \"left_apex\"\nalong = "
+      "\"x\"\n";
+  const Ran stood = run(lattice("[1, 2]", standing + modes)),
+            still = run(lattice("[1, 2]", modes + stiffness));
+  EXPECT_NEAR(stood.analyses.at(0).rows.at(0)[1], still.analyses.at(0).rows.at(0)[1], 1e-6);
+  EXPECT_TRUE(std::isnan(still.last("k")));
+}
+
+TEST_F(FreeBodies, forces_that_would_turn_it_are_refused) {
+  const std::string pair = "[[load]]\nplace = \"left_apex\"\nforce = [\"0 N\", \"{0} mN\", \"0 N\"]\n"
+                           "[[load]]\nplace = \"right_apex\"\nforce = [\"0 N\", \"-{0} mN\", \"0 N\"]\n"
+                           "[[step]]\nkind = \"force\"\n";
+  write("film.toml", lattice("[2, 1, 2]", fmt::format(fmt::runtime(pair), 1)));
+  EXPECT_THROW(build_device(read_case(directory / "film.toml")), CaseError);
+}
+
+// Where nothing has a mass, the pins hold it in small sines, too.
+TEST_F(FreeBodies, without_mass_it_follows_its_voltage_slowly) {
+  const Ran found =
+      run("model = \"planar\"\n[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 "
+          "kPa\"\nrelative_permittivity = 4.7\ndensity = 0\nviscosity = \"1e4 Pa.s\"\n[line]\n"
+          "from = [0, 0, 0]\nto = [\"10 mm\", 0, 0]\n[rod]\nwidth = \"5 mm\"\n[drive]\nvoltage = \"1 "
+          "kV\"\n[output]\nerror_estimate = false\n[[step]]\nkind = \"voltage\"\n[[step]]\nkind = "
+          "\"harmonic\"\nfrom = \"1e-3 Hz\"\nto = \"10 Hz\"\npoints = 2\nresponse_of = \"u\"\n"
+          "[[quantity]]\nname = \"u\"\nkind = \"displacement\"\nof = \"end\"\nalong = \"x\"\n");
+  EXPECT_GT(found.analyses.at(0).rows.at(0)[1], 0);
+  EXPECT_LT(found.analyses.at(0).rows.at(1)[1], 0.1 * found.analyses.at(0).rows.at(0)[1]);
+}
+
 } // namespace
 } // namespace dielast::cases::free_bodies_test
