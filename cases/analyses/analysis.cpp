@@ -106,10 +106,10 @@ Analysis harmonic(const Case& one, const Device& given, fem::Equilibrium& equili
   for (const char* of_all :
        {"admittance[S]", "admittance_phase[deg]", "impedance[Ohm]", "impedance_phase[deg]"})
     analysis.columns.emplace_back(of_all);
-  const fem::State pinned = operating_point(given, state, driven);
-  require_rest(equilibrium, pinned);
-  require_stable(equilibrium, pinned);
-  WithoutPins loose(one, given, equilibrium, pinned);
+  const fem::State about = operating_point(given, state, driven);
+  require_rest(equilibrium, about);
+  require_stable(equilibrium, about);
+  WithoutPins loose(one, given, equilibrium, about);
   const Device& device = loose.device();
   const fem::State& at_rest = loose.state();
   const double bias = common_bias(device, at_rest, driven);

@@ -5,8 +5,9 @@
 
 namespace dielast::cases {
 
-/// The fastest rate at which the case asks something of its films, 1/s: that of the shortest step with a
-/// duration, and the angular frequencies of waves in these and of sweeps; 0 where nothing takes time.
-double fastest_rate(const Case& one);
+/// Tells all films the fastest rate at which the case asks something of them, 1/s, which the dashpot beside a
+/// law must follow: that of the shortest step with a duration, and the angular frequencies of waves in these
+/// and of sweeps; 0 where nothing takes time. To be called again when steps have changed.
+void tell_fastest_rate(Case& one);
 
 } // namespace dielast::cases

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/case/holding.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -36,13 +34,6 @@ Case held_by(Case one, const Holding& holding) {
 
 bool is_free(const Case& one, const std::vector<char>& supports) {
   return std::ranges::count(supports, 1) == 0 && one.bodies.empty() && !one.table;
-}
-
-std::string borne_by_pins(std::string_view what) {
-  return fmt::format(
-      "nothing holds the device: the nodes that keep it from drifting bear here its {}; hold it with "
-      "[[support]]",
-      what);
 }
 
 } // namespace dielast::cases

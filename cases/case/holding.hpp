@@ -3,8 +3,6 @@
 
 #include "cases/case/case.hpp"
 
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace dielast::cases {
@@ -28,8 +26,5 @@ Case held_by(Case one, const Holding& holding);
 
 /// Whether no support, body or table holds the device while these supports do.
 bool is_free(const Case& one, const std::vector<char>& supports);
-
-/// What to say of a free device whose pins would have to bear something, such as "weight".
-std::string borne_by_pins(std::string_view what);
 
 } // namespace dielast::cases

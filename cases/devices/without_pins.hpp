@@ -10,8 +10,7 @@
 namespace dielast::cases {
 
 /// A device in a state as it vibrates: one that is pinned, as nothing else holds it, without its pins, if it
-/// has a mass. All
-/// that is given must outlive this.
+/// has a mass. All that is given must outlive this.
 class WithoutPins {
  public:
   WithoutPins(const Case& one, const Device& device, fem::Equilibrium& equilibrium, const fem::State& state);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/fits/device_model.hpp"
 
+#include "cases/case/fastest_rate.hpp"
 #include "cases/case/quantities.hpp"
 #include "cases/fits/course.hpp"
 #include "cases/readers/reader.hpp"
@@ -139,6 +140,7 @@ std::vector<double> DeviceModel::run(std::size_t run, const std::vector<double>&
     step.record.reset(); // what was measured may lie between the rows that somebody wants to read
     if (step.kind == StepKind::harmonic) step.sweep.at = hertz;
   }
+  tell_fastest_rate(one);
   const bool all_responses =
       std::ranges::all_of(group, [&](std::size_t t) { return asked_.tests[t].is_response(); });
   // Quantities that nobody asks for need not be evaluated along the way.

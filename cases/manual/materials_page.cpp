@@ -116,13 +116,10 @@ std::string materials_page() {
   text +=
       "## Mass and viscosity (`[film.material]`)\n\n" + mass_and_viscosity_table() +
       "`viscosity` is that of a dashpot beside the law (Kelvin & Voigt): a branch of the dashpot `log` whose "
-      "neo-Hookean spring is 1e4 times as stiff as the law, or as eta times the fastest rate of the case "
-      "where "
-      "that is more: angular frequencies of waves and sweeps, and one over the durations of steps. Up to "
-      "that "
-      "rate the complex modulus mu + i omega eta is off by less than 1e-4 of itself; loads that jump move "
-      "the "
-      "film by 1e-4 of where they lead at once.\n\n";
+      "neo-Hookean spring is 1e4 times as stiff as the law, or as eta times the fastest rate of the "
+      "case where that is more: angular frequencies of waves and sweeps, and one over the durations of "
+      "steps. Up to that rate the complex modulus mu + i omega eta is off by less than 1e-4 of itself; "
+      "loads that jump move the film by 1e-4 of where they lead at once.\n\n";
   text += "## Named film materials (`film.material = \"...\"`)\n\n";
   for (const materials::NamedFilm& film : materials::named_films()) text += film_text(film);
   text += "## Walls and frames (`honeycomb.wall_material`)\n\n" + parameter_table<materials::ElasticSolid>();

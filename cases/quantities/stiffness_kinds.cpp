@@ -160,7 +160,9 @@ std::vector<Key> mode_keys() {
 std::string without_support(const Case& one, const Quantity& quantity) {
   const auto at = std::ranges::find(one.steps, quantity.at, &Step::name);
   const Holding holding = holding_in(one, one.steps, static_cast<int>(at - one.steps.begin()));
-  return is_free(one, holding.supports) ? borne_by_pins("reactions") : "";
+  return is_free(one, holding.supports)
+             ? "has no value here: nothing holds the device, a force takes it along; hold it with [[support]]"
+             : "";
 }
 
 std::string without_mass(const Case& one, const Quantity&) {

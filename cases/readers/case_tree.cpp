@@ -100,16 +100,6 @@ int give_way(Node& tree, int standard) {
   return static_cast<int>(list->items.size() - users.size());
 }
 
-/// Tells the films how fast a dashpot beside their law must be followed.
-void tell_rate(Case& one) {
-  const double rate = fastest_rate(one);
-  for (Part& part : one.parts) {
-    if (!part.film) continue;
-    part.film->material.fastest_rate = rate;
-    for (Layer& layer : part.film->further_layers) layer.material.fastest_rate = rate;
-  }
-}
-
 } // namespace
 
 Case interpret(Node tree, const std::filesystem::path& path) {
@@ -163,7 +153,7 @@ Case interpret(Node tree, const std::filesystem::path& path) {
     if (body.pivot || std::ranges::count(body.fixed, true) > 0) supported.push_back(body.name);
   require_known(reader, Reference::supported_place, "supported place", supported);
   check_rules(reader, tree, one);
-  tell_rate(one);
+  tell_fastest_rate(one);
   for (Part& part : one.parts) locate_mesh(reader, tree, one, part);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   one.places = reader.mentions(Reference::place);

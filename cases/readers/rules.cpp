@@ -277,7 +277,10 @@ void check_held(SectionReader& reader, const Node& tree, const Case& one) {
     weighs = weighs || one.steps[s].kind == StepKind::weight;
     if (!weighs || !is_free(one, holding_in(one, one.steps, static_cast<int>(s)).supports)) continue;
     const StepPlace at = place_of_step(tree, s);
-    return reader.report(at.source, at.key, borne_by_pins("weight"));
+    return reader.report(
+        at.source, at.key,
+        "nothing holds the device: the nodes that keep it from drifting bear here its weight; "
+        "hold it with [[support]]");
   }
 }
 

@@ -92,7 +92,7 @@ void Simulation::change_supports(fem::State& state) {
   if (holding_in(case_, steps_, step_) == holding_) return;
   const fem::DofMap before = device_.model.dofs;
   Eigen::VectorXd reaction = fem::reactions(device_.model, state, held_);
-  if (holding_.pins) reaction.setZero(); // but for rounding
+  if (holding_.pins) reaction.setZero(); // it is rounding
   enter(step_);
   const fem::Renumbering renumbered(before, device_.model.dofs);
   const Eigen::VectorXd let_go = renumbered.let_go(reaction);

@@ -17,7 +17,6 @@ namespace {
 constexpr int spare_vectors = 6, powers = 4, most_sweeps = 100;
 constexpr double tolerance = 1e-6;        ///< of modes; that of omega^2 is its square
 constexpr double omega_round_off = 1e-13; ///< of omega^2, over that of the stiffest unknowns
-constexpr double singular_shift = 1e-9;   ///< likewise
 
 /// As the state is, but for what moves with a vibration.
 State vibrating(const State& state, bool instantaneous) {

@@ -39,6 +39,9 @@ struct VibrationMode {
 std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibrium, const State& state,
                                                           const ModalOptions& options);
 
+/// Shift with which the mass holds what nothing else does, over the squared frequency of single unknowns.
+constexpr double singular_shift = 1e-9;
+
 /// A scheme that adds shift M to the tangent, shift in 1/s^2, and nothing of the dampers.
 GeneralisedAlpha mass_times(double shift);
 

@@ -145,10 +145,9 @@ bool moves_on(Equilibrium& equilibrium, const State& state) {
   Eigen::VectorXd momentum = equilibrium.model().inertia().mass * state.motion->velocity;
   equilibrium.model().dofs.gather(state, momentum);
   momentum.conservativeResize(free);
-  if (!equilibrium.factor(at)) {   // what nothing holds drifts on, if it does, for as long as this takes
-    constexpr double drift = 1e-9; // of the squared frequency of single unknowns
+  if (!equilibrium.factor(at)) { // what nothing holds drifts on, if it does, for as long as this takes
     if (momentum.isZero(0)) return false;
-    at.motion_scheme = mass_times(drift * free_mass(equilibrium, at).fastest);
+    at.motion_scheme = mass_times(singular_shift * free_mass(equilibrium, at).fastest);
     if (!equilibrium.factor(at)) return true;
   }
   Eigen::VectorXd step, swing;

@@ -34,6 +34,14 @@ Eigen::VectorXd rigid_motion(const Model& model, const State& state, int compone
 
 } // namespace
 
+Eigen::MatrixXd projected(const SparseSymmetric& pattern, const std::vector<double>& values,
+                          const Eigen::MatrixXd& V) {
+  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(
+      pattern.size, pattern.size, static_cast<Eigen::Index>(values.size()), pattern.column_start.data(),
+      pattern.rows.data(), values.data());
+  return V.transpose() * (lower.selfadjointView<Eigen::Lower>() * V);
+}
+
 Eigen::MatrixXd orthonormal_to(const Eigen::MatrixXd& V, const Eigen::SparseMatrix<double>& M,
                                Eigen::MatrixXd X) {
   const auto norm = [&](Eigen::Index i) { return std::sqrt(X.col(i).dot(M * X.col(i))); };
@@ -75,17 +83,9 @@ RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const F
   Assembler& assembler = equilibrium.assembler();
   assembler.tangent(state);
   const SparseSymmetric& K = assembler.matrix();
-  const auto projected = [&](const std::vector<double>& values) {
-    Eigen::MatrixXd AX = Eigen::MatrixXd::Zero(X.rows(), X.cols());
-    K.for_each_entry([&](std::size_t k, int column, int row) {
-      AX.row(row) += values[k] * X.row(column);
-      if (row != column) AX.row(column) += values[k] * X.row(row);
-    });
-    return Eigen::MatrixXd(X.transpose() * AX);
-  };
-  Eigen::MatrixXd resistance = projected(K.values) / (none * mass.fastest);
+  Eigen::MatrixXd resistance = projected(K, K.values, X) / (none * mass.fastest);
   if (const auto damping = assembler.damping(state); damped && !damping.empty())
-    resistance += projected(damping) / (none * std::sqrt(mass.fastest));
+    resistance += projected(K, damping, X) / (none * std::sqrt(mass.fastest));
   const SymmetricEigen resisted = symmetric_eigen(resistance); // ascending
   const Eigen::Index below = (resisted.values.array() < -1).count();
   const Eigen::Index free = (resisted.values.array() <= 1).count() - below;

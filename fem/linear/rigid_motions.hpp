@@ -26,6 +26,10 @@ struct RigidMotions {
 RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const FreeMass& mass,
                            bool damped = false);
 
+/// V^T A V of the symmetric matrix with these values in a pattern.
+Eigen::MatrixXd projected(const SparseSymmetric& pattern, const std::vector<double>& values,
+                          const Eigen::MatrixXd& V);
+
 /// Of the columns of X, one after another, what is not in the span of V (orthonormal in M) nor in that of
 /// those before, orthonormal in M; columns of which nothing is left are left out.
 Eigen::MatrixXd orthonormal_to(const Eigen::MatrixXd& V, const Eigen::SparseMatrix<double>& M,

@@ -5,6 +5,7 @@
 #include "fem/algebra/orientation.hpp"
 #include "fem/linear/harmonic.hpp"
 #include "fem/linear/modal.hpp"
+#include "fem/linear/rigid_motions.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -20,14 +21,6 @@ namespace {
 constexpr double negligible = 1e-10;
 constexpr double energy_round_off = 1e-13; ///< likewise
 constexpr double propped_by = 1e-3;        ///< of the lowest mode's omega^2
-
-Eigen::MatrixXd projected(const SparseSymmetric& pattern, const std::vector<double>& values,
-                          const Eigen::MatrixXd& V) {
-  const Eigen::Map<const Eigen::SparseMatrix<double>> lower(
-      pattern.size, pattern.size, static_cast<Eigen::Index>(values.size()), pattern.column_start.data(),
-      pattern.rows.data(), values.data());
-  return V.transpose() * (lower.selfadjointView<Eigen::Lower>() * V);
-}
 
 /// Columns that span `responses` besides the modes, orthonormal in K, oriented with this weight.
 Eigen::MatrixXd residual_responses(const Linearisation& linear, const Eigen::MatrixXd& modes,

@@ -283,10 +283,10 @@ TEST_F(FreeBodies, a_device_that_stands_is_at_rest_and_resists_no_force) {
 }
 
 TEST_F(FreeBodies, forces_that_would_turn_it_are_refused) {
-  const std::string pair = "[[load]]\nplace = \"left_apex\"\nforce = [\"0 N\", \"{0} mN\", \"0 N\"]\n"
-                           "[[load]]\nplace = \"right_apex\"\nforce = [\"0 N\", \"-{0} mN\", \"0 N\"]\n"
+  const std::string pair = "[[load]]\nplace = \"left_apex\"\nforce = [\"0 N\", \"1 mN\", \"0 N\"]\n"
+                           "[[load]]\nplace = \"right_apex\"\nforce = [\"0 N\", \"-1 mN\", \"0 N\"]\n"
                            "[[step]]\nkind = \"force\"\n";
-  write("film.toml", lattice("[2, 1, 2]", fmt::format(fmt::runtime(pair), 1)));
+  write("film.toml", lattice("[2, 1, 2]", pair));
   EXPECT_THROW(build_device(read_case(directory / "film.toml")), CaseError);
 }
 
