@@ -46,7 +46,7 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
     over.resize(static_cast<std::size_t>(packs * lanes), over.back());
     layers_.push_back({FilmLayer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
                        layer.number, std::move(over)});
-    shear_.add_layer(layer.material, H);
+    shear_.add_layer(layer.material, H, section.extra_stretch(layer));
     height_ += H;
   });
   geometry_.assign(static_cast<std::size_t>(packs * points), ShellPoint{});
@@ -99,12 +99,12 @@ void ShellBlock::place_element(int element) {
         (t.col(0).dot(d.col(1)) + t.col(1).dot(d.col(0))) / 2;
     const Eigen::Vector3d unity(prestretch_[0] * prestretch_[0], prestretch_[1] * prestretch_[1], 0),
         a0 = unity - map * metric, b0 = -map * curvature;
-    const Eigen::Matrix2d inverse_metric = G * G.transpose();
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) place.T[i][j][lane] = map(i, j);
       place.a[i][lane] = a0[i];
       place.b[i][lane] = b0[i];
-      place.shear[i][lane] = stiffness * (i < 2 ? inverse_metric(i, i) : inverse_metric(0, 1));
+      for (int axis = 0; axis < 2; ++axis)
+        place.shear[axis][i][lane] = stiffness * G(i % 2, axis) * G(i < 2 ? i : 1, axis);
     }
     for (std::size_t c = 0; c < 2; ++c) {
       double sum = 0;

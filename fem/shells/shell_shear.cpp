@@ -9,13 +9,20 @@ namespace {
 
 constexpr double correction = 5.0 / 6;
 
-/// The strain and what it costs with a stiffness, N/m.
+using Stiffness = ShellShear::Stiffness;
+
+/// Second derivatives of a point's energy in shear, rr, ss or rs, J.
+Lanes resisted(const Stiffness& stiffness, const ShellPoint& here, int i) {
+  return here.area * (stiffness[0] * here.shear[0][i] + stiffness[1] * here.shear[1][i]);
+}
+
+/// The strain and what it costs with a stiffness.
 struct Sheared {
   Lanes strain[2];
 
-  Lanes stress(double stiffness, const ShellPoint& here, Lanes (&gamma)[2]) const {
+  Lanes stress(const Stiffness& stiffness, const ShellPoint& here, Lanes (&gamma)[2]) const {
     Lanes metric[3];
-    for (int i = 0; i < 3; ++i) metric[i] = stiffness * here.area * here.shear[i];
+    for (int i = 0; i < 3; ++i) metric[i] = resisted(stiffness, here, i);
     gamma[0] = metric[0] * strain[0] + metric[2] * strain[1];
     gamma[1] = metric[2] * strain[0] + metric[1] * strain[1];
     return 0.5 * (gamma[0] * strain[0] + gamma[1] * strain[1]);
@@ -28,23 +35,24 @@ Sheared sheared(const ShellPoint& here, const ShellDeformation& f) {
 
 } // namespace
 
-void ShellShear::add_layer(const materials::Material& material, double H) {
-  const double per_modulus = correction * H;
-  stiffness_ += per_modulus * materials::initial_shear_modulus(material.law);
+void ShellShear::add_layer(const materials::Material& material, double H,
+                           const std::array<double, 2>& extra_stretch) {
+  const auto add = [&](Stiffness& to, double mu) {
+    for (std::size_t i = 0; i < 2; ++i) to[i] += correction * H * mu * extra_stretch[i] * extra_stretch[i];
+  };
+  add(stiffness_, materials::initial_shear_modulus(material.law));
   for (const materials::Branch& branch : materials::with_dashpot(material).branches) {
     const double mu = materials::initial_shear_modulus(branch.law), rate = mu / branch.viscosity;
-    const auto alike = std::ranges::find(branches_, rate, &Branch::rate);
-    if (alike != branches_.end())
-      alike->stiffness += per_modulus * mu;
-    else
-      branches_.push_back({per_modulus * mu, rate});
+    auto alike = std::ranges::find(branches_, rate, &Branch::rate);
+    if (alike == branches_.end()) alike = branches_.insert(alike, {{}, rate});
+    add(alike->stiffness, mu);
   }
 }
 
 Lanes ShellShear::evaluate(const State& state, const std::array<int, lanes>& points, int count,
                            const ShellPoint& here, const ShellDeformation& f, ShellStress& stress) const {
   const Sheared g = sheared(here, f);
-  for (int i = 0; i < 3; ++i) stress.shear[i] = stiffness_ * here.area * here.shear[i];
+  for (int i = 0; i < 3; ++i) stress.shear[i] = resisted(stiffness_, here, i);
   Lanes energy = g.stress(stiffness_, here, stress.gamma);
   const materials::TimeScheme& scheme = state.scheme;
   if (branches_.empty() || scheme.is_relaxed()) return energy;
@@ -64,15 +72,15 @@ Lanes ShellShear::evaluate(const State& state, const std::array<int, lanes>& poi
     Lanes gamma[2];
     energy += (1 / part) * spring.stress(k, here, gamma);
     for (int i = 0; i < 2; ++i) stress.gamma[i] += gamma[i];
-    for (int i = 0; i < 3; ++i) stress.shear[i] += part * k * here.area * here.shear[i];
+    for (int i = 0; i < 3; ++i) stress.shear[i] += part * resisted(k, here, i);
   }
   return energy;
 }
 
 void ShellShear::add_relaxation(const RateWeight& weight, const ShellPoint& here, ShellStress& stress) const {
   for (const auto& [k, rate] : branches_) {
-    const double factor = weight(rate) * k;
-    for (int i = 0; i < 3; ++i) stress.shear[i] += factor * here.area * here.shear[i];
+    const double factor = weight(rate);
+    for (int i = 0; i < 3; ++i) stress.shear[i] += factor * resisted(k, here, i);
   }
 }
 

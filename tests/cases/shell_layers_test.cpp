@@ -66,6 +66,34 @@ TEST_F(Paths, a_film_and_the_same_on_it_are_a_film_as_thick_as_both) {
   EXPECT_NEAR(rise("100 um", "-41.3223140495868 um", half), whole, 1e-6 * whole);
 }
 
+// A thick sheet that bends and is sheared under film of next to no stiffness: its prestretch is the film's
+// own.
+TEST_F(Paths, a_sheet_is_sheared_alike_whichever_layer_is_the_film) {
+  const auto rise = [this](const std::string& film, const std::string& layer) {
+    const Run one =
+        run(strip(film, "[[film.layer]]\n" + layer,
+                  "[[load]]\nplace = \"right\"\nforce = [0, 0, \"1 mN\"]\n[[step]]\nkind = \"force\"\n" +
+                      tip("z")),
+            "tip");
+    EXPECT_EQ(one.outcome.ending, Ending::complete) << one.outcome.message;
+    return one.rows.back().value;
+  };
+  const auto of = [](const char* thickness, const char* prestretch, const std::string& rest,
+                     const char* material, const char* modulus) {
+    return fmt::format(
+        "thickness = \"{}\"\nprestretch = {}\n{}{}shear_modulus = \"{}\"\n"
+        "relative_permittivity = 3\nbranch = [{{ shear_modulus = \"{}\", relaxation_time = 1 }}]\n",
+        thickness, prestretch, rest, material, modulus, modulus);
+  };
+  const double sheet_first =
+                   rise(of("1 mm", "1", "offset = 0\n", "[film.material]\n", "5 MPa"),
+                        of("3 um", "[2, 1.5]", "side = \"above\"\n", "[film.layer.material]\n", "1 Pa")),
+               film_first =
+                   rise(of("3 um", "[2, 1.5]", "offset = \"0.5005 mm\"\n", "[film.material]\n", "1 Pa"),
+                        of("1 mm", "1", "side = \"below\"\n", "[film.layer.material]\n", "5 MPa"));
+  EXPECT_NEAR(film_first, sheet_first, 1e-7 * sheet_first);
+}
+
 // Mirrored at the surface where it is drawn.
 TEST_F(Paths, a_bimorph_bends_to_either_side_alike) {
   const std::string layer = fmt::format("[[film.layer]]\nname = \"upper\"\nthickness = \"50 um\"\n"

@@ -95,7 +95,8 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
       }
     return s;
   };
-  double shear_modulus = 0, height = 0, area = 0; // per area; m; m^2
+  std::array<double, 2> shear_modulus{}; // per area, along x and y of the unstretched film
+  double height = 0, area = 0;           // m; m^2
   const auto extra = [&](const ShellLayer& layer, std::size_t i) {
     return (layer.prestretch ? (*layer.prestretch)[i] : section.prestretch[i]) / section.prestretch[i];
   };
@@ -103,7 +104,9 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
     return layer.thickness / (extra(layer, 0) * extra(layer, 1));
   };
   for (const ShellLayer& layer : section.layers) {
-    shear_modulus += 5.0 / 6 * depth(layer) * materials::initial_shear_modulus(layer.material.law);
+    for (std::size_t i = 0; i < 2; ++i) // each is sheared by what its own unstretched film sees
+      shear_modulus[i] += 5.0 / 6 * depth(layer) * materials::initial_shear_modulus(layer.material.law) *
+                          extra(layer, i) * extra(layer, i);
     height += depth(layer);
   }
   Unknowns energy;
@@ -134,7 +137,7 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
             b[I][K] += G(j, i) * G(l, k) * (at.curvature[Jj][L] - before.curvature[Jj][L]);
           }
       }
-    energy += 0.5 * shear_modulus * dA * (gamma[0] * gamma[0] + gamma[1] * gamma[1]);
+    for (std::size_t i = 0; i < 2; ++i) energy += 0.5 * shear_modulus[i] * dA * gamma[i] * gamma[i];
     const Unknowns thinning = 1.0 / sqrt(a[0][0] * a[1][1] - a[0][1] * a[0][1]);
     double bottom = section.offset - height / 2;
     for (std::size_t l = 0; l < section.layers.size(); ++l) {
@@ -167,7 +170,8 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
     const Vector cell = cross(now.along[n][0], now.along[n][1]);
     const double size = std::sqrt(dot(cell, cell).value); // turning keeps it
     const Unknowns omega = (dot(now.along[n][0], x[1]) - dot(now.along[n][1], x[0])) / size;
-    if (with_spins) energy += 0.5 * section.drilling * shear_modulus * area / 6 * omega * omega;
+    if (with_spins)
+      energy += 0.25 * section.drilling * (shear_modulus[0] + shear_modulus[1]) * area / 6 * omega * omega;
   }
   return energy;
 }
