@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <set>
 
 namespace dielast::fem {
 
@@ -34,6 +35,8 @@ class PlaneContactBlock final : public ContactBlock {
                                       contact_.nodes.begin());
     };
     for (const auto& [node, other] : contact_.kept) like_[element(node)] = static_cast<int>(element(other));
+    for (std::array<int, 2>& pair : contact_.corners)
+      for (int& node : pair) node = static_cast<int>(element(node));
   }
 
   int element_count() const override { return static_cast<int>(contact_.nodes.size()); }
@@ -81,10 +84,12 @@ class PlaneContactBlock final : public ContactBlock {
   }
   bool is_between(std::string_view place) const override { return place == contact_.place; }
   void add_pressure(const State& state, NodalPressure& pressure) const override {
-    for (int e = 0; e < element_count(); ++e) {
-      pressure.force[static_cast<std::size_t>(node(e))] += pressing(state, e);
-      pressure.area[static_cast<std::size_t>(node(e))] += area(e);
-    }
+    const auto add = [&](int e, double part, int from) {
+      pressure.force[static_cast<std::size_t>(node(e))] += part * pressing(state, from);
+      pressure.area[static_cast<std::size_t>(node(e))] += part * area(from);
+    };
+    for (int e = 0; e < element_count(); ++e) add(e, 1, e);
+    for (const auto& [corner, midside] : contact_.corners) add(corner, 0.5, midside);
   }
   bool has_friction() const override { return friction(); }
   void bound_friction(const State& state, std::vector<double>& all) const override {
@@ -216,8 +221,11 @@ PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sid
 
 PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& faces) {
   std::map<int, double> areas;
+  std::set<std::array<int, 2>> corners;
   for (int face = 0; face < faces.size(); ++face) {
     const auto own = faces.cell(face);
+    for (std::size_t side = 0; side < 3; ++side)
+      for (const std::size_t corner : {side, (side + 1) % 3}) corners.insert({own[corner], own[3 + side]});
     Eigen::Matrix<double, 3, 6> x;
     for (int a = 0; a < 6; ++a)
       x.col(a) = mesh.nodes[static_cast<std::size_t>(own[static_cast<std::size_t>(a)])];
@@ -229,7 +237,9 @@ PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& fac
     for (int a = 0; a < 6; ++a)
       areas[own[static_cast<std::size_t>(a)]] += std::max(share[a], least_share * share.sum() / 6);
   }
-  return of_nodes(areas);
+  PlaneContact surface = of_nodes(areas);
+  surface.corners.assign(corners.begin(), corners.end());
+  return surface;
 }
 
 std::unique_ptr<ElementBlock> make_plane_contact_block(const meshing::Mesh& mesh, PlaneContact contact) {
