@@ -84,17 +84,53 @@ void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
         "walls of a cell are closer as drawn than the {:.6g} mm of contact.thickness", 1e3 * thickness));
 }
 
+/// Faces or sides of solids that lie on a table: all of the place is a surface, which faces down where it is
+/// lowest.
+void require_underside(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& sides, int up) {
+  const auto fail = [&one](const char* what) {
+    throw CaseError(
+        {{one.where("table.at"), "table.at",
+          fmt::format("\"{}\" {}: name the surface that lies on the table, at the bottom of the solid",
+                      one.table->place, what)}});
+  };
+  const auto drawn = [&mesh](int node) -> const Eigen::Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(node)];
+  };
+  const std::set<int> on_surface(sides.nodes.begin(), sides.nodes.end());
+  if (!std::ranges::all_of(mesh.node_sets.at(one.table->place),
+                           [&](int n) { return on_surface.contains(n); }))
+    fail("is no surface, but has nodes inside the solid");
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const int node : on_surface) {
+    lowest = std::min(lowest, drawn(node)[up]);
+    highest = std::max(highest, drawn(node)[up]);
+  }
+  const double near = lowest + 1e-9 * (highest - lowest + mesh.bounds().sizes().norm());
+  for (int side = 0; side < sides.size(); ++side) {
+    const auto own = sides.cell(side);
+    if (std::ranges::none_of(own, [&](int node) { return drawn(node)[up] <= near; })) continue;
+    const Eigen::Vector3d along = drawn(own[1]) - drawn(own[0]), beside = drawn(own[2]) - drawn(own[0]);
+    // Normals point into the solid, which lies on the right of the sides of triangles.
+    const double steep = own.size() == 6 ? along.cross(beside).normalized()[up] : -along.x() / along.norm();
+    if (steep > 1e-6) return;
+  }
+  fail("does not face down where it is lowest");
+}
+
 /// The plane is where the barrier of the surface's lowest node begins.
 void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
-  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric;
+  const bool of_revolution = one.dimension == fem::Dimension::axisymmetric,
+             in_space = one.dimension == fem::Dimension::spatial;
   const int up = of_revolution ? 2 : 1;
   const double thickness = one.contact->thickness;
   const Film& film = *one.unnamed()->film;
+  const meshing::CellBlock sides =
+      in_space ? meshing::faces_at(mesh, one.table->place)
+               : meshing::sides_at(mesh, one.table->place, meshing::CellType::meridian3);
+  require_underside(one, mesh, sides, up);
   fem::PlaneContact contact =
-      one.dimension == fem::Dimension::spatial
-          ? fem::surface_of(mesh, meshing::faces_at(mesh, one.table->place))
-          : fem::surface_of(mesh, meshing::sides_at(mesh, one.table->place, meshing::CellType::meridian3),
-                            of_revolution ? std::nullopt : std::optional(film.width));
+      in_space ? fem::surface_of(mesh, sides)
+               : fem::surface_of(mesh, sides, of_revolution ? std::nullopt : std::optional(film.width));
   double lowest = std::numeric_limits<double>::infinity();
   for (const int node : contact.nodes)
     lowest = std::min(lowest, mesh.nodes[static_cast<std::size_t>(node)][up]);

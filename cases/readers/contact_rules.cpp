@@ -74,7 +74,9 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
   if (!one.table) return;
   if (one.table->friction > 0) return check_friction(reader, tree, one, "[table]");
   const auto slides = [&](std::size_t axis) {
-    return std::ranges::none_of(one.supports, [&](const Support& support) { return support.fixed[axis]; });
+    const auto holds = [&](const auto& what) { return what.fixed[axis]; };
+    return std::ranges::none_of(one.supports, holds) &&
+           std::ranges::none_of(one.bodies, [&](const Body& body) { return holds(body) || body.pivot; });
   };
   if (one.dimension == fem::Dimension::planar && slides(0))
     report("table", "without friction nothing keeps the solid from sliding away; fix x of a "

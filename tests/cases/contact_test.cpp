@@ -176,6 +176,45 @@ TEST_F(Contacts, block_in_space_lies_on_a_table) {
   EXPECT_GT(rough.at("heat"), 0);
 }
 
+/// A block that a cap presses on its table and drags: corners of its faces stand for next to no area, and
+/// what they bear at the block's ends says little by itself. Plane strain has 9.11 kPa (across = 2) and 11.3
+/// kPa (4).
+TEST_F(Contacts, dragged_block_in_space_presses_at_its_ends_as_in_plane_strain) {
+  const auto found = values(
+      "model = \"3d\"\n[film]\nthickness = \"0.1 mm\"\n[film.material]\nshear_modulus = \"40 "
+      "kPa\"\npermittivity = "
+      "\"4e-11 F/m\"\n[slab]\nlength = \"2 mm\"\nheight = \"1 mm\"\nwidth = \"2 mm\"\n[mesh]\nacross = "
+      "2\ngrading = 1\n"
+      "[table]\nat = \"bottom\"\nfriction = 0.3\n[contact]\nthickness = \"10 um\"\n"
+      "[[body]]\nname = \"cap\"\nplaces = [\"top\"]\nfix = [\"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n"
+      "[[support]]\nplace = \"cap\"\ndisplacement = { x = \"0.2 mm\" }\n"
+      "[[load]]\nplace = \"cap\"\nforce = [0, \"-20 mN\", 0]\n"
+      "[[step]]\nkind = \"force\"\nincrements = 5\n[[step]]\nkind = \"move\"\nincrements = 4\n"
+      "[[quantity]]\nname = \"largest\"\nkind = \"contact pressure\"\n[output]\nerror_estimate = false\n");
+  EXPECT_NEAR(found.at("largest"), 10e3, 1e3);
+}
+
+/// Also where a body holds it.
+TEST_F(Contacts, block_without_friction_is_kept_from_sliding_by_a_body) {
+  const std::string slides = slab(weight_and_voltage);
+  EXPECT_THROW(read(slides), CaseError);
+  EXPECT_NO_THROW(read(slides + "[[body]]\nname = \"cap\"\nplaces = [\"top\"]\nfix = [\"x\", \"turn_z\"]\n"));
+}
+
+/// Of a table's places: a surface, which faces down.
+TEST_F(Contacts, only_undersides_lie_on_a_table) {
+  for (const char* place : {"top", "left", "film"}) {
+    std::string text = slab(weight_and_voltage, "0.5");
+    text.replace(text.find("\"bottom\""), 8, fmt::format("\"{}\"", place));
+    try {
+      build_device(read(text));
+      ADD_FAILURE() << place;
+    } catch (const CaseError& error) {
+      EXPECT_NE(std::string(error.what()).find("table.at"), std::string::npos) << error.what();
+    }
+  }
+}
+
 /// A block, and one half as long above it, whose back is moved down by 0.1 mm; the gap in mm. `up`: y, of
 /// revolution z.
 std::string two_blocks(double gap, char up = 'y',
