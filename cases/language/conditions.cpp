@@ -37,8 +37,25 @@ bool has_dense_parts(const Case& one) {
          std::ranges::any_of(one.parts, [](const Part& part) { return has_heavy_bars(part); });
 }
 
+bool any_step(const Case& one, bool (*is)(const Step& step)) { return std::ranges::any_of(one.steps, is); }
+
+bool any_quantity(const Case& one, bool (*is)(const Quantity& quantity)) {
+  return std::ranges::any_of(one.quantities, is);
+}
+
+bool slides_with_friction(const Case& one) {
+  return (one.table && one.table->friction > 0) ||
+         (one.contact && !one.contact->between.empty() && one.contact->friction > 0);
+}
+
+bool has_branches(const Case& one) {
+  return std::ranges::any_of(one.film_materials(), [](const auto* material) {
+    return !material->branches.empty() || material->viscosity > 0;
+  });
+}
+
 bool has_inertia(const Case& one) {
-  return std::ranges::any_of(one.steps, [](const Step& step) { return step.inertia; });
+  return any_step(one, [](const Step& step) { return step.inertia; });
 }
 
 } // namespace
@@ -53,37 +70,17 @@ bool has_mass(const Case& one) {
 bool is_linearised(const Case& one) { return one.linearise || has_step(one, {StepKind::harmonic}); }
 
 bool masses_accelerate(const Case& one) {
-  const auto vibrates = [](const Quantity& quantity) { return quantity.kind->vibrates; };
-  return std::ranges::any_of(one.quantities, vibrates) || has_inertia(one) || is_linearised(one) ||
-         has_step(one, {StepKind::modes});
+  return any_quantity(one, [](const Quantity& q) { return q.kind->vibrates; }) || has_inertia(one) ||
+         is_linearised(one) || has_step(one, {StepKind::modes});
 }
 
 bool film_weighs(const Case& one) { return one.gravity.film && has_step(one, {StepKind::weight}); }
-
-namespace {
-
-bool slides_with_friction(const Case& one) {
-  return (one.table && one.table->friction > 0) ||
-         (one.contact && !one.contact->between.empty() && one.contact->friction > 0);
-}
-
-} // namespace
 
 bool may_jump(const Case& one) {
   return !slides_with_friction(one) && !one.any_film([](const Film& film) { return film.is_solid(); });
 }
 
 bool may_follow(const Case& one, const Step& step) { return !step.duration && !slides_with_friction(one); }
-
-namespace {
-
-bool has_branches(const Case& one) {
-  return std::ranges::any_of(one.film_materials(), [](const auto* material) {
-    return !material->branches.empty() || material->viscosity > 0;
-  });
-}
-
-} // namespace
 
 bool adapts(const Case& one, const Step& step) {
   return step.inertia || !one.circuits.empty() || has_branches(one) ||
@@ -95,34 +92,25 @@ bool adapts(const Case& one, const Step& step) {
 namespace {
 
 bool is_timed(const Case& one) {
-  return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });
+  return any_step(one, [](const Step& step) { return step.duration.has_value(); });
 }
 
-bool has_instantaneous_step(const Case& one) {
-  return std::ranges::any_of(one.steps, [](const Step& step) {
-    return !step.duration && !step.is_analysis() && step.response == Response::instantaneous;
-  });
+/// Whether dashpots of the film move, or keep others from moving.
+constexpr const char* flow =
+    "a step with a duration, of kind \"harmonic\", or with response = \"instantaneous\"";
+bool flows(const Case& one) {
+  return is_timed(one) || is_linearised(one) || any_step(one, [](const Step& step) {
+           return !step.duration && !step.is_analysis() && step.response == Response::instantaneous;
+         });
 }
 
-/// Whether a step reaches the chamber's pressure, or a transient follows it: until a chamber is pumped up it
-/// is open.
-bool opens_chamber(const Case& one) {
-  bool open = true;
+/// Whether a step of a kind, `pressure` or `inflate`, reaches what [chamber] gives, or a transient follows
+/// it: a chamber is open from the beginning, and from the former on, closed from the latter on.
+bool follows_chamber(const Case& one, StepKind kind) {
+  StepKind last = StepKind::pressure;
   for (const Step& step : one.steps) {
-    if (step.kind == StepKind::inflate) open = false;
-    if ((step.kind == StepKind::pressure && !step.to) || (step.kind == StepKind::transient && open))
-      return true;
-  }
-  return false;
-}
-
-/// Whether a step reaches the chamber's volume, or a transient follows it.
-bool pumps_chamber(const Case& one) {
-  bool closed = false;
-  for (const Step& step : one.steps) {
-    if (step.kind == StepKind::inflate) closed = true;
-    if ((step.kind == StepKind::inflate && !step.to) || (step.kind == StepKind::transient && closed))
-      return true;
+    if (step.kind == StepKind::pressure || step.kind == StepKind::inflate) last = step.kind;
+    if (last == kind && ((step.kind == kind && !step.to) || step.kind == StepKind::transient)) return true;
   }
   return false;
 }
@@ -165,7 +153,7 @@ Condition voltages() {
   return on_case(
       "a step of kind \"voltage\", or \"transient\" with control = \"voltage\", and an [[electrode]]",
       [](const Case& one) {
-        return !one.electrodes.empty() && std::ranges::any_of(one.steps, [](const Step& step) {
+        return !one.electrodes.empty() && any_step(one, [](const Step& step) {
           return step.kind == StepKind::voltage ||
                  (step.kind == StepKind::transient && step.control == Control::voltage);
         });
@@ -179,6 +167,14 @@ Condition branches() {
 
 Condition time_passes() { return on_case("a step with a duration", is_timed); }
 
+Condition sheets_matter() {
+  return on_case("a step with a duration, or a leakage_resistance", [](const Case& one) {
+    return is_timed(one) || std::ranges::any_of(one.circuits, [](const auto& circuit) {
+             return circuit.second.leakage_resistance.has_value();
+           });
+  });
+}
+
 Condition without_duration() {
   return on<Step>("a step without a duration", [](const Case&, const Step& step) { return !step.duration; });
 }
@@ -186,6 +182,13 @@ Condition without_duration() {
 Condition weight() {
   return on_case("a step of kind \"weight\"",
                  [](const Case& one) { return has_step(one, {StepKind::weight}); });
+}
+
+Condition direction_of_weight() {
+  return on_case("a step of kind \"weight\", or a quantity along gravity", [](const Case& one) {
+    return has_step(one, {StepKind::weight}) ||
+           any_quantity(one, [](const Quantity& q) { return q.along == along_gravity; });
+  });
 }
 
 Condition film_has_weight() {
@@ -204,9 +207,11 @@ Condition point_masses_matter() {
 }
 
 Condition hung_weight_matters() {
-  return on_case("a step of kind \"weight\", \"modes\" or \"harmonic\", or inertia", [](const Case& one) {
-    return has_inertia(one) || is_linearised(one) || has_step(one, {StepKind::weight, StepKind::modes});
-  });
+  return on_case(
+      "a step of kind \"weight\", \"modes\" or \"harmonic\", or inertia, and in natural frequencies",
+      [](const Case& one) {
+        return has_inertia(one) || is_linearised(one) || has_step(one, {StepKind::weight, StepKind::modes});
+      });
 }
 
 Condition turns_matter() {
@@ -230,18 +235,13 @@ Condition has_mass() {
 }
 
 Condition film_flows() {
-  return on_case(
-      "a step with a duration, of kind \"harmonic\", or with response = \"instantaneous\"",
-      [](const Case& one) { return is_timed(one) || is_linearised(one) || has_instantaneous_step(one); });
+  return on_case(flow, [](const Case& one) { return flows(one); });
 }
 
 Condition branches_flow() {
-  return on<materials::Branch>(
-      "a step with a duration, of kind \"harmonic\", or with response = \"instantaneous\"",
-      [](const Case& one, const materials::Branch& branch) {
-        return is_timed(one) || is_linearised(one) || has_instantaneous_step(one) ||
-               !(branch.directions[0] && branch.directions[1]);
-      });
+  return on<materials::Branch>(flow, [](const Case& one, const materials::Branch& branch) {
+    return flows(one) || !(branch.directions[0] && branch.directions[1]);
+  });
 }
 
 Condition circuits_matter() {
@@ -266,23 +266,29 @@ Condition time_steps_matter() {
 }
 
 Condition voltage_applies() {
-  return on_case("a step of kind \"voltage\" without `to`, or \"transient\" with control = \"voltage\"",
-                 [](const Case& one) {
-                   return std::ranges::any_of(one.steps, [](const Step& step) {
-                     return (step.kind == StepKind::voltage && !step.to) ||
-                            (step.kind == StepKind::transient && step.control == Control::voltage);
-                   });
-                 });
+  return on_case(
+      "a step of kind \"voltage\" without `to`, \"transient\" with control = \"voltage\", or \"harmonic\" "
+      "without `driven`",
+      [](const Case& one) {
+        return (one.linearise && one.linearise->driven.empty()) || any_step(one, [](const Step& step) {
+                 return (step.kind == StepKind::voltage && !step.to) ||
+                        (step.kind == StepKind::transient && step.control == Control::voltage) ||
+                        (step.kind == StepKind::harmonic && step.driven.empty());
+               });
+      });
 }
 
 Condition chamber_is_open() {
-  return on_case("a step of kind \"pressure\", or \"transient\" before any of kind \"inflate\"",
-                 opens_chamber);
+  return on_case("a step of kind \"pressure\" without `to`, or \"transient\" while none of kind \"inflate\" "
+                 "has closed it",
+                 [](const Case& one) { return follows_chamber(one, StepKind::pressure); });
 }
 
 Condition chamber_is_closed() {
-  return on_case("a step of kind \"inflate\"",
-                 [](const Case& one) { return has_step(one, {StepKind::inflate}); });
+  return on_case("a step of kind \"inflate\", or a quantity of kind \"pumped volume\"", [](const Case& one) {
+    return has_step(one, {StepKind::inflate}) ||
+           any_quantity(one, [](const Quantity& q) { return q.kind->word == "pumped volume"; });
+  });
 }
 
 Condition surfaces_touch() {
@@ -291,8 +297,8 @@ Condition surfaces_touch() {
 }
 
 Condition volume_applies() {
-  return on_case("a step of kind \"inflate\" without `to`, or \"transient\" behind any of kind \"inflate\"",
-                 pumps_chamber);
+  return on_case("a step of kind \"inflate\" without `to`, or \"transient\" after that",
+                 [](const Case& one) { return follows_chamber(one, StepKind::inflate); });
 }
 
 Condition elements() {

@@ -14,8 +14,10 @@ Condition charges_layer();       ///< one charges the key's own layer
 Condition voltages();            ///< a step brings a voltage
 Condition branches();            ///< the film has branches
 Condition time_passes();         ///< a step has a duration
+Condition sheets_matter();       ///< likewise, or a circuit leaks
 Condition without_duration();    ///< the key's own step has none
 Condition weight();              ///< gravity acts in a step
+Condition direction_of_weight(); ///< likewise, or a quantity is along it
 Condition film_has_weight();     ///< likewise, and film or bars have a mass
 Condition masses_matter();       ///< something has inertia, vibrates, or weighs
 Condition turns_matter();        ///< likewise, and bodies turn

@@ -31,7 +31,7 @@ Section electrode_section() {
               "everywhere")
           .at_least(smallest_resistance)
           .optional()
-          .only_with(when::time_passes()),
+          .only_with(when::sheets_matter()),
       text("terminal", to(&Electrode::terminal),
            "place where an electrode with a sheet_resistance is connected")
           .optional()
@@ -266,7 +266,7 @@ Section gravity_section() {
             const bool zero = std::ranges::all_of(value, [](const Scalar& c) { return c.number == 0; });
             return std::string(zero ? "found no direction" : "");
           })
-          .only_with(when::weight()),
+          .only_with(when::direction_of_weight()),
       flag("film", to(&Gravity::film), "whether film and bars have a weight, too; by default a [strip] has")
           .otherwise("false")
           .only_with(when::film_has_weight())};

@@ -57,7 +57,7 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
   const std::string drive = "[drive]\nvoltage = \"1 kV\"\n";
   const std::string weight = "[[step]]\nkind = \"weight\"\n";
   const std::string point_mass = "[[point_mass]]\nplace = \"electrode\"\nmass = \"1 g\"\n";
-  const std::string inflate = "[[step]]\nkind = \"inflate\"\n";
+  const std::string inflate = "[[step]]\nkind = \"inflate\"\n", pressure = "[[step]]\nkind = \"pressure\"\n";
   const std::string charged_hold = "[[step]]\nkind = \"hold\"\nduration = \"1 s\"\ncontrol = \"charge\"\n";
   const std::string breathes = // from 0
       "[chamber]\nvolume = { wave = \"unipolar sine\", amplitude = \"1 ml\", frequency = \"1 Hz\" }\n";
@@ -130,6 +130,16 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
        film + disc + transient +
            "[[electrode]]\nname = \"e\"\nplace = \"electrode\"\nsheet_resistance = 1e5\nterminal = "
            "\"electrode_edge\"\n"},
+      {"electrode[1].sheet_resistance",
+       film + disc +
+           "[[electrode]]\nname = \"e\"\nplace = \"electrode\"\nsheet_resistance = 1e5\nterminal = "
+           "\"electrode_edge\"\n[circuit]\nresistance = 1e6\n",
+       film + disc +
+           "[[electrode]]\nname = \"e\"\nplace = \"electrode\"\nsheet_resistance = 1e5\nterminal = "
+           "\"electrode_edge\"\n[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n"},
+      {"gravity.direction", "model = \"3d\"\n" + film + disc + "[gravity]\ndirection = [1, 0, 0]\n" + ramp,
+       "model = \"3d\"\n" + film + disc + "[gravity]\ndirection = [1, 0, 0]\n" + ramp +
+           "[[quantity]]\nname = \"u\"\nkind = \"displacement\"\nof = \"centre\"\nalong = \"gravity\"\n"},
       {"circuit", film + disc + drive + "[circuit]\nresistance = 1e6\n",
        film + disc + drive + "[circuit]\nresistance = 1e6\nleakage_resistance = 1e9\n"},
       {"circuit.current_limit",
@@ -161,6 +171,17 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
            "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = 500\nbulk_modulus = 1e6\n[[step]]\nkind = "
            "\"pressure\"\n",
        film + "[balloon]\nradius = \"20 mm\"\n[chamber]\nvolume = \"50 ml\"\nbulk_modulus = 1e6\n" + inflate},
+      {"chamber.bulk_modulus",
+       film + "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = 500\nbulk_modulus = 1e6\n" + pressure,
+       film + "[balloon]\nradius = \"20 mm\"\n[chamber]\npressure = 500\nbulk_modulus = 1e6\n" + pressure +
+           "[[quantity]]\nname = \"Q\"\nkind = \"pumped volume\"\n"},
+      {"chamber.volume",
+       film + balloon + "[[step]]\nkind = \"inflate\"\nto = \"50 ml\"\n" + pressure + transient,
+       film + balloon + "[[step]]\nkind = \"inflate\"\nto = \"50 ml\"\n" + transient},
+      {"chamber.pressure", film + balloon + pressure + "to = \"500 Pa\"\n" + inflate + transient,
+       film + balloon + inflate + pressure + "to = \"500 Pa\"\n" + transient},
+      {"drive.voltage", film + disc + drive + ramp + "to = \"1 kV\"\n",
+       film + disc + drive + ramp + "to = \"1 kV\"\n[[step]]\nkind = \"harmonic\"\n"},
       {"drive.voltage", "model = \"3d\"\n" + film + disc + drive + weight + "[gravity]\nfilm = true\n",
        film + disc + drive},
       {"step[1].control",
