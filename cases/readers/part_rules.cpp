@@ -173,6 +173,15 @@ bool knows_x_from_y(const Part& part) {
   return unlike(*part.film) || std::ranges::any_of(part.film->further_layers, unlike) || has_axes(part);
 }
 
+/// The nodes of a body's places move with it already; its own place has no others.
+void check_ties(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t t = 0; t < one.ties.size(); ++t)
+    for (const std::string& place : one.ties[t].between)
+      if (std::ranges::count(one.bodies, place, &Body::name) > 0)
+        reader.report(tree.find("tie")->items[t].source, fmt::format("tie[{}].between", t + 1),
+                      fmt::format("\"{}\" is a [[body]]: what moves with it stands in its places", place));
+}
+
 } // namespace
 
 void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
@@ -230,6 +239,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     if (knows_x_from_y(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
       report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
   }
+  check_ties(reader, tree, one);
   check_surfaces(reader, tree, one);
   check_layers(reader, tree, one);
   check_resistive_electrodes(reader, tree, one);
