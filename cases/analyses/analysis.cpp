@@ -185,6 +185,11 @@ void require_rest(fem::Equilibrium& equilibrium, const fem::State& state) {
         "small vibrations go about a state at rest, and here {}; let it come to rest before, by a "
         "hold or a step of kind \"relax\"",
         found));
+  if (fem::skew_stiffness(equilibrium, state) > fem::negligible_skew)
+    throw AnalysisError(
+        "moments about axes that stay act on what turns about several axes: its stiffness is not "
+        "symmetric, which modes, responses and linear models do not know; fix the turns about the "
+        "other axes, or follow small motions in a step of kind \"transient\"");
 }
 
 std::vector<std::size_t> driven_ports(const Case& one, const std::vector<std::string>& names) {

@@ -17,7 +17,8 @@ namespace dielast::cases {
 namespace {
 
 bool at_rest(const Measured& measured) {
-  return measured.may_rest && fem::unrest(measured.equilibrium, measured.state).empty();
+  return measured.may_rest && fem::unrest(measured.equilibrium, measured.state).empty() &&
+         fem::skew_stiffness(measured.equilibrium, measured.state) <= fem::negligible_skew;
 }
 
 /// How a relaxed device goes along with a place along an axis: per unknown, free ones first, then held ones,

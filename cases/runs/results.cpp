@@ -99,6 +99,21 @@ std::string error_paragraph(const Results& results) {
          "safety factor; for extremes of fields at least what the field changes over one element there.";
 }
 
+/// Where one turn of a body in space is fixed, and not all that hold it change: no step spins it about that
+/// axis, but spins about the other two leave a rotation about it, as turns do not commute. That rotation,
+/// rad.
+double drift_of_fixed_turn(const Case& one, const Body& body, const Device& device, const fem::State& state) {
+  std::array<bool, 6> fixed = body.fixed;
+  for (const Support& support : one.supports) {
+    if (support.place != body.name) continue;
+    if (!support.from.empty() || !support.until.empty()) return 0;
+    for (std::size_t c = 0; c < fixed.size(); ++c) fixed[c] = fixed[c] || support.fixed[c];
+  }
+  if (one.dimension != fem::Dimension::spatial || fixed[3] + fixed[4] + fixed[5] != 1) return 0;
+  const int axis = fixed[3] ? 0 : fixed[4] ? 1 : 2;
+  return state.angle[static_cast<std::size_t>(device.mesh.node_sets.at(body.name).front())][axis];
+}
+
 } // namespace
 
 bool Results::checks_passed() const {
@@ -157,6 +172,15 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                                           "history.csv)",
                                           energy.row),
                               false});
+  constexpr double notable_drift = 1e-3; // rad
+  for (const Body& body : one.bodies)
+    if (const double drift = drift_of_fixed_turn(one, body, simulation.device(), simulation.state());
+        std::abs(drift) > notable_drift)
+      results.checks.push_back(
+          {fmt::format("fixed turn of {}", body.name), drift, 0, notable_drift, "rad", post::Ratio::plain,
+           "every run: a body of which one turn alone is fixed turns far about the others, and "
+           "this one with them, by how much depends on the increments: fix two, or none",
+           false});
   return results;
 }
 

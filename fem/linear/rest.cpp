@@ -166,6 +166,37 @@ std::string unrest(Equilibrium& equilibrium, const State& state) {
   return "";
 }
 
+double skew_stiffness(Equilibrium& equilibrium, const State& state) {
+  const DofMap& dofs = equilibrium.model().dofs;
+  const Eigen::Index free = dofs.free_count();
+  State at = fem::relaxed(state);
+  Balance balance;
+  equilibrium.balance(at, balance);
+  // What is inside balances it: dead moments, and where a turn is held its reaction, too.
+  Eigen::VectorXd moment = at.dead_force;
+  moment.tail(moment.size() - free) += balance.force.tail(moment.size() - free);
+  Eigen::VectorXd stiffness;
+  double largest = 0;
+  for (int node = 0; node < dofs.node_count(); ++node)
+    for (int c = 0; c < 3; ++c) {
+      const int across = dofs.equation(node, 3 + c), one = dofs.equation(node, 3 + (c + 1) % 3),
+                other = dofs.equation(node, 3 + (c + 2) % 3);
+      const auto turns = [free](int e) { return e != DofMap::absent && e < free; };
+      if (across == DofMap::absent || !turns(one) || !turns(other) || moment[across] == 0) continue;
+      if (stiffness.size() == 0) {
+        stiffness = Eigen::VectorXd::Zero(free);
+        equilibrium.assembler().tangent(at);
+        const SparseSymmetric& K = equilibrium.assembler().matrix();
+        K.for_each_entry([&](std::size_t k, int column, int row) {
+          if (row == column) stiffness[row] = K.values[k];
+        });
+      }
+      const double both = std::sqrt(std::abs(stiffness[one] * stiffness[other]));
+      largest = std::max(largest, std::abs(moment[across]) / 2 / both);
+    }
+  return largest;
+}
+
 State relaxed(State state) {
   if (state.history) state.scheme = materials::TimeScheme::relaxed();
   for (Supply& supply : state.supply)

@@ -19,6 +19,14 @@ std::string unrest(Equilibrium& equilibrium, const State& state);
 /// Whether what has a mass would go on by more than that.
 bool moves_on(Equilibrium& equilibrium, const State& state);
 
+/// The tangent of what turns about several axes in space is a derivative of an energy only where no moment
+/// acts about the axis across: there it has a skew part of half the moment (Simo & Vu-Quoc 1986), which
+/// tangents leave out. That of dead moments, and of what holds one turn alone; the largest over the
+/// stiffnesses that it couples (the root of their product), of a state at rest. Newton's method needs more
+/// steps for it; small vibrations, stiffnesses and linear models know nothing of it.
+double skew_stiffness(Equilibrium& equilibrium, const State& state);
+constexpr double negligible_skew = 1e-4; ///< of it
+
 /// The same state as its branches let it move slowly.
 State relaxed(State state);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
+#include "tests/cases/held_by_rods.hpp"
 
 namespace dielast::test::exit_codes_test {
 namespace {
@@ -170,6 +171,23 @@ TEST_F(ExitCodes, FiveForWorksThatTheIncrementsDoNotResolve) {
   EXPECT_EQ(checks[0]["quantity"], "energy error");
   EXPECT_EQ(checks[0]["passed"], false);
   EXPECT_EQ(dielast({"run", "creep.toml", "-o", "fine", "--set", "solver.time_tolerance=1e-6"}).exit_code, 0);
+}
+
+// Turns do not commute: of one that is fixed beside two that are not some is left, by the number of
+// increments.
+TEST_F(ExitCodes, FiveForAFixedTurnThatTheOthersCarryAway) {
+  const auto text = [](const std::string& fixed) {
+    return held_by_rods("fix = [" + fixed + "]\n",
+                        "[gravity]\ndirection = [0.3, 0.5, -1]\n[[step]]\nkind = \"weight\"\n"
+                        "increments = 5\n");
+  };
+  write("one.toml", text("\"turn_z\""));
+  const Ended ended = dielast({"run", "one.toml"});
+  EXPECT_EQ(ended.exit_code, 5) << ended.err;
+  EXPECT_NE(ended.out.find("fixed turn of b"), std::string::npos) << ended.out;
+  EXPECT_EQ(json_of("one-results/summary.json")["checks"].size(), 1u);
+  write("two.toml", text("\"turn_z\", \"turn_x\""));
+  EXPECT_EQ(dielast({"run", "two.toml"}).exit_code, 0);
 }
 
 TEST_F(ExitCodes, FiveForAFailedCheck) {
