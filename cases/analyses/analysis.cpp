@@ -2,7 +2,7 @@
 #include "cases/analyses/analysis.hpp"
 
 #include "cases/case/quantities.hpp"
-#include "cases/devices/without_pins.hpp"
+#include "cases/devices/pins.hpp"
 #include "cases/quantities/measurement.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rest.hpp"

@@ -109,33 +109,4 @@ void tie_bodies(const Case& one, const std::vector<BodyNodes>& nodes, const mesh
   }
 }
 
-void pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::DofMap& dofs) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const auto& x : nodes) middle += x / static_cast<double>(nodes.size());
-  std::vector<char> tied(static_cast<std::size_t>(dofs.node_count()));
-  for (const fem::Tie& tie : dofs.ties()) tied[static_cast<std::size_t>(tie.node)] = 1;
-  const auto drawn = [&nodes](int n) { return nodes[static_cast<std::size_t>(n)]; };
-  const auto best = [&](auto&& cost) {
-    int found = static_cast<int>(std::ranges::find(tied, 0) - tied.begin());
-    for (int n = found + 1; n < std::ssize(nodes); ++n)
-      if (!tied[static_cast<std::size_t>(n)] && cost(drawn(n)) < cost(drawn(found))) found = n;
-    return found;
-  };
-  const int first = best([&](const Eigen::Vector3d& x) { return (x - middle).norm(); });
-  if (dimension == fem::Dimension::axisymmetric) return dofs.hold(first, 2); // it moves along the axis alone
-  const Eigen::Vector3d anchor = drawn(first);
-  tied[static_cast<std::size_t>(first)] = 1; // no other is that one
-  // Along x and along y as exactly as nodes allow: what is beside turns the body with its strain.
-  const auto along = [&](int axis) {
-    return best([&](const Eigen::Vector3d& x) {
-      const Eigen::Vector3d from = x - anchor;
-      return from[axis] + 2 * (from.cwiseAbs().sum() - std::abs(from[axis]));
-    });
-  };
-  const int along_x = along(0), along_y = along(1);
-  for (const int c : {0, 1, 2}) dofs.hold(first, c);
-  for (const int c : {1, 2}) dofs.hold(along_x, c);
-  dofs.hold(along_y, 2);
-}
-
 } // namespace dielast::cases

@@ -31,9 +31,4 @@ std::vector<fem::PointMass> body_masses(const std::vector<BodyNodes>& bodies);
 void tie_bodies(const Case& one, const std::vector<BodyNodes>& nodes, const meshing::Mesh& mesh,
                 fem::DofMap& dofs);
 
-/// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
-/// of these nodes, the first ones, that next to the middle, one far from it along x and, in space, one far
-/// along y.
-void pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::DofMap& dofs);
-
 } // namespace dielast::cases

@@ -5,6 +5,7 @@
 #include "cases/devices/attachments.hpp"
 #include "cases/devices/bodies.hpp"
 #include "cases/devices/chamber.hpp"
+#include "cases/devices/pins.hpp"
 #include "cases/devices/sections.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/warnings/load_warnings.hpp"
@@ -303,8 +304,9 @@ Device build_device(const Case& one) {
   for (const Support& support : one.supports) hold(support, one, mesh, model.dofs);
   keep_spins(one, mesh, model.dofs);
   const bool free_body = is_free(one, std::vector<char>(one.supports.size(), 1));
-  const bool pinned = free_body && one.pinned;
-  if (pinned) pin(std::span(mesh.nodes).first(static_cast<std::size_t>(without_arms)), dimension, model.dofs);
+  std::vector<Pin> pins;
+  if (free_body && one.pinned)
+    pins = pin(std::span(mesh.nodes).first(static_cast<std::size_t>(without_arms)), dimension, model.dofs);
   if (dimension == fem::Dimension::axisymmetric)
     for (int n = 0; n < mesh.node_count(); ++n)
       if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);
@@ -346,7 +348,7 @@ Device build_device(const Case& one) {
                 .shares = std::move(shares),
                 .model = std::move(model),
                 .free_body = free_body,
-                .pinned = pinned};
+                .pins = std::move(pins)};
   device.weight = weight_of(one, bodies, fins, device.mesh, device.shares, device.model);
   require_loads_that_act(one, device);
   std::ranges::move(carrying_warnings(one), std::back_inserter(warnings));

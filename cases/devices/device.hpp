@@ -18,6 +18,11 @@ struct Bars {
   std::vector<int> parts;              ///< numbers in Case::parts
 };
 
+/// A displacement that is held where nothing holds the device: along x, y or z.
+struct Pin {
+  int node = 0, axis = 0;
+};
+
 /// A case made computable: its mesh and its model.
 struct Device {
   meshing::Mesh mesh;
@@ -30,7 +35,7 @@ struct Device {
   bool bears_compression = false; ///< every film is a shell or a solid: it may buckle, and does not wrinkle
   bool solid = false;             ///< its film is meshed across its thickness
   bool free_body = false;         ///< nothing holds it
-  bool pinned = false;            ///< against rigid motion, as the case has it, where nothing holds it
+  std::vector<Pin> pins{};        ///< against rigid motion, as the case has it, where nothing holds it
   Eigen::VectorXd weight;         ///< dead forces of gravity, per equation, N
   std::vector<FinPoints> fins{};  ///< in the order of Case::fins
   std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each

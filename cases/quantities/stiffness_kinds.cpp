@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What small forces and vibrations about a state at rest find.
 #include "cases/case/holding.hpp"
-#include "cases/devices/without_pins.hpp"
+#include "cases/devices/pins.hpp"
 #include "cases/quantities/probing.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rest.hpp"

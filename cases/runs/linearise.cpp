@@ -4,7 +4,7 @@
 #include "cases/case/quantities.hpp"
 #include "cases/console/as_warning.hpp"
 #include "cases/console/terminal.hpp"
-#include "cases/devices/without_pins.hpp"
+#include "cases/devices/pins.hpp"
 #include "cases/runs/simulation.hpp"
 #include "fem/algebra/dense_algebra.hpp"
 #include "fem/linear/balanced_truncation.hpp"

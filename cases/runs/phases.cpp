@@ -108,6 +108,30 @@ void Simulation::change_supports(fem::State& state) {
   come_to(state);
 }
 
+/// Pins bear nothing where all forces balance, but for what a device that turns in them as it strains would
+/// do about itself: one whose nodes do not lie along the axes, or lie there no more, is strained by them.
+/// Then refusal_ says so.
+bool Simulation::pins_bear(const fem::State& given) {
+  if (device_.pins.empty()) return false;
+  constexpr double notable = 1e-3,
+                   nothing = 1e-6; // of the largest nodal forces; of those that would strain it by one
+  fem::State state = given;
+  fem::Balance balance;
+  equilibrium_->balance(state, balance);
+  double borne = 0;
+  for (const auto& [node, axis] : device_.pins)
+    borne = std::max(borne, std::abs(balance.force[device_.model.dofs.equation(node, axis)]));
+  const double stiff = equilibrium_->energy_scale() / device_.model.extent;
+  if (borne <= std::max(notable * balance.scale, nothing * stiff)) return false;
+  refusal_ = {
+      Ending::gave_up, "no supports",
+      fmt::format(
+          "step \"{}\" stopped: nothing holds the device, and what keeps it from turning, nodes along the "
+          "axes of the drawing, bears {} and strains it; draw it along x, or hold it by a [[support]]",
+          steps_[static_cast<std::size_t>(step_)].name, post::engineering(borne, "N"))};
+  return true;
+}
+
 /// What supports take hold of stands at once: as by a blow, its kinetic energy is released.
 void Simulation::catch_what_moves(const fem::State& state, fem::EnergyBalance::Record& record) {
   constexpr double least = 1e-6; // of all that was exchanged, to be told

@@ -259,6 +259,7 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
                         const fem::Increment& increment, Reached reached) {
   if (!admits(step, increment.load_factor, state)) return false;
   account(state, increment, reached);
+  if (increment.lands && increment.load_factor >= 1 && pins_bear(state)) return false;
   Measured measured(device_, *equilibrium_, state, energy_, scalars_, &held_);
   if (!sample(step, increment.load_factor, measured)) return false;
   if (increment.lands) return record(observer, step, measured, increment, reached);
@@ -345,7 +346,8 @@ Outcome Simulation::run(const SimulationObserver& observer) {
     }
     if (ramp.load_factor >= 1 || ramp.increment == 0) {
       fem::State state = ramp.points.back().state;
-      if (device_.free_body && !device_.pinned) change_supports(state); // what drifts has no place to rest at
+      if (device_.free_body && device_.pins.empty())
+        change_supports(state); // what drifts has no place to rest
       if (!come_to_rest(state)) return *std::exchange(refusal_, std::nullopt);
       change_supports(state);
       loads_->begin(step_, state);

@@ -94,6 +94,7 @@ class Simulation {
   Eigen::VectorXd frame_force();
   bool come_to_rest(fem::State& state);
   void change_supports(fem::State& state);
+  bool pins_bear(const fem::State& given);
   void catch_what_moves(const fem::State& state, fem::EnergyBalance::Record& record);
   bool admits(const Step& step, double load_factor, const fem::State& state);
   void come_to(const fem::State& state);

@@ -303,5 +303,38 @@ TEST_F(FreeBodies, without_mass_it_follows_its_voltage_slowly) {
   EXPECT_LT(found.analyses.at(0).rows.at(1)[1], 0.1 * found.analyses.at(0).rows.at(0)[1]);
 }
 
+// A prestretched rod that is cut free shrinks to 20 mm. Pins that hold it across x strain it where it lies
+// elsewhere.
+TEST_F(FreeBodies, that_their_pins_would_strain_are_refused) {
+  const auto rod = [](double x, double y, const std::string& rest) {
+    return fmt::format(
+        "[film]\nthickness = \"0.1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = \"50 kPa\"\n"
+        "permittivity = \"3e-11 F/m\"\n[line]\nto = [{}, {}, 0]\n[rod]\nwidth = \"10 mm\"\n{}"
+        "[[quantity]]\nname = \"length\"\nkind = \"distance\"\nbetween = [\"start\", \"end\"]\n"
+        "[output]\nerror_estimate = false\n",
+        x, y, rest);
+  };
+  const std::string release = "[[step]]\nkind = \"release\"\n";
+  EXPECT_NEAR(run(rod(30e-3, 0, release)).last("length"), 20e-3, 1e-9);
+  EXPECT_NEAR(run(rod(0, 30e-3, release)).last("length"), 20e-3, 1e-9);
+  const auto outcome = [&](const std::string& text) {
+    write("rod.toml", text);
+    const Case one = read_case(directory / "rod.toml");
+    return Simulation(one, 1).run({});
+  };
+  const double slope = 30e-3 / std::sqrt(2);
+  const std::string turned = // by a quarter
+      fmt::format("[[support]]\nplace = \"start\"\nfix = [\"x\", \"y\"]\nuntil = "
+                  "\"turn\"\n[[support]]\nplace = \"end\"\n"
+                  "displacement = {{ x = {}, y = {} }}\nuntil = \"turn\"\n[[step]]\nkind = \"move\"\nname = "
+                  "\"turn\"\n"
+                  "[[step]]\nkind = \"voltage\"\n[drive]\nvoltage = 0\n",
+                  -30e-3, 30e-3);
+  for (const Outcome& refused : {outcome(rod(slope, slope, release)), outcome(rod(30e-3, 0, turned))}) {
+    EXPECT_EQ(refused.ending, Ending::gave_up);
+    EXPECT_NE(refused.message.find("what keeps it from turning"), std::string::npos) << refused.message;
+  }
+}
+
 } // namespace
 } // namespace dielast::cases::free_bodies_test

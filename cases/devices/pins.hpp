@@ -5,9 +5,15 @@
 #include "fem/linear/harmonic.hpp"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace dielast::cases {
+
+/// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
+/// of these nodes, the first ones, that next to the middle, one far from it along x and, in space, one far
+/// along y, or along other axes where nothing lies along these. Of revolution one, along the axis.
+std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::DofMap& dofs);
 
 /// A device in a state as it vibrates: one that is pinned, as nothing else holds it, without its pins, if it
 /// has a mass. All that is given must outlive this.

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/devices/pins.hpp"
+
+#include "cases/case/holding.hpp"
+#include "fem/linear/rest.hpp"
+#include "fem/linear/rigid_motions.hpp"
+#include "fem/paths/renumbering.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dielast::cases {
+
+std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::DofMap& dofs) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& x : nodes) middle += x / static_cast<double>(nodes.size());
+  std::vector<char> tied(static_cast<std::size_t>(dofs.node_count()));
+  for (const fem::Tie& tie : dofs.ties()) tied[static_cast<std::size_t>(tie.node)] = 1;
+  const auto drawn = [&nodes](int n) { return nodes[static_cast<std::size_t>(n)]; };
+  const auto best = [&](auto&& cost) {
+    int found = static_cast<int>(std::ranges::find(tied, 0) - tied.begin());
+    for (int n = found + 1; n < std::ssize(nodes); ++n)
+      if (!tied[static_cast<std::size_t>(n)] && cost(drawn(n)) < cost(drawn(found))) found = n;
+    return found;
+  };
+  const int first = best([&](const Eigen::Vector3d& x) { return (x - middle).norm(); });
+  if (dimension == fem::Dimension::axisymmetric) { // it moves along the axis alone
+    dofs.hold(first, 2);
+    return {{first, 2}};
+  }
+  const Eigen::Vector3d anchor = drawn(first);
+  tied[static_cast<std::size_t>(first)] = 1; // no other is that one
+  // Along two axes as exactly as nodes allow: what is beside turns the body with its strain.
+  const auto beside = [&anchor](const Eigen::Vector3d& x, int axis) {
+    const Eigen::Vector3d from = x - anchor;
+    return from[axis] + 2 * (from.cwiseAbs().sum() - std::abs(from[axis]));
+  };
+  const auto along = [&](int axis) {
+    return best([&](const Eigen::Vector3d& x) { return beside(x, axis); });
+  };
+  const auto straightest = [&](int one, int other) { // the former, but where nothing lies along it
+    const double best_along = beside(drawn(along(one)), one);
+    return best_along < 0 || best_along <= beside(drawn(along(other)), other) ? one : other;
+  };
+  const bool in_space = dimension == fem::Dimension::spatial;
+  const int long_way = in_space ? straightest(straightest(0, 1), 2) : straightest(0, 1);
+  const int next = long_way == 0 ? 1 : 0, last = in_space ? 3 - long_way - next : next,
+            wide = in_space ? straightest(next, last) : next, across = 3 - long_way - wide;
+  const int far = along(long_way), beside_it = in_space ? along(wide) : far;
+  std::vector<Pin> pins;
+  for (const Pin& one :
+       {Pin{first, 0}, {first, 1}, {far, wide}, {first, 2}, {far, across}, {beside_it, across}}) {
+    if (!fem::moves(dimension, one.axis)) continue;
+    dofs.hold(one.node, one.axis);
+    pins.push_back(one);
+  }
+  return pins;
+}
+
+WithoutPins::WithoutPins(const Case& one, const Device& device, fem::Equilibrium& equilibrium,
+                         const fem::State& state)
+    : given_(device), equilibrium_(equilibrium), state_(state) {
+  if (device.pins.empty() || !drifts()) return;
+  own_.emplace(build_device(held_by(one, {std::vector<char>(one.supports.size()), false})));
+  own_equilibrium_.emplace(own_->model, equilibrium.assembler().workers().count());
+  state_ = fem::Renumbering(device.model.dofs, own_->model.dofs)(state);
+}
+
+void WithoutPins::take_off_drift(std::vector<fem::HarmonicResponse>& responses) {
+  if (!drifts()) return;
+  const fem::State at = fem::relaxed(state_);
+  const fem::RigidMotions rigid =
+      fem::rigid_motions(equilibrium(), at, fem::free_mass(equilibrium(), at), true);
+  Eigen::MatrixXd parts(rigid.motions.rows(), 2);
+  for (fem::HarmonicResponse& response : responses) {
+    parts << response.displacement.real(), response.displacement.imag();
+    rigid.take_off(parts);
+    response.displacement.real() = parts.col(0);
+    response.displacement.imag() = parts.col(1);
+  }
+}
+
+} // namespace dielast::cases
