@@ -306,7 +306,8 @@ Device build_device(const Case& one) {
   const bool free_body = is_free(one, std::vector<char>(one.supports.size(), 1));
   std::vector<Pin> pins;
   if (free_body && one.pinned)
-    pins = pin(std::span(mesh.nodes).first(static_cast<std::size_t>(without_arms)), dimension, model.dofs);
+    pins = pin(std::span(mesh.nodes).first(static_cast<std::size_t>(without_arms)), dimension,
+               quarter_turns(one), model.dofs);
   if (dimension == fem::Dimension::axisymmetric)
     for (int n = 0; n < mesh.node_count(); ++n)
       if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent) model.dofs.hold(n, 0);
@@ -341,7 +342,9 @@ Device build_device(const Case& one) {
           fmt::format("{}: the prestretch {:.4g} is below 1: it compresses the film, which buckles",
                       part.called("film"), std::ranges::min(part.film->prestretch)));
 
-  if (model.dofs.free_count() == 0 && !one.any_geometry<Patch>())
+  const auto lets_go = [](const Support& support) { return !support.from.empty() || !support.until.empty(); };
+  if (model.dofs.free_count() == 0 && !one.any_geometry<Patch>() &&
+      std::ranges::none_of(one.supports, lets_go))
     warnings.push_back("nothing can move: every node is held");
 
   Device device{.mesh = std::move(mesh),

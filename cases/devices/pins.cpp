@@ -8,22 +8,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dielast::cases {
 
-std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::DofMap& dofs) {
+std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, int quarters,
+                     fem::DofMap& dofs) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& x : nodes) middle += x / static_cast<double>(nodes.size());
   std::vector<char> tied(static_cast<std::size_t>(dofs.node_count()));
   for (const fem::Tie& tie : dofs.ties()) tied[static_cast<std::size_t>(tie.node)] = 1;
-  const auto drawn = [&nodes](int n) { return nodes[static_cast<std::size_t>(n)]; };
+  const auto unturned = [quarters](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    const Eigen::Vector3d half = quarters % 2 == 0 ? x : Eigen::Vector3d(x.y(), -x.x(), x.z());
+    return quarters < 2 ? half : Eigen::Vector3d(-half.x(), -half.y(), half.z());
+  };
+  const auto drawn = [&](int n) { return unturned(nodes[static_cast<std::size_t>(n)]); };
   const auto best = [&](auto&& cost) {
     int found = static_cast<int>(std::ranges::find(tied, 0) - tied.begin());
     for (int n = found + 1; n < std::ssize(nodes); ++n)
       if (!tied[static_cast<std::size_t>(n)] && cost(drawn(n)) < cost(drawn(found))) found = n;
     return found;
   };
-  const int first = best([&](const Eigen::Vector3d& x) { return (x - middle).norm(); });
+  const int first = best([&](const Eigen::Vector3d& x) { return (x - unturned(middle)).norm(); });
   if (dimension == fem::Dimension::axisymmetric) { // it moves along the axis alone
     dofs.hold(first, 2);
     return {{first, 2}};
@@ -39,8 +45,8 @@ std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dime
     return best([&](const Eigen::Vector3d& x) { return beside(x, axis); });
   };
   const auto straightest = [&](int one, int other) { // the former, but where nothing lies along it
-    const double best_along = beside(drawn(along(one)), one);
-    return best_along < 0 || best_along <= beside(drawn(along(other)), other) ? one : other;
+    const double of_one = beside(drawn(along(one)), one);
+    return of_one < 0 || of_one <= beside(drawn(along(other)), other) ? one : other;
   };
   const bool in_space = dimension == fem::Dimension::spatial;
   const int long_way = in_space ? straightest(straightest(0, 1), 2) : straightest(0, 1);
@@ -50,11 +56,24 @@ std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dime
   std::vector<Pin> pins;
   for (const Pin& one :
        {Pin{first, 0}, {first, 1}, {far, wide}, {first, 2}, {far, across}, {beside_it, across}}) {
-    if (!fem::moves(dimension, one.axis)) continue;
-    dofs.hold(one.node, one.axis);
-    pins.push_back(one);
+    const Pin turned{one.node, one.axis < 2 && quarters % 2 == 1 ? 1 - one.axis : one.axis};
+    if (!fem::moves(dimension, turned.axis)) continue;
+    dofs.hold(turned.node, turned.axis);
+    pins.push_back(turned);
   }
   return pins;
+}
+
+int quarter_turns(const Case& one) {
+  std::optional<int> common;
+  for (const Part& part : one.parts) {
+    if (!part.has_mesh()) continue;
+    const double turned = part.turned / (std::numbers::pi / 2);
+    const int quarters = static_cast<int>(std::lround(turned));
+    if (std::abs(turned - quarters) > 1e-9 || (common && *common != quarters)) return 0;
+    common = quarters;
+  }
+  return ((common.value_or(0) % 4) + 4) % 4;
 }
 
 WithoutPins::WithoutPins(const Case& one, const Device& device, fem::Equilibrium& equilibrium,

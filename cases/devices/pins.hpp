@@ -13,7 +13,13 @@ namespace dielast::cases {
 /// Holds three (planar) or six displacements such that rigid motions are excluded and no reaction can arise:
 /// of these nodes, the first ones, that next to the middle, one far from it along x and, in space, one far
 /// along y, or along other axes where nothing lies along these. Of revolution one, along the axis.
-std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, fem::DofMap& dofs);
+/// Axes are those of what is drawn turned about z by `quarters` of a turn, 0..3: a device is held alike then.
+std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dimension, int quarters,
+                     fem::DofMap& dofs);
+
+/// By which all parts of the case with meshes of their own are turned; 0 where they are not by one and the
+/// same.
+int quarter_turns(const Case& one);
 
 /// A device in a state as it vibrates: one that is pinned, as nothing else holds it, without its pins, if it
 /// has a mass. All that is given must outlive this.

@@ -2,6 +2,7 @@
 #include "cases/devices/sections.hpp"
 
 #include "cases/case/part_kind.hpp"
+#include "cases/text/diagnostics.hpp"
 #include "fem/elements/capacitor_block.hpp"
 #include "fem/films/membrane_block.hpp"
 #include "meshing/mesh_error.hpp"
@@ -25,8 +26,10 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
     if (one.electrodes[e].layer != layer) continue;
     const std::vector<int>* cells = mesh.cells_of(one.electrodes[e].place, &film);
     if (!cells)
-      throw meshing::MeshError("electrode \"" + one.electrodes[e].name + "\": the place \"" +
-                               one.electrodes[e].place + "\" is not a part of the film");
+      throw CaseError(
+          {{one.where(fmt::format("electrode[{}].place", e + 1)), fmt::format("electrode[{}].place", e + 1),
+            fmt::format("\"{}\" is no part of the film, which an electrode covers: an edge, a point, or bars",
+                        one.electrodes[e].place)}});
     for (const int cell : *cells) {
       int& electrode = map[static_cast<std::size_t>(cell)];
       if (electrode != fem::passive)

@@ -104,7 +104,7 @@ std::string keys_text() { return section_text(case_schema(), ""); }
 
 std::string units_text() {
   std::string text = "Quantities and usual units (every unit of udunits is allowed)\n";
-  for (const Dimension& one : dimensions()) text += fmt::format("  {:<24}{}\n", one.noun, one.usual);
+  for (const Dimension& one : dimensions()) text += fmt::format("  {:<28}{}\n", one.noun, one.usual);
   return text;
 }
 

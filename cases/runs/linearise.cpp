@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -195,7 +196,8 @@ post::Report report_of(const Case& one, const Linearised& found) {
   plots.add(post::draw(post::bode(found.output, fmt::format("{} [{}/V]", found.output, found.unit), curves)));
   post::Table gains{{"model", fmt::format("static gain [{}/V]", found.unit)}, {}};
   for (const post::FrequencyResponse& curve : curves)
-    gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::abs(curve.value.front()))});
+    gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::copysign(std::abs(curve.value.front()),
+                                                                           curve.value.front().real()))});
   plots.blocks.push_back(std::move(gains));
   post::Table poles{{"pole [1/s]", "frequency [rad/s]", "damping ratio"}, {}};
   for (const Complex& pole : fem::eigenvalues(found.model.A))

@@ -171,12 +171,15 @@ std::vector<post::Section> picture_sections(const Case& one, const Device& devic
       modes.blocks.push_back(pictures.shape(shape, "Much exaggerated."));
     sections.push_back(std::move(modes));
   }
-  if (last.voltage != 0 && !pictures.are_profiles()) {
+  double most = 0; // V; a sine ends at its rounding
+  for (const auto* states : {&all, &journal.stills})
+    for (const Snapshot& state : *states) most = std::max(most, std::abs(state.voltage));
+  if (std::abs(last.voltage) > 1e-6 * most && !pictures.are_profiles()) {
     const Snapshot charged = without_passive(last);
     sections.push_back(
         {"Electric field",
          {pictures.image({&charged}, &Snapshot::field, "True electric field", "V/m",
-                         "What the film must bear; film without a field is grey.", "electric field")}});
+                         "In the last state; film without a field is grey.", "electric field")}});
   }
   if (auto marks = named_places(one, device.mesh); !pictures.are_profiles() && !marks.empty())
     sections.push_back({"Places", {pictures.places(std::move(marks))}});

@@ -32,10 +32,10 @@ std::vector<Key> sweep_keys(Sweep T::*sweep, const std::string& purpose, std::st
 
 inline std::optional<Conflict> sweep_conflict(const Sweep& sweep) {
   if (sweep.from < sweep.to) return std::nullopt;
-  return Conflict{"from",
-                  fmt::format("must be below the highest frequency: to is {:.6g} Hz, its default where "
-                              "nothing else is written",
-                              sweep.to)};
+  return Conflict{
+      "from",
+      fmt::format("must be below the highest frequency: to is {:.6g} Hz, as it is written or by default",
+                  sweep.to)};
 }
 
 } // namespace dielast::cases

@@ -32,6 +32,8 @@ std::string read_input(const std::filesystem::path& path, const std::string& nou
   }
   if (stream.bad()) refuse(fmt::format("cannot be read ({})", std::strerror(errno)));
   if (content.size() > most) refuse(fmt::format("is too large for {}, allowed {} MB", noun, most >> 20));
+  if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
+    refuse("is UTF-16; save it as UTF-8");
   return content;
 }
 

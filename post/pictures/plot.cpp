@@ -238,7 +238,13 @@ std::string script(const Plot& plot) {
   const auto [lowest, highest] = ends(drawn, &Series::y);
   const auto [leftmost, rightmost] = ends(drawn, &Series::x);
   const double extent = std::max(highest - lowest, rightmost - leftmost);
-  settings += "set xrange [*:*]\nset yrange [*:*]\n";
+  const auto range = [&plot](char axis, double first, double last) {
+    const double middle = (first + last) / 2, half = plot.least_extent / 2;
+    return last - first < plot.least_extent
+               ? fmt::format("set {}range [{:.17g}:{:.17g}]\n", axis, middle - half, middle + half)
+               : fmt::format("set {}range [*:*]\n", axis);
+  };
+  settings += range('x', leftmost, rightmost) + range('y', lowest, highest);
   settings += plot.log_x ? logarithmic_ticks('x', ends(drawn, &Series::x)) : "set xtics autofreq\n";
   settings += plot.log_y ? logarithmic_ticks('y', ends(drawn, &Series::y))
               : plot.y_step > 0 && highest - lowest > 2 * plot.y_step

@@ -24,6 +24,7 @@ struct Plot {
   bool log_x = false, log_y = false;
   double y_step = 0;       ///< between ticks of a linear y axis that is longer than two of them; 0: any
   bool equal_axes = false; ///< a unit is as long on y as on x
+  double least_extent = 0; ///< of linear axes, about the middle of what is drawn, so that rounding fills none
   std::string heading{};   ///< what stands above the axes; empty: the title, which names the image
 };
 

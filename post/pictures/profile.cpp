@@ -25,7 +25,8 @@ std::vector<int> course(const meshing::CellBlock& meridians) {
   return nodes;
 }
 
-constexpr double flattest_to_scale = 0.2; // height over width
+constexpr double flattest_to_scale = 0.2; // height over width, or width over height
+constexpr double flattest = 0.1;          // to be drawn as anything but a line: over the larger of both
 
 } // namespace
 
@@ -52,7 +53,11 @@ Plot profile_plot(const meshing::Mesh& mesh, const std::string& title, const std
     }
     plot.series.push_back(std::move(curve));
   }
-  plot.equal_axes = !box.isEmpty() && box.sizes().y() > flattest_to_scale * box.sizes().x();
+  if (box.isEmpty()) return plot;
+  const double least = box.sizes().minCoeff(), most = box.sizes().maxCoeff();
+  plot.equal_axes = least > flattest_to_scale * most;
+  constexpr double rounding = 1e-6; // of the size: what lies flat is drawn so
+  if (least < rounding * most) plot.least_extent = flattest * most;
   return plot;
 }
 

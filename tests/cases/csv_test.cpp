@@ -81,6 +81,16 @@ TEST(Csv, SaysEverythingThatIsWrongWithLineAndColumn) {
                                       ": error: found 5 rows of numbers, allowed at least 9"}));
 }
 
+TEST(Csv, ThatIsUtf16IsRefused) {
+  std::vector<Diagnostic> wrong;
+  for (const char* mark : {"\xff\xfe", "\xfe\xff"}) try {
+      read(std::string(mark) + "t", wrong);
+      ADD_FAILURE();
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("UTF-16"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Csv, RowsMustGrow) {
   std::vector<Diagnostic> wrong;
   const CsvTable table = read("time_s\n0\n2\n2\n1\n3\n", wrong);

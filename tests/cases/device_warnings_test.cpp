@@ -48,6 +48,19 @@ TEST_F(DeviceWarnings, RollsThatCannotBeWound) {
   EXPECT_TRUE(warns(roll(9), "a roll cannot be wound like that"));
 }
 
+TEST_F(DeviceWarnings, AnElectrodeCoversNoEdge) {
+  write("case.toml", film("thickness = \"1 mm\"") +
+                         "[disc]\nradius = \"24 mm\"\n[[electrode]]\nname = \"a\"\nplace = \"rim\"\n");
+  try {
+    build_device(read_case(directory / "case.toml"));
+    ADD_FAILURE();
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string(error.what()).find("electrode[1].place: \"rim\" is no part of the film"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(DeviceWarnings, NothingCanMove) {
   const auto sheet = [&](const std::string& place) {
     return film("thickness = \"1 mm\"") +
@@ -56,6 +69,9 @@ TEST_F(DeviceWarnings, NothingCanMove) {
   };
   EXPECT_TRUE(warns(sheet("film"), "nothing can move"));
   EXPECT_FALSE(warns(sheet("left"), "nothing can move"));
+  EXPECT_FALSE(warns(sheet("film") +
+                         "until = \"a\"\n[[step]]\nkind = \"voltage\"\nname = \"a\"\n[drive]\nvoltage = 1\n",
+                     "nothing can move"));
 }
 
 TEST_F(DeviceWarnings, APointIsNoElectrodeOfASolid) {

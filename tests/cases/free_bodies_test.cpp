@@ -336,5 +336,29 @@ TEST_F(FreeBodies, that_their_pins_would_strain_are_refused) {
   }
 }
 
+// Two columns have no symmetry: what keeps them from turning turns them by their strain, and turned columns
+// likewise.
+TEST_F(FreeBodies, are_measured_alike_however_they_are_turned) {
+  const auto turned = [&](int degrees) {
+    const Ran ran = run(fmt::format(
+        "[part.h]\nturned = \"{} deg\"\n[part.h.film]\nthickness = \"1 mm\"\nprestretch = "
+        "3\n[part.h.film.material]\n"
+        "shear_modulus = \"45 kPa\"\npermittivity = \"4e-11 F/m\"\n[part.h.honeycomb]\nangle = \"120 deg\"\n"
+        "columns = [1, 2]\nwall_length = \"8 mm\"\nwall_width = \"0.8 mm\"\nwall_height = \"1 mm\"\n"
+        "[part.h.honeycomb.wall_material]\nyoungs_modulus = \"78 MPa\"\npoisson_ratio = 0.45\n[part.h.mesh]\n"
+        "wall_elements = 2\n[drive]\nvoltage = \"5.5 kV\"\n[[step]]\nkind = \"release\"\n[[step]]\nkind = "
+        "\"voltage\"\n"
+        "[output]\nerror_estimate = false\n",
+        degrees));
+    return std::array{ran.last("h_eps_x"), ran.last("h_released_length_x")};
+  };
+  const auto drawn = turned(0);
+  for (const int degrees : {90, 180, 270}) {
+    const auto now = turned(degrees);
+    EXPECT_NEAR(now[0], drawn[0], 1e-6 * drawn[0]) << degrees;
+    EXPECT_NEAR(now[1], drawn[1], 1e-6 * drawn[1]) << degrees;
+  }
+}
+
 } // namespace
 } // namespace dielast::cases::free_bodies_test

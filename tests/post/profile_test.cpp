@@ -32,6 +32,19 @@ TEST(Profile, IsACurvePerStateInMillimetres) {
   EXPECT_FALSE(profile_plot(mesh, "", {{"flat", mesh.nodes, {}}}).equal_axes);
 }
 
+// Rounding along z, or a bar along the axis, would fill the picture.
+TEST(Profile, OfALineHasAxesThatShowIt) {
+  meshing::Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {20e-3, 0, 1e-12}};
+  mesh.blocks = {{meshing::CellType::meridian2, {0, 1}}};
+  const auto least = [&mesh] { return profile_plot(mesh, "", {{"", mesh.nodes, {}}}).least_extent; };
+  EXPECT_NEAR(least(), 2, 1e-9); // mm
+  mesh.nodes[1] = {0, 0, 20e-3};
+  EXPECT_NEAR(least(), 2, 1e-9);
+  mesh.nodes[1] = {20e-3, 0, 1e-3};
+  EXPECT_EQ(least(), 0);
+}
+
 TEST(Profile, LeavesAGapBetweenSeparatePieces) {
   meshing::Mesh mesh;
   mesh.nodes = {{4, 0, 0}, {3, 0, 0}, {2, 0, 0}, {1, 0, 0}};
