@@ -226,7 +226,7 @@ std::string script(const Plot& plot) {
   const Key key(plot);
   std::string settings =
       fmt::format("set terminal svg size {},{} noenhanced rounded linewidth 1.4 font 'Helvetica,Arial,DejaVu "
-                  "Sans,sans-serif,14' background '#ffffff'\nset key maxcols {}\n",
+                  "Sans,sans-serif,14' background '#ffffff'\nset key maxcols {} title ' ' font ',5'\n",
                   width, height_of(plot), key.columns);
   settings += title_command(plot.heading.empty() ? plot.title : plot.heading);
   settings += fmt::format("set xlabel {} font ',{}' textcolor '#3a434d' offset 0,0.4\n",
