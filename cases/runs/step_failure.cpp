@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Why a step ends where it does not end by itself.
 #include "cases/runs/step_run.hpp"
+#include "fem/linear/rest.hpp"
 #include "fem/model/contact_block.hpp"
 #include "fem/paths/instability.hpp"
 
@@ -46,6 +47,17 @@ Outcome end_at_rest(fem::Equilibrium& equilibrium, const fem::State& last) {
 }
 
 Outcome StepRun::failure(const Trouble& trouble) const {
+  Outcome outcome = cause(trouble, ways_on_);
+  if (!timed() && fem::skew_stiffness(equilibrium_, last()) > fem::negligible_skew)
+    outcome.message +=
+        ". Moments about axes that stay act on what turns about several axes: what is judged here leaves "
+        "out a part of their stiffness, so the path may well go on, as on_instability = \"follow\" or "
+        "another order of loads shows";
+  return outcome;
+}
+
+/// `ways_on`: what the step may do instead; empty: nothing.
+Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const {
   const double reached = progress_.ramp.load_factor;
   const auto singular = [&] {
     return Outcome{Ending::gave_up, "singular tangent",
@@ -73,7 +85,7 @@ Outcome StepRun::failure(const Trouble& trouble) const {
                         options_.newton.wrinkles
                             ? "Stretch it a little"
                             : "Let it wrinkle (wrinkling = \"tension field\") or stretch it a little")};
-  const auto go_on = ways_on_.empty() ? "" : "; or let the step go on with on_instability = " + ways_on_;
+  const auto go_on = ways_on.empty() ? "" : "; or let the step go on with on_instability = " + ways_on;
   const std::string more =
       " Lower what drives it, or stiffen the device or stretch the film more, to stay below it" + go_on;
   const char* of_edges =

@@ -283,7 +283,8 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
     if (result.end != fem::JumpEnd::stuck) break;
   }
   if (result.end != fem::JumpEnd::landed) {
-    Outcome outcome = failure(trouble);
+    const char* follow = "\"follow\"";
+    Outcome outcome = cause(trouble, ways_on_.starts_with(follow) ? follow : "");
     outcome.message += fmt::format(". No stable state was found to jump to: the device {}",
                                    result.end == fem::JumpEnd::ran_away ? "runs away" : "is stuck");
     return outcome;

@@ -96,6 +96,7 @@ class StepRun {
   std::vector<std::size_t> lost_film(double s) const;
   bool moves_freely() const;
   Outcome failure(const Trouble& trouble) const;
+  Outcome cause(const Trouble& trouble, const std::string& ways_on) const;
 
   fem::Equilibrium& equilibrium_;
   const Step& step_;

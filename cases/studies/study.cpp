@@ -222,9 +222,9 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       say("failed: {}: {}\n", label(study, point), result ? result->message : "not finished");
     }
   for (const std::string& line : answers) say("{}\n", line);
-  say("{} points in {}{}, report in {}\n", points.size(), (settings.directory / "study.csv").string(),
-      failed > 0 ? fmt::format(", {} of them failed", failed) : "",
-      (settings.directory / "report.html").string());
+  say("{} of {} points reached their ends, all are in {}, report in {}\n",
+      points.size() - static_cast<std::size_t>(failed), points.size(),
+      (settings.directory / "study.csv").string(), (settings.directory / "report.html").string());
   const bool solved =
       std::ranges::all_of(solutions, [](const TargetSolution& one) { return one.problem.empty(); });
   const ExitCode code = failed || !solved                        ? ExitCode::not_converged

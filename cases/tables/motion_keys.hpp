@@ -22,6 +22,13 @@ Binding flags(Flags T::*member) {
           }};
 }
 
+inline std::string each_once(const Value& words) {
+  for (std::size_t i = 1; i < words.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (words[i].number == words[k].number) return "found a direction twice";
+  return "";
+}
+
 inline const std::vector<Choice> motions{{"x", "along x", 0},
                                          {"y", "along y", 1},
                                          {"z", "normal to the undeformed film", 2},

@@ -93,6 +93,7 @@ Section support_section() {
       word("fix", motions, flags(&Support::fixed),
            "what its nodes cannot do; walls and shells have rotations, membranes have none")
           .values(1, 6)
+          .checked(each_once)
           .optional(),
       text("from", to(&Support::from), "the first step in which it holds, its place being where it is then")
           .optional()

@@ -33,7 +33,10 @@ Section body_section() {
       measure("pivot", "m", to(&Body::pivot), "a point of the body, as drawn, that stays where it is")
           .values(3, 3)
           .optional(),
-      word("fix", motions, flags(&Body::fixed), "what its own place cannot do").values(1, 6).optional(),
+      word("fix", motions, flags(&Body::fixed), "what its own place cannot do")
+          .values(1, 6)
+          .checked(each_once)
+          .optional(),
       measure("damping_rate", "1/s", to(&Body::damping_rate),
               "of dampers between all of its mass and the ground: what they resist its motion with, over its "
               "mass and velocity, or moment of inertia and angular velocity")
