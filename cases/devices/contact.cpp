@@ -84,9 +84,10 @@ void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
         "walls of a cell are closer as drawn than the {:.6g} mm of contact.thickness", 1e3 * thickness));
 }
 
-/// Faces or sides of solids that lie on a table: all of the place is a surface, which faces down where it is
-/// lowest.
-void require_underside(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& sides, int up) {
+/// How low, m, the faces or sides of a solid are that lie on a table. Throws CaseError where the place is not
+/// all surface, or does not face down where it is lowest.
+double lowest_of_underside(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& sides,
+                           int up) {
   const auto fail = [&one](const char* what) {
     throw CaseError(
         {{one.where("table.at"), "table.at",
@@ -112,9 +113,10 @@ void require_underside(const Case& one, const meshing::Mesh& mesh, const meshing
     const Eigen::Vector3d along = drawn(own[1]) - drawn(own[0]), beside = drawn(own[2]) - drawn(own[0]);
     // Normals point into the solid, which lies on the right of the sides of triangles.
     const double steep = own.size() == 6 ? along.cross(beside).normalized()[up] : -along.x() / along.norm();
-    if (steep > 1e-6) return;
+    if (steep > 1e-6) return lowest;
   }
   fail("does not face down where it is lowest");
+  return lowest;
 }
 
 /// The plane is where the barrier of the surface's lowest node begins.
@@ -127,16 +129,12 @@ void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   const meshing::CellBlock sides =
       in_space ? meshing::faces_at(mesh, one.table->place)
                : meshing::sides_at(mesh, one.table->place, meshing::CellType::meridian3);
-  require_underside(one, mesh, sides, up);
   fem::PlaneContact contact =
       in_space ? fem::surface_of(mesh, sides)
                : fem::surface_of(mesh, sides, of_revolution ? std::nullopt : std::optional(film.width));
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const int node : contact.nodes)
-    lowest = std::min(lowest, mesh.nodes[static_cast<std::size_t>(node)][up]);
   const double modulus = 3 * materials::initial_shear_modulus(film.material.law);
   contact.normal = Eigen::Vector3d::Unit(up);
-  contact.origin = (lowest - thickness) * contact.normal;
+  contact.origin = (lowest_of_underside(one, mesh, sides, up) - thickness) * contact.normal;
   // A gap of half the barrier's thickness bears about 1 % of Young's modulus.
   contact.barrier = {.thickness = thickness, .stiffness = 0.01 * modulus / thickness, .foot = 1};
   contact.place = one.table->place;

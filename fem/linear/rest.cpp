@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 namespace dielast::fem {
 namespace {
@@ -175,7 +176,8 @@ double skew_stiffness(Equilibrium& equilibrium, const State& state) {
   // What is inside balances it: dead moments, and where a turn is held its reaction, too.
   Eigen::VectorXd moment = at.dead_force;
   moment.tail(moment.size() - free) += balance.force.tail(moment.size() - free);
-  Eigen::VectorXd stiffness;
+  const SparseSymmetric& K = equilibrium.assembler().matrix();
+  bool assembled = false;
   double largest = 0;
   for (int node = 0; node < dofs.node_count(); ++node)
     for (int c = 0; c < 3; ++c) {
@@ -183,15 +185,9 @@ double skew_stiffness(Equilibrium& equilibrium, const State& state) {
                 other = dofs.equation(node, 3 + (c + 2) % 3);
       const auto turns = [free](int e) { return e != DofMap::absent && e < free; };
       if (across == DofMap::absent || !turns(one) || !turns(other) || moment[across] == 0) continue;
-      if (stiffness.size() == 0) {
-        stiffness = Eigen::VectorXd::Zero(free);
-        equilibrium.assembler().tangent(at);
-        const SparseSymmetric& K = equilibrium.assembler().matrix();
-        K.for_each_entry([&](std::size_t k, int column, int row) {
-          if (row == column) stiffness[row] = K.values[k];
-        });
-      }
-      const double both = std::sqrt(std::abs(stiffness[one] * stiffness[other]));
+      if (!std::exchange(assembled, true)) equilibrium.assembler().tangent(at);
+      const auto stiffness = [&K](int e) { return K.values[static_cast<std::size_t>(K.place(e, e))]; };
+      const double both = std::sqrt(std::abs(stiffness(one) * stiffness(other)));
       largest = std::max(largest, std::abs(moment[across]) / 2 / both);
     }
   return largest;

@@ -10,13 +10,12 @@ namespace dielast::fem {
 
 /// One integration point of `lanes` shell elements.
 struct ShellPoint {
-  Lanes area;    ///< undeformed, m^2; 0 in lanes past the last element
-  Lanes T[3][3]; ///< components of a metric in the unstretched film from those in r, s
-  Lanes shear[2]
-             [3]; ///< what x and y of the unstretched film give its inverse metric in r, s: rr, ss, rs; 1/m^2
-  Lanes a[3];     ///< what straightens the interpolated metric: 1 (of the drawing) - T . interpolated
-  Lanes b[3];     ///< -T . curvature of the drawing
-  Lanes gamma[2]; ///< transverse shear of the drawing, in r, s
+  Lanes area;        ///< undeformed, m^2; 0 in lanes past the last element
+  Lanes T[3][3];     ///< components of a metric in the unstretched film from those in r, s
+  Lanes shear[2][3]; ///< parts, by x and by y, of the unstretched film's inverse metric: rr, ss, rs; 1/m^2
+  Lanes a[3];        ///< what straightens the interpolated metric: 1 (of the drawing) - T . interpolated
+  Lanes b[3];        ///< -T . curvature of the drawing
+  Lanes gamma[2];    ///< transverse shear of the drawing, in r, s
 };
 
 /// Nodes of `lanes` shell elements as they are: positions, directors, axes of their spins, and the drawn
