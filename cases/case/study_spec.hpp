@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cases/text/diagnostics.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -63,6 +65,7 @@ struct Study {
   std::vector<StudyPlot> plots;
   std::vector<StudyTarget> targets;
   std::vector<StudyBest> best;
+  std::vector<Diagnostic> warnings; ///< of the section; those of its cases are their own
 
   /// Names of a point's values: of the axes, then of the derived keys.
   std::vector<std::string> varied() const;

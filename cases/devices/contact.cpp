@@ -124,7 +124,12 @@ void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric,
              in_space = one.dimension == fem::Dimension::spatial;
   const int up = of_revolution ? 2 : 1;
-  const double thickness = one.contact->thickness;
+  const double thickness = one.contact->thickness, height = mesh.bounds().sizes()[up];
+  if (thickness > height)
+    throw CaseError({{one.where("contact.thickness"), "contact.thickness",
+                      fmt::format("found {:.6g} mm, and what lies on the table is {:.6g} mm high: the solid "
+                                  "may sink in by as much as the first",
+                                  1e3 * thickness, 1e3 * height)}});
   const Film& film = *one.unnamed()->film;
   const meshing::CellBlock sides =
       in_space ? meshing::faces_at(mesh, one.table->place)

@@ -54,11 +54,43 @@ void add_section(std::vector<Entry>& entries, const Section& section, const std:
   for (const Section& inner : section.sections) add_section(entries, inner, below(inner.name));
 }
 
+void add_device(std::vector<Entry>& entries, const Template& device) {
+  entries.push_back({std::string(device.name), [&device] { return device_text(device); }});
+  for (const PlaceName& place : device.places)
+    entries.push_back({std::string(place.name), [&device, place] {
+                         return fmt::format("place of [{}]: {}: {}\n", device.name, place.name,
+                                            place.meaning);
+                       }});
+  for (const Node& quantity : standard_quantities(parse_tree(device.defaults, ""), &device))
+    entries.push_back({quantity.find("name")->text, [&device, quantity] {
+                         return fmt::format("standard quantity of [{}]: {}\n", device.name,
+                                            text_of(quantity));
+                       }});
+}
+
+void add_waves(std::vector<Entry>& entries) {
+  static const Section waves = wave_section("V");
+  for (const Key& key : waves.keys) {
+    entries.push_back(
+        {key.name, [&key] {
+           return fmt::format(
+               "of what goes with time, {{ wave = ... }}, here of a voltage{}\n{}",
+               key.only_for.empty() ? "" : fmt::format("; for wave {}", fmt::join(key.only_for, ", ")),
+               key_text(key));
+         }});
+    for (const Choice& choice : key.choices)
+      entries.push_back({choice.word, [&key, &choice] {
+                           return fmt::format("{} = \"{}\"  {}; of a voltage with\n{}", key.name, choice.word,
+                                              choice.meaning, keys_for(waves, choice.word));
+                         }});
+  }
+}
+
 const std::vector<Entry>& all_entries() {
   static const std::vector<Entry> entries = [] {
     std::vector<Entry> made;
-    for (const Template& device : templates())
-      made.push_back({std::string(device.name), [&device] { return device_text(device); }});
+    for (const Template& device : templates()) add_device(made, device);
+    add_waves(made);
     for (const auto& named : materials::named_films())
       made.push_back({std::string(named.name), [&named] { return material_text(named); }});
     for (const auto& named : materials::named_solids())

@@ -77,7 +77,12 @@ std::vector<std::string> range_values(SectionReader& reader, const Node& node, c
     reader.report(node.source, path, fmt::format("found count = {}, allowed 2 to {}", count, most));
   else if (logarithmic && !(from.number * to.number > 0))
     reader.report(node.source, path, fmt::format("no equal ratios lead {}", ends));
-  else
+  else {
+    const double last = step ? from.number + (count - 1) * step->number : to.number;
+    if (std::abs(to.number - last) > 1e-9 * std::abs(step ? step->number : 1))
+      reader.warn(node.source, path,
+                  fmt::format("its steps do not lead to {}: the last value is {:.12g} {}",
+                              text_of(*node.find("to")), last, from.unit));
     for (int i = 0; i < static_cast<int>(count); ++i) {
       const double part = i / (count - 1);
       const double value = step          ? from.number + i * step->number
@@ -86,6 +91,7 @@ std::vector<std::string> range_values(SectionReader& reader, const Node& node, c
       const std::string number = fmt::format("{:.12g}", value);
       values.push_back(from.unit.empty() ? number : toml_string(fmt::format("{} {}", number, from.unit)));
     }
+  }
   return values;
 }
 
@@ -132,6 +138,15 @@ WrittenAxis read_axis(SectionReader& reader, const std::string& key, const Node&
                     text_of(node), key));
   }
   return read;
+}
+
+/// Of a pair either may have a value several times.
+void warn_of_repetition(SectionReader& reader, const WrittenAxis& axis) {
+  std::set<std::string> seen;
+  for (std::size_t v = 0; v < axis.sources.size(); ++v)
+    if (const std::string& value = axis.axis.values[v]; !seen.insert(value).second)
+      reader.warn(axis.sources[v], fmt::format("study.vary.\"{}\"", axis.axis.key),
+                  fmt::format("{} stands twice, and is computed twice", value));
 }
 
 /// A key's expressions: texts, or numbers that stand for themselves.
@@ -245,6 +260,7 @@ void read_axes(SectionReader& reader, const Node& section, const Node& base, Stu
   for (std::size_t i = 0; i < vary->items.size(); ++i) {
     written.push_back(read_axis(reader, vary->keys[i], vary->items[i]));
     study.axes.push_back(written.back().axis);
+    if (!study.goes_together(vary->keys[i])) warn_of_repetition(reader, written.back());
   }
   read_derived(reader, section, study);
   find_parameters(reader, *vary, study);

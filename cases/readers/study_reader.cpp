@@ -196,6 +196,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   check_targets(reader, *section, study, base_case);
   complete_collection(study, base_case);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
+  study.warnings = reader.warnings();
   return study;
 }
 

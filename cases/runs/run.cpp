@@ -164,6 +164,8 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   for (const std::string& warning : simulation.warnings()) log.warn("{}", as_warning(warning));
   if (!recorder.journal().records.empty())
     log.info("resumed behind {} accepted states", recorder.journal().records.size());
+  else if (settings.resume)
+    log.info("no accepted states to resume behind: it begins anew");
 
   const Outcome outcome = simulation.run(observe(one, recorder, log));
   if (outcome.ending == Ending::interrupted) {
@@ -198,10 +200,11 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.warn("  no error estimate: {}", estimates.reason);
   for (const EventRemark& event : estimates.events) log.warn("  {}: {}", event.kind, event.remark);
   for (const post::CheckRow& check : results.checks)
-    log.info("  check {:<18} {}: {} expected {} ± {}", check.quantity, check.passed ? "passed" : "FAILED",
-             post::engineering(check.value, check.unit, check.ratio, 6),
-             post::engineering(check.expected, check.unit, check.ratio, 6),
-             post::engineering(check.tolerance, check.unit, check.ratio, 2));
+    log.log(check.passed ? spdlog::level::info : spdlog::level::err, "  check {:<18} {}: {} expected {} ± {}",
+            check.quantity, check.passed ? "passed" : "FAILED",
+            post::engineering(check.value, check.unit, check.ratio, 6),
+            post::engineering(check.expected, check.unit, check.ratio, 6),
+            post::engineering(check.tolerance, check.unit, check.ratio, 2));
   if (one.skipped_checks > 0)
     log.info("  {} check{} left out: --set changed the device that they are for", one.skipped_checks,
              one.skipped_checks == 1 ? "" : "s");

@@ -122,8 +122,9 @@ bool all_answered(const Study& study, const std::vector<StudyPoint>& points,
       study.best, [&](const StudyBest& best) { return best_point(study, best, points).has_value(); });
 }
 
-/// Warnings of varied keys that have no effect at the points but those with one of their values, the default.
-std::vector<std::string> idle_keys(const Study& study, const std::vector<StudyPoint>& points) {
+/// Warnings of the section, and of varied keys that have no effect at the points but those with one of their
+/// values, the default.
+std::vector<std::string> warnings_of(const Study& study, const std::vector<StudyPoint>& points) {
   const std::vector<std::string> keys = study.varied();
   std::vector<std::set<std::string>> not_told(keys.size()); // values at the other points
   std::vector<std::string> reasons(keys.size());
@@ -141,6 +142,7 @@ std::vector<std::string> idle_keys(const Study& study, const std::vector<StudyPo
     }
   }
   std::vector<std::string> warnings;
+  for (const Diagnostic& warning : study.warnings) warnings.push_back(warning.text());
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (!reasons[k].empty() && not_told[k].size() <= 1)
       warnings.push_back(Diagnostic{{study.source.string()},
@@ -170,7 +172,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   say("{}: {} points, {} at a time, in {}\n", study.title, points.size(), processes,
       settings.directory.string());
   for (const Diagnostic& warning : base.warnings) say(stderr, "{}\n", warning.text());
-  for (const std::string& warning : idle_keys(study, points)) say(stderr, "{}\n", warning);
+  for (const std::string& warning : warnings_of(study, points)) say(stderr, "{}\n", warning);
   ProgressLine progress(study, points.size());
   std::vector<WaitingPoint> waiting;
   for (const StudyPoint& point : points) {
@@ -272,7 +274,7 @@ Trial try_point(const Study& study, StudyPoint point, double most_seconds) {
 
 ExitCode plan_study(const Study& study, const StudySettings& settings, double trial_seconds) {
   const std::vector<StudyPoint> points = study_points(study, settings.directory);
-  for (const std::string& warning : idle_keys(study, points)) say(stderr, "{}\n", warning);
+  for (const std::string& warning : warnings_of(study, points)) say(stderr, "{}\n", warning);
   const StudyPoint* first = nullptr;
   std::size_t left = 0, impossible = 0;
   for (const StudyPoint& point : points) {

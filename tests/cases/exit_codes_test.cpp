@@ -201,6 +201,10 @@ TEST_F(ExitCodes, FiveForAFailedCheck) {
   ASSERT_EQ(checks.size(), 1u);
   EXPECT_EQ(checks[0]["passed"], false);
   EXPECT_EQ(checks[0]["expected"], 5);
+  const Ended quiet = dielast({"run", "checked.toml", "-q"});
+  EXPECT_EQ(quiet.exit_code, 5);
+  EXPECT_NE(quiet.err.find("check eps_y              FAILED: "), std::string::npos) << quiet.err;
+  EXPECT_EQ(lines_of(quiet.err).size(), 1u) << quiet.err;
 }
 
 } // namespace

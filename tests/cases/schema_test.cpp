@@ -157,6 +157,14 @@ TEST(Describe, EveryTopicHasAText) {
   EXPECT_EQ(describe("part.mesh").find("[part.mesh]"), 0u);
 }
 
+TEST(Describe, ExplainsFormsOfWavesPlacesAndStandardQuantities) {
+  EXPECT_NE(describe("unipolar sine").find("amplitude"), std::string::npos);
+  EXPECT_NE(describe("trapezoid").find("  hold "), std::string::npos);
+  EXPECT_NE(describe("fall").find("for wave trapezoid"), std::string::npos);
+  EXPECT_NE(describe("rim").find("place of [disc]: rim: "), std::string::npos);
+  EXPECT_NE(describe("eps_x").find("standard quantity of [honeycomb]: "), std::string::npos);
+}
+
 TEST(Describe, TellsEveryMaterialPlaceAndKey) {
   const std::string materials = describe("materials"), devices = describe("devices"), keys = describe("keys");
   for (const auto& film : materials::named_films()) EXPECT_NE(materials.find(film.name), std::string::npos);

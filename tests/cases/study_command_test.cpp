@@ -100,6 +100,19 @@ TEST_F(StudyCommand, WarnsOfAVariedKeyWithoutEffect) {
   EXPECT_EQ(acting.err.find("has no effect"), std::string::npos) << acting.err;
 }
 
+TEST_F(StudyCommand, WarnsOfRangesThatMissTheirEndAndOfValuesThatStandTwice) {
+  write_study(R"({ "drive.voltage" = { from = "1 kV", to = "6 kV", step = "2 kV" } })");
+  const Ended short_of_it = dielast(into("out", {"--dry-run"}));
+  EXPECT_NE(short_of_it.err.find("its steps do not lead to \"6 kV\": the last value is 5 kV"),
+            std::string::npos)
+      << short_of_it.err;
+  write_study(R"({ "drive.voltage" = ["1 kV", "2 kV", "1 kV"] })");
+  const Ended twice = dielast(into("out", {"--dry-run"}));
+  EXPECT_NE(twice.err.find("\"1 kV\" stands twice"), std::string::npos) << twice.err;
+  write_study(R"({ "drive.voltage" = { from = "1 kV", to = "5 kV", step = "2 kV" } })");
+  EXPECT_EQ(dielast(into("out", {"--dry-run"})).err, "");
+}
+
 TEST_F(StudyCommand, ADryRunListsThePointsAndWritesNothing) {
   write("study.toml", R"(title = "Discs"
 case = "disc.toml"
