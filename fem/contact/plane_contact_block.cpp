@@ -92,18 +92,38 @@ class PlaneContactBlock final : public ContactBlock {
     for (const auto& [corner, midside] : contact_.corners) add(corner, 0.5, midside);
   }
   bool has_friction() const override { return friction(); }
-  void bound_friction(const State& state, std::vector<double>& all) const override {
-    for (int e = 0; e < element_count() && friction(); ++e)
-      if (double& force = all[place(e, normal)]; Slider::is_bounded(force))
-        force = Slider::bound(normal_force(state, e) / force_unit(e));
+  bool is_pressed_first(const State& state) const override {
+    double first = 0, all = 0;
+    for (int e = 0; e < element_count() && friction(); ++e) {
+      const double now = normal_force(state, e);
+      all += now;
+      if (Slider::is_pressed_first(state.history->now[place(e, normal)], now / force_unit(e))) first += now;
+    }
+    return first > Slider::much * all;
+  }
+  /// What was above the plane slides from where it was at the last accepted state.
+  void bound_friction(const State& state, bool solved, double eased,
+                      std::vector<double>& all) const override {
+    if (!friction()) return;
+    const auto now = [&](int e) { return eased * normal_force(state, e) / force_unit(e); };
+    bool any_is_pressed = false;
+    for (int e = 0; e < element_count(); ++e) any_is_pressed = any_is_pressed || Slider::presses(now(e));
+    for (int e = 0; e < element_count(); ++e) {
+      double& force = all[place(e, normal)];
+      force = force == 0 && solved && Slider::presses(now(e))
+                  ? now(e)
+                  : Slider::bound(force, now(e), solved, any_is_pressed);
+    }
   }
   double friction_in_use(const State& state) const override {
     double held = 0, most = 0;
+    bool touches = false;
     for (int e = 0; e < element_count() && friction(); ++e) {
       held += stiffness(e) * stretched(state, e).norm();
       most += contact_.friction * normal_force(state, e);
+      touches = touches || state.history->now[place(e, normal)] > 0;
     }
-    return most > 0 ? held / most : 0;
+    return most > 0 ? held / most : touches ? 1 : 0;
   }
   double friction_heat(const State& state) const override {
     double sum = 0;
@@ -136,16 +156,18 @@ class PlaneContactBlock final : public ContactBlock {
                      kept = slider(state, e).kept(stretched, along_, contact_.friction * now),
                      slid = stretched - kept / stiffness(e);
       for (int i = 0; i < size; ++i) all[place(e, i)] += slid[i] / length_unit();
-      all[place(e, heat)] += kept.dot(slid) / energy_unit(e);
-      all[place(e, normal)] =
-          std::max(now / force_unit(e), contact_.barrier.touches(gap(state, e)) ? Slider::light : 0.0);
+      double& then = all[place(e, pressed_then)];
+      all[place(e, heat)] +=
+          Slider::heat_of(then, state.history->now[place(e, normal)]) * kept.dot(slid) / energy_unit(e);
+      then = now / force_unit(e);
+      all[place(e, normal)] = std::max(then, contact_.barrier.touches(gap(state, e)) ? Slider::light : 0.0);
     }
   }
 
  private:
-  /// Internal variables of a node: the anchor's displacement over length_unit(), the normal force and the
-  /// heat likewise.
-  static constexpr int normal = 3, heat = 4, per_node = 5;
+  /// Internal variables of a node: the anchor's displacement over length_unit(), the normal force that bounds
+  /// it, the heat, and the normal force of the last accepted state likewise.
+  static constexpr int normal = 3, heat = 4, pressed_then = 5, per_node = 6;
   bool friction() const { return contact_.friction > 0; }
   int node(int element) const { return contact_.nodes[static_cast<std::size_t>(element)]; }
   double area(int element) const { return contact_.areas[static_cast<std::size_t>(element)]; }
@@ -181,8 +203,8 @@ class PlaneContactBlock final : public ContactBlock {
   }
   Slider slider(const State& state, int element) const {
     const double force = state.history->now[place(element, normal)];
-    return {stiffness(element), contact_.friction * force * force_unit(element), force == Slider::light,
-            state.scheme.is_frozen()};
+    return Slider::of(stiffness(element), contact_.friction, force, force_unit(element),
+                      state.scheme.is_frozen());
   }
 
   PlaneContact contact_;

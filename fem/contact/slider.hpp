@@ -16,28 +16,51 @@ namespace dielast::fem {
 /// whole would have none).
 ///
 /// Accepted states are in balance with their anchors where they are (`frozen`). What has just touched
-/// (`fresh`) is held by a weak spring for an increment, whatever the force: nothing else may keep a body from
-/// sliding away.
+/// (`fresh`) sticks in the first solution of an increment, whatever the force. Where that presses anything of
+/// the contact, limits follow, which come down gently: what is not pressed yet slides alike in the smallest
+/// increment. Where it presses nothing, a spring that is next to nothing (`loose`) keeps a body from sliding
+/// away, as nothing else may.
 struct Slider {
   /// Of springs of what stands still, over the barrier's.
   static constexpr double stick = 10;
-  /// Over that, where it has just touched.
-  static constexpr double fresh_stick = 1e-4;
+  /// Of a loose one, over that.
+  static constexpr double loose_stick = 1e-7;
   /// Normal force of what touches and is not pressed yet, over the barrier's (stiffness times thickness times
-  /// area).
-  static constexpr double light = 1e-9;
+  /// area), and of what is loose.
+  static constexpr double light = 1e-9, lighter = light / 2;
+  /// Part of all that is pressed above which what is pressed first makes limits come down gently.
+  static constexpr double much = 0.1;
   /// What slides has no stiffness along its way; where all of a body does, Newton's method needs some. This
   /// part of force over way makes it converge linearly, and quickly, as the body is much stiffer.
   static constexpr double firmness = 0.01;
 
-  /// Whether a normal force, over the barrier's, is that of something that was pressed before.
-  static constexpr bool is_bounded(double force) { return force > light; }
-  /// The force that bounds friction of what was, where this one presses it.
-  static constexpr double bound(double force) { return std::max(force, 2 * light); }
+  /// Whether a normal force, over the barrier's, is that of something that is pressed.
+  static constexpr bool presses(double force) { return force > light; }
+  /// Whether what has not been pressed so far is `now`, over the barrier's.
+  static constexpr bool is_pressed_first(double before, double now) {
+    return before <= light && presses(now);
+  }
+  /// The force that bounds friction where that was `before` and `now` presses, over the barrier's; `solved`:
+  /// in a solution, in which anything of the contact is pressed or not.
+  static constexpr double bound(double before, double now, bool solved, bool any_is_pressed) {
+    if (before == 0) return 0;
+    if (presses(before) || (solved && any_is_pressed)) return std::max(now, 2 * light);
+    return solved ? lighter : before;
+  }
+  /// Part of the work of the force at the end of an increment that turns into heat where the normal force has
+  /// grown from `then` to the `bound` of that force as it slid: by the trapezoidal rule.
+  static constexpr double heat_of(double then, double bound) {
+    return bound > 0 ? (then + bound) / (2 * bound) : 1;
+  }
 
   double stiffness = 0; ///< of the spring, N/m
   double most = 0;      ///< N
-  bool fresh = false, frozen = false;
+  bool fresh = false, loose = false, frozen = false;
+
+  /// Of one whose force, over `force_unit`, N, is written as `force`.
+  static Slider of(double stiffness, double friction, double force, double force_unit, bool frozen) {
+    return {stiffness, friction * force * force_unit, force == light, force == lighter, frozen};
+  }
 
   struct Response {
     double energy = 0;
@@ -46,19 +69,20 @@ struct Slider {
   };
   /// Of a spring that is `stretched` by so much along the surface, m, on which `along` projects.
   Response pulled(const Eigen::Vector3d& stretched, const Eigen::Matrix3d& along) const {
-    const double k = stiffness * (fresh && !frozen ? fresh_stick : 1), length = stretched.norm();
+    const double k = stiffness * (loose && !frozen ? loose_stick : 1), length = stretched.norm();
     if (most == 0 && !frozen) return {};
-    if (frozen || fresh || k * length <= most) return {k * length * length / 2, k * stretched, k * along};
+    if (frozen || fresh || loose || k * length <= most)
+      return {k * length * length / 2, k * stretched, k * along};
     const Eigen::Vector3d direction = stretched / length;
     return {most * (length - most / k / 2), most * direction,
             most / length * (along - (1 - firmness) * direction * direction.transpose())};
   }
-  /// The force that it is accepted with, where the limit has become `most_now` if it is fresh.
+  /// The force that it is accepted with, where the limit has become `most_now` if it has had none.
   Eigen::Vector3d kept(const Eigen::Vector3d& stretched, const Eigen::Matrix3d& along,
                        double most_now) const {
     const Eigen::Vector3d force = pulled(stretched, along).force;
     if (!(force.norm() > 0)) return Eigen::Vector3d::Zero();
-    return force.normalized() * std::min(fresh ? most_now : force.norm(), force.norm());
+    return force.normalized() * std::min(fresh || loose ? most_now : force.norm(), force.norm());
   }
 };
 

@@ -108,15 +108,18 @@ class SurfaceSliders {
       if (partner(*state.history, i) != none) sum += stiffness(i) * stretched(state, i).squaredNorm() / 2;
     return sum;
   }
-  /// What they hold over the most that they may hold.
+  /// What they hold over the most that they may hold; 1 where what touches is not pressed.
   double in_use(const State& state) const {
     double held = 0, most = 0;
+    bool touches = false, presses = false;
     for (int i = 0; i < history_size() / per_node; ++i) {
       if (partner(*state.history, i) == none) continue;
       held += stiffness(i) * stretched(state, i).norm();
       most += spring(state, i).most;
+      touches = true;
+      presses = presses || Slider::presses(read(*state.history, i, normal));
     }
-    return most > 0 ? held / most : 0;
+    return presses ? held / most : touches ? 1 : 0;
   }
   /// Since the beginning, J.
   double heat(const State& state) const {
@@ -134,11 +137,29 @@ class SurfaceSliders {
       settle(drawn, i, pressed[static_cast<std::size_t>(i)], Vector3d::Zero(), all);
     }
   }
-  /// Writes the normal forces that bound them, where they were pressed before.
-  void bound(const std::vector<Pressed>& pressed, std::vector<double>& all) const {
-    for (int i = 0; i < count(); ++i)
-      if (double& force = all[place(i, normal)]; Slider::is_bounded(force))
-        force = Slider::bound(pressed[static_cast<std::size_t>(i)].force.norm() / force_unit(i));
+  /// Whether what touched in the last accepted state and was not pressed bears much.
+  bool is_pressed_first(const History& history, const std::vector<Pressed>& pressed) const {
+    double first = 0, all = 0;
+    for (int i = 0; i < history_size() / per_node; ++i) {
+      const double now = pressed[static_cast<std::size_t>(i)].force.norm();
+      all += now;
+      if (partner(history, i) != none &&
+          Slider::is_pressed_first(read(history, i, normal), now / force_unit(i)))
+        first += now;
+    }
+    return first > Slider::much * all;
+  }
+  /// Writes the normal forces that bound them, times `eased`, see Slider::bound().
+  void bound(const std::vector<Pressed>& pressed, bool solved, double eased, std::vector<double>& all) const {
+    const auto now = [&](int i) {
+      return eased * pressed[static_cast<std::size_t>(i)].force.norm() / force_unit(i);
+    };
+    bool any_is_pressed = false;
+    for (int i = 0; i < count(); ++i) any_is_pressed = any_is_pressed || Slider::presses(now(i));
+    for (int i = 0; i < count(); ++i) {
+      double& force = all[place(i, normal)];
+      force = Slider::bound(force, now(i), solved, any_is_pressed);
+    }
   }
   /// Writes what they are in a state that is accepted.
   void advance(const State& state, const std::vector<Pressed>& pressed, std::vector<double>& all) const {
@@ -149,7 +170,9 @@ class SurfaceSliders {
         const Vector3d way = stretched(state, i), force = spring(state, i).kept(way, along(*state.history, i),
                                                                                 friction_ * now.force.norm());
         stretch = force / stiffness(i);
-        all[place(i, warmth)] += force.dot(way - stretch) / (force_unit(i) * length_unit());
+        all[place(i, warmth)] +=
+            Slider::heat_of(read(*state.history, i, pressed_then), read(*state.history, i, normal)) *
+            force.dot(way - stretch) / (force_unit(i) * length_unit());
       }
       settle(state, i, now, stretch, all);
     }
@@ -163,10 +186,11 @@ class SurfaceSliders {
   };
   /// Internal variables of a slider: its face's number from 1 (0: it is not pressed), the other one, shape
   /// functions there, the direction across, what the node was from there, and the stretch, both over
-  /// length_unit(), the normal force and the heat likewise.
+  /// length_unit(), the normal force that bounds it, the
+  /// heat, and the normal force of the last accepted state likewise.
   static constexpr int own_face = 0, other_face = 1, functions = 2, across = 2 + Nodes, from = across + 3,
                        stretch_then = from + 3, normal = stretch_then + 3, warmth = normal + 1,
-                       per_node = warmth + 1;
+                       pressed_then = warmth + 1, per_node = pressed_then + 1;
 
   const Place& slider(int i) const { return sliders_[static_cast<std::size_t>(i)]; }
   std::size_t place(int i, int variable) const {
@@ -198,8 +222,7 @@ class SurfaceSliders {
   double stiffness(int i) const { return Slider::stick * barrier_.stiffness * slider(i).area; }
   Slider spring(const State& state, int i) const {
     const double force = read(*state.history, i, normal);
-    return {stiffness(i), friction_ * force * force_unit(i), force == Slider::light,
-            state.scheme.is_frozen()};
+    return Slider::of(stiffness(i), friction_, force, force_unit(i), state.scheme.is_frozen());
   }
   /// The way from a point of a face of the other surface to the node, m.
   Vector3d way(const State& state, int i, int other, const Shape& at) const {
@@ -225,6 +248,7 @@ class SurfaceSliders {
     const double force = now.force.norm(), unit = force_unit(i);
     const bool touches = now.other != none && (force > 0 || barrier_.touches(now.distance));
     for (int v = 0; v < warmth; ++v) all[place(i, v)] = 0;
+    all[place(i, pressed_then)] = force / unit;
     if (!touches) return;
     const Vector3d n = force > 0 ? Vector3d(now.force / force) : now.normal;
     all[place(i, own_face)] = now.own + 1;

@@ -51,8 +51,12 @@ class TwoSurfaces : public ContactBlock {
     parts.elastic += sliders_.energy(state);
   }
   bool has_friction() const override { return sliders_.any(); }
-  void bound_friction(const State& state, std::vector<double>& all) const override {
-    if (sliders_.any()) sliders_.bound(pressed(state), all);
+  bool is_pressed_first(const State& state) const override {
+    return sliders_.any() && sliders_.is_pressed_first(*state.history, pressed(state));
+  }
+  void bound_friction(const State& state, bool solved, double eased,
+                      std::vector<double>& all) const override {
+    if (sliders_.any()) sliders_.bound(pressed(state), solved, eased, all);
   }
   double friction_in_use(const State& state) const override { return sliders_.in_use(state); }
   double friction_heat(const State& state) const override { return sliders_.heat(state); }

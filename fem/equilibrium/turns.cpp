@@ -2,13 +2,19 @@
 #include "fem/equilibrium/equilibrium.hpp"
 #include "fem/model/contact_block.hpp"
 
+#include <array>
+
 namespace dielast::fem {
 
 namespace {
 
-constexpr int most_turns = 40;         ///< between forces and sheets
-constexpr int most_bounds = 30;        ///< of friction that are tried
-constexpr double steady_bounds = 1e-7; ///< change of bounds of friction, over the largest
+constexpr int most_turns = 40;           ///< between forces and sheets
+constexpr std::size_t most_bounds = 120; ///< of friction that are tried: some converge slowly
+constexpr double steady_bounds = 1e-7;   ///< change of bounds of friction, over the largest
+
+/// By what bounds of friction are multiplied in the solutions after the first where something has just
+/// touched: how much slides then is alike in the smallest increment.
+constexpr std::array eased{4.0, 2.0, 1.4, 1.2, 1.1, 1.05, 1.02};
 
 } // namespace
 
@@ -23,8 +29,10 @@ NewtonResult Equilibrium::solve(State& state, const NewtonOptions& options,
   };
   NewtonResult result = balanced();
   if (!has_friction(model_) || state.scheme.is_frozen()) return result;
-  for (int turn = 0; result.outcome == Outcome::converged; ++turn) {
-    if (bound_friction(model_, state) <= steady_bounds) break;
+  const bool fresh = result.outcome == Outcome::converged && is_pressed_first(model_, state);
+  for (std::size_t turn = 0; result.outcome == Outcome::converged; ++turn) {
+    const bool eases = fresh && turn < eased.size();
+    if (bound_friction(model_, state, true, eases ? eased[turn] : 1) <= steady_bounds && !eases) break;
     if (turn == most_bounds)
       result.outcome = Outcome::not_converged;
     else

@@ -80,10 +80,17 @@ double friction_in_use(const Model& model, const State& state) {
   return part;
 }
 
-double bound_friction(const Model& model, State& state) {
+bool is_pressed_first(const Model& model, const State& state) {
+  bool any = false;
+  for_each_contact(model, [&](const ContactBlock& one) { any = any || one.is_pressed_first(state); });
+  return any;
+}
+
+double bound_friction(const Model& model, State& state, bool solved, double eased) {
   const std::vector<double>& before = state.history->now;
   History bound = *state.history;
-  for_each_contact(model, [&](const ContactBlock& one) { one.bound_friction(state, bound.now); });
+  for_each_contact(model,
+                   [&](const ContactBlock& one) { one.bound_friction(state, solved, eased, bound.now); });
   double change = 0, largest = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (bound.now[i] == before[i]) continue;

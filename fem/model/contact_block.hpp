@@ -35,10 +35,14 @@ class ContactBlock : public ElementBlock {
   virtual void add_pressure(const State& /*state*/, NodalPressure& /*pressure*/) const {}
   /// Whether there are sliders, which keep what they slid: their path has corners, and no way back.
   virtual bool has_friction() const { return false; }
-  /// Writes the normal forces of this state as those that bound its friction, except where something has just
-  /// touched.
-  virtual void bound_friction(const State& /*state*/, std::vector<double>& /*all*/) const {}
-  /// What friction holds in an accepted state over the most that it may hold, 0..1.
+  /// Whether much of what friction holds has not been pressed before this state.
+  virtual bool is_pressed_first(const State& /*state*/) const { return false; }
+  /// Writes the normal forces of this state, times `eased`, as those that bound its friction; of what has
+  /// just touched in a solution (`solved`) alone, not in a foretold state.
+  virtual void bound_friction(const State& /*state*/, bool /*solved*/, double /*eased*/,
+                              std::vector<double>& /*all*/) const {}
+  /// What friction holds in an accepted state over the most that it may hold, 0..1; 1 where what touches is
+  /// not pressed yet.
   virtual double friction_in_use(const State& /*state*/) const { return 0; }
   /// Of sliders since the beginning, J, in an accepted state.
   virtual double friction_heat(const State& /*state*/) const { return 0; }
@@ -55,9 +59,10 @@ double friction_heat(const Model& model, const State& state);
 bool has_friction(const Model& model);
 /// The largest of the model's contacts: see ContactBlock.
 double friction_in_use(const Model& model, const State& state);
-/// Bounds friction by the normal forces of this state; returns the largest change of a bound, over the
-/// largest of those that change.
-double bound_friction(const Model& model, State& state);
+bool is_pressed_first(const Model& model, const State& state);
+/// Bounds friction by the normal forces of this state, a solution or a foretold one, times `eased`; returns
+/// the largest change of a bound, over the largest of those that change.
+double bound_friction(const Model& model, State& state, bool solved, double eased = 1);
 
 /// Normal force over area as drawn, per node, Pa; 0 inside. Empty: no surface of a solid may touch anything.
 /// Of the state's displacements alone.

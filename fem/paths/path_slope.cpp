@@ -96,14 +96,19 @@ Eigen::VectorXd slope_at(Equilibrium& equilibrium, const LoadPath& path, const S
 }
 
 bool is_foreseen(const DofMap& dofs, const Eigen::VectorXd& stiffness, std::span<const PathPoint> points,
-                 double parameter, const State& predicted, const State& trial) {
-  constexpr double close = 0.1, faster = 3;
+                 double parameter, const State& predicted, const State& trial, bool swings) {
+  constexpr double close = 0.1, close_in_swing = 0.3, faster = 3;
   if (points.size() < 2) return false;
   const auto size = [&](const State& from, const State& to) { return distance(dofs, stiffness, from, to); };
-  const PathPoint &before = points[points.size() - 2], &here = points.back();
-  const double longer = (parameter - here.parameter) / (here.parameter - before.parameter);
-  const double step = size(here.state, trial);
-  return size(predicted, trial) <= close * step && step <= faster * longer * size(before.state, here.state);
+  double before = 0; // as far as the path would go now
+  for (std::size_t i = swings ? 1 : points.size() - 1; i < points.size(); ++i) {
+    const double longer =
+        (parameter - points.back().parameter) / (points[i].parameter - points[i - 1].parameter);
+    before = std::max(before, longer * size(points[i - 1].state, points[i].state));
+  }
+  const double step = size(points.back().state, trial);
+  return size(predicted, trial) <= (swings ? close_in_swing * std::max(step, before) : close * step) &&
+         step <= faster * before;
 }
 
 bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, const State& from,

@@ -17,9 +17,10 @@ Eigen::VectorXd slope_at(Equilibrium& equilibrium, const LoadPath& path, const S
 
 /// Whether a predictor through the `points` of a path has led to `trial`, at `parameter`, closely, in the
 /// norm of `stiffness` (per free equation). As a predictor that runs away may meet another branch, the path
-/// must not have become several times faster either since the increment before.
+/// must not have become several times faster either since the increment before; one that `swings`, and has
+/// hardly moved where it turns round, since the fastest increment between the points.
 bool is_foreseen(const DofMap& dofs, const Eigen::VectorXd& stiffness, std::span<const PathPoint> points,
-                 double parameter, const State& predicted, const State& trial);
+                 double parameter, const State& predicted, const State& trial, bool swings = false);
 
 /// Whether an increment is too small to tell of a path, in the norm of `stiffness` (per free equation).
 bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, const State& from,

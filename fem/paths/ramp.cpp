@@ -112,7 +112,7 @@ State Ramp::solve(State state, double s) {
     state.motion_scheme = state.motion->step > 0 ? GeneralisedAlpha::of(dt, options_.high_frequencies)
                                                  : first_step_of_motion(dt);
   }
-  if (has_friction(equilibrium_.model())) bound_friction(equilibrium_.model(), state); // as foretold
+  if (has_friction(equilibrium_.model())) bound_friction(equilibrium_.model(), state, false);
   newton_ = is_free ? equilibrium_.solve(state, options_.newton, observer_.on_iteration)
                     : NewtonResult{.outcome = Outcome::infeasible};
   return state;
@@ -154,7 +154,8 @@ Eigen::VectorXd Ramp::slope_of_start(const LoadPath& increment) {
 /// Whether what has no mass has followed what has one continuously; the motion itself has no other branch.
 bool Ramp::follows(const State& predicted, const State& trial, double s) const {
   return massless_.size() == 0 || is_still(equilibrium_, massless_, last(), trial) ||
-         is_foreseen(equilibrium_.model().dofs, massless_, progress_.points, parameter(s), predicted, trial);
+         is_foreseen(equilibrium_.model().dofs, massless_, progress_.points, parameter(s), predicted, trial,
+                     true);
 }
 
 /// Whether a converged trial lies on the path through the last accepted states.

@@ -121,33 +121,6 @@ TEST_F(Contacts, friction_does_not_ask_how_many_increments_there_are) {
   }
 }
 
-/// A block on a table that gravity pulls along it, too, in five increments.
-std::string pulled_block(const std::string& friction) {
-  return "[film]\nthickness = \"1 mm\"\nwidth = \"10 mm\"\n[film.material]\nshear_modulus = \"0.4 MPa\"\n"
-         "permittivity = \"2.5e-11 F/m\"\ndensity = \"1080 kg/m^3\"\n[slab]\nlength = \"20 mm\"\nheight = "
-         "\"6 mm\"\n"
-         "[gravity]\ndirection = [0.2, -1, 0]\nfilm = true\n[contact]\nthickness = \"0.02 mm\"\n"
-         "[table]\nat = \"bottom\"\nfriction = " +
-         friction +
-         "\n[output]\nerror_estimate = false\n[[step]]\nkind = \"weight\"\nincrements = 5\n"
-         "[[quantity]]\nname = \"way\"\nkind = \"displacement\"\nof = \"top\"\nalong = \"x\"\n";
-}
-
-/// 0.3 times the normal force of the increment before is exactly what pulls at 3/5 of the load: the block
-/// does not slide all the same (it did, by 27.6 mm), nor where friction is by little enough, and it goes no
-/// further the less friction there is.
-TEST_F(Contacts, blocks_stand_where_friction_suffices_by_little) {
-  for (const char* friction : {"0.21", "0.25", "0.3", "0.9"})
-    EXPECT_NEAR(values(pulled_block(friction)).at("way"), 4.3e-6, 0.2e-6) << friction;
-}
-
-TEST_F(Contacts, tell_that_what_is_pressed_slides) {
-  const Case one = read(pulled_block("0.15"));
-  const Outcome outcome = Simulation(one, 1).run({});
-  EXPECT_EQ(outcome.kind, "no equilibrium");
-  EXPECT_NE(outcome.message.find("All that is pressed slides"), std::string::npos) << outcome.message;
-}
-
 TEST_F(Contacts, refuse_walls_that_touch_as_drawn) {
   EXPECT_THROW(build_device(read(honeycomb(63, contact))), meshing::MeshError);
 }
