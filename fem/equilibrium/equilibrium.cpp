@@ -164,6 +164,8 @@ void Equilibrium::balance(State& state, Balance& balance, Pressure pressure) {
     balance.energy += inertial.energy();
   }
   model_.dofs.gather(state, balance.force);
+  if (!state.motion_scheme.is_static() && state.motion->held.size() > 0)
+    balance.force.head(state.motion->held.size()).array() *= 1 - state.motion->held.array();
   balance.norm = weighted_norm(balance.force, model_.dofs.free_count());
   balance.scale = weighted_norm(state.dead_force, state.dead_force.size());
   for (const auto& block : assembler_.block_residuals())

@@ -34,6 +34,8 @@ struct Motion {
   Eigen::VectorXd acceleration_now; ///< second order in the time step; `acceleration` is the scheme's, of a
                                     ///< moment before, m/s^2
   double step = 0;                  ///< s, that led here; 0 at rest and after a break
+  Eigen::VectorXd held{}; ///< 1 at free equations whose masses stay where they are, whatever pulls at them, 0
+                          ///< at others; empty: none does
 };
 
 /// What is given at an electrode or a chamber.

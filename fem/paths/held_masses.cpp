@@ -11,7 +11,8 @@ namespace dielast::fem {
 
 namespace {
 
-constexpr double stiffer = 1e8; ///< the inertia that holds a mass, over the stiffness
+/// The inertia that holds a mass, over the stiffness: how little it gives way as other things move.
+constexpr double stiffer = 1e8;
 
 /// Of the free equations, those of tied nodes moved to their masters, kg and kg m^2. What turns a mass on an
 /// arm and leaves it where it is, by moving the node, has none.
@@ -59,6 +60,7 @@ State with_masses_held(const Equilibrium& equilibrium, State state) {
   motion.position = position(state, model.dofs) - dt * motion.velocity;
   motion.acceleration.setZero();
   motion.unbalanced.setZero();
+  motion.held = (mass.array() > 0).cast<double>();
   state.motion = std::make_shared<const Motion>(std::move(motion));
   state.motion_scheme = GeneralisedAlpha::backward_euler(dt);
   return state;

@@ -13,8 +13,8 @@ namespace dielast::fem {
 /// where every free displacement has one.
 Eigen::VectorXd stiffness_without_mass(const Equilibrium& equilibrium, const State& state);
 
-/// The state with its masses held where they are: by the inertia of a time step that is far too short for
-/// them to move. They keep their velocities.
+/// The state with its masses held where they are: what pulls at them is not looked at (Motion::held), and the
+/// inertia of a time step that is far too short for them to move stiffens them. They keep their velocities.
 State with_masses_held(const Equilibrium& equilibrium, State state);
 
 /// A state that was found with the masses held, at the motion that `before` has.

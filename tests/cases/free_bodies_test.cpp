@@ -53,6 +53,28 @@ std::string pendulum(const std::string& rest) {
          rest;
 }
 
+// A mass turns in no time by nothing, however soft what else holds it: it turned by 0.01 rad at the jump.
+TEST_F(FreeBodies, stay_where_they_are_as_a_moment_jumps) {
+  const std::string jump = "moment = [0, 0, { wave = \"step\", to = \"0.3 mN m\", at = \"0.1 s\" }]\n";
+  const Ran ran =
+      run("[film]\nthickness = \"1 um\"\n[film.material]\nshear_modulus = \"1 Pa\"\npermittivity = \"4e-11 "
+          "F/m\"\n"
+          "[rectangle]\nlength = \"10 mm\"\nwidth = \"10 mm\"\n[mesh]\nacross = 2\norder = 1\n"
+          "[[support]]\nplace = \"left\"\nfix = [\"x\", \"y\"]\n"
+          "[[body]]\nname = \"b\"\nplaces = [\"right\"]\nmass = \"50 g\"\ninertia = [0, 0, \"30 g.mm^2\"]\n"
+          "centre = [\"5 mm\", \"-40 mm\", 0]\npivot = [\"5 mm\", 0, 0]\n[[load]]\nplace = \"b\"\n" +
+          jump +
+          "[[step]]\nkind = \"transient\"\nduration = \"0.2 s\"\nincrements = 40\n[output]\nerror_estimate = "
+          "false\n"
+          "[[quantity]]\nname = \"angle\"\nkind = \"angle\"\nof = \"b\"\nalong = \"z\"\n");
+  EXPECT_EQ(ran.outcome.ending, Ending::complete) << ran.outcome.message;
+  const double inertia = 50e-3 * 1.6e-3 + 30e-9; // about the pivot, kg m^2
+  for (std::size_t r = 0; r < ran.time.size(); ++r) {
+    const double since = std::max(0.0, ran.time[r] - 0.1);
+    EXPECT_NEAR(ran.values.at("angle")[r], 0.3e-3 / inertia * since * since / 2, 1e-5) << ran.time[r];
+  }
+}
+
 // The film resists nothing and pulls at nothing: its rounding was taken for tension that is let go.
 TEST_F(FreeBodies, film_on_a_body_alone_is_a_pendulum) {
   write("square.msh", square);
