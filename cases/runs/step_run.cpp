@@ -135,7 +135,10 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
     return false;
   }
   progress_.ramp = beyond_it;
-  if (trouble.critical) announce(*trouble.critical, false);
+  if (trouble.critical) {
+    trouble.critical->kind = fem::Instability::bifurcation; // the path goes on: the load does not turn
+    announce(*trouble.critical, false);
+  }
   return accept(now.points.back().state, increment, Reached::along_path);
 }
 

@@ -194,7 +194,12 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
   }
   // A bracket that closes on no zero holds points of two paths.
   if (!closed || std::abs(best->mode.eigenvalue) > zero * largest) return std::nullopt;
-  best->kind = classify(equilibrium, path, best->state, best->load_factor, best->mode);
+  // Whether the load turns tells what it is: modes that vanish close by make the one that is found a mixture.
+  const bool turns = before.load_direction * after.load_direction < 0;
+  const bool alone = std::abs(after.newton.unstable_modes - modes) == 1;
+  best->kind = turns && !alone ? classify(equilibrium, path, best->state, best->load_factor, best->mode)
+               : turns         ? Instability::limit_point
+                               : Instability::bifurcation;
   return best;
 }
 

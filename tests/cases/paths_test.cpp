@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dielast::cases::paths_test {
@@ -281,6 +282,37 @@ TEST_F(Paths, AThinCantileverNeedsNoKeysOfTheSolver) {
     EXPECT_EQ(done.outcome.ending, Ending::complete) << done.outcome.message;
     EXPECT_NEAR(done.rows.back().value, 7.31936e-3, 1e-8) << increments;
   }
+}
+
+/// Its voltage rises without end while mode after mode loses its stiffness, two of them close to one another:
+/// a mixture of these took part in the load, and was called a limit point.
+TEST_F(Paths, a_flat_plate_has_no_limit_points) {
+  const Run plate =
+      run("model = \"3d\"\n[film]\nthickness = \"1 mm\"\nsection = \"shell\"\n[film.material]\n"
+          "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[rectangle]\nlength = \"50 mm\"\n"
+          "[mesh]\nacross = 8\n[drive]\nvoltage = \"3.4 kV\"\n[[support]]\nplace = \"frame\"\n"
+          "fix = [\"x\", \"y\", \"z\"]\n[output]\nerror_estimate = false\n[[quantity]]\nname = \"w\"\n"
+          "kind = \"displacement\"\nof = \"centre\"\nalong = \"z\"\n[[step]]\nkind = \"voltage\"\n"
+          "increments = 34\non_instability = \"follow\"\non_bifurcation = \"follow\"\n",
+          "w");
+  EXPECT_EQ(plate.outcome.ending, Ending::complete) << plate.outcome.message;
+  EXPECT_EQ(std::ranges::count(plate.events, "bifurcation", &post::Event::kind), 3);
+  EXPECT_EQ(std::ranges::count(plate.events, "limit point", &post::Event::kind), 0);
+}
+
+/// The plate bears inertia, the film none: while the voltage jumps the plate stands still, to the digit, and
+/// nothing that pulls at it counts.
+TEST_F(Paths, film_without_mass_takes_a_jump_under_a_heavy_plate) {
+  const Run lifted =
+      run("[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nlaw = \"gent\"\n"
+          "shear_modulus = \"40 kPa\"\nstretch_limit = 110\nrelative_permittivity = 4.7\n"
+          "density = \"0 kg/m^3\"\n[annulus]\ninner_radius = \"12.7 mm\"\nouter_radius = \"68.58 mm\"\n"
+          "[plate]\nmass = \"100 g\"\n[mesh]\nrings = 32\n[circuit]\nresistance = \"2 MOhm\"\n[drive]\n"
+          "voltage = { wave = \"step\", to = \"5 kV\", at = \"0.1 s\" }\n[solver]\ntime_tolerance = 8e-6\n"
+          "[output]\nerror_estimate = false\n[[step]]\nkind = \"weight\"\nincrements = 2\n[[step]]\n"
+          "kind = \"transient\"\nduration = \"2 s\"\nincrements = 50\n",
+          "stroke");
+  EXPECT_EQ(lifted.outcome.ending, Ending::complete) << lifted.outcome.message;
 }
 
 } // namespace
