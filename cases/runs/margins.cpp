@@ -62,7 +62,7 @@ bool is_led_by_voltages(const Case& one, const post::StepRecord& record) {
 }
 
 /// What a run has passed on its way to its end: its last states with rising voltages, and nothing else that
-/// changes but where they are zero.
+/// changes but where they are zero. Film that may wrinkle is taut until an event says otherwise.
 std::vector<Passed> way_of(const Case& one, const Journal& journal) {
   std::vector<Passed> way;
   const post::StepRecord& end = journal.records.back();
@@ -80,6 +80,12 @@ std::vector<Passed> way_of(const Case& one, const Journal& journal) {
     if (*factor == 0 || !is_led_by_voltages(one, record)) break;
   }
   std::ranges::reverse(way);
+  double slack = way.front().least_stress > 0 ? 0 : unknown;
+  for (Passed& passed : way) {
+    for (const post::Event& event : journal.records[static_cast<std::size_t>(passed.record)].events)
+      if (event.kind == "loss of tension") slack = 1;
+    if (std::isnan(passed.slack)) passed.slack = slack;
+  }
   return way;
 }
 
@@ -370,7 +376,7 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   add("breakdown", [&] { return where([](const Passed& p) { return p.breakdown - 1; }); });
   add("loss of tension", [&] {
     if (simulation.device().tension_field)
-      return where([](const Passed& p) { return p.slack > 0 ? 1.0 : -1.0; });
+      return where([](const Passed& p) { return std::isnan(p.slack) ? unknown : p.slack > 0 ? 1 : -1; });
     Margin lost = where([&](const Passed& p) { return -smallest - p.least_stress; });
     // Film leaves its plane where its tension ends: the path ends there, and no state of it is beyond.
     if (!lost.factor && lost.remark.empty() && stopped == Critical{true}.kind() &&
@@ -388,11 +394,6 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   add("buckling", [&] { return critical(true); });
   add("wall yield", [&] { return where([](const Passed& p) { return p.yield - 1; }); });
   return margins;
-}
-
-double factor_to(const std::string& limit, const std::vector<Margin>& margins) {
-  const auto margin = std::ranges::find(margins, limit, &Margin::limit);
-  return margin != margins.end() ? margin->factor.value_or(unknown) : unknown;
 }
 
 } // namespace dielast::cases

@@ -343,4 +343,10 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   return report;
 }
 
+double factor_to(const std::string& limit, const std::vector<Margin>& margins) {
+  constexpr double no_factor = std::numeric_limits<double>::quiet_NaN();
+  const auto margin = std::ranges::find(margins, limit, &Margin::limit);
+  return margin != margins.end() ? margin->factor.value_or(no_factor) : no_factor;
+}
+
 } // namespace dielast::cases

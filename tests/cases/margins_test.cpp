@@ -274,5 +274,25 @@ TEST_F(Margins, TensionEndsWhereFilmLeavesItsPlane) {
   }
 }
 
+// Of film that may wrinkle, held at 2 along x and 1 along y: mu (1 - 2^-2) = eps E_0^2 2^2, before the end
+// of the run, of which no quantity tells.
+TEST_F(Margins, OfTensionThatAWrinklingFilmHasLost) {
+  const std::string held =
+      "[film]\nthickness = \"1 mm\"\nwrinkling = \"tension field\"\n[film.material]\nshear_modulus = \"40 "
+      "kPa\"\n"
+      "permittivity = \"4e-11 F/m\"\n[patch]\nstretch_x = 2\nstretch_y = 1\n[drive]\nvoltage = \"15 kV\"\n"
+      "[output]\nerror_estimate = false\n";
+  const double lost = thickness * std::sqrt(modulus * (1 - 0.25) / (permittivity * 4)) / 15e3;
+  for (const char* up_to : {"1", "3"})
+    EXPECT_NEAR(margins(held, {std::string("output.margins_up_to=") + up_to})
+                    .at("loss of tension")
+                    .factor.value_or(0),
+                lost, 1e-5);
+  EXPECT_NEAR(margins(held, {"drive.voltage=10 kV", "output.margins_up_to=2"})
+                  .at("loss of tension")
+                  .factor.value_or(0),
+              1.5 * lost, 1e-5);
+}
+
 } // namespace
 } // namespace dielast::cases::margins_test
