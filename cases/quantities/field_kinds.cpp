@@ -82,12 +82,26 @@ std::vector<FilmReading> readings_of(const Probing& probing) {
 
 std::array<double, 3> coordinates(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
 
+/// What is said of film in space, turned with it; a film of revolution is no solid.
+fem::MembraneSample turned(fem::MembraneSample sample, const Eigen::Matrix3d& turn) {
+  sample.F = turn * sample.F;
+  return sample;
+}
+
 Probe value(const Probing& probing) {
-  return [readings = readings_of(probing), &quantity = probing.quantity](const Measured& measured) {
-    return mean(readings, measured.samples, [&](const fem::MembraneSample& sample, const auto&) {
-      return post::film_value(sample, quantity.of);
+  const Quantity& quantity = probing.quantity;
+  const Eigen::Matrix3d turn = quantity.point
+                                   ? turn_to(Eigen::Vector3d(quantity.point->data()), probing.device.mesh)
+                                   : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const auto value_in = [readings = readings_of(probing), &quantity, turn](const fem::Samples& samples) {
+    return mean(readings, samples, [&](const fem::MembraneSample& sample, const auto&) {
+      return post::film_value(turned(sample, turn), quantity.of);
     });
   };
+  if (std::isnan(value_in(probing.drawn)))
+    probing.refuse("of",
+                   fmt::format("{} has no value there: a solid with a potential has no layers", quantity.of));
+  return [value_in](const Measured& measured) { return value_in(measured.samples); };
 }
 
 /// Of the film of the place's own part, along the radius about where that was drawn. At an edge of the mesh

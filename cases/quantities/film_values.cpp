@@ -172,6 +172,15 @@ std::vector<ElementPoint> elements_at(const Eigen::Vector3d& point, const meshin
   return found;
 }
 
+Eigen::Matrix3d turn_to(const Eigen::Vector3d& point, const meshing::Mesh& mesh) {
+  const double radius = point.head<2>().norm();
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (radius > 0 && meshing::is_meridian(mesh.film()->type))
+    turn.topLeftCorner<2, 2>() << point.x() / radius, -point.y() / radius, point.y() / radius,
+        point.x() / radius;
+  return turn;
+}
+
 std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,
                                      const fem::Samples& samples) {
   const meshing::CellBlock& film = *mesh.film();

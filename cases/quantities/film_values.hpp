@@ -33,6 +33,10 @@ struct ElementPoint {
 /// may be at any angle about the z axis. None beside the film.
 std::vector<ElementPoint> elements_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh);
 
+/// Turns the half plane y = 0, in which film of revolution is drawn, about z to the point; of other film, and
+/// on the axis, the identity.
+Eigen::Matrix3d turn_to(const Eigen::Vector3d& point, const meshing::Mesh& mesh);
+
 /// In the elements that have the point, as drawn, to a thousandth of their size; in a film of revolution it
 /// may be at any angle about the z axis. None beside the film.
 std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,

@@ -107,13 +107,14 @@ Shape displacement(const Probing& probing) {
   };
   const meshing::Mesh& mesh = probing.device.mesh;
   if (quantity.point)
-    return [&mesh, towards, at = element_at_point(probing)](const fem::State& state) {
+    return [&mesh, towards, at = element_at_point(probing),
+            turn = turn_to(Eigen::Vector3d(quantity.point->data()), mesh)](const fem::State& state) {
       Eigen::Vector3d moved = Eigen::Vector3d::Zero();
       const auto nodes = mesh.film()->cell(at.cell);
       for (std::size_t a = 0; a < nodes.size(); ++a)
         moved +=
             at.shape[static_cast<Eigen::Index>(a)] * state.displacement[static_cast<std::size_t>(nodes[a])];
-      return towards(moved);
+      return towards(turn * moved);
     };
   const Device& device = probing.device;
   return [&device, &quantity, towards, drawn = centroid(device, quantity.of, device.model.initial_state())](

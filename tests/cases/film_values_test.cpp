@@ -373,5 +373,23 @@ TEST_F(FilmValues, ADiscWithoutARadiusOfItsElectrodeIsAllElectrode) {
   }
 }
 
+// A film of revolution moves, and is stressed, alike at every angle: along what its point says.
+TEST_F(FilmValues, OfRevolutionTurnWithTheirPoint) {
+  const auto off_the_half_plane = [&](const std::string& model) {
+    return run(
+        film(model) +
+        "[disc]\nradius = \"90 mm\"\nelectrode_radius = \"30 mm\"\n[mesh]\nrings = 12\n"
+        "[drive]\nvoltage = \"3 kV\"\n" +
+        value("hoop", "cauchy_stress.xx", point(0, 40e-3, 0)) +
+        "[[quantity]]\nname = \"beside\"\nkind = \"displacement\"\nalong = \"x\"\n" + point(0, 40e-3, 0) +
+        "\n[[quantity]]\nname = \"back\"\nkind = \"displacement\"\nalong = \"x\"\n" + point(-40e-3, 0, 0));
+  };
+  const Ran turned = off_the_half_plane("axisymmetric"), flat = off_the_half_plane("planar");
+  EXPECT_NEAR(turned.last("hoop"), flat.last("hoop"), 2e-3 * flat.last("hoop"));
+  EXPECT_NEAR(turned.last("beside"), 0, 1e-12);
+  EXPECT_LT(turned.last("back"), 0);
+  EXPECT_NEAR(turned.last("back"), flat.last("back"), -2e-3 * flat.last("back"));
+}
+
 } // namespace
 } // namespace dielast::cases::film_values_test
