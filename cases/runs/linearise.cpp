@@ -35,6 +35,7 @@ struct Linearised {
   std::string output, unit;        ///< m or rad
   std::vector<std::string> driven; ///< electrodes whose sources are the input together
   std::vector<double> voltage;     ///< of these at the operating point, V
+  std::vector<double> source;      ///< of their sources there, V: more where an electrode leaks
   double error = 0;                ///< largest, relative to the full response
   std::vector<double> frequency;   ///< Hz
   std::vector<Complex> full, reduced;
@@ -54,7 +55,9 @@ constexpr double good = 0.01;
 
 /// Times the highest frequency: modes below that take part, faster ones follow statically. One that lies
 /// little above is needed, those far above take states that others need.
-constexpr std::array bands{1.0, 2.0, 4.0};
+constexpr std::array bands{1.0, 2.0, 4.0, 8.0, 16.0};
+/// From there on for models alone that have fewer states than are asked for.
+constexpr double wide = 8;
 
 Complex polynomial(const std::vector<double>& coefficients, Complex s) {
   Complex value = 0;
@@ -79,6 +82,7 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   for (const std::size_t port : driven) {
     result.driven.push_back(device.model.ports[port].name);
     result.voltage.push_back(state.voltage[port]);
+    result.source.push_back(device.model.ports[port].circuit ? state.source[port] : state.voltage[port]);
   }
   std::vector<double> omega = result.frequency;
   for (double& w : omega) w *= 2 * std::numbers::pi;
@@ -94,6 +98,7 @@ Linearised linearise(const Case& one, Simulation& simulation) {
     throw AnalysisError(no_response(output.name, "linearise.output", moves));
   for (const double band : bands) {
     if (band != bands.front() && result.error < good) break;
+    if (band >= wide && result.model.order() >= one.linearise->order) break;
     fem::StateSpace large =
         fem::state_space(loose.equilibrium(), state, channels,
                          {.highest_frequency = band * omega.back(), .drifts = loose.drifts()});
@@ -140,6 +145,10 @@ nlohmann::json rows_of(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
+nlohmann::ordered_json one_or_all(const std::vector<double>& values) {
+  return values.size() == 1 ? nlohmann::ordered_json(values.front()) : nlohmann::ordered_json(values);
+}
+
 nlohmann::ordered_json model_json(const Case& one, const Linearised& found) {
   auto poles = nlohmann::json::array();
   for (const Complex& pole : fem::eigenvalues(found.model.A)) poles.push_back({pole.real(), pole.imag()});
@@ -147,8 +156,8 @@ nlohmann::ordered_json model_json(const Case& one, const Linearised& found) {
           {"title", one.title},
           {"input", {{"name", "source voltage"}, {"unit", "V"}, {"electrodes", found.driven}}},
           {"output", {{"name", found.output}, {"unit", found.unit}}},
-          {"operating_voltage_V", found.voltage.size() == 1 ? nlohmann::ordered_json(found.voltage.front())
-                                                            : nlohmann::ordered_json(found.voltage)},
+          {"operating_voltage_V", one_or_all(found.voltage)},
+          {"operating_source_voltage_V", one_or_all(found.source)},
           {"order", found.model.order()},
           {"largest_relative_error", found.error},
           {"compared_from_Hz", found.frequency.front()},
@@ -173,7 +182,10 @@ std::string matlab_script(const Case& one, const Linearised& found) {
   std::ranges::replace(title, '\n', ' ');
   std::string point;
   for (std::size_t e = 0; e < found.driven.size(); ++e)
-    point += fmt::format("{}{:.10g} V at {}", e ? ", " : "", found.voltage[e], found.driven[e]);
+    point += fmt::format("{}{:.10g} V at {}{}", e ? ", " : "", found.voltage[e], found.driven[e],
+                         found.source[e] == found.voltage[e]
+                             ? ""
+                             : fmt::format(" ({:.10g} V of its source)", found.source[e]));
   return fmt::format(
       "% {}\n% x' = A x + B u, y = C x + D u, time in s\n"
       "% u: change of the source voltage of {} (V), y: change of {} ({}), both from the state at\n"

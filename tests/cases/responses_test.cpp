@@ -240,5 +240,50 @@ TEST_F(Responses, OfAPointIsItsSlope) {
   EXPECT_NEAR(std::stod(table_of(directory / "out/harmonic.csv").at(1).at(1)), slope, 1e-4 * slope);
 }
 
+// Its first mode, 288 Hz, is far above 60 Hz: of the model that is asked for it is all the same.
+TEST_F(Responses, LinearModelsHaveTheStatesThatTheyAreAskedFor) {
+  write("slab.toml", R"(model = "planar"
+[film]
+thickness = "0.5 mm"
+width = "10 mm"
+bulk_modulus = "200 kPa"
+material = { shear_modulus = "40 kPa", permittivity = "4e-11 F/m", density = 1000 }
+[slab]
+length = "10 mm"
+height = "2 mm"
+[mesh]
+across = 2
+[[support]]
+place = "left"
+fix = ["x"]
+[[support]]
+place = "bottom"
+fix = ["y"]
+[drive]
+voltage = "720 V"
+[circuit]
+resistance = "20 MOhm"
+leakage_resistance = "100 MOhm"
+[[quantity]]
+name = "w"
+kind = "distance"
+between = ["left", "right"]
+along = "x"
+[[step]]
+kind = "voltage"
+[linearise]
+order = 3
+output = "w"
+from = "0.01 Hz"
+to = "60 Hz"
+)");
+  const Ended ended = dielast({"linearise", "slab.toml", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+  EXPECT_NE(ended.out.find("order 3, "), std::string::npos) << ended.out;
+  const nlohmann::json model = json_of("out/linear_model.json");
+  EXPECT_NEAR(model["operating_source_voltage_V"], 720, 1e-9);
+  EXPECT_NEAR(model["operating_voltage_V"], 600, 1e-9);
+}
+
 } // namespace
 } // namespace dielast::test::responses_test
