@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -234,6 +235,22 @@ std::vector<double> average(const fem::Samples& samples, std::string_view scalar
                                                     static_cast<std::size_t>(component)];
                        return one;
                      });
+}
+
+std::vector<double> largest_average(const fem::Samples& samples, std::string_view scalar, int cell_count) {
+  std::vector<double> largest(static_cast<std::size_t>(cell_count), not_a_number);
+  fem::Samples own;
+  std::size_t left = samples.film.size();
+  for (int layer = 0; left > 0; ++layer, left -= own.film.size()) {
+    own.film.clear();
+    std::ranges::copy_if(samples.film, std::back_inserter(own.film),
+                         [layer](const fem::MembraneSample& sample) { return sample.layer == layer; });
+    for (fem::MembraneSample& sample : own.film) sample.layer = 0;
+    const std::vector<double> averages = average(own, scalar, cell_count);
+    for (std::size_t cell = 0; cell < largest.size(); ++cell)
+      largest[cell] = std::fmax(largest[cell], averages[cell]);
+  }
+  return largest;
 }
 
 } // namespace dielast::post

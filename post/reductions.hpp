@@ -98,5 +98,7 @@ double rise_at(const Extremum& extremum, const fem::Samples& samples, const mesh
 
 /// Cell averages of one scalar. Throws std::invalid_argument for an unknown name.
 std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count);
+/// The largest of those of a shell's layers, of a scalar of the film.
+std::vector<double> largest_average(const fem::Samples& samples, std::string_view scalar, int cell_count);
 
 } // namespace dielast::post

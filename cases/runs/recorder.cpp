@@ -92,7 +92,7 @@ Snapshot snapshot(const Device& device, const std::string& title, const fem::Sta
       voltage = state.voltage[p];
   const int cells = device.mesh.film()->size();
   return {title, voltage, state.displacement, post::average(samples, shape_field(device).name, cells),
-          post::average(samples, "electric_field", cells)};
+          post::largest_average(samples, "electric_field", cells)};
 }
 
 /// A state displaced along a mode so far that the mode is seen.
