@@ -7,6 +7,8 @@
 #include "meshing/parts/assembly.hpp"
 #include "meshing/regions/region_mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,6 +27,11 @@ meshing::Mesh mesh_of_regions(const Part& part, const std::vector<meshing::Regio
     mesh.cell_sets["electrode"] = mesh.cell_sets.at("film");
     mesh.node_sets["electrode"] = mesh.node_sets.at("film");
     mesh.node_sets["electrode_edge"] = mesh.node_sets.at("rim");
+  }
+  for (int k = 0; part.sectors && k < part.sectors->count; ++k) { // "a" is "sector[0]", too
+    const std::string& name = regions[static_cast<std::size_t>(k)].name;
+    mesh.cell_sets[fmt::format("sector[{}]", k)] = mesh.cell_sets.at(name);
+    mesh.node_sets[fmt::format("sector[{}]", k)] = mesh.node_sets.at(name);
   }
   return mesh;
 }

@@ -215,7 +215,7 @@ std::vector<Template> annulus_templates() {
            {{"film", "the film"},
             {"inner", "the plate's edge"},
             {"outer", "the clamped edge"},
-            {"a, b, c, ...", "its sectors"}},
+            {"a, b, c, ...", "its sectors, sector[0], sector[1], ... too"}},
            pivoted_defaults,
            pivoted_quantities,
            "pivot"},

@@ -113,14 +113,27 @@ Scalar convert_measure(const Key& key, const Node& node, std::string_view unit) 
   }
 }
 
+/// Also "drive.csv", which stands for { wave = "file", file = "drive.csv" }; nothing where it is neither.
+std::optional<Node> wave_table(const Node& node) {
+  if (node.is(Node::Kind::table)) return node;
+  if (!node.is(Node::Kind::text) || !node.text.ends_with(".csv")) return std::nullopt;
+  Node table{.kind = Node::Kind::table, .source = node.source, .key_source = node.key_source};
+  Node word = node;
+  word.text = "file";
+  table.add("wave", std::move(word));
+  table.add("file", node);
+  return table;
+}
+
 Scalar convert_item(const Key& key, const Node& node, std::string_view unit, const WaveReader& read_wave) {
   const std::string allowed = item_expectation(key, unit);
   const bool text = node.is(Node::Kind::text);
   switch (key.type) {
   case Type::wave:
-    if (read_wave && node.is(Node::Kind::table)) {
-      Scalar driven{0, "", read_wave(node)};
-      if (const Node* to = node.find("to"); to && driven.wave->constant()) // resolved.toml has it as a number
+    if (const auto table = read_wave ? wave_table(node) : std::nullopt) {
+      Scalar driven{0, "", read_wave(*table)};
+      if (const Node* to = table->find("to");
+          to && driven.wave->constant()) // resolved.toml has it as a number
         require_range(key, *to, driven.wave->to, std::string(dimension(unit).shown), false);
       return driven;
     }

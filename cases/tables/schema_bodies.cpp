@@ -50,7 +50,8 @@ Section body_section() {
     if (body.mass == 0 && x + y + z > 0) return Conflict{"inertia", "a body without a mass has none"};
     if (body.mass == 0 && body.damping_rate > 0)
       return Conflict{"damping_rate", "a body without a mass has none"};
-    if (x > y + z || y > z + x || z > x + y)
+    const bool about_z_alone = x == 0 && y == 0; // all that a planar model asks for
+    if (x > y + z || y > z + x || (z > x + y && !about_z_alone))
       return Conflict{"inertia", "no body has it: each moment is at most the sum of the two others"};
     return std::nullopt;
   };

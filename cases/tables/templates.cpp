@@ -357,7 +357,9 @@ std::vector<Node> standard_quantities(const Node& tree, const Template* device) 
     for (Node& quantity : quantities_beside(tree)) standard.push_back(std::move(quantity));
   std::erase_if(standard, [&](const Node& quantity) {
     return (quantity.find("at") && name_of_step(tree, text_at(quantity, "at")).empty()) ||
-           (is_of_shell(tree) && text_at(quantity, "kind") == "radial stretch"); // which membranes have
+           (is_of_shell(tree) && text_at(quantity, "kind") == "radial stretch") || // which membranes have
+           // The edge of an electrode in the middle, which regions take the place of.
+           (text_at(quantity, "of") == "electrode_edge" && (tree.find("region") || tree.find("sectors")));
   });
   complete_coupling(standard, tree);
   for (Node& quantity : standard) {

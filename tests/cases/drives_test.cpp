@@ -135,7 +135,7 @@ TEST_F(Drives, AJumpActsAtOnceAtItsTimeAndIsLabelled) {
 
 TEST_F(Drives, AWaveThatOnlyTurnsGivesNoSecondRow) {
   write("table.csv", "time_s,voltage_V\n0,0\n0.3,1000\n0.5,3000\n0.7,0\n1,500\n");
-  ASSERT_EQ(run(branched_patch + "[drive]\nvoltage = { wave = \"file\", file = \"table.csv\" }\n"
+  ASSERT_EQ(run(branched_patch + "[drive]\nvoltage = \"table.csv\"\n"
                                  "[[step]]\nkind = \"transient\"\nduration = \"1 s\"\nincrements = 10\n")
                 .ending,
             Ending::complete);

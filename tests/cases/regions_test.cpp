@@ -43,6 +43,14 @@ std::vector<std::string> electrodes_of(const Case& one) {
 
 using Names = std::vector<std::string>;
 
+TEST_F(Regions, SectorsAreCountedToo) {
+  const auto charged = [&](const std::string& place) {
+    return values(annulus + "[sectors]\n[[electrode]]\nname = \"one\"\nplace = \"" + place +
+                  "\"\n[drive]\nvoltage = \"1 kV\"\n[output]\nerror_estimate = false\n");
+  };
+  EXPECT_EQ(charged("sector[1]"), charged("b"));
+}
+
 TEST_F(Regions, AreElectrodesWhereTheCaseHasNoOthers) {
   const std::string spot = "[[region]]\nname = \"spot\"\nkind = \"ring\"\nouter_radius = \"5 mm\"\n";
   EXPECT_EQ(electrodes_of(read(disc + spot)), Names{"spot"});
