@@ -104,5 +104,32 @@ TEST_F(Friction, is_the_same_when_a_slab_touches_again) {
   EXPECT_NEAR(quickly.at("heat"), slowly.at("heat"), 0.03 * slowly.at("heat"));
 }
 
+/// Between two surfaces what meets within an increment has no anchor yet.
+TEST_F(Friction, between_surfaces_is_told_to_begin_an_increment_late) {
+  const std::string part =
+      "[part.{0}]\nat = [0, \"{1} mm\", 0]\n[part.{0}.film]\nthickness = \"1 mm\"\n"
+      "section = \"solid\"\n[part.{0}.film.material]\nshear_modulus = \"100 kPa\"\n"
+      "permittivity = \"4e-11 F/m\"\n[part.{0}.slab]\nlength = \"10 mm\"\nheight = \"1 mm\"\n"
+      "[part.{0}.mesh]\nacross = 1\n";
+  const auto warnings = [&](const std::string& friction) {
+    return Simulation(
+               read(fmt::format(fmt::runtime(part), "lower", 0) +
+                    fmt::format(fmt::runtime(part), "upper", 1.02) +
+                    "[contact]\nbetween = [\"lower.top\", \"upper.bottom\"]\nthickness = \"10 um\"\nfriction "
+                    "= " +
+                    friction +
+                    "\n[[support]]\nplace = \"lower.bottom\"\nfix = [\"x\", \"y\"]\n[[support]]\nplace = "
+                    "\"upper.top\"\nfix = [\"x\"]\ndisplacement = { y = \"-0.1 mm\" }\n[[step]]\nkind = "
+                    "\"move\"\n"),
+               1)
+        .warnings();
+  };
+  EXPECT_TRUE(warnings("0").empty());
+  ASSERT_EQ(warnings("0.3").size(), 1u);
+  EXPECT_NE(
+      warnings("0.3")[0].find("contact.friction: what comes to touch within an increment slides freely"),
+      std::string::npos);
+}
+
 } // namespace
 } // namespace dielast::cases::friction_test
