@@ -48,9 +48,10 @@ struct Slider {
     return solved ? lighter : before;
   }
   /// Part of the work of the force at the end of an increment that turns into heat where the normal force has
-  /// grown from `then` to the `bound` of that force as it slid: by the trapezoidal rule.
+  /// grown from `then` to the `bound` of that force as it slid: by the trapezoidal rule. What has come off
+  /// may have gone far since: nothing is added for it.
   static constexpr double heat_of(double then, double bound) {
-    return bound > 0 ? (then + bound) / (2 * bound) : 1;
+    return bound > 2 * light ? (then + bound) / (2 * bound) : 1;
   }
 
   double stiffness = 0; ///< of the spring, N/m

@@ -186,8 +186,8 @@ class SurfaceSliders {
   };
   /// Internal variables of a slider: its face's number from 1 (0: it is not pressed), the other one, shape
   /// functions there, the direction across, what the node was from there, and the stretch, both over
-  /// length_unit(), the normal force that bounds it, the
-  /// heat, and the normal force of the last accepted state likewise.
+  /// length_unit(), the normal force that bounds it, the heat, and the normal force of the last accepted
+  /// state likewise.
   static constexpr int own_face = 0, other_face = 1, functions = 2, across = 2 + Nodes, from = across + 3,
                        stretch_then = from + 3, normal = stretch_then + 3, warmth = normal + 1,
                        pressed_then = warmth + 1, per_node = pressed_then + 1;
