@@ -105,15 +105,9 @@ class PlaneContactBlock final : public ContactBlock {
   void bound_friction(const State& state, bool solved, double eased,
                       std::vector<double>& all) const override {
     if (!friction()) return;
-    const auto now = [&](int e) { return eased * normal_force(state, e) / force_unit(e); };
-    bool any_is_pressed = false;
-    for (int e = 0; e < element_count(); ++e) any_is_pressed = any_is_pressed || Slider::presses(now(e));
-    for (int e = 0; e < element_count(); ++e) {
-      double& force = all[place(e, normal)];
-      force = force == 0 && solved && Slider::presses(now(e))
-                  ? now(e)
-                  : Slider::bound(force, now(e), solved, any_is_pressed);
-    }
+    bound_sliders(
+        element_count(), [&](int e) -> double& { return all[place(e, normal)]; },
+        [&](int e) { return eased * normal_force(state, e) / force_unit(e); }, solved, true);
   }
   double friction_in_use(const State& state) const override {
     double held = 0, most = 0;

@@ -41,9 +41,10 @@ struct Slider {
     return before <= light && presses(now);
   }
   /// The force that bounds friction where that was `before` and `now` presses, over the barrier's; `solved`:
-  /// in a solution, in which anything of the contact is pressed or not.
-  static constexpr double bound(double before, double now, bool solved, bool any_is_pressed) {
-    if (before == 0) return 0;
+  /// in a solution, in which anything of the contact is pressed or not; `anchored`: what did not touch (0)
+  /// has an anchor all the same.
+  static constexpr double bound(double before, double now, bool solved, bool any_is_pressed, bool anchored) {
+    if (before == 0) return anchored && solved && presses(now) ? now : 0;
     if (presses(before) || (solved && any_is_pressed)) return std::max(now, 2 * light);
     return solved ? lighter : before;
   }
@@ -86,5 +87,15 @@ struct Slider {
     return force.normalized() * std::min(fresh || loose ? most_now : force.norm(), force.norm());
   }
 };
+
+/// Writes the forces that bound the sliders of a contact, see Slider::bound(). `force(i)`: where that of one
+/// is written; `now(i)`: what presses it.
+template<class Force, class Now>
+void bound_sliders(int count, const Force& force, const Now& now, bool solved, bool anchored) {
+  bool any_is_pressed = false;
+  for (int i = 0; i < count; ++i) any_is_pressed = any_is_pressed || Slider::presses(now(i));
+  for (int i = 0; i < count; ++i)
+    force(i) = Slider::bound(force(i), now(i), solved, any_is_pressed, anchored);
+}
 
 } // namespace dielast::fem

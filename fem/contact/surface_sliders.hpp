@@ -151,15 +151,10 @@ class SurfaceSliders {
   }
   /// Writes the normal forces that bound them, times `eased`, see Slider::bound().
   void bound(const std::vector<Pressed>& pressed, bool solved, double eased, std::vector<double>& all) const {
-    const auto now = [&](int i) {
-      return eased * pressed[static_cast<std::size_t>(i)].force.norm() / force_unit(i);
-    };
-    bool any_is_pressed = false;
-    for (int i = 0; i < count(); ++i) any_is_pressed = any_is_pressed || Slider::presses(now(i));
-    for (int i = 0; i < count(); ++i) {
-      double& force = all[place(i, normal)];
-      force = Slider::bound(force, now(i), solved, any_is_pressed);
-    }
+    bound_sliders(
+        count(), [&](int i) -> double& { return all[place(i, normal)]; },
+        [&](int i) { return eased * pressed[static_cast<std::size_t>(i)].force.norm() / force_unit(i); },
+        solved, false);
   }
   /// Writes what they are in a state that is accepted.
   void advance(const State& state, const std::vector<Pressed>& pressed, std::vector<double>& all) const {
