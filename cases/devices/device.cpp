@@ -356,7 +356,6 @@ Device build_device(const Case& one) {
   require_loads_that_act(one, device);
   std::ranges::move(carrying_warnings(one), std::back_inserter(warnings));
   std::ranges::move(weight_warnings(one), std::back_inserter(warnings));
-  std::ranges::move(friction_warnings(one), std::back_inserter(warnings));
   std::ranges::move(pressure_warnings(one, device.mesh, parts, device.model.dofs),
                     std::back_inserter(warnings));
   std::ranges::move(idle_attachments(one, device.mesh, device.model.dofs), std::back_inserter(warnings));

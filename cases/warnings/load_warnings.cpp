@@ -57,19 +57,6 @@ std::vector<std::string> carrying_warnings(const Case& one) {
   return warnings;
 }
 
-std::vector<std::string> friction_warnings(const Case& one) {
-  if (!one.contact || one.contact->between.empty() || one.contact->friction == 0) return {};
-  const std::string key = "contact.friction";
-  return {
-      Diagnostic{one.where(key), key,
-                 fmt::format("what comes to touch within an increment slides freely in it: where surfaces "
-                             "first meet, take increments that bring them closer by less than the {:.6g} mm "
-                             "of contact.thickness",
-                             1e3 * one.contact->thickness),
-                 Severity::warning}
-          .text()};
-}
-
 std::vector<std::string> weight_warnings(const Case& one) {
   std::vector<std::string> warnings;
   if (std::ranges::none_of(one.steps, [](const Step& step) { return step.kind == StepKind::weight; }))

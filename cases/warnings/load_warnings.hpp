@@ -22,9 +22,6 @@ std::vector<std::string> carrying_warnings(const Case& one);
 /// A sentence for every body that gravity pulls aside, where it follows along another axis alone.
 std::vector<std::string> weight_warnings(const Case& one);
 
-/// A sentence where surfaces of solids rub against one another: friction begins an increment after they meet.
-std::vector<std::string> friction_warnings(const Case& one);
-
 /// A sentence for every [[point_mass]], [[spring]] and [[linkage]] that has no effect, as nothing moves its
 /// places in any step, or both are one. `dofs` as above.
 std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& mesh,

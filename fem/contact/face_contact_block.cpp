@@ -35,6 +35,31 @@ constexpr double ramp_sizes = 0.5; ///< of the coarser surface's faces: so far f
 
 const std::vector<FacePoint>& rule = face_rule();
 
+using Tree = Eigen::KdBVH<double, 3, int>;
+Tree tree_of(const std::vector<Box>& boxes) {
+  std::vector<int> numbers(boxes.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return {numbers.begin(), numbers.end(), boxes.begin(), boxes.end()};
+}
+
+/// The face of a tree that is nearest to a point.
+struct NearestFace {
+  using Scalar = double;
+  Vector3d point;
+  const std::vector<FaceNodes>& faces;
+  FacePlace place;
+  int face;
+  double minimumOnVolume(const Box& volume) const { return volume.exteriorDistance(point); }
+  double minimumOnObject(int number) {
+    const FacePlace at = nearest_place(faces[static_cast<std::size_t>(number)], {}, point);
+    if (face < 0 || at.distance < place.distance) {
+      place = at;
+      face = number;
+    }
+    return at.distance;
+  }
+};
+
 /// Numbers of the boxes of a tree that meet another one.
 struct Meeting {
   const Box& box;
@@ -84,13 +109,17 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
         for (int i = 0; i < 3; ++i) equations[at++] = map.equation(node, i);
   }
   std::size_t choose_elements(const State& state) override {
-    if (choice_ > 0 && covers(state)) return choice_;
+    std::vector<Pair> rubbing;
+    if (sliders_.any() && state.history)
+      sliders_.for_each_pair(*state.history, [&](std::size_t surface, int own, int other) {
+        rubbing.push_back({surface, own, other});
+      });
+    const auto is_element = [&](const Pair& pair) { return std::ranges::binary_search(pairs_, pair); };
+    if (choice_ > 0 && covers(state) && std::ranges::all_of(rubbing, is_element)) return choice_;
     chosen_ = moved(state);
     std::vector<Pair> pairs = meeting(chosen_, chosen_, contact_.barrier.thickness + margin_);
-    if (sliders_.any() && state.history) {
-      sliders_.for_each_pair(*state.history, [&](std::size_t surface, int own, int other) {
-        pairs.push_back({surface, own, other});
-      });
+    if (!rubbing.empty()) {
+      pairs.insert(pairs.end(), rubbing.begin(), rubbing.end());
       std::ranges::sort(pairs);
       pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     }
@@ -148,10 +177,7 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
   using Sums = ContactSums<dofs>;
   FaceNodes face(const State& state, std::span<const int> own) const override {
     FaceNodes x;
-    for (std::size_t a = 0; a < 6; ++a) {
-      const auto n = static_cast<std::size_t>(own[a]);
-      x.col(static_cast<int>(a)) = drawn_[n] + state.displacement[n];
-    }
+    for (std::size_t a = 0; a < 6; ++a) x.col(static_cast<int>(a)) = position(state, own[a]);
     return x;
   }
   /// Whether what may touch in a state is among the elements.
@@ -175,9 +201,7 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
         const Vector3d wider = Vector3d::Constant(reach / 2);
         boxes[k].emplace_back(box.min() - wider, box.max() + wider);
       }
-    std::vector<int> numbers(boxes[1].size());
-    std::iota(numbers.begin(), numbers.end(), 0);
-    const Eigen::KdBVH<double, 3, int> tree(numbers.begin(), numbers.end(), boxes[1].begin(), boxes[1].end());
+    const Tree tree = tree_of(boxes[1]);
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < boxes[0].size(); ++i) {
       Meeting touching{boxes[0][i], boxes[1], {}};
@@ -222,23 +246,21 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
                                    share_at(pair, q, place).value});
                     });
   }
-  std::vector<Sliders::Pressed> pressed(const State& state) const override {
-    std::vector<Sliders::Pressed> all(static_cast<std::size_t>(sliders_.count()));
+  std::vector<Sliders::Nearest> nearest(const State& state) const override {
+    std::vector<Sliders::Nearest> all(static_cast<std::size_t>(sliders_.count()));
     const Moved now = moved(state);
-    for (const Pair& pair : meeting(now, now, contact_.barrier.reach())) {
-      const FaceNodes &own = now.of(pair, 0), &other = now.of(pair, 1);
-      const auto at = [&](int a) -> Sliders::Pressed& {
-        return all[static_cast<std::size_t>(sliders_.number(pair.surface, pair.own, a))];
-      };
-      for_each_near(pair, own, other, [&](std::size_t q, const FacePlace& place, double factor) {
-        const double size = -factor * share_at(pair, q, place).value * area(pair, q) *
-                            contact_.barrier.at(place.distance).slope;
-        for (int a = 0; a < 6; ++a) at(a).force += rule[q].share[a] * size * place.normal;
-      });
-      for (int a = 0; a < 6; ++a) {
-        const FacePlace place = nearest_place(other, {}, own.col(a));
-        at(a).add_nearest(pair.own, pair.other, place.distance, place.shape, place.normal);
-      }
+    std::array<std::vector<Box>, 2> boxes;
+    std::array<Tree, 2> trees;
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const FaceNodes& face : now.faces[k]) boxes[k].push_back(box_of(face));
+      trees[k] = tree_of(boxes[k]);
+    }
+    for (int i = 0; i < sliders_.count(); ++i) {
+      const std::size_t other = 1 - sliders_.surface(i);
+      NearestFace search{position(state, sliders_.node(i)), now.faces[other], {}, Sliders::none};
+      Eigen::BVMinimize(trees[other], search);
+      all[static_cast<std::size_t>(i)] = {search.place.distance, search.face, search.place.shape,
+                                          search.place.normal};
     }
     return all;
   }

@@ -93,21 +93,17 @@ class PlaneContactBlock final : public ContactBlock {
   }
   bool has_friction() const override { return friction(); }
   bool is_pressed_first(const State& state) const override {
-    double first = 0, all = 0;
-    for (int e = 0; e < element_count() && friction(); ++e) {
-      const double now = normal_force(state, e);
-      all += now;
-      if (Slider::is_pressed_first(state.history->now[place(e, normal)], now / force_unit(e))) first += now;
-    }
-    return first > Slider::much * all;
+    return friction() &&
+           fem::is_pressed_first(
+               element_count(), [&](int e) { return state.history->now[place(e, normal)]; },
+               [&](int e) { return normal_force(state, e); }, [&](int e) { return force_unit(e); });
   }
-  /// What was above the plane slides from where it was at the last accepted state.
   void bound_friction(const State& state, bool solved, double eased,
                       std::vector<double>& all) const override {
     if (!friction()) return;
     bound_sliders(
         element_count(), [&](int e) -> double& { return all[place(e, normal)]; },
-        [&](int e) { return eased * normal_force(state, e) / force_unit(e); }, solved, true);
+        [&](int e) { return eased * normal_force(state, e) / force_unit(e); }, solved);
   }
   double friction_in_use(const State& state) const override {
     double held = 0, most = 0;

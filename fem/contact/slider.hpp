@@ -41,10 +41,10 @@ struct Slider {
     return before <= light && presses(now);
   }
   /// The force that bounds friction where that was `before` and `now` presses, over the barrier's; `solved`:
-  /// in a solution, in which anything of the contact is pressed or not; `anchored`: what did not touch (0)
-  /// has an anchor all the same.
-  static constexpr double bound(double before, double now, bool solved, bool any_is_pressed, bool anchored) {
-    if (before == 0) return anchored && solved && presses(now) ? now : 0;
+  /// in a solution, in which anything of the contact is pressed or not. What did not touch (0) slides from
+  /// where it was at the last accepted state.
+  static constexpr double bound(double before, double now, bool solved, bool any_is_pressed) {
+    if (before == 0) return solved && presses(now) ? now : 0;
     if (presses(before) || (solved && any_is_pressed)) return std::max(now, 2 * light);
     return solved ? lighter : before;
   }
@@ -72,7 +72,7 @@ struct Slider {
   /// Of a spring that is `stretched` by so much along the surface, m, on which `along` projects.
   Response pulled(const Eigen::Vector3d& stretched, const Eigen::Matrix3d& along) const {
     const double k = stiffness * (loose && !frozen ? loose_stick : 1), length = stretched.norm();
-    if (most == 0 && !frozen) return {};
+    if (most == 0) return {};
     if (frozen || fresh || loose || k * length <= most)
       return {k * length * length / 2, k * stretched, k * along};
     const Eigen::Vector3d direction = stretched / length;
@@ -91,11 +91,22 @@ struct Slider {
 /// Writes the forces that bound the sliders of a contact, see Slider::bound(). `force(i)`: where that of one
 /// is written; `now(i)`: what presses it.
 template<class Force, class Now>
-void bound_sliders(int count, const Force& force, const Now& now, bool solved, bool anchored) {
+void bound_sliders(int count, const Force& force, const Now& now, bool solved) {
   bool any_is_pressed = false;
   for (int i = 0; i < count; ++i) any_is_pressed = any_is_pressed || Slider::presses(now(i));
-  for (int i = 0; i < count; ++i)
-    force(i) = Slider::bound(force(i), now(i), solved, any_is_pressed, anchored);
+  for (int i = 0; i < count; ++i) force(i) = Slider::bound(force(i), now(i), solved, any_is_pressed);
+}
+
+/// Whether what was not pressed in the last accepted state bears much of all. `bound(i)`: the force that
+/// bounds a slider, over `unit(i)`, N; `now(i)`: what presses it, N.
+template<class Bound, class Now, class Unit>
+bool is_pressed_first(int count, const Bound& bound, const Now& now, const Unit& unit) {
+  double first = 0, all = 0;
+  for (int i = 0; i < count; ++i) {
+    all += now(i);
+    if (Slider::is_pressed_first(bound(i), now(i) / unit(i))) first += now(i);
+  }
+  return first > Slider::much * all;
 }
 
 } // namespace dielast::fem

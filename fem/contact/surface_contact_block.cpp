@@ -152,8 +152,7 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
   Side face(const State& state, std::span<const int> own) const override {
     Side side;
     for (std::size_t a = 0; a < 3; ++a) {
-      const auto n = static_cast<std::size_t>(own[a]);
-      const Eigen::Vector3d x = drawn_[n] + state.displacement[n];
+      const Eigen::Vector3d x = position(state, own[a]);
       side.x[a] = {x.x(), x[up_]};
     }
     side.centre = (side.x[0] + side.x[1]) / 2;
@@ -233,26 +232,21 @@ class SurfaceContactBlock final : public TwoSurfaces<SurfaceContact, 3, Side> {
       }
     }
   }
-  std::vector<Sliders::Pressed> pressed(const State& state) const override {
-    std::vector<Sliders::Pressed> all(static_cast<std::size_t>(sliders_.count()));
-    const auto at = [&](const Pair& pair, int a) -> Sliders::Pressed& {
-      return all[static_cast<std::size_t>(sliders_.number(pair.surface, pair.own, a))];
-    };
-    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
-      const double size = -touching.share * area(pair, q) * touching.energy.slope;
-      for (int a = 0; a < 3; ++a) at(pair, a).force += part_of_node(a, q) * size * touching.normal;
-    });
+  std::vector<Sliders::Nearest> nearest(const State& state) const override {
+    std::vector<Sliders::Nearest> all(static_cast<std::size_t>(sliders_.count()));
     const Moved now = moved(state);
-    for (int e = 0; e < element_count(); ++e) {
-      const Pair pair = this->pair(e);
-      const Side &own = now.of(pair, 0), &other = now.of(pair, 1);
-      for (int a = 0; a < 3; ++a) {
-        const PointAndLine x{own.x[static_cast<std::size_t>(a)], other.x[0], other.x[1], other.x[2]};
-        if (!(parabola.least_distance(x) < at(pair, a).distance)) continue;
+    for (int i = 0; i < sliders_.count(); ++i) {
+      const Eigen::Vector3d node = position(state, sliders_.node(i));
+      Sliders::Nearest& nearest = all[static_cast<std::size_t>(i)];
+      const std::vector<Side>& others = now.faces[1 - sliders_.surface(i)];
+      for (std::size_t other = 0; other < others.size(); ++other) {
+        const auto& [first, second, middle] = others[other].x;
+        const PointAndLine x{Vector2d(node.x(), node[up_]), first, second, middle};
+        if (!(parabola.least_distance(x) < nearest.distance)) continue;
         const std::array<double, 3> N = parabola.shape(parabola.nearest(x));
-        const Vector2d way = x[0] - other.at(N);
-        at(pair, a).add_nearest(pair.own, pair.other, way.norm(), {N[0], N[1], N[2]},
-                                in_space(way.normalized()));
+        const Vector2d way = x[0] - others[other].at(N);
+        if (const double distance = way.norm(); distance < nearest.distance)
+          nearest = {distance, static_cast<int>(other), {N[0], N[1], N[2]}, in_space(way / distance)};
       }
     }
     return all;

@@ -15,11 +15,11 @@
 
 namespace dielast::fem {
 
-/// Friction of two surfaces in contact: a Slider at each node of either, along what it is pressed on. What
-/// that is, and across which direction, is told at the last accepted state and follows by one increment; in
-/// between a slider's way is that beside the point of the other surface where the node was. What holds the
-/// one surface pushes the other one. Partners, their shape functions, directions, stretches, normal forces
-/// and the heat of sliding are internal variables.
+/// Friction of two surfaces in contact: a Slider at each node of either, along what it is pressed on or,
+/// where nothing presses it yet, what is nearest. What that is, and across which direction, is told at the
+/// last accepted state and follows by one increment; in between a slider's way is that beside the point of
+/// the other surface where the node was. What holds the one surface pushes the other one. Partners, their
+/// shape functions, directions, stretches, normal forces and the heat of sliding are internal variables.
 ///
 /// Nodes: of a face (or side), at which its shape functions are those of the contact's distances.
 template<int Nodes>
@@ -30,18 +30,15 @@ class SurfaceSliders {
   using Shape = Eigen::Vector<double, Nodes>;
   static constexpr int none = -1;
 
-  /// What presses a node, and what is nearest to it of the faces that meet its own ones.
-  struct Pressed {
-    Vector3d force = Vector3d::Zero();                         ///< N
+  /// The place of the other surface that is nearest to a node.
+  struct Nearest {
     double distance = std::numeric_limits<double>::infinity(); ///< m
-    int own = none, other = none;                              ///< one of the node's faces, and the nearest
-    Shape shape = Shape::Zero();                               ///< there
-    Vector3d normal = Vector3d::Zero();                        ///< unit vector from there to the node
-
-    void add_nearest(int of_own, int of_other, double away, const Shape& at, const Vector3d& direction) {
-      if (away < distance) *this = {force, away, of_own, of_other, at, direction};
-    }
+    int face = none;
+    Shape shape = Shape::Zero();        ///< there
+    Vector3d normal = Vector3d::Zero(); ///< unit vector from there to the node
   };
+  /// What presses each slider's node, N.
+  using Forces = std::vector<Vector3d>;
 
   SurfaceSliders() = default;
   /// `areas`: what each node of the mesh stands for, times the share of its surface's integral, m^2; `up`:
@@ -53,7 +50,9 @@ class SurfaceSliders {
       std::map<int, int> numbers;
       for (const int node : faces[k].nodes) {
         const auto [at, fresh] = numbers.try_emplace(node, count());
-        if (fresh) sliders_.push_back({node, k, areas[static_cast<std::size_t>(node)]});
+        if (fresh)
+          sliders_.push_back({node, k, static_cast<int>(slider_at_[k].size()) / Nodes,
+                              areas[static_cast<std::size_t>(node)]});
         slider_at_[k].push_back(at->second);
       }
     }
@@ -67,20 +66,22 @@ class SurfaceSliders {
   int number(std::size_t surface, int face, int a) const {
     return slider_at_[surface][static_cast<std::size_t>(face * Nodes + a)];
   }
+  int node(int slider) const { return this->slider(slider).node; }
+  std::size_t surface(int slider) const { return this->slider(slider).surface; }
   /// use(surface, face of a slider, face of the other surface on which it is pressed).
   template<class Use>
   void for_each_pair(const History& history, const Use& use) const {
     for (int i = 0; i < history_size() / per_node; ++i)
-      if (const int other = partner(history, i); other != none)
-        use(slider(i).surface, static_cast<int>(read(history, i, own_face)) - 1, other);
+      if (touches(history, i)) use(slider(i).surface, slider(i).face, partner(history, i));
   }
-  /// Adds those of the nodes of a face that are pressed on one of the other surface.
+  /// Adds those of a face that are pressed on one of the other surface.
   template<class Sums>
   void add(const State& state, std::size_t surface, int own, int other, bool derivatives, Sums& sums) const {
     if (!any() || !state.history) return; // as drawn
     for (int a = 0; a < Nodes; ++a) {
       const int i = number(surface, own, a);
-      if (read(*state.history, i, own_face) != own + 1 || partner(*state.history, i) != other) continue;
+      if (slider(i).face != own || !touches(*state.history, i) || partner(*state.history, i) != other)
+        continue;
       const Matrix3d along = this->along(*state.history, i);
       const Slider::Response pulled = spring(state, i).pulled(stretched(state, i), along);
       sums.any = true;
@@ -105,21 +106,21 @@ class SurfaceSliders {
   double energy(const State& state) const {
     double sum = 0;
     for (int i = 0; i < history_size() / per_node; ++i)
-      if (partner(*state.history, i) != none) sum += stiffness(i) * stretched(state, i).squaredNorm() / 2;
+      if (touches(*state.history, i)) sum += stiffness(i) * stretched(state, i).squaredNorm() / 2;
     return sum;
   }
   /// What they hold over the most that they may hold; 1 where what touches is not pressed.
   double in_use(const State& state) const {
     double held = 0, most = 0;
-    bool touches = false, presses = false;
+    bool any = false, presses = false;
     for (int i = 0; i < history_size() / per_node; ++i) {
-      if (partner(*state.history, i) == none) continue;
+      if (!touches(*state.history, i)) continue;
       held += stiffness(i) * stretched(state, i).norm();
       most += spring(state, i).most;
-      touches = true;
+      any = true;
       presses = presses || Slider::presses(read(*state.history, i, normal));
     }
-    return presses ? held / most : touches ? 1 : 0;
+    return presses ? held / most : any ? 1 : 0;
   }
   /// Since the beginning, J.
   double heat(const State& state) const {
@@ -128,48 +129,43 @@ class SurfaceSliders {
       sum += read(*state.history, i, warmth) * force_unit(i) * length_unit();
     return sum;
   }
-  /// Writes what they are as drawn; `pressed` has an entry for each.
-  void start(const std::vector<Pressed>& pressed, std::vector<double>& all) const {
+  /// Writes what they are as drawn.
+  void start(const Forces& forces, const std::vector<Nearest>& nearest, std::vector<double>& all) const {
     State drawn;
     drawn.displacement.assign(drawn_.size(), Vector3d::Zero());
     for (int i = 0; i < count(); ++i) {
       for (int v = 0; v < per_node; ++v) all[place(i, v)] = 0;
-      settle(drawn, i, pressed[static_cast<std::size_t>(i)], Vector3d::Zero(), all);
+      settle(drawn, i, forces, nearest, Vector3d::Zero(), all);
     }
   }
-  /// Whether what touched in the last accepted state and was not pressed bears much.
-  bool is_pressed_first(const History& history, const std::vector<Pressed>& pressed) const {
-    double first = 0, all = 0;
-    for (int i = 0; i < history_size() / per_node; ++i) {
-      const double now = pressed[static_cast<std::size_t>(i)].force.norm();
-      all += now;
-      if (partner(history, i) != none &&
-          Slider::is_pressed_first(read(history, i, normal), now / force_unit(i)))
-        first += now;
-    }
-    return first > Slider::much * all;
+  /// See Slider::much.
+  bool is_pressed_first(const History& history, const Forces& forces) const {
+    return dielast::fem::is_pressed_first(
+        history_size() / per_node, [&](int i) { return read(history, i, normal); },
+        [&](int i) { return forces[static_cast<std::size_t>(i)].norm(); },
+        [&](int i) { return force_unit(i); });
   }
   /// Writes the normal forces that bound them, times `eased`, see Slider::bound().
-  void bound(const std::vector<Pressed>& pressed, bool solved, double eased, std::vector<double>& all) const {
+  void bound(const Forces& forces, bool solved, double eased, std::vector<double>& all) const {
     bound_sliders(
         count(), [&](int i) -> double& { return all[place(i, normal)]; },
-        [&](int i) { return eased * pressed[static_cast<std::size_t>(i)].force.norm() / force_unit(i); },
-        solved, false);
+        [&](int i) { return eased * forces[static_cast<std::size_t>(i)].norm() / force_unit(i); }, solved);
   }
   /// Writes what they are in a state that is accepted.
-  void advance(const State& state, const std::vector<Pressed>& pressed, std::vector<double>& all) const {
+  void advance(const State& state, const Forces& forces, const std::vector<Nearest>& nearest,
+               std::vector<double>& all) const {
     for (int i = 0; i < count(); ++i) {
-      const Pressed& now = pressed[static_cast<std::size_t>(i)];
       Vector3d stretch = Vector3d::Zero();
-      if (partner(*state.history, i) != none) {
-        const Vector3d way = stretched(state, i), force = spring(state, i).kept(way, along(*state.history, i),
-                                                                                friction_ * now.force.norm());
+      if (touches(*state.history, i)) {
+        const Vector3d way = stretched(state, i),
+                       force = spring(state, i).kept(way, along(*state.history, i),
+                                                     friction_ * forces[static_cast<std::size_t>(i)].norm());
         stretch = force / stiffness(i);
         all[place(i, warmth)] +=
             Slider::heat_of(read(*state.history, i, pressed_then), read(*state.history, i, normal)) *
             force.dot(way - stretch) / (force_unit(i) * length_unit());
       }
-      settle(state, i, now, stretch, all);
+      settle(state, i, forces, nearest, stretch, all);
     }
   }
 
@@ -177,13 +173,13 @@ class SurfaceSliders {
   struct Place {
     int node;
     std::size_t surface;
+    int face;    ///< one of the node's
     double area; ///< m^2
   };
-  /// Internal variables of a slider: its face's number from 1 (0: it is not pressed), the other one, shape
-  /// functions there, the direction across, what the node was from there, and the stretch, both over
-  /// length_unit(), the normal force that bounds it, the heat, and the normal force of the last accepted
-  /// state likewise.
-  static constexpr int own_face = 0, other_face = 1, functions = 2, across = 2 + Nodes, from = across + 3,
+  /// Internal variables of a slider: the other surface's face, shape functions there, the direction across,
+  /// what the node was from there, and the stretch, both over length_unit(), the normal force that bounds it
+  /// (0: it does not touch), the heat, and the normal force of the last accepted state likewise.
+  static constexpr int other_face = 0, functions = 1, across = functions + Nodes, from = across + 3,
                        stretch_then = from + 3, normal = stretch_then + 3, warmth = normal + 1,
                        pressed_then = warmth + 1, per_node = pressed_then + 1;
 
@@ -198,8 +194,8 @@ class SurfaceSliders {
   void write(const Vector3d& value, int i, int variable, std::vector<double>& all) const {
     for (int c = 0; c < 3; ++c) all[place(i, variable + c)] = value[c];
   }
+  bool touches(const History& history, int i) const { return read(history, i, normal) > 0; }
   int partner(const History& history, int i) const {
-    if (!(read(history, i, own_face) > 0)) return none;
     return std::clamp(static_cast<int>(std::lround(read(history, i, other_face))), 0,
                       faces_[1 - slider(i).surface].size() - 1);
   }
@@ -237,22 +233,20 @@ class SurfaceSliders {
         way(state, i, partner(history, i), shape(history, i)) - length_unit() * read_vector(history, i, from);
     return along(history, i) * (slipped + length_unit() * read_vector(history, i, stretch_then));
   }
-  /// Keeps where it is pressed now.
-  void settle(const State& state, int i, const Pressed& now, const Vector3d& stretch,
-              std::vector<double>& all) const {
-    const double force = now.force.norm(), unit = force_unit(i);
-    const bool touches = now.other != none && (force > 0 || barrier_.touches(now.distance));
-    for (int v = 0; v < warmth; ++v) all[place(i, v)] = 0;
-    all[place(i, pressed_then)] = force / unit;
-    if (!touches) return;
-    const Vector3d n = force > 0 ? Vector3d(now.force / force) : now.normal;
-    all[place(i, own_face)] = now.own + 1;
-    all[place(i, other_face)] = now.other;
-    for (int b = 0; b < Nodes; ++b) all[place(i, functions + b)] = now.shape[b];
+  /// Keeps where it is now.
+  void settle(const State& state, int i, const Forces& forces, const std::vector<Nearest>& all_nearest,
+              const Vector3d& stretch, std::vector<double>& all) const {
+    const Vector3d& pressing = forces[static_cast<std::size_t>(i)];
+    const Nearest& nearest = all_nearest[static_cast<std::size_t>(i)];
+    const double force = pressing.norm(), unit = force_unit(i);
+    const Vector3d n = force > 0 ? Vector3d(pressing / force) : nearest.normal;
+    all[place(i, other_face)] = nearest.face;
+    for (int b = 0; b < Nodes; ++b) all[place(i, functions + b)] = nearest.shape[b];
     write(n, i, across, all);
-    write(way(state, i, now.other, now.shape) / length_unit(), i, from, all);
+    write(way(state, i, nearest.face, nearest.shape) / length_unit(), i, from, all);
     write((stretch - stretch.dot(n) * n) / length_unit(), i, stretch_then, all);
-    all[place(i, normal)] = std::max(force / unit, Slider::light);
+    all[place(i, normal)] = std::max(force / unit, barrier_.touches(nearest.distance) ? Slider::light : 0.0);
+    all[place(i, pressed_then)] = force / unit;
   }
 
   double friction_ = 0;

@@ -63,10 +63,10 @@ class TwoSurfaces : public ContactBlock {
   int history_size() const override { return sliders_.history_size(); }
   void place_history(int first) override { sliders_.place_history(first); }
   void start_history(std::vector<double>& all) const override {
-    if (sliders_.any()) sliders_.start(pressed(as_drawn()), all);
+    if (sliders_.any()) sliders_.start(pressed(as_drawn()), nearest(as_drawn()), all);
   }
   void advance_history(const State& state, std::vector<double>& all) const override {
-    if (sliders_.any()) sliders_.advance(state, pressed(state), all);
+    if (sliders_.any()) sliders_.advance(state, pressed(state), nearest(state), all);
   }
 
  protected:
@@ -104,8 +104,20 @@ class TwoSurfaces : public ContactBlock {
   virtual void
   for_each_touching(const State& state,
                     const std::function<void(const Pair&, std::size_t, const Touching&)>& use) const = 0;
-  /// What presses each slider's node.
-  virtual std::vector<typename Sliders::Pressed> pressed(const State& state) const = 0;
+  /// Of each slider's node.
+  virtual std::vector<typename Sliders::Nearest> nearest(const State& state) const = 0;
+
+  /// What presses each slider's node, N.
+  typename Sliders::Forces pressed(const State& state) const {
+    typename Sliders::Forces forces(static_cast<std::size_t>(sliders_.count()), Eigen::Vector3d::Zero());
+    for_each_touching(state, [&](const Pair& pair, std::size_t q, const Touching& touching) {
+      const double size = -touching.share * area(pair, q) * touching.energy.slope;
+      for (int a = 0; a < Nodes; ++a)
+        forces[static_cast<std::size_t>(sliders_.number(pair.surface, pair.own, a))] +=
+            part_of_node(a, q) * size * touching.normal;
+    });
+    return forces;
+  }
 
   /// Of the pair's own face, k = 0, or the other one.
   std::span<const int> nodes(const Pair& pair, std::size_t k) const {
@@ -118,6 +130,10 @@ class TwoSurfaces : public ContactBlock {
       for (int i = 0; i < contact_.surfaces[k].size(); ++i)
         all.faces[k].push_back(face(state, contact_.surfaces[k].cell(i)));
     return all;
+  }
+  Eigen::Vector3d position(const State& state, int node) const {
+    const auto n = static_cast<std::size_t>(node);
+    return drawn_[n] + state.displacement[n];
   }
   State as_drawn() const {
     State state;

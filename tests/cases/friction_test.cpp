@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace dielast::cases::friction_test {
 namespace {
 
@@ -104,31 +106,31 @@ TEST_F(Friction, is_the_same_when_a_slab_touches_again) {
   EXPECT_NEAR(quickly.at("heat"), slowly.at("heat"), 0.03 * slowly.at("heat"));
 }
 
-/// Between two surfaces what meets within an increment has no anchor yet.
-TEST_F(Friction, between_surfaces_is_told_to_begin_an_increment_late) {
-  const std::string part =
-      "[part.{0}]\nat = [0, \"{1} mm\", 0]\n[part.{0}.film]\nthickness = \"1 mm\"\n"
-      "section = \"solid\"\n[part.{0}.film.material]\nshear_modulus = \"100 kPa\"\n"
-      "permittivity = \"4e-11 F/m\"\n[part.{0}.slab]\nlength = \"10 mm\"\nheight = \"1 mm\"\n"
-      "[part.{0}.mesh]\nacross = 1\n";
-  const auto warnings = [&](const std::string& friction) {
-    return Simulation(
-               read(fmt::format(fmt::runtime(part), "lower", 0) +
-                    fmt::format(fmt::runtime(part), "upper", 1.02) +
-                    "[contact]\nbetween = [\"lower.top\", \"upper.bottom\"]\nthickness = \"10 um\"\nfriction "
-                    "= " +
-                    friction +
-                    "\n[[support]]\nplace = \"lower.bottom\"\nfix = [\"x\", \"y\"]\n[[support]]\nplace = "
-                    "\"upper.top\"\nfix = [\"x\"]\ndisplacement = { y = \"-0.1 mm\" }\n[[step]]\nkind = "
-                    "\"move\"\n"),
-               1)
-        .warnings();
+/// A disc that comes down on a larger one, 2 um before they touch: as it spreads it is held, in one increment
+/// as in many (in one it slid freely: 2.43 N).
+TEST_F(Friction, between_surfaces_holds_in_the_increment_in_which_they_meet) {
+  const auto disc = [](const char* name, double at, double radius) {
+    return fmt::format("[part.{}]\nat = [0, 0, \"{} mm\"]\n[part.{}.film]\nthickness = \"50 um\"\n"
+                       "section = \"solid\"\nstacked_along = \"z\"\n[part.{}.film.material]\n"
+                       "shear_modulus = \"100 kPa\"\npermittivity = \"4e-11 F/m\"\n"
+                       "[part.{}.slab]\nlength = \"{} mm\"\nheight = \"2 mm\"\n[part.{}.mesh]\nacross = 2\n",
+                       name, at, name, name, name, radius, name);
   };
-  EXPECT_TRUE(warnings("0").empty());
-  ASSERT_EQ(warnings("0.3").size(), 1u);
-  EXPECT_NE(
-      warnings("0.3")[0].find("contact.friction: what comes to touch within an increment slides freely"),
-      std::string::npos);
+  const auto held = [&](int increments, double friction) {
+    return values("model = \"axisymmetric\"\n" + disc("lower", 0, 16) + disc("upper", 2.012, 8) +
+                  fmt::format("[contact]\nbetween = [\"lower.top\", \"upper.bottom\"]\n"
+                              "thickness = \"10 um\"\nfriction = {}\n"
+                              "[[support]]\nplace = \"lower.bottom\"\nfix = [\"x\", \"z\"]\n"
+                              "[[support]]\nplace = \"upper.top\"\ndisplacement = {{ z = \"-0.1 mm\" }}\n"
+                              "[[step]]\nkind = \"move\"\nincrements = {}\n[[quantity]]\nname = \"force\"\n"
+                              "kind = \"force\"\nof = \"upper.top\"\nalong = \"z\"\n"
+                              "[output]\nerror_estimate = false\n",
+                              friction, increments))
+        .at("force");
+  };
+  const double at_once = held(1, 0.3);
+  EXPECT_NEAR(held(8, 0.3), at_once, 1e-3 * std::abs(at_once));
+  EXPECT_GT(std::abs(at_once), 1.2 * std::abs(held(1, 0)));
 }
 
 } // namespace
