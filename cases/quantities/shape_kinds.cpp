@@ -287,8 +287,8 @@ std::vector<QuantityKind> shape_kinds() {
        .gradient = displacement_gradient,
        .directed = true},
       {.word = "angle",
-       .meaning = "rotation of a body about an axis: the part of its rotation vector, beyond a full turn the "
-                  "turns are counted (rad)",
+       .meaning = "rotation of a body about an axis: the part of its rotation vector; within 60 degrees of "
+                  "full turns these, about the axis so far, and what is left (rad)",
        .unit = "rad",
        .keys =
            [] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -29,6 +30,9 @@ struct GmshContents {
   std::vector<Elements> elements;
   std::vector<PhysicalGroup> groups;
 };
+
+/// By dimension.
+inline constexpr std::array dimension_names{"point", "line", "surface", "volume"};
 
 /// Calls gmsh in a child process: it costs a tenth of a second to load, keeps global state, and writes
 /// outside its memory on some damaged files. It gets a copy of the file, and only of one that begins as a

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/gmsh/gmsh_reader.hpp"
 
+#include "meshing/gmsh/file_checks.hpp"
 #include "meshing/gmsh/gmsh_contents.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/middle_nodes.hpp"
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -25,28 +24,6 @@ namespace dielast::meshing {
 namespace {
 
 constexpr double flat = 1e-9; ///< of a mesh's diagonal: a film within it is in one plane
-constexpr std::array dimension_names{"point", "line", "surface", "volume"};
-
-/// Of a text of version 2.2 gmsh leaves out what stands behind as many elements as it says that it has.
-void require_all_elements(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::string line;
-  const auto next = [&] {
-    const bool found = static_cast<bool>(std::getline(file, line));
-    if (found && line.ends_with('\r')) line.pop_back();
-    return found;
-  };
-  if (!next() || !next() || !line.starts_with("2.2 0")) return;
-  while (line != "$Elements")
-    if (!next()) return;
-  if (!next()) return;
-  const std::string said = line;
-  std::size_t there = 0;
-  while (next() && line != "$EndElements") there += !line.empty();
-  if (line == "$EndElements" && there > std::strtoull(said.c_str(), nullptr, 10))
-    throw MeshError(
-        fmt::format("it says that it has {} elements, and {} stand there; correct the number", said, there));
-}
 
 GmshContents contents_of(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) throw MeshError("there is no such mesh file");
@@ -54,7 +31,7 @@ GmshContents contents_of(const std::filesystem::path& path) {
   if (path.extension() == ".geo")
     throw MeshError(
         fmt::format("this is a geometry script; mesh it first, with: gmsh -2 {}", path.filename().string()));
-  require_all_elements(path);
+  check_gmsh_file(path);
   GmshContents contents = read_gmsh_contents(path);
   if (!contents.error.empty()) throw MeshError(contents.error);
   return contents;

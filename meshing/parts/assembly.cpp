@@ -177,6 +177,11 @@ void append(Mesh& whole, const Mesh& part, const std::string& name) {
   std::vector<int> all(part.nodes.size());
   std::iota(all.begin(), all.end(), first);
   add_nodes(name, std::move(all));
+  if (part.blocks.size() == 1 && !part.film()) { // what is spread over a film finds its cells itself
+    std::vector<int> cells(static_cast<std::size_t>(part.blocks[0].size()));
+    std::iota(cells.begin(), cells.end(), first_cell[0]);
+    whole.cell_sets[name] = {block_of[0], std::move(cells)};
+  }
   for (const auto& [place, set] : part.cell_sets) {
     const auto b = static_cast<std::size_t>(set.block);
     whole.cell_sets[name + "." + place] = {block_of[b], shifted(set.cells, first_cell[b])};

@@ -7,6 +7,7 @@
 #include "meshing/parts/assembly.hpp"
 #include "meshing/patch.hpp"
 #include "meshing/rings.hpp"
+#include "meshing/shares.hpp"
 #include "tests/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -29,6 +30,22 @@ Mesh pair_of_patches(double gap) {
   for (auto& x : other.nodes) x.x() += 2 + gap;
   append(whole, other, "b");
   return whole;
+}
+
+/// A load on a beam that is a part was spread evenly over its nodes, ends and middles alike.
+TEST(Assembly, WhatIsSpreadOverABeamIsSpreadOverItsLength) {
+  Mesh whole = patch_mesh(2, 1);
+  append(whole, line_mesh({0, 3, 0}, {1, 3, 0}, 2, 2), "bar");
+  const auto share = shares(whole, false);
+  const std::vector<int>& nodes = whole.node_sets.at("bar");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double x = whole.nodes[static_cast<std::size_t>(nodes[i])].x(), quarters = 4 * x;
+    EXPECT_NEAR(share.at("bar").of_nodes[i],
+                x == 0 || x == 1                 ? 1.0 / 12
+                : std::lround(quarters) % 2 == 1 ? 1.0 / 3
+                                                 : 1.0 / 6,
+                1e-15);
+  }
 }
 
 TEST(Assembly, PlacesOfAPartCarryItsName) {

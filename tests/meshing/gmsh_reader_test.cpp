@@ -5,8 +5,10 @@
 #include "tests/sanitized.hpp"
 #include "tests/scratch_folder.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -108,11 +110,59 @@ TEST_F(GmshReader, SaysWhatIsWrongWithAFile) {
                "mixes elements of order 1 and 2");
   expect_error(replaced(square(1), "2 1 2 1\n3 1 3 4\n", "2 1 3 1\n3 1 2 3 4\n"), "\"Quadrilateral 4\"");
   expect_error(replaced(square(1), "\"left half\"", "\"rim\""), "two physical groups have the name \"rim\"");
+  expect_error(replaced(square(1), "2 3 \"left half\"", "2 3 \"half\"\n2 4 \"half\""),
+               "two physical groups have the name \"half\"");
   expect_error(replaced(square(1), "0 1 15 1\n1 1\n", "0 1 15 1\n1 9\n"),
                "the point \"corner\" is not a node");
   expect_error(replaced(square(1), "3 1 3 4\n", "3 1 3 99\n"), "99");
   for (const char* text : {"not a mesh\n", "", "$MeshFormat\n", "$MeshFormat\n1 0 8\n", "$NOD\n0\n$ENDNOD\n"})
     expect_error(text, "does not begin with $MeshFormat and the version 4.1 or 2.2");
+}
+
+/// A square of two triangles, each in a physical group of its own, as a file of version 2.2 has it.
+std::string two_groups(bool binary, std::array<int, 2> entities) {
+  std::string text = std::string("$MeshFormat\n2.2 ") + (binary ? "1" : "0") + " 8\n";
+  const auto put = [&](auto number, const char* after) {
+    if (binary)
+      text.append(reinterpret_cast<const char*>(&number), sizeof number);
+    else
+      text += fmt::format("{}{}", number, after);
+  };
+  if (binary) {
+    put(1, "");
+    text += "\n";
+  }
+  text += "$EndMeshFormat\n$PhysicalNames\n2\n2 5 \"lower\"\n2 6 \"upper\"\n$EndPhysicalNames\n$Nodes\n4\n";
+  for (int n = 0; n < 4; ++n) {
+    put(n + 1, " ");
+    put(n % 2 == 0 ? 0.0 : 1.0, " ");
+    put(n < 2 ? 0.0 : 1.0, " ");
+    put(0.0, "\n");
+  }
+  text += binary ? "\n$EndNodes\n$Elements\n2\n" : "$EndNodes\n$Elements\n2\n";
+  for (int e = 0; e < 2; ++e) {
+    if (binary)
+      for (const int head : {2, 1, 2}) put(head, "");
+    put(e + 1, " ");
+    if (!binary)
+      for (const int head : {2, 2}) put(head, " ");
+    for (const int word : {5 + e, entities[static_cast<std::size_t>(e)], e + 1, 2}) put(word, " ");
+    put(e == 0 ? 3 : 4, "\n");
+  }
+  return text + (binary ? "\n$EndElements\n" : "$EndElements\n");
+}
+
+/// gmsh puts all elements of an entity into all of its groups: each was the whole film.
+TEST_F(GmshReader, RefusesGroupsThatShareAnEntity) {
+  for (const bool binary : {false, true}) {
+    const Mesh mesh = read(two_groups(binary, {5, 6}));
+    EXPECT_EQ(mesh.cell_sets.at("lower").cells, std::vector<int>{0});
+    EXPECT_EQ(mesh.cell_sets.at("upper").cells, std::vector<int>{1});
+    for (const int entity : {0, 5})
+      expect_error(
+          two_groups(binary, {entity, entity}),
+          fmt::format("elements of the surface {} are in different physical groups, 5 and 6", entity));
+  }
 }
 
 TEST_F(GmshReader, SurvivesDamagedFiles) {
