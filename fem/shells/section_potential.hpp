@@ -5,9 +5,10 @@
 
 namespace dielast::fem {
 
-/// Strains of a shell at a point, w.r.t. its unstretched film: the metric a of the drawn surface and the
-/// change of curvature b_ij = sym(x,i . d,j) less that of the drawing, 1/m; components 11, 22, 12. The layers
-/// keep their volume, so that what was at Z is at Z/sqrt(det a) along the director:
+/// Strains of a shell at a point, w.r.t. its unstretched film: the metric a of the drawn surface, or of the
+/// layers' face beside it (FaceStrain), and the change of curvature b_ij = sym(x,i . d,j) less that of the
+/// drawing, 1/m; components 11, 22, 12. The layers keep their volume, so that what was at Z is at
+/// Z/sqrt(det a) along the director:
 ///   C(Z) = a + 2 Z b / sqrt(det a),
 /// terms of (Z b)^2 left out.
 struct ShellStrain {

@@ -49,6 +49,9 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
     shear_.add_layer(layer.material, H, section.extra_stretch(layer));
     height_ += H;
   });
+  const double bottom = section.offset - height_ / 2, top = section.offset + height_ / 2;
+  face_ = bottom > 0 ? bottom : top < 0 ? top : 0;
+  gap_ = face_ / (prestretch_[0] * prestretch_[1]);
   geometry_.assign(static_cast<std::size_t>(packs * points), ShellPoint{});
   areas_.assign(static_cast<std::size_t>(packs), Lanes{});
   for (int e = 0; e < packs * lanes; ++e) place_element(e);
@@ -221,11 +224,11 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
     const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
     const ShellPoint& here = point(pack, p);
     const ShellDeformation f = deformation(table, nodes);
-    const ShellStrain at = strain(here, f);
-    const Lanes det = at.a.det();
-    SectionPotential section(at);
+    const FaceStrain face = face_strain(pack, p, f);
+    const Lanes det = face.strain().a.det();
+    SectionPotential section(face.strain());
     for (const Layer& layer : layers_)
-      across(state, layer, pack, p, at, [&](const Place& place) {
+      across(state, layer, pack, p, face.strain(), [&](const Place& place) {
         const Lanes within = place.C.det();
         for (int l = 0; l < lanes; ++l)
           if (!(within[l] > 0)) feasible = false;
@@ -235,7 +238,8 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
       });
     for (int l = 0; l < lanes; ++l)
       if (!(f.normal[l] > 0 && det[l] > 0)) feasible = false;
-    ShellStress stress = ShellStress::of<with_tangent>(here, section.derivatives<with_tangent>());
+    ShellStress stress =
+        ShellStress::of<with_tangent>(here, face.by_drawn<with_tangent>(section.derivatives<with_tangent>()));
     energy += here.area * section.value() +
               shear_.evaluate(state, surface_points(pack, p), lanes_of(pack), here, f, stress);
     sum.add(table, f, stress);

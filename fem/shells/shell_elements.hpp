@@ -3,6 +3,7 @@
 
 #include "fem/films/membrane_block.hpp"
 #include "fem/model/node_places.hpp"
+#include "fem/shells/face_strain.hpp"
 #include "fem/shells/film_layer.hpp"
 #include "fem/shells/shell_block.hpp"
 #include "fem/shells/shell_kinematics.hpp"
@@ -94,7 +95,8 @@ class ShellBlock final : public ElementBlock {
   /// One point across the thickness at an integration point of a pack.
   struct Place {
     const Layer& layer;
-    double Z, weight;             ///< m
+    double Z, weight;             ///< above the face, before the prestretch, m
+    Lanes height;                 ///< above the drawn surface, along the director, m
     std::array<int, lanes> point; ///< numbers in the layer
     materials::InPlaneC<Lanes> C; ///< of the layer
     Lanes k;                      ///< Pa
@@ -124,8 +126,7 @@ class ShellBlock final : public ElementBlock {
   struct Visit {
     const Place& place;
     int lane, element, p;
-    double volume;   ///< m^3
-    double thinning; ///< see ShellStrain
+    double volume; ///< m^3
     const ShellDeformation& f;
 
     int number() const { return place.point[static_cast<std::size_t>(lane)]; }
@@ -150,8 +151,15 @@ class ShellBlock final : public ElementBlock {
     return drilling_ * shear_.stiffness() / Nodes * areas_[static_cast<std::size_t>(pack)];
   }
 
+  FaceStrain face_strain(int pack, int p, const ShellDeformation& f) const {
+    return {strain(point(pack, p), f), gap_};
+  }
+
   std::vector<Layer> layers_;
   std::array<double, 2> prestretch_;
+  double face_ = 0; ///< where the layers begin above (or end below) the drawn surface, before the prestretch,
+                    ///< m; 0: that is one of theirs
+  double gap_ = 0;  ///< as drawn, m: see FaceStrain
   double height_ = 0; ///< of the layers before the prestretch, m
   ShellShear shear_;
   double drilling_; ///< see ShellSection
@@ -173,8 +181,9 @@ void ShellBlock::across(const State& state, const Layer& layer, int pack, int p,
     std::array<int, lanes> numbers;
     for (int l = 0; l < lanes; ++l)
       numbers[static_cast<std::size_t>(l)] = ((pack * lanes + l) * points + p) * depths + q;
-    const double Z = layer.middle + depth.place * layer.depth / 2;
-    visit(Place{layer, Z, depth.weight * layer.depth, numbers, layer.own(strain.at(thinning, Z)), k});
+    const double Z = layer.middle + depth.place * layer.depth / 2 - face_;
+    visit(Place{layer, Z, depth.weight * layer.depth, gap_ + Z * thinning, numbers,
+                layer.own(strain.at(thinning, Z)), k});
   }
 }
 
@@ -184,12 +193,11 @@ void ShellBlock::for_each_point(const State& state, const Visitor& visit) const 
     const ShellNodes nodes = gather(state, pack);
     for (int p = 0; p < points; ++p) {
       const ShellDeformation f = deformation(shell_tables().point[static_cast<std::size_t>(p)], nodes);
-      const ShellStrain at = strain(point(pack, p), f);
+      const FaceStrain face = face_strain(pack, p, f);
       for (const Layer& layer : layers_)
-        across(state, layer, pack, p, at, [&](const Place& place) {
+        across(state, layer, pack, p, face.strain(), [&](const Place& place) {
           for (int l = 0; l < lanes_of(pack); ++l)
-            visit(Visit{place, l, pack * lanes + l, p, point(pack, p).area[l] * place.weight,
-                        at.thinning()[l], f});
+            visit(Visit{place, l, pack * lanes + l, p, point(pack, p).area[l] * place.weight, f});
         });
     }
   }

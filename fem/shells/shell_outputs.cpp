@@ -19,7 +19,7 @@ void ShellBlock::sample(const State& state, Samples& samples) const {
     Matrix32 moved;
     for (int i = 0; i < 2; ++i)
       for (int c = 0; c < 3; ++c)
-        moved(c, i) = at.f.x[i][c][at.lane] + at.place.Z * at.thinning * at.f.d[i][c][at.lane];
+        moved(c, i) = at.f.x[i][c][at.lane] + at.place.height[at.lane] * at.f.d[i][c][at.lane];
     s.F = moved * (axes(t).transpose() * t).inverse() *
           Eigen::Vector2d(prestretch_[0] * layer.extra_stretch[0], prestretch_[1] * layer.extra_stretch[1])
               .asDiagonal();
@@ -45,15 +45,15 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
         const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
         const ShellPoint& here = point(pack, p);
         const ShellDeformation f = deformation(table, nodes);
-        const ShellStrain at = strain(here, f);
-        SectionPotential section(at);
-        across(state, layer, pack, p, at, [&](const Place& place) {
+        const FaceStrain face = face_strain(pack, p, f);
+        SectionPotential section(face.strain());
+        across(state, layer, pack, p, face.strain(), [&](const Place& place) {
           materials::MembranePotential<Lanes> q{};
           for (int l = 0; l < lanes; ++l) set_lane(q, l, layer.film.charge_density(lane_of(place.C, l)));
           section.add(place.Z, Lanes{} + place.weight, layer.in_section(q));
         });
         density += here.area * section.value();
-        sum.add(table, f, ShellStress::of<false>(here, section.derivatives<false>()));
+        sum.add(table, f, ShellStress::of<false>(here, face.by_drawn<false>(section.derivatives<false>())));
       }
       sum.finish();
       for (int l = 0; l < lanes_of(pack); ++l) {
@@ -103,10 +103,10 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
       const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
       const ShellPoint& here = point(pack, p);
       const ShellDeformation f = deformation(table, nodes);
-      const ShellStrain at = strain(here, f);
-      SectionPotential section(at);
+      const FaceStrain face = face_strain(pack, p, f);
+      SectionPotential section(face.strain());
       for (const Layer& layer : layers_)
-        across(state, layer, pack, p, at, [&](const Place& place) {
+        across(state, layer, pack, p, face.strain(), [&](const Place& place) {
           materials::MembranePotential<Lanes> psi{};
           for (int l = 0; l < lanes_of(pack); ++l)
             set_lane(psi, l,
@@ -114,7 +114,7 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
                                            lane_of(place.C, l), place.k[l], weight));
           section.add(place.Z, Lanes{} + place.weight, layer.in_section(psi));
         });
-      ShellStress stress = ShellStress::of<true>(here, section.derivatives<true>());
+      ShellStress stress = ShellStress::of<true>(here, face.by_drawn<true>(section.derivatives<true>()));
       shear_.add_relaxation(weight, here, stress);
       sum.add(table, f, stress);
     }

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dielast::fem::shell_dual_numbers_test {
 namespace {
@@ -138,8 +140,23 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
           }
       }
     for (std::size_t i = 0; i < 2; ++i) energy += 0.5 * shear_modulus[i] * dA * gamma[i] * gamma[i];
-    const Unknowns thinning = 1.0 / sqrt(a[0][0] * a[1][1] - a[0][1] * a[0][1]);
     double bottom = section.offset - height / 2;
+    if (const double face = bottom > 0 ? bottom : std::min(bottom + height, 0.0); face != 0) {
+      const double gap = face / prestretch.prod();
+      const Unknowns det = a[0][0] * a[1][1] - a[0][1] * a[0][1];
+      const Metric inverse{{{a[1][1] / det, -a[0][1] / det}, {-a[0][1] / det, a[0][0] / det}}};
+      Metric square; // of the curvature
+      for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t l = 0; l < 2; ++l)
+          square[i / 4][l] += b[i / 4][i / 2 % 2] * inverse[i / 2 % 2][i % 2] * b[i % 2][l];
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t l = 0; l < 2; ++l) {
+          a[i][l] += 2 * gap * b[i][l] + gap * gap * square[i][l];
+          b[i][l] += gap * square[i][l];
+        }
+      bottom -= face;
+    }
+    const Unknowns thinning = 1.0 / sqrt(a[0][0] * a[1][1] - a[0][1] * a[0][1]);
     for (std::size_t l = 0; l < section.layers.size(); ++l) {
       const materials::Material& material = section.layers[l].material;
       const double H = depth(section.layers[l]), own = section.layers[l].thickness;
@@ -177,8 +194,10 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
 }
 
 TEST(Shell, energy_residual_and_tangent_equal_dual_numbers) {
-  for (const bool with_spins : {false, true}) {
+  for (const auto& [with_spins, offset] :
+       {std::pair{false, 0.02}, {true, 0.02}, {false, -0.2}, {true, 0.2}}) {
     ShellSection section = two_layers();
+    section.offset = offset; // those beyond 0.075 lie beside the drawn surface
     section.layers[1].material.branches.clear();
     section.layers[1].material.law = materials::MooneyRivlin{20e3, 5e3};
     std::mt19937 random(31);
