@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dielast::cases {
@@ -22,6 +23,16 @@ FitError error_of(const MeasuredTest& test, const std::vector<double>& model) {
   error.rms = std::sqrt(squares / static_cast<double>(model.size()));
   error.likeness = squares > 0 ? products / squares : 0;
   return error;
+}
+
+/// Which bound a parameter is at, and what that tells. `range`: of the fit.
+std::string bound_of(const FittedParameter& one, double range) {
+  constexpr double near = 1e-6, wide = 100;
+  const double factor = std::max(one.value / one.start, one.start / one.value);
+  if (!(factor > (1 - near) * range)) return "its bound: the tests do not tell it";
+  return fmt::format("the bound that fit.range sets, {:.6g} times its start value: {}", one.value / one.start,
+                     range < wide ? "the tests may want it farther away"
+                                  : "the tests do not tell it, or start values are far off");
 }
 
 } // namespace
@@ -59,7 +70,7 @@ std::vector<std::string> FitResults::warnings() const {
                                 "that was measured, and what fits better may lie there",
                                 name));
     else if (one.at_bound)
-      all.push_back(fmt::format("{} is at its bound: the tests do not tell it", name));
+      all.push_back(name + " is at " + bound_of(one, fit.range));
     else if (!one.determined())
       all.push_back(
           fmt::format("{} is not identifiable: the fitted tests do not depend on it, or only on its "

@@ -141,11 +141,14 @@ std::string identify_table(const Identification& asked, const IdentifyOutcome& o
 
 std::string identify_summary(const Identification& asked, const IdentifyOutcome& outcome) {
   std::string text = ending(outcome) + "\n";
-  for (const post::Table& table : {unknown_table(asked, outcome), test_table(asked, outcome)})
-    for (const auto& row : table.rows) {
-      for (const Cell& cell : row) text += fmt::format("  {:<38}", cell.text);
-      text.erase(text.find_last_not_of(' ') + 1).push_back('\n');
-    }
+  const auto add = [&](const auto& row, const auto& text_of) {
+    for (const auto& cell : row) text += fmt::format("  {:<38}", text_of(cell));
+    text.erase(text.find_last_not_of(' ') + 1).push_back('\n');
+  };
+  for (const post::Table& table : {unknown_table(asked, outcome), test_table(asked, outcome)}) {
+    add(table.header, [](const std::string& name) { return name; });
+    for (const auto& row : table.rows) add(row, [](const Cell& cell) { return cell.text; });
+  }
   return text;
 }
 

@@ -124,7 +124,8 @@ double coupling(const Probing& probing, const Measured& measured) {
   model.dofs.gather(charged, charges.coupling[e]);
   const double force =
       charges.coupling[e].head(give.displacement.size()).dot(give.displacement) / (2 * voltage);
-  const double drawn = model.charges(model.initial_state(), false).capacitance[e];
+  const double drawn =
+      model.charges(model.initial_state(), false).capacitance[e] - probing.one.electrodes[e].stray_capacitance;
   return force * probing.quantity.length / drawn;
 }
 
@@ -194,8 +195,8 @@ std::vector<QuantityKind> stiffness_kinds() {
        },
        .idle = without_support},
       {.word = "coupling",
-       .meaning = "force on a held place per squared voltage, over the electrode's capacitance per length as "
-                  "drawn, branches relaxed; none where the state is not at rest (-)",
+       .meaning = "force on a held place per squared voltage, over the capacitance per length, as drawn, of "
+                  "what the electrode covers, branches relaxed; none where the state is not at rest (-)",
        .unit = "1",
        .keys = coupling_keys,
        .in_words =

@@ -61,7 +61,7 @@ class Columns {
     if (column < 0)
       report(named.empty() ? "file" : key,
              named.empty() ? fmt::format("{} has no column {}: give {}, one of {}", csv_.file, usual,
-                                         keys_of(key), listed(csv_.names))
+                                         keys_of(key), csv_.listed_names())
                            : missing(named));
     return column;
   }
@@ -132,18 +132,6 @@ class Columns {
     return found;
   }
 
-  /// The column of the time: time_s, or the only one of that name in a unit of time; -1 where there is none.
-  int usual_time() const {
-    if (const int column = csv_.find("time_s"); column >= 0) return column;
-    int found = -1;
-    for (int i = 0; i < static_cast<int>(csv_.names.size()); ++i)
-      if (split_unit(csv_.names[static_cast<std::size_t>(i)]).name == "time" && factor_to_si(csv_, i, "s")) {
-        if (found >= 0) return -1;
-        found = i;
-      }
-    return found;
-  }
-
   /// The column of the stress, Pa; empty after a report.
   std::vector<double> stress(const std::string& named) const {
     std::string name = named;
@@ -153,9 +141,9 @@ class Columns {
       if (candidates.size() != 1) {
         report("file",
                candidates.empty()
-                   ? fmt::format("{} has no column that ends in a unit of stress, such as P_kPa: give "
-                                 "stress, one of {}",
-                                 csv_.file, listed(csv_.names))
+                   ? fmt::format("{} has no column that ends in a unit of stress, only {}: rename the "
+                                 "column of the nominal stress, as in stress_kPa",
+                                 csv_.file, csv_.listed_names())
                    : fmt::format("{} has several columns of stress: give stress, one of {}", csv_.file,
                                  listed(candidates)));
         return {};
@@ -194,7 +182,7 @@ class Columns {
   }
   std::string missing(const std::string& name) const {
     return fmt::format("found {}: {} has no such column, allowed {}{}", toml_string(name), csv_.file,
-                       listed(csv_.names), did_you_mean(name, csv_.names));
+                       csv_.listed_names(), did_you_mean(name, csv_.names));
   }
 
   const CsvTable& csv_;
@@ -256,8 +244,8 @@ void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Column
   if (!test.time_column.empty() && !columns.values("time", test.time_column, "s").empty())
     time = csv.find(test.time_column);
   else if (test.time_column.empty() && !test.rate && !test.equilibrium)
-    time = columns.usual_time();
-  if (const int said = columns.usual_time(); test.rate && said >= 0)
+    time = csv.find_time();
+  if (const int said = csv.find_time(); test.rate && said >= 0)
     columns.report("rate",
                    fmt::format("found a rate, but {} has the times in its column {}: leave the rate out, "
                                "or the column",
@@ -267,7 +255,7 @@ void read_rows(FitTest& test, const CsvTable& csv, bool needs_time, const Column
     columns.report("file",
                    fmt::format("{} has no column {}, and the branches need the time: give time, one of "
                                "{}, or rate, or equilibrium = true",
-                               csv.file, usual_time, listed(csv.names)));
+                               csv.file, usual_time, csv.listed_names()));
     return;
   }
   test.measured.history.mode = test.kind;

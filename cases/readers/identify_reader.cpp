@@ -38,7 +38,7 @@ class Columns {
     const int column = find(name);
     if (column >= 0) return values(column, name, si_unit);
     wrong_.push_back({test_.table.find("file")->source, test_.path + ".file",
-                      fmt::format("{} has no column {}, only {}", csv_.file, name, listed(csv_.names))});
+                      fmt::format("{} has no column {}, only {}", csv_.file, name, csv_.listed_names())});
     return {};
   }
 

@@ -59,6 +59,7 @@ json archive(const SimulationProgress& progress) {
           {"signals", progress.signals},
           {"news", std::move(news)},
           {"peaks", post::pack(peaks)},
+          {"taken", {progress.taken.states, progress.taken.iterations}},
           {"unseen",
            {{"kinetic", progress.unseen.kinetic},
             {"size", progress.unseen.size},
@@ -82,6 +83,7 @@ SimulationProgress restore_progress(const json& archived, const post::StateSizes
   for (const json& event : archived.at("news")) progress.news.push_back(restore_event(event));
   const std::vector<double> peaks = post::unpack(archived.at("peaks"));
   for (std::size_t i = 0; i + 1 < peaks.size(); i += 2) progress.peaks.push_back({peaks[i], peaks[i + 1]});
+  progress.taken = {archived.at("taken").at(0), archived.at("taken").at(1)};
   const json& unseen = archived.at("unseen");
   progress.unseen = {unseen.at("kinetic"), unseen.at("size"), unpack(unseen.at("start"), sizes),
                      unpack(unseen.at("farthest"), sizes)};
@@ -105,7 +107,8 @@ fem::FactorMemory restore_factor(const json& archived) {
 SimulationProgress Simulation::progress() const {
   SimulationProgress progress{
       step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
-      time_error_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_};
+      time_error_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_,
+      taken_};
   for (const auto& [load, signal] : signals_) progress.signals.push_back(signal->memory());
   return progress;
 }
@@ -123,6 +126,7 @@ void Simulation::resume(const SimulationProgress& progress) {
   if (progress.peaks.size() != measurement_.peaks.size()) throw post::CheckpointError("damaged");
   measurement_.peaks = progress.peaks;
   news_ = progress.news;
+  taken_ = progress.taken;
   unrecorded_.reset();
   refusal_.reset();
   loads_->let_go = progress.let_go;

@@ -127,6 +127,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                   .no_errors_because = estimates.reason,
                   .event_remarks = estimates.events,
                   .time_error = simulation.time_error(),
+                  .taken = simulation.taken(),
                   .margins = with_estimates(std::move(margins), estimates.margins)};
   constexpr double poor_time_error = 0.02;
   if (results.time_error > poor_time_error)
@@ -272,9 +273,9 @@ json summary_json(const Case& one, const Device& device, const Results& results,
   for (const Analysis& analysis : journal.analyses)
     analyses.push_back({{"step", analysis.step}, {"columns", analysis.columns}, {"rows", analysis.rows}});
   summary["analyses"] = analyses;
-  int iterations = 0;
-  for (const auto& record : journal.records) iterations += record.iterations;
-  summary["steps"] = {{"accepted", journal.records.size()}, {"newton_iterations", iterations}};
+  summary["steps"] = {{"accepted", results.taken.states},
+                      {"recorded", journal.records.size()},
+                      {"newton_iterations", results.taken.iterations}};
   const auto quality = meshing::quality(device.mesh);
   summary["mesh"] = {{"nodes", quality.nodes},
                      {"triangles", quality.triangles},

@@ -36,6 +36,7 @@ struct Results {
   std::string no_errors_because;       ///< why no quantity has an error estimate; empty otherwise
   std::vector<EventRemark> event_remarks;
   double time_error = 0; ///< see Simulation::time_error()
+  Taken taken{};
   std::vector<Margin> margins;
   std::vector<std::optional<ProfileTable>> profiles{}; ///< see profiles_of()
 

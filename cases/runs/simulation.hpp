@@ -13,6 +13,12 @@
 
 namespace dielast::cases {
 
+/// What a simulation has come through so far.
+struct Taken {
+  int states = 0; ///< accepted ones beside the drawn one, recorded or not
+  int iterations = 0; ///< of Newton's method that led to them
+};
+
 /// Where a simulation stands between two increments: with it, it goes on bit for bit.
 struct SimulationProgress {
   int step = 0;    ///< number of the current step, from 0
@@ -27,6 +33,7 @@ struct SimulationProgress {
   fem::UnseenMotion unseen{};                 ///< of the current step
   std::vector<post::Peak> peaks{};            ///< see Measurement
   std::vector<post::Event> news{};            ///< for the next record
+  Taken taken{};
 };
 
 /// An accepted state.
@@ -86,6 +93,7 @@ class Simulation {
   const fem::EnergyBalance& energy() const { return energy_; }
   /// Sum of the errors that the time steps may have added to internal variables and motion, relative.
   double time_error() const { return time_error_; }
+  const Taken& taken() const { return taken_; }
   /// Of the quantities, see Measurement.
   const std::vector<post::Peak>& peaks() const { return measurement_.peaks; }
   void set_results(std::vector<double> results) { results_ = std::move(results); }
@@ -123,6 +131,7 @@ class Simulation {
   std::optional<StepLoads> loads_;
   std::vector<double> results_;
   int step_ = 0, records_ = 0;
+  Taken taken_;
   StepProgress in_step_;
   std::vector<post::Event> news_; ///< for the next record
   fem::EnergyBalance energy_;

@@ -21,7 +21,7 @@ Section fit_section() {
           .optional(),
       number(
           "range", to(&Fit::range),
-          "largest factor between start value and result; where a result lies at it, the tests do not tell")
+          "largest factor between start value and result, either way: the bounds of every parameter")
           .above(1)
           .at_most(1e6)
           .otherwise("1e4"),

@@ -5,6 +5,7 @@
 #include "cases/text/units.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -55,6 +56,20 @@ double number_in(std::string text, char separator) {
   const auto [stop, problem] = std::from_chars(begin, end, number);
   return problem == std::errc{} && stop == end && std::isfinite(number) ? number : std::nan("");
 }
+
+/// Whether a cell holds words, or what may be meant as a number.
+bool is_text(std::string cell) {
+  std::ranges::transform(cell, cell.begin(), [](unsigned char c) { return std::tolower(c); });
+  return cell != "nan" && cell != "inf" && cell.find_first_not_of("0123456789.,+-e ") != std::string::npos;
+}
+
+/// A column as it is read: its numbers, what is wrong with its cells, and whether these hold words alone.
+struct Column {
+  std::vector<double> numbers;
+  std::vector<Diagnostic> wrong;
+  std::string first_text;
+  bool text = true;
+};
 
 /// Whether the number may have a separator of thousands where another has a decimal one: "13.678".
 bool may_have_thousands(std::string_view text, char separator) {
@@ -123,12 +138,29 @@ bool names_percent(std::string name) {
   return false;
 }
 
+int CsvTable::find_time() const {
+  if (const int column = find("time_s"); column >= 0) return column;
+  int found = -1;
+  for (int i = 0; i < static_cast<int>(names.size()); ++i)
+    if (split_unit(names[static_cast<std::size_t>(i)]).name == "time" && factor_to_si(*this, i, "s")) {
+      if (found >= 0) return -1;
+      found = i;
+    }
+  return found;
+}
+
+std::string CsvTable::listed_names() const {
+  return listed(names) + (texts.empty() ? "" : fmt::format("; no numbers stand in {}", fmt::join(texts, ", ")));
+}
+
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong) {
   constexpr std::size_t largest = 64u << 20, enough = 20 * most_diagnostics;
   constexpr int most_rows = 100000;
   std::istringstream stream(read_input(path, "a CSV file", largest));
   CsvTable table;
   table.file = path.string();
+  std::vector<std::string> names;
+  std::vector<Column> columns;
   int number = 0;
   char separator = ',';
   Decimals decimals;
@@ -136,38 +168,52 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3); // byte order mark of spreadsheets
     if (line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    if (table.names.empty()) separator = separator_of(line);
+    if (names.empty()) separator = separator_of(line);
     const auto cells = cells_of(line, separator);
-    if (table.names.empty()) {
-      for (const Cell& cell : cells) table.names.push_back(cell.text);
-      table.columns.resize(cells.size());
+    if (names.empty()) {
+      for (const Cell& cell : cells) names.push_back(cell.text);
+      columns.resize(cells.size());
       table.header_line = number;
       continue;
     }
     table.lines.push_back(number);
-    if (cells.size() != table.names.size()) {
+    if (cells.size() != names.size()) {
       wrong.push_back({{table.file, number, 1},
                        "",
                        fmt::format("found {} cells, allowed {}: one for each name in line {}{}", cells.size(),
-                                   table.names.size(), table.header_line,
-                                   separator == ',' && cells.size() == 2 * table.names.size()
+                                   names.size(), table.header_line,
+                                   separator == ',' && cells.size() == 2 * names.size()
                                        ? "; with decimal commas cells are separated by semicolons"
                                        : "")});
       continue;
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      const double value = number_in(cells[c].text, separator);
-      if (std::isnan(value))
-        wrong.push_back({{table.file, number, cells[c].column},
-                         table.names[c],
-                         cells[c].text.empty()
-                             ? "the cell is empty, allowed a number"
-                             : fmt::format("found \"{}\", allowed a number", cells[c].text)});
-      else if (separator != ',')
-        decimals.add(cells[c].text, {table.file, number, cells[c].column});
-      table.columns[c].push_back(value);
+      Column& column = columns[c];
+      const std::string& cell = cells[c].text;
+      column.numbers.push_back(number_in(cell, separator));
+      column.text = column.text && (cell.empty() || is_text(cell));
+      if (column.first_text.empty()) column.first_text = cell;
+      if (!std::isnan(column.numbers.back())) {
+        if (separator != ',') decimals.add(cell, {table.file, number, cells[c].column});
+      } else if (column.wrong.size() < enough) {
+        column.wrong.push_back({{table.file, number, cells[c].column},
+                                names[c],
+                                cell.empty() ? "the cell is empty, allowed a number"
+                                             : fmt::format("found \"{}\", allowed a number", cell)});
+      }
     }
   }
+  const bool any_numbers = !std::ranges::all_of(columns, &Column::text);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (any_numbers && columns[c].text && !columns[c].first_text.empty()) {
+      table.texts.push_back(fmt::format("\"{}\" (\"{}\")", names[c], columns[c].first_text));
+      continue;
+    }
+    std::ranges::move(columns[c].wrong, std::back_inserter(wrong));
+    table.names.push_back(names[c]);
+    table.columns.push_back(std::move(columns[c].numbers));
+  }
+  std::ranges::stable_sort(wrong, {}, [](const Diagnostic& one) { return one.source.line; });
   decimals.check(wrong);
   if (table.rows() > most_rows)
     wrong.push_back({{table.file}, "", fmt::format("found {} rows, allowed {}", table.rows(), most_rows)});
@@ -199,14 +245,15 @@ std::vector<double> si_column(const CsvTable& table, int column, std::string_vie
   return values;
 }
 
-void require_growing(const CsvTable& table, int column, std::vector<Diagnostic>& wrong) {
+void require_growing(const CsvTable& table, int column, std::vector<Diagnostic>& wrong,
+                     std::string_view advice) {
   const auto& values = table.columns.at(static_cast<std::size_t>(column));
   for (std::size_t i = 1; i < values.size(); ++i)
     if (!(values[i] > values[i - 1]))
       wrong.push_back({{table.file, table.lines[i], 1},
                        table.names[static_cast<std::size_t>(column)],
-                       fmt::format("found {} after {}, allowed values that grow from row to row", values[i],
-                                   values[i - 1])});
+                       fmt::format("found {} after {}, allowed values that grow from row to row{}", values[i],
+                                   values[i - 1], values[i] == values[i - 1] ? advice : "")});
 }
 
 } // namespace dielast::cases

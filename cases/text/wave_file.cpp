@@ -9,14 +9,12 @@
 namespace dielast::cases {
 namespace {
 
-constexpr std::string_view time_column = "time_s";
-
 /// Number of the column with the values; -1 after a report.
-int value_column(const CsvTable& table, const Waveform& wave, const Node& written, const std::string& path,
-                 std::vector<Diagnostic>& wrong) {
+int value_column(const CsvTable& table, const std::string& time, const Waveform& wave, const Node& written,
+                 const std::string& path, std::vector<Diagnostic>& wrong) {
   std::vector<std::string> values;
   for (const std::string& name : table.names)
-    if (name != time_column) values.push_back(name);
+    if (name != time) values.push_back(name);
   if (!wave.column.empty()) {
     if (const int column = table.find(wave.column); column >= 0) return column;
     wrong.push_back({written.find("column")->source, path + ".column",
@@ -26,7 +24,7 @@ int value_column(const CsvTable& table, const Waveform& wave, const Node& writte
   }
   if (values.size() == 1) return table.find(values[0]);
   wrong.push_back({written.find("file")->source, path + ".file",
-                   values.empty() ? fmt::format("{} has no column besides {}", table.file, time_column)
+                   values.empty() ? fmt::format("{} has no column besides {}", table.file, time)
                                   : fmt::format("{} has several columns: give column, one of {}", table.file,
                                                 listed(values))});
   return -1;
@@ -40,14 +38,16 @@ void load_samples(Waveform& wave, std::string_view unit, const std::filesystem::
   const std::size_t errors_before = wrong.size();
   try {
     const CsvTable csv = read_csv(file, 2, wrong);
-    const int time = csv.find(time_column);
+    const int time = csv.find_time();
     if (time < 0 && !csv.names.empty())
       wrong.push_back({{csv.file, csv.header_line, 1},
                        "",
-                       fmt::format("there is no column {}, found {}", time_column, listed(csv.names))});
+                       fmt::format("there is no column time_s, nor \"time\" with another unit, found {}",
+                                   csv.listed_names())});
     if (wrong.size() > errors_before) return;
-    require_growing(csv, time, wrong);
-    const int column = value_column(csv, wave, table, path, wrong);
+    require_growing(csv, time, wrong, "; a jump takes a time, be it short");
+    const int column =
+        value_column(csv, csv.names[static_cast<std::size_t>(time)], wave, table, path, wrong);
     if (wrong.size() > errors_before) return;
     if (!factor_to_si(csv, column, unit)) {
       const std::string& name = csv.names[static_cast<std::size_t>(column)];
@@ -57,7 +57,7 @@ void load_samples(Waveform& wave, std::string_view unit, const std::filesystem::
                                    dimension(unit).usual, name, dimension(unit).shown)});
       return;
     }
-    const auto& times = csv.columns[static_cast<std::size_t>(time)];
+    const auto times = si_column(csv, time, "s");
     const auto values = si_column(csv, column, unit);
     wave.samples.clear();
     for (std::size_t i = 0; i < times.size(); ++i) wave.samples.push_back({times[i], values[i]});

@@ -167,8 +167,8 @@ TEST_F(FitReader, ColumnsThatAreMissing) {
       (Texts{"fit.toml:11:8: error: test[1].file: odd.csv has no column stretch: give stretch, strain or "
              "displacement, one of "
              "\"strech\", \"force\"",
-             "fit.toml:11:8: error: test[1].file: odd.csv has no column that ends in a unit of stress, such "
-             "as P_kPa: give stress, one of \"strech\", \"force\""}));
+             "fit.toml:11:8: error: test[1].file: odd.csv has no column that ends in a unit of stress, only "
+             "\"strech\", \"force\": rename the column of the nominal stress, as in stress_kPa"}));
   EXPECT_EQ(
       errors("", test + "\nstretch = \"strec\"\nstress = \"force\""),
       (Texts{"fit.toml:14:11: error: test[1].stretch: found \"strec\": odd.csv has no such column, allowed "
