@@ -5,6 +5,7 @@
 #include "cases/language/conditions.hpp"
 #include "cases/quantities/film_values.hpp"
 #include "cases/runs/phases.hpp"
+#include "cases/warnings/load_warnings.hpp"
 #include "fem/linear/rest.hpp"
 #include "fem/paths/homotopy.hpp"
 #include "fem/paths/renumbering.hpp"
@@ -98,15 +99,7 @@ Simulation::Simulation(const Case& one, int threads)
   for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
   for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
   if (settles && !is_held(frame_) && !one.any_geometry<Patch>())
-    warnings_.push_back(
-        is_held(of_films)
-            ? "what is attached to the film pulls as drawn: a step \"settle\" before the first lets it find "
-              "its "
-              "balance; say so by a [[step]] of kind \"release\""
-            : fmt::format(
-                  "the film is not held in its prestretch{}: a step \"settle\" before the first cuts it "
-                  "free; say so by a [[step]] of kind \"release\", or hold it by [[support]]",
-                  one.supports.empty() ? ", there is no [[support]]" : ""));
+    warnings_.push_back(settle_warning(one, is_held(of_films)));
   fem::State drawn_state = device_.model.initial_state();
   drawn_state.dead_force = frame_;
   in_step_.ramp.points = {{0, std::move(drawn_state)}};

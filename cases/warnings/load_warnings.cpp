@@ -2,6 +2,7 @@
 #include "cases/warnings/load_warnings.hpp"
 
 #include "cases/text/diagnostics.hpp"
+#include "cases/text/tree.hpp"
 #include "cases/warnings/held_places.hpp"
 
 #include <fmt/format.h>
@@ -55,6 +56,25 @@ std::vector<std::string> carrying_warnings(const Case& one) {
               .text());
     }
   return warnings;
+}
+
+std::string settle_warning(const Case& one, bool attachments_pull) {
+  if (attachments_pull)
+    return "what is attached to the film pulls as drawn: a step \"settle\" before the first lets it find its "
+           "balance; say so by a [[step]] of kind \"release\"";
+  const auto pulls = std::ranges::find_if(one.steps, [](const Step& step) {
+    return step.kind == StepKind::weight || step.kind == StepKind::force;
+  });
+  const bool slackens = one.dimension == fem::Dimension::spatial && pulls != one.steps.end();
+  return fmt::format(
+      "the film is not held in its prestretch{}: a step \"settle\" before the first cuts it free; say so by "
+      "a "
+      "[[step]] of kind \"release\", or hold it by [[support]]{}",
+      one.supports.empty() ? ", there is no [[support]]" : "",
+      slackens
+          ? fmt::format(": where it slackens it buckles, so hold what the step \"{}\" pulls on until = {}",
+                        pulls->name, toml_string(pulls->name))
+          : "");
 }
 
 std::vector<std::string> weight_warnings(const Case& one) {

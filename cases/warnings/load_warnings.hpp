@@ -19,6 +19,10 @@ std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mes
 /// inertia, which resists.
 std::vector<std::string> carrying_warnings(const Case& one);
 
+/// A sentence on the step that comes before all others where what is drawn is not in balance: what is
+/// attached to the film pulls on it, or it is stretched and free.
+std::string settle_warning(const Case& one, bool attachments_pull);
+
 /// A sentence for every body that gravity pulls aside, where it follows along another axis alone.
 std::vector<std::string> weight_warnings(const Case& one);
 

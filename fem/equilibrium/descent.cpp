@@ -30,6 +30,16 @@ bool Equilibrium::is_slack(const State& state) const {
   });
 }
 
+bool Equilibrium::is_neutral(const State& state, int unstable_modes, const NewtonOptions& options) {
+  constexpr double rounding = 1e-10, regularisation = 1e-4; // over the stiffness as drawn; see FilmResponse
+  const auto film = model_.sample(state).film;
+  const bool wrinkles =
+      options.wrinkles && std::ranges::count(film, materials::Tension::slack, &MembraneSample::tension) > 0;
+  if (!wrinkles && !is_slack(state)) return false;
+  const Eigen::VectorXd added = (wrinkles ? regularisation : rounding) * stiffness_;
+  return factor(state, nullptr, &added) && tangent_.unstable_modes() <= unstable_modes;
+}
+
 /// Levenberg-Marquardt: (K + c D) du = -R, D = stiffness(), with as much c as it takes for the energy to fall
 /// as it was foretold. Where wrinkles come and go the energy is smooth by parts only, and in slack film it
 /// has hardly any stiffness: Newton's steps are much too long there.

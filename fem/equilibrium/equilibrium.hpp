@@ -99,6 +99,9 @@ class Equilibrium {
   /// Whether the film carries no tension, nor a field that balances one: the tangent tells of rounding there,
   /// and no path leads on.
   bool is_slack(const State& state) const;
+  /// Whether all but so many unstable modes of a state are none: of what carries no tension rounding has the
+  /// sign, and film that is slack under a field keeps a trace of its compression.
+  bool is_neutral(const State& state, int unstable_modes, const NewtonOptions& options);
 
   /// That of the state which the last solve() has converged to; null where its voltages or pressures have
   /// moved since the forces were evaluated.

@@ -158,4 +158,10 @@ bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& fr
   return norm(chord - v0 - part * half) <= steadiness.chord * std::max(n0, n1) + least;
 }
 
+bool is_wrinkled(const Model& model, const State& state) {
+  return std::ranges::any_of(model.sample(state).film, [](const MembraneSample& sample) {
+    return sample.tension != materials::Tension::taut;
+  });
+}
+
 } // namespace dielast::fem

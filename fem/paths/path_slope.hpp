@@ -64,4 +64,7 @@ struct PathEnd {
 bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& from, const PathEnd& to,
                const Steadiness& steadiness);
 
+/// Whether any film carries tension in one direction only, or in none.
+bool is_wrinkled(const Model& model, const State& state);
+
 } // namespace dielast::fem

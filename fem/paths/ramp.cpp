@@ -115,6 +115,8 @@ State Ramp::solve(State state, double s) {
   if (has_friction(equilibrium_.model())) bound_friction(equilibrium_.model(), state, false);
   newton_ = is_free ? equilibrium_.solve(state, options_.newton, observer_.on_iteration)
                     : NewtonResult{.outcome = Outcome::infeasible};
+  if (less_stable() && equilibrium_.is_neutral(state, progress_.unstable_modes, options_.newton))
+    newton_.unstable_modes = progress_.unstable_modes;
   return state;
 }
 
@@ -142,8 +144,10 @@ Eigen::VectorXd Ramp::slope_of_start(const LoadPath& increment) {
   State start = last();
   increment.apply(start, setting_out());
   if (!equilibrium_.precondition(start)) return {};
-  if (progress_.unstable_modes < 0) progress_.unstable_modes = equilibrium_.tangent().unstable_modes();
+  const int modes = equilibrium_.tangent().unstable_modes();
   Eigen::VectorXd slope = slope_at(equilibrium_, increment, start, setting_out(), 1);
+  if (progress_.unstable_modes < 0)
+    progress_.unstable_modes = modes > 0 && equilibrium_.is_neutral(start, 0, options_.newton) ? 0 : modes;
   // Across slack film there is no stiffness but what rounding leaves of it.
   const bool is_rounding = slope.size() > 0 &&
                            slope.cwiseAbs().maxCoeff() > farthest_slope * equilibrium_.model().extent &&
@@ -173,11 +177,7 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const LoadPath increment = within(s);
   // as long as its tangent is there
   const Eigen::VectorXd end = slope_at(equilibrium_, increment, trial, 1, -1, equilibrium_.solved());
-  const auto wrinkles = [&model](const State& state) {
-    return std::ranges::any_of(model.sample(state).film,
-                               [](auto& sample) { return sample.tension != materials::Tension::taut; });
-  };
-  const bool wrinkled = options_.newton.wrinkles && (wrinkles(last()) || wrinkles(trial));
+  const bool wrinkled = options_.newton.wrinkles && (is_wrinkled(model, last()) || is_wrinkled(model, trial));
   const Steadiness steadiness = wrinkled                  ? Steadiness::wrinkled()
                                 : length > longest_kinked ? Steadiness::resolved()
                                                           : Steadiness::kinked();

@@ -69,6 +69,23 @@ TEST(Csv, SemicolonsTabsAndDecimalCommas) {
                                       "1; with decimal commas cells are separated by semicolons"}));
 }
 
+/// Of loggers and test machines; where a column is read whose numbers are words it is missing, as is said.
+TEST(Csv, LeavesColumnsOfWordsOut) {
+  std::vector<Diagnostic> wrong;
+  const CsvTable table =
+      read("clock,time (ms),remark,force_N\n12:30:01,0,,1\n12:30:02,500,ramp 2,2\n", wrong);
+  EXPECT_TRUE(wrong.empty()) << wrong.front().text();
+  EXPECT_EQ(table.names, (std::vector<std::string>{"time (ms)", "force_N"}));
+  EXPECT_EQ(table.columns, (std::vector<std::vector<double>>{{0, 500}, {1, 2}}));
+  EXPECT_EQ(table.find_time(), 0);
+  EXPECT_EQ(si_column(table, 0, "s"), (std::vector{0.0, 0.5}));
+  EXPECT_EQ(
+      table.listed_names(),
+      "\"time (ms)\", \"force_N\"; no numbers stand in \"clock\" (\"12:30:01\"), \"remark\" (\"ramp 2\")");
+  read("a,b\n1,x\n2,3\n", wrong); // some are numbers
+  EXPECT_EQ(texts(wrong), std::vector<std::string>{":2:3: error: b: found \"x\", allowed a number"});
+}
+
 TEST(Csv, SaysEverythingThatIsWrongWithLineAndColumn) {
   std::vector<Diagnostic> wrong;
   read("time_s,force_N\n0,abc\n1,\n 2 , 3x,\n3,nan\n4,1e999\n", wrong, 9);

@@ -183,6 +183,59 @@ extreme = "minimum"
   EXPECT_LT(std::abs(without.at("energy_error")), 1e-9 * without.at("mechanical_work"));
 }
 
+// What lies beside the film pulls at nothing.
+TEST_F(Strips, StrayCapacitanceDoesNotCouple) {
+  const std::string hung = R"toml(
+[film]
+thickness = "0.2 mm"
+[film.material]
+shear_modulus = "45 kPa"
+relative_permittivity = 4.7
+[strip]
+length = "50 mm"
+width = "20 mm"
+[mesh]
+across = 4
+[weight]
+mass = "5 g"
+[drive]
+voltage = "1 kV"
+)toml";
+  const auto alone = values(hung),
+             beside = values(hung + "[[electrode]]\nname = \"film\"\nplace = \"electrode\"\n"
+                                    "stray_capacitance = \"1 nF\"\n");
+  EXPECT_NEAR(beside.at("coupling"), alone.at("coupling"), 1e-9 * alone.at("coupling"));
+}
+
+// Cut free before its weight hangs on it a strip has no stiffness across itself in space, but for rounding.
+TEST_F(Strips, HangInSpaceAsInThePlane) {
+  const std::string hung = R"toml(
+[film]
+thickness = "0.25 mm"
+prestretch = [1, 1.3]
+[film.material]
+law = "yeoh"
+c1 = "40 kPa"
+c2 = "1 kPa"
+relative_permittivity = 3
+[strip]
+length = "30 mm"
+width = "10 mm"
+[mesh]
+across = 4
+[weight]
+mass = "30 g"
+[drive]
+voltage = "2 kV"
+)toml";
+  for (const char* prestretch : {"[1, 1.05]", "[1, 1.3]", "[1, 1.5]"}) {
+    const std::vector<std::string> with{std::string("film.prestretch=") + prestretch};
+    const double in_plane = values(hung, with).at("extension");
+    EXPECT_NEAR(values("model = \"3d\"\n" + hung, with).at("extension"), in_plane, 1e-8 * in_plane)
+        << prestretch;
+  }
+}
+
 // The charge of film that wrinkles is no multiple of its voltage: what couples is what another volt adds to
 // the force.
 TEST_F(Strips, WrinkledFilmCouplesAsItsForceChangesWithTheVoltage) {
