@@ -26,7 +26,7 @@ std::string choices_text(const Section& section) {
     text += fmt::format("\n{}: {}\n", choice.word, choice.meaning) + keys_for(section, choice.word);
   text += "\nall of them\n";
   for (const Key& key : section.keys)
-    if (key.only_for.empty() && key.name != section.selector) text += key_text(key);
+    if (key.only_for.empty() && key.name != section.selector) text += key_text(key, section);
   return text;
 }
 
@@ -57,7 +57,7 @@ std::string laws_text() {
                      fmt::format("\n{}  {}, with the keys of its law and\n",
                                  branch.heading("film.material.branch"), branch.meaning);
   for (const Key& key : branch.keys)
-    if (key.only_for.empty()) text += key_text(key);
+    if (key.only_for.empty()) text += key_text(key, branch);
   return text;
 }
 

@@ -58,7 +58,29 @@ std::span<const Term> terms() {
   return all;
 }
 
-std::string rules_text(const Key& key) {
+namespace {
+
+/// Names of the keys of which one stands for this one, in its place.
+std::vector<std::string> instead_of(const Key& key, const Section& section) {
+  std::vector<std::string> names;
+  if (!key.instead_of.empty()) names.push_back(key.instead_of);
+  for (const Key& other : section.keys)
+    if (other.instead_of == key.name ||
+        (!key.instead_of.empty() && other.instead_of == key.instead_of && other.name != key.name))
+      if (std::ranges::count(names, other.name) == 0) names.push_back(other.name);
+  return names;
+}
+
+/// Whether a key, or what stands for it, must be there.
+bool is_needed(const Key& key, const Section& section) {
+  return key.required || std::ranges::any_of(section.keys, [&](const Key& other) {
+           return other.name == key.instead_of && other.required && !other.fallback;
+         });
+}
+
+} // namespace
+
+std::string rules_text(const Key& key, const Section& section) {
   std::string rules = expectation(key, key.unit);
   const std::string range = range_text(key, key.unit.empty() ? "" : std::string(dimension(key.unit).shown));
   if (!range.empty()) rules += ", " + range;
@@ -67,13 +89,16 @@ std::string rules_text(const Key& key) {
   else if (!key.fallback_key.empty())
     rules += "; default: its " + key.fallback_key;
   else
-    rules += key.required ? "; required" : "; optional";
+    rules += is_needed(key, section) ? "; required" : "; optional";
+  if (const auto others = instead_of(key, section); !others.empty())
+    rules += fmt::format(", or {} instead", fmt::join(others, " or "));
   if (!key.acts.needs.empty()) rules += "; acts only with " + key.acts.needs;
   return rules;
 }
 
-std::string key_text(const Key& key) {
-  std::string text = fmt::format("  {:<21} {}\n{:24}{}\n", key.name, key.meaning, "", rules_text(key));
+std::string key_text(const Key& key, const Section& section) {
+  std::string text =
+      fmt::format("  {:<21} {}\n{:24}{}\n", key.name, key.meaning, "", rules_text(key, section));
   if (key.type == Type::word)
     for (const Choice& choice : key.choices)
       if (!choice.meaning.empty()) text += fmt::format("{:26}{}: {}\n", "", choice.word, choice.meaning);
@@ -86,12 +111,12 @@ std::string section_text(const Section& section, const std::string& path) {
   if (!section.acts.needs.empty()) text += fmt::format("  (acts only with {})\n", section.acts.needs);
   for (const Key& key : section.keys) {
     if (key.only_for.empty()) {
-      text += key_text(key);
+      text += key_text(key, section);
       continue;
     }
     text += fmt::format("  ({} {})\n", section.selector.empty() ? "only in a" : "for " + section.selector,
                         fmt::join(key.only_for, ", ")) +
-            key_text(key);
+            key_text(key, section);
   }
   for (const Section& inner : section.sections)
     text += section_text(inner, path.empty() ? inner.name : path + "." + inner.name);
@@ -101,7 +126,7 @@ std::string section_text(const Section& section, const std::string& path) {
 std::string keys_for(const Section& section, const std::string& selected) {
   std::string text;
   for (const Key& key : section.keys)
-    if (!key.only_for.empty() && key.applies_to(selected)) text += key_text(key);
+    if (!key.only_for.empty() && key.applies_to(selected)) text += key_text(key, section);
   return text;
 }
 
@@ -130,7 +155,7 @@ std::string device_text(const Template& device) {
   if (section) text += section_text(*section, name);
   text += "\n[mesh]\n";
   for (const Key& key : mesh.keys)
-    if (key.applies_to(name)) text += key_text(key);
+    if (key.applies_to(name)) text += key_text(key, mesh);
   if (!device.places.empty()) text += "\nplaces\n";
   for (const PlaceName& place : device.places)
     text += fmt::format("  {:<21} {}\n", place.name, place.meaning);

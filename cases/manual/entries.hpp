@@ -12,10 +12,10 @@
 namespace dielast::cases {
 
 /// What may be written for a key, its range, its default and what it acts with.
-std::string rules_text(const Key& key);
+std::string rules_text(const Key& key, const Section& section);
 
 /// Two lines: the name with its meaning, then what may be written, range and default.
-std::string key_text(const Key& key);
+std::string key_text(const Key& key, const Section& section);
 
 /// Heading, meaning and keys of a section and of the sections in it.
 std::string section_text(const Section& section, const std::string& path);

@@ -17,12 +17,12 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
-std::string row(const Key& key) {
+std::string row(const Key& key, const Section& section) {
   std::string meaning = key.meaning;
   if (key.type == Type::word)
     for (const Choice& choice : key.choices)
       if (!choice.meaning.empty()) meaning += fmt::format("<br>`{}`: {}", choice.word, choice.meaning);
-  return fmt::format("| `{}` | {} | {} |\n", key.name, cell(meaning), cell(rules_text(key)));
+  return fmt::format("| `{}` | {} | {} |\n", key.name, cell(meaning), cell(rules_text(key, section)));
 }
 
 constexpr const char* head = "| key | meaning | what may be written |\n|---|---|---|\n";
@@ -31,7 +31,7 @@ constexpr const char* head = "| key | meaning | what may be written |\n|---|---|
 std::string keys_of(const Section& section) {
   std::string all, text;
   for (const Key& key : section.keys)
-    if (key.only_for.empty()) all += row(key);
+    if (key.only_for.empty()) all += row(key, section);
   if (!all.empty()) text += head + all + "\n";
   std::vector<std::vector<std::string>> groups;
   for (const Key& key : section.keys)
@@ -41,7 +41,7 @@ std::string keys_of(const Section& section) {
     text += fmt::format("{} `{}`:\n\n{}", section.selector.empty() ? "Only in a" : "With " + section.selector,
                         fmt::join(group, "`, `"), head);
     for (const Key& key : section.keys)
-      if (key.only_for == group) text += row(key);
+      if (key.only_for == group) text += row(key, section);
     text += "\n";
   }
   return text;

@@ -25,7 +25,7 @@ std::string key_entry(const Section& section, const Key& key, const std::string&
                                  section.meaning);
   if (!key.only_for.empty())
     text += fmt::format("  (for {} {})\n", section.selector, fmt::join(key.only_for, ", "));
-  return text + key_text(key);
+  return text + key_text(key, section);
 }
 
 std::string word_entry(const Section& section, const Key& key, const Choice& choice,
@@ -76,7 +76,7 @@ void add_waves(std::vector<Entry>& entries) {
            return fmt::format(
                "of what goes with time, {{ wave = ... }}, here of a voltage{}\n{}",
                key.only_for.empty() ? "" : fmt::format("; for wave {}", fmt::join(key.only_for, ", ")),
-               key_text(key));
+               key_text(key, waves));
          }});
     for (const Choice& choice : key.choices)
       entries.push_back({choice.word, [&key, &choice] {

@@ -122,8 +122,11 @@ Analysis restore_analysis(const json& archived) {
   return analysis;
 }
 
+/// A sum of time steps as it is meant: 5 s, not 4.999999999999998 s.
+double without_rounding(double time) { return std::stod(fmt::format("{:.14g}", time)); }
+
 std::vector<double> history_row(const post::StepRecord& record, const std::vector<double>& quantities) {
-  std::vector<double> row{record.load_factor, record.time};
+  std::vector<double> row{record.load_factor, without_rounding(record.time)};
   row.insert(row.end(), record.voltages.begin(), record.voltages.end());
   row.insert(row.end(), quantities.begin(), quantities.end());
   for (const double number :

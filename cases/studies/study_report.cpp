@@ -9,6 +9,7 @@
 #include "post/pictures/plot.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -212,6 +213,59 @@ std::string study_table(const Study& study, const std::vector<StudyPoint>& point
                     : ",,,\n";
   }
   return table;
+}
+
+std::string study_json(const Study& study, const std::vector<StudyPoint>& points,
+                       const std::vector<TargetSolution>& solutions) {
+  using Json = nlohmann::ordered_json;
+  const Collected collected(study, points);
+  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  const auto column = [&](const std::string& quantity) {
+    return static_cast<std::size_t>(std::ranges::find(study.collect, quantity) - study.collect.begin());
+  };
+  Json targets = Json::array(), best = Json::array();
+  const auto tell = [&](const TargetSolution& solution) {
+    const StudyTarget& target = study.targets[solution.target];
+    const bool solved = solution.problem.empty();
+    targets.push_back({{"quantity", target.quantity},
+                       {"wanted", target.value},
+                       {"unit", collected.units[column(target.quantity)]},
+                       {"key", study.axes[0].key},
+                       {"at", solved ? Json(solution.key) : Json(nullptr)},
+                       {"at_unit", written_measure(points.front().values[0])->unit},
+                       {"value", solved ? Json(solution.value) : Json(nullptr)},
+                       {"problem", solution.problem}});
+  };
+  for (std::size_t t = 0; t < study.targets.size(); ++t) {
+    if (std::ranges::count(solutions, t, &TargetSolution::target) == 0)
+      tell({.target = t, .problem = "not within the values varied"});
+    for (const TargetSolution& solution : solutions)
+      if (solution.target == t) tell(solution);
+  }
+  for (const StudyBest& asked : study.best) {
+    const auto found = best_point(study, asked, points);
+    const std::size_t q = column(asked.quantity());
+    Json varied = Json::object();
+    const std::vector<std::string> names = study.varied();
+    for (std::size_t i = 0; found && i < names.size(); ++i)
+      varied[names[i]] = unquoted(points[*found].values[i]);
+    best.push_back({{"quantity", asked.quantity()},
+                    {"sense", asked.largest.empty() ? "smallest" : "largest"},
+                    {"value", found ? number(collected.value(*found, q)) : Json(nullptr)},
+                    {"unit", collected.units[q]},
+                    {"point", found ? Json(points[*found].number) : Json(nullptr)},
+                    {"varied", std::move(varied)}});
+  }
+  const auto reached = std::ranges::count_if(
+      collected.results, [](const auto& result) { return result && result->exit_code == 0; });
+  return Json{{"program", "dielast " DIELAST_VERSION},
+              {"title", study.title},
+              {"points", points.size()},
+              {"reached", reached},
+              {"targets", std::move(targets)},
+              {"best", std::move(best)}}
+             .dump(2) +
+         "\n";
 }
 
 post::Report study_report(const Study& study, const std::vector<StudyPoint>& points,

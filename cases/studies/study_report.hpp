@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/studies/study_points.hpp"
+#include "cases/studies/study_targets.hpp"
 #include "post/pictures/report.hpp"
 
 namespace dielast::cases {
@@ -9,6 +10,11 @@ namespace dielast::cases {
 /// study.csv: one row per point in the grid's order: what varies as numbers, with its unit in the header, the
 /// collected quantities in SI, exit code, kinds of events, message.
 std::string study_table(const Study& study, const std::vector<StudyPoint>& points);
+
+/// study.json: how many points reached their ends, where its targets lie (the varied key as it is written,
+/// the quantity in SI), and its best points.
+std::string study_json(const Study& study, const std::vector<StudyPoint>& points,
+                       const std::vector<TargetSolution>& solutions);
 
 /// The study's report: the answers to its questions, its plots and one row per point, which leads to the
 /// point's own report.

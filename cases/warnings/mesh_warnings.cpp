@@ -83,9 +83,7 @@ std::vector<std::string> layer_warnings(const Case& one) {
     if (slab && charged && part.film->is_solid() && !part.film->stacked_along) {
       const double height = slab->height - 2 * slab->cover_thickness;
       const double layers = height / part.film->thickness;
-      const bool reaches_beyond = part.film->potential && !one.ties.empty(); // from part to part
-      if ((layers < 1 - 1e-9 && !reaches_beyond) ||
-          (!part.film->potential && std::abs(layers - std::round(layers)) > 0.01))
+      if (!part.film->potential && (layers < 1 - 1e-9 || std::abs(layers - std::round(layers)) > 0.01))
         warn(part, fmt::format("a layer is {} thick, and where there is a field the slab is {} high, {:.4g} "
                                "layers: a stack has a whole number of them",
                                post::engineering(part.film->thickness, "m"), post::engineering(height, "m"),

@@ -52,6 +52,12 @@ where = [{ quantity = "max_field", above = "500 MV/m" }]
             std::string::npos)
       << ended.out;
   EXPECT_NE(content("out/report.html").find("largest eps_y with max_field"), std::string::npos);
+  const auto answers = json_of("out/study.json");
+  EXPECT_EQ(answers["reached"], 6);
+  EXPECT_EQ(answers["best"][0]["value"], best);
+  EXPECT_EQ(std::to_string(answers["best"][1]["point"].get<int>()), bounded_number);
+  EXPECT_EQ(answers["best"][1]["varied"]["drive.voltage"], "4 kV");
+  EXPECT_TRUE(answers["best"][2]["point"].is_null());
   EXPECT_FALSE(exists("out/point-0001/small.pvd")); // as `set` says
   EXPECT_EQ(json_of("out/point-0001/summary.json")["no_error_estimate_because"],
             "left out: output.error_estimate = false");
@@ -79,6 +85,10 @@ TEST_F(StudyQuestions, TargetsAreRunUntilTheyAreMet) {
   EXPECT_NEAR(json_of("one/summary.json")["quantities"]["eps_y"]["value"].get<double>(), 0.1, 2e-5);
   EXPECT_NE(content("out/report.html").find("run there"), std::string::npos);
   EXPECT_EQ(table_of(directory / "out/study.csv").size(), 3u); // of the grid alone
+  const auto target = json_of("out/study.json")["targets"][0];
+  EXPECT_NEAR(target["value"].get<double>(), 0.1, 1e-5);
+  EXPECT_NEAR(target["at"].get<double>(), std::stod(found[1].str()), 1e-5 * target["at"].get<double>());
+  EXPECT_EQ(target["at_unit"], "kV");
 
   // once more with what has been run already
   const auto first_run = directory / "out/target-01-01/summary.json";
