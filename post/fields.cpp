@@ -235,13 +235,14 @@ const std::vector<WallField> wall_table{
     {"fibre_strain",
      "1",
      {},
-     "largest strain magnitude of the cross-section's fibres",
+     "largest strain magnitude of the cross-section's fibres, by axial force and bending: without shear and "
+     "torsion",
      [](const fem::BeamSample& s, double* v) { *v = s.fibre_strain; },
      Extreme::maximum},
     {"yield_ratio",
      "1",
      {},
-     "largest fibre strain over the yield strain of the wall's material",
+     "largest fibre strain over the yield strain of the wall's material; without shear and torsion",
      [](const fem::BeamSample& s, double* v) { *v = utilisation(s.fibre_strain, s.yield_strain); },
      Extreme::maximum},
 };

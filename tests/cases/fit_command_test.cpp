@@ -68,6 +68,14 @@ TEST_F(FitCommand, WhatTheTestsDoNotTellIsAWarning) {
   EXPECT_TRUE(json_of("out/fit.json")["parameters"][3]["low_95"].is_null());
 }
 
+TEST_F(FitCommand, ABoundOfTheUsersIsCalledSo) {
+  write_fit("range = 1.01\n" + std::string(law_only));
+  const Ended ended = dielast({"fit", "fit.toml", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("shear_modulus is at the bound that fit.range sets, "), std::string::npos)
+      << ended.out;
+}
+
 TEST_F(FitCommand, AFitThatGivesUpKeepsWhatItHas) {
   write_fit("max_iterations = 1\n" + std::string(law_only));
   const Ended ended = dielast({"fit", "fit.toml", "-o", "out"});
