@@ -60,21 +60,29 @@ std::span<const Term> terms() {
 
 namespace {
 
+/// Whether two keys may stand in one table.
+bool meet(const Key& key, const Key& other) {
+  return key.only_for.empty() || other.only_for.empty() ||
+         std::ranges::any_of(key.only_for, [&](const std::string& name) { return other.applies_to(name); });
+}
+
 /// Names of the keys of which one stands for this one, in its place.
 std::vector<std::string> instead_of(const Key& key, const Section& section) {
   std::vector<std::string> names;
-  if (!key.instead_of.empty()) names.push_back(key.instead_of);
-  for (const Key& other : section.keys)
-    if (other.instead_of == key.name ||
-        (!key.instead_of.empty() && other.instead_of == key.instead_of && other.name != key.name))
-      if (std::ranges::count(names, other.name) == 0) names.push_back(other.name);
+  for (const Key& other : section.keys) {
+    const bool stands_for_it = other.instead_of == key.name || other.name == key.instead_of ||
+                               (!key.instead_of.empty() && other.instead_of == key.instead_of);
+    if (stands_for_it && other.name != key.name && meet(key, other) &&
+        std::ranges::count(names, other.name) == 0)
+      names.push_back(other.name);
+  }
   return names;
 }
 
 /// Whether a key, or what stands for it, must be there.
 bool is_needed(const Key& key, const Section& section) {
   return key.required || std::ranges::any_of(section.keys, [&](const Key& other) {
-           return other.name == key.instead_of && other.required && !other.fallback;
+           return other.name == key.instead_of && other.required && meet(key, other);
          });
 }
 

@@ -121,10 +121,25 @@ void check_solid(const WrittenPart& written) {
   if (std::ranges::any_of(one.steps,
                           [](const Step& step) { return step.on_instability == OnInstability::jump; }))
     report("section", "solids do not jump: on_instability = \"stop\" or \"follow\"");
-  for (const Quantity& quantity : one.quantities)
-    if (!quantity.kind->of_solids)
+  const Node* quantities = written.tree.find("quantity");
+  int number = 0; // of the user's own
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = one.quantities[q];
+    const Node* own = quantities && q < quantities->items.size() ? &quantities->items[q] : nullptr;
+    const Node* kind = own ? own->find("kind") : nullptr;
+    const bool is_written = kind && kind->source.is_written();
+    number += is_written;
+    if (quantity.kind->of_solids) continue;
+    if (is_written)
+      written.reader.report(
+          kind->source, fmt::format("quantity[{}].kind", number),
+          fmt::format("found \"{}\": of films that are membranes or shells, and this one is a solid{}",
+                      quantity.kind->word,
+                      quantity.kind->word == "stretch" ? "; ask for \"elongation\"" : ""));
+    else
       report("section",
              fmt::format("quantity \"{}\" is of films that are membranes or shells", quantity.name));
+  }
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     const Electrode& electrode = one.electrodes[e];
     if (electrode.ground.empty() != film.potential) continue;

@@ -24,6 +24,14 @@ Probe current(const Probing& probing) {
   };
 }
 
+Probe source_voltage(const Probing& probing) {
+  return [e = probing.electrode()](const Measured& measured) {
+    const fem::State& state = measured.state;
+    if (fem::is_isolated(state.supply[e])) return no_value;
+    return state.supply[e] == fem::Supply::circuit ? state.source[e] : state.voltage[e];
+  };
+}
+
 std::size_t chamber(const Probing& probing) { return probing.device.model.ports.chamber(); }
 
 } // namespace
@@ -68,6 +76,17 @@ std::vector<QuantityKind> port_kinds() {
                                     : "has no value here: the current is that through a [circuit], and there "
                                       "is none");
            }},
+      {.word = "source voltage",
+       .meaning =
+           "that of an electrode's source, before its [circuit], as a wave or a [[controller]] asks for "
+           "it; none where the electrode is isolated or its charge is given (V)",
+       .unit = "V",
+       .keys = electrode_keys,
+       .in_words =
+           [](const Quantity& q) {
+             return fmt::format("voltage of the source of electrode {}{}", q.of, at_words(q));
+           },
+       .probe = source_voltage},
       {.word = "pressure",
        .meaning = "in the chamber (Pa)",
        .unit = "Pa",

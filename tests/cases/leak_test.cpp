@@ -46,6 +46,19 @@ struct LeakingPatch {
   }
 };
 
+/// U = Phi + R I.
+TEST_F(Leak, TheSourceHasTheVoltageThatIsAskedFor) {
+  const Ran ran = run(branched_patch +
+                      "[drive]\nvoltage = { wave = \"ramp\", to = \"2 kV\", duration = \"1 s\" }\n[circuit]\n"
+                      "resistance = \"20 GOhm\"\n[[step]]\nkind = \"transient\"\nduration = \"0.5 s\"\n"
+                      "[[quantity]]\nname = \"U\"\nkind = \"source voltage\"\nof = \"film\"\n"
+                      "[[quantity]]\nname = \"I\"\nkind = \"current\"\nof = \"film\"\n");
+  EXPECT_NEAR(ran.last("U"), 1000, 1e-9);
+  const double phi = ran.last("charge") / ran.last("capacitance");
+  EXPECT_GT(ran.last("U"), 1.01 * phi);
+  EXPECT_NEAR(phi + 20e9 * ran.last("I"), ran.last("U"), 1e-6 * 1000);
+}
+
 TEST_F(Leak, AnIsolatedElectrodeLosesItsChargeThroughTheLeakWhileTimePasses) {
   const std::string text = branched_patch +
                            "[drive]\ncharge = \"20 nC\"\n[circuit]\nresistance = \"1 Mohm\"\n"
