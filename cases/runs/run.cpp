@@ -209,8 +209,10 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.info("  {} check{} left out: --set changed the device that they are for", one.skipped_checks,
              one.skipped_checks == 1 ? "" : "s");
   if (results.time_error > 0)
-    log.info("time steps: their errors of internal variables and motion add up to {:.1e}, relative",
-             results.time_error);
+    log.info(
+        "time steps: their errors of dashpots' stretches, and of motion over a hundredth of the device, add "
+        "up to {:.1e}",
+        results.time_error);
   for (std::size_t w = simulation.warnings().size(); w < results.warnings.size(); ++w)
     log.warn("{}", as_warning(results.warnings[w]));
   const fem::Timings& t = simulation.timings();

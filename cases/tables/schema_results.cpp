@@ -121,7 +121,9 @@ Section solver_section() {
           .optional(),
       number(
           "time_tolerance", to(&SolverOptions::time_tolerance),
-          "relative error of dashpots, charges and motion that one time step may add; run.log and "
+          "error that one time step may add: of the stretches of dashpots, which are about 1 (strains far "
+          "below "
+          "1 % need less), of charges, relative, and of motion over a hundredth of the device; run.log and "
           "summary.json tell the sum over the steps. With inertia every wave is followed that jumping loads "
           "send through film, where nothing but a viscosity damps it; beside a heavy plate 1e-4, or film "
           "without density, leaves its motion nearly as it is, with far fewer steps")
