@@ -150,7 +150,8 @@ int CsvTable::find_time() const {
 }
 
 std::string CsvTable::listed_names() const {
-  return listed(names) + (texts.empty() ? "" : fmt::format("; no numbers stand in {}", fmt::join(texts, ", ")));
+  return listed(names) +
+         (texts.empty() ? "" : fmt::format("; no numbers stand in {}", fmt::join(texts, ", ")));
 }
 
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong) {
@@ -205,9 +206,10 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
   }
   const bool any_numbers = !std::ranges::all_of(columns, &Column::text);
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (any_numbers && columns[c].text && !columns[c].first_text.empty()) {
-      table.texts.push_back(fmt::format("\"{}\" (\"{}\")", names[c], columns[c].first_text));
-      continue;
+    const std::string& word = columns[c].first_text;
+    if (any_numbers && columns[c].text && (!word.empty() || names[c].empty())) {
+      if (!word.empty()) table.texts.push_back(fmt::format("\"{}\" (\"{}\")", names[c], word));
+      continue; // nothing at all: each line ends with a separator
     }
     std::ranges::move(columns[c].wrong, std::back_inserter(wrong));
     table.names.push_back(names[c]);

@@ -82,6 +82,8 @@ TEST(Csv, LeavesColumnsOfWordsOut) {
   EXPECT_EQ(
       table.listed_names(),
       "\"time (ms)\", \"force_N\"; no numbers stand in \"clock\" (\"12:30:01\"), \"remark\" (\"ramp 2\")");
+  EXPECT_EQ(read("a,b,\n1,2,\n3,4,\n", wrong).names, (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(wrong.empty()) << wrong.front().text();
   read("a,b\n1,x\n2,3\n", wrong); // some are numbers
   EXPECT_EQ(texts(wrong), std::vector<std::string>{":2:3: error: b: found \"x\", allowed a number"});
 }
