@@ -124,8 +124,8 @@ double coupling(const Probing& probing, const Measured& measured) {
   model.dofs.gather(charged, charges.coupling[e]);
   const double force =
       charges.coupling[e].head(give.displacement.size()).dot(give.displacement) / (2 * voltage);
-  const double drawn =
-      model.charges(model.initial_state(), false).capacitance[e] - probing.one.electrodes[e].stray_capacitance;
+  const double drawn = model.charges(model.initial_state(), false).capacitance[e] -
+                       probing.one.electrodes[e].stray_capacitance;
   return force * probing.quantity.length / drawn;
 }
 

@@ -43,8 +43,8 @@ NameWithUnit split_unit(const std::string& name);
 bool names_percent(std::string name);
 
 /// Everything that is wrong with the file is added to `wrong`, with line and column: text or nothing in a
-/// cell of a column of numbers, a row with more or fewer cells than names, fewer than `least_rows` rows; a thousand errors end it.
-/// Throws FileError when the file cannot be read.
+/// cell of a column of numbers, a row with more or fewer cells than names, fewer than `least_rows` rows; a
+/// thousand errors end it. Throws FileError when the file cannot be read.
 CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector<Diagnostic>& wrong);
 
 /// What the numbers of the column are multiplied by to be SI: its name ends in a unit of the dimension of

@@ -46,8 +46,7 @@ void load_samples(Waveform& wave, std::string_view unit, const std::filesystem::
                                    csv.listed_names())});
     if (wrong.size() > errors_before) return;
     require_growing(csv, time, wrong, "; a jump takes a time, be it short");
-    const int column =
-        value_column(csv, csv.names[static_cast<std::size_t>(time)], wave, table, path, wrong);
+    const int column = value_column(csv, csv.names[static_cast<std::size_t>(time)], wave, table, path, wrong);
     if (wrong.size() > errors_before) return;
     if (!factor_to_si(csv, column, unit)) {
       const std::string& name = csv.names[static_cast<std::size_t>(column)];
