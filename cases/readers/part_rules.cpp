@@ -67,21 +67,26 @@ void check_prestretch(const WrittenPart& written) {
                           "a stretch is a length over a length, without %; 3 is three times as long");
 }
 
-/// Electrodes of layers that there are.
+/// Electrodes of layers that there are, and that can be charged.
 void check_layers(SectionReader& reader, const Node& tree, const Case& one) {
-  std::vector<std::string> names;
+  std::vector<std::string> names, passive;
   for (const Part& part : one.parts)
     for (std::size_t l = 0; part.film && l < part.film->further_layers.size(); ++l)
-      if (const std::string& name = part.film->further_layers[l].name; !name.empty()) names.push_back(name);
+      if (const Layer& layer = part.film->further_layers[l]; !layer.name.empty()) {
+        names.push_back(layer.name);
+        if (layer.material.dielectric.permittivity == 0) passive.push_back(layer.name);
+      }
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     const std::string& layer = one.electrodes[e].layer;
-    if (layer.empty() || std::ranges::count(names, layer) > 0) continue;
+    const bool is_passive = std::ranges::count(passive, layer) > 0;
+    if (layer.empty() || (std::ranges::count(names, layer) > 0 && !is_passive)) continue;
     reader.report(tree.find("electrode")->items.at(e).find("layer")->source,
                   fmt::format("electrode[{}].layer", e + 1),
-                  fmt::format("found \"{}\": {}{}", layer,
-                              names.empty() ? "there is no [[film.layer]] with a name"
-                                            : "no such layer, allowed " + listed(names),
-                              did_you_mean(layer, names)));
+                  is_passive ? fmt::format("found \"{}\": its material has no permittivity", layer)
+                             : fmt::format("found \"{}\": {}{}", layer,
+                                           names.empty() ? "there is no [[film.layer]] with a name"
+                                                         : "no such layer, allowed " + listed(names),
+                                           did_you_mean(layer, names)));
   }
 }
 

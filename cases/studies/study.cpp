@@ -215,7 +215,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   }
   std::vector<std::string> answers = best_lines(study, points);
   for (std::string& line : target_lines(study, points, solutions)) answers.push_back(std::move(line));
-  folder.write("study.json", study_json(study, points, solutions));
+  if (!answers.empty()) folder.write("study.json", study_json(study, points, solutions));
   post::write_report(folder, study_report(study, points, answers));
 
   int failed = 0;

@@ -239,12 +239,7 @@ Section layer_section() {
           "of stress where the film is drawn"),
   };
   section.sections.push_back(material_section<Layer>());
-  section.check = [](const void* object) -> std::optional<Conflict> {
-    const auto& layer = *static_cast<const Layer*>(object);
-    if (!layer.name.empty() && layer.material.dielectric.permittivity == 0)
-      return Conflict{"name", "a layer with a name may be charged, and its material has no permittivity"};
-    return prestretch_conflict<Layer>(object);
-  };
+  section.check = prestretch_conflict<Layer>;
   return section;
 }
 
