@@ -191,8 +191,8 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     release = energy_.add_after_jump(std::move(point));
   else
     energy_.add(std::move(point));
-  if (records_ == 0) return;
   taken_ = {taken_.states + 1, taken_.iterations + increment.newton.iterations};
+  if (records_ == 0) return;
   const Step& step = steps_[static_cast<std::size_t>(step_)];
   const bool unseen = step.duration && !step.inertia && device_.model.inertia().mass.nonZeros() > 0;
   if (reached == Reached::by_jump) {

@@ -15,7 +15,7 @@ namespace dielast::cases {
 
 /// What a simulation has come through so far.
 struct Taken {
-  int states = 0;     ///< accepted ones beside the drawn one, recorded or not
+  int states = 0;     ///< accepted ones, the drawn one included, recorded or not
   int iterations = 0; ///< of Newton's method that led to them
 };
 
