@@ -219,10 +219,7 @@ std::string study_json(const Study& study, const std::vector<StudyPoint>& points
                        const std::vector<TargetSolution>& solutions) {
   using Json = nlohmann::ordered_json;
   const Collected collected(study, points);
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-  const auto column = [&](const std::string& quantity) {
-    return static_cast<std::size_t>(std::ranges::find(study.collect, quantity) - study.collect.begin());
-  };
+  const auto column = [&](const std::string& quantity) { return *position(study.collect, quantity); };
   Json targets = Json::array(), best = Json::array();
   const auto tell = [&](const TargetSolution& solution) {
     const StudyTarget& target = study.targets[solution.target];
@@ -251,7 +248,7 @@ std::string study_json(const Study& study, const std::vector<StudyPoint>& points
       varied[names[i]] = unquoted(points[*found].values[i]);
     best.push_back({{"quantity", asked.quantity()},
                     {"sense", asked.largest.empty() ? "smallest" : "largest"},
-                    {"value", found ? number(collected.value(*found, q)) : Json(nullptr)},
+                    {"value", found ? Json(collected.value(*found, q)) : Json(nullptr)},
                     {"unit", collected.units[q]},
                     {"point", found ? Json(points[*found].number) : Json(nullptr)},
                     {"varied", std::move(varied)}});

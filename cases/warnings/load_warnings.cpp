@@ -67,9 +67,8 @@ std::string settle_warning(const Case& one, bool attachments_pull) {
   });
   const bool slackens = one.dimension == fem::Dimension::spatial && pulls != one.steps.end();
   return fmt::format(
-      "the film is not held in its prestretch{}: a step \"settle\" before the first cuts it free; say so by "
-      "a "
-      "[[step]] of kind \"release\", or hold it by [[support]]{}",
+      "the film is not held in its prestretch{}: a step \"settle\" before the first cuts it free; say so "
+      "by a [[step]] of kind \"release\", or hold it by [[support]]{}",
       one.supports.empty() ? ", there is no [[support]]" : "",
       slackens
           ? fmt::format(": where it slackens it buckles, so hold what the step \"{}\" pulls on until = {}",

@@ -109,17 +109,20 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
         for (int i = 0; i < 3; ++i) equations[at++] = map.equation(node, i);
   }
   std::size_t choose_elements(const State& state) override {
-    std::vector<Pair> rubbing;
-    if (sliders_.any() && state.history)
-      sliders_.for_each_pair(*state.history, [&](std::size_t surface, int own, int other) {
-        rubbing.push_back({surface, own, other});
-      });
-    const auto is_element = [&](const Pair& pair) { return std::ranges::binary_search(pairs_, pair); };
-    if (choice_ > 0 && covers(state) && std::ranges::all_of(rubbing, is_element)) return choice_;
+    const auto for_each_rubbing = [&](const auto& use) {
+      if (sliders_.any() && state.history)
+        sliders_.for_each_pair(*state.history, [&](std::size_t surface, int own, int other) {
+          use(Pair{surface, own, other});
+        });
+    };
+    bool are_elements = true;
+    for_each_rubbing(
+        [&](const Pair& pair) { are_elements = are_elements && std::ranges::binary_search(pairs_, pair); });
+    if (choice_ > 0 && are_elements && covers(state)) return choice_;
     chosen_ = moved(state);
     std::vector<Pair> pairs = meeting(chosen_, chosen_, contact_.barrier.thickness + margin_);
-    if (!rubbing.empty()) {
-      pairs.insert(pairs.end(), rubbing.begin(), rubbing.end());
+    if (sliders_.any()) {
+      for_each_rubbing([&](const Pair& pair) { pairs.push_back(pair); });
       std::ranges::sort(pairs);
       pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     }
