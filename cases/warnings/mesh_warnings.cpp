@@ -83,6 +83,12 @@ std::vector<std::string> layer_warnings(const Case& one) {
     if (slab && charged && part.film->is_solid() && !part.film->stacked_along) {
       const double height = slab->height - 2 * slab->cover_thickness;
       const double layers = height / part.film->thickness;
+      const double farthest = std::max({slab->height, slab->length, slab->width.value_or(0)});
+      const bool reaches_beyond = !one.ties.empty(); // from part to part
+      if (part.film->potential && part.film->thickness > (1 + 1e-9) * farthest && !reaches_beyond)
+        warn(part,
+             fmt::format("it is the distance of the electrodes, {}, and the slab is no larger than {}",
+                         post::engineering(part.film->thickness, "m"), post::engineering(farthest, "m")));
       if (!part.film->potential && (layers < 1 - 1e-9 || std::abs(layers - std::round(layers)) > 0.01))
         warn(part, fmt::format("a layer is {} thick, and where there is a field the slab is {} high, {:.4g} "
                                "layers: a stack has a whole number of them",
