@@ -18,6 +18,10 @@ std::vector<std::string> Study::varied() const {
   return names;
 }
 
+std::size_t Study::column(const std::string& quantity) const {
+  return static_cast<std::size_t>(std::ranges::find(collect, quantity) - collect.begin());
+}
+
 bool Study::goes_together(const std::string& axis) const {
   return std::ranges::find(pair, axis) != pair.end();
 }

@@ -70,6 +70,8 @@ struct Study {
   /// Names of a point's values: of the axes, then of the derived keys.
   std::vector<std::string> varied() const;
   bool goes_together(const std::string& axis) const;
+  /// The number of a quantity among `collect`; that of none is their count.
+  std::size_t column(const std::string& quantity) const;
   bool is_parameter(const std::string& axis) const;
 };
 

@@ -114,12 +114,12 @@ ExitCode run_points(const Study& study, const StudySettings& settings, std::span
 namespace {
 
 /// Whether each target is met somewhere and each best point is one.
-bool all_answered(const Study& study, const std::vector<StudyPoint>& points,
+bool all_answered(const Study& study, const Collected& collected,
                   const std::vector<TargetSolution>& solutions) {
   for (std::size_t t = 0; t < study.targets.size(); ++t)
     if (std::ranges::find(solutions, t, &TargetSolution::target) == solutions.end()) return false;
   return std::ranges::all_of(
-      study.best, [&](const StudyBest& best) { return best_point(study, best, points).has_value(); });
+      study.best, [&](const StudyBest& best) { return best_point(study, best, collected).has_value(); });
 }
 
 /// Warnings of the section, and of varied keys that have no effect at the points but those with one of their
@@ -185,7 +185,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   progress.show();
   const auto ended = [&](const StudyPoint& point, int code) {
     progress.done(point, code);
-    folder.write("study.csv", study_table(study, points));
+    folder.write("study.csv", study_table(study, points, Collected(study, points)));
   };
   if (settings.cluster) {
     folder.add(cluster_folder);
@@ -198,7 +198,7 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     say("interrupted; go on with --resume\n");
     return ExitCode::interrupted;
   }
-  folder.write("study.csv", study_table(study, points));
+  folder.write("study.csv", study_table(study, points, Collected(study, points)));
   const auto run = [&](const StudyPoint& point) -> std::optional<PointResult> {
     folder.add(point.directory.filename());
     const Kept kept = kept_of(study, point, settings.resume);
@@ -213,16 +213,18 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
     say("interrupted; go on with --resume\n");
     return ExitCode::interrupted;
   }
-  std::vector<std::string> answers = best_lines(study, points);
-  for (std::string& line : target_lines(study, points, solutions)) answers.push_back(std::move(line));
-  if (!answers.empty()) folder.write("study.json", study_json(study, points, solutions));
-  post::write_report(folder, study_report(study, points, answers));
+  const Collected collected(study, points);
+  std::vector<std::string> answers = best_lines(study, points, collected);
+  for (std::string& line : target_lines(study, points, collected, solutions))
+    answers.push_back(std::move(line));
+  if (!answers.empty()) folder.write("study.json", study_json(study, points, collected, solutions));
+  post::write_report(folder, study_report(study, points, collected, answers));
 
   int failed = 0;
-  for (const StudyPoint& point : points)
-    if (const auto result = result_of(study, point); !result || result->exit_code != 0) {
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (const auto& result = collected.results[p]; !result || result->exit_code != 0) {
       ++failed;
-      say("failed: {}: {}\n", label(study, point), result ? result->message : "not finished");
+      say("failed: {}: {}\n", label(study, points[p]), result ? result->message : "not finished");
     }
   for (const std::string& line : answers) say("{}\n", line);
   say("{} of {} points reached their ends, all are in {}, report in {}\n",
@@ -230,9 +232,9 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       (settings.directory / "study.csv").string(), (settings.directory / "report.html").string());
   const bool solved =
       std::ranges::all_of(solutions, [](const TargetSolution& one) { return one.problem.empty(); });
-  const ExitCode code = failed || !solved                        ? ExitCode::not_converged
-                        : all_answered(study, points, solutions) ? ExitCode::ok
-                                                                 : ExitCode::check_failed;
+  const ExitCode code = failed || !solved                           ? ExitCode::not_converged
+                        : all_answered(study, collected, solutions) ? ExitCode::ok
+                                                                    : ExitCode::check_failed;
   folder.set_complete(static_cast<int>(code));
   return code;
 }

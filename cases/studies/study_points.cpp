@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 
 namespace dielast::cases {
 
@@ -85,6 +86,25 @@ std::optional<PointResult> result_of(const Study& study, const StudyPoint& point
   } catch (const json::exception&) { // damaged, or of an older version: as if it had not run
     return std::nullopt;
   }
+}
+
+Collected::Collected(const Study& study, const std::vector<StudyPoint>& points)
+    : units(study.collect.size()) {
+  for (const StudyPoint& point : points) {
+    results.push_back(result_of(study, point));
+    for (std::size_t q = 0; results.back() && q < units.size(); ++q)
+      if (units[q].empty()) units[q] = results.back()->units[q];
+  }
+}
+
+double Collected::value(std::size_t point, std::size_t quantity) const {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  return results[point] ? results[point]->quantities[quantity].value_or(missing) : missing;
+}
+
+double Collected::reached_value(std::size_t point, std::size_t quantity) const {
+  return results[point] && results[point]->has_ended() ? value(point, quantity)
+                                                       : std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace dielast::cases

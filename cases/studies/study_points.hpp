@@ -54,4 +54,16 @@ std::vector<StudyPoint> study_points(const Study& study, const std::filesystem::
 void mark_done(const StudyPoint& point, int exit_code, const std::string& message);
 std::optional<PointResult> result_of(const Study& study, const StudyPoint& point);
 
+/// The results of all points of a study, as they are now.
+struct Collected {
+  std::vector<std::optional<PointResult>> results; ///< nothing: not finished
+  std::vector<std::string> units;                  ///< of Study::collect; "" where no point has a value
+
+  Collected(const Study& study, const std::vector<StudyPoint>& points);
+  /// SI, NaN where there is none.
+  double value(std::size_t point, std::size_t quantity) const;
+  /// What a plot over the values that vary may show: NaN where a run ended on its way to them, too.
+  double reached_value(std::size_t point, std::size_t quantity) const;
+};
+
 } // namespace dielast::cases

@@ -21,29 +21,6 @@ namespace dielast::cases {
 
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-/// Results of the points, with the unit of each collected quantity.
-struct Collected {
-  std::vector<std::optional<PointResult>> results;
-  std::vector<std::string> units;
-
-  Collected(const Study& study, const std::vector<StudyPoint>& points) : units(study.collect.size()) {
-    for (const StudyPoint& point : points) {
-      results.push_back(result_of(study, point));
-      for (std::size_t q = 0; results.back() && q < units.size(); ++q)
-        if (units[q].empty()) units[q] = results.back()->units[q];
-    }
-  }
-  /// What a plot over the values that vary may show: nothing where a run ended on its way to them.
-  double reached_value(std::size_t point, std::size_t quantity) const {
-    return results[point] && results[point]->has_ended() ? value(point, quantity) : missing;
-  }
-  double value(std::size_t point, std::size_t quantity) const {
-    return results[point] ? results[point]->quantities[quantity].value_or(missing) : missing;
-  }
-};
-
 template<class Names>
 std::optional<std::size_t> position(const Names& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -185,8 +162,8 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
 
 } // namespace
 
-std::string study_table(const Study& study, const std::vector<StudyPoint>& points) {
-  const Collected collected(study, points);
+std::string study_table(const Study& study, const std::vector<StudyPoint>& points,
+                        const Collected& collected) {
   std::string table = "point";
   std::vector<Column> varied;
   const std::vector<std::string> names = study.varied();
@@ -215,18 +192,16 @@ std::string study_table(const Study& study, const std::vector<StudyPoint>& point
   return table;
 }
 
-std::string study_json(const Study& study, const std::vector<StudyPoint>& points,
+std::string study_json(const Study& study, const std::vector<StudyPoint>& points, const Collected& collected,
                        const std::vector<TargetSolution>& solutions) {
   using Json = nlohmann::ordered_json;
-  const Collected collected(study, points);
-  const auto column = [&](const std::string& quantity) { return *position(study.collect, quantity); };
   Json targets = Json::array(), best = Json::array();
   const auto tell = [&](const TargetSolution& solution) {
     const StudyTarget& target = study.targets[solution.target];
     const bool solved = solution.problem.empty();
     targets.push_back({{"quantity", target.quantity},
                        {"wanted", target.value},
-                       {"unit", collected.units[column(target.quantity)]},
+                       {"unit", collected.units[study.column(target.quantity)]},
                        {"key", study.axes[0].key},
                        {"at", solved ? Json(solution.key) : Json(nullptr)},
                        {"at_unit", written_measure(points.front().values[0])->unit},
@@ -235,13 +210,13 @@ std::string study_json(const Study& study, const std::vector<StudyPoint>& points
   };
   for (std::size_t t = 0; t < study.targets.size(); ++t) {
     if (std::ranges::count(solutions, t, &TargetSolution::target) == 0)
-      tell({.target = t, .problem = "not within the values varied"});
+      tell({.target = t, .problem = not_within});
     for (const TargetSolution& solution : solutions)
       if (solution.target == t) tell(solution);
   }
   for (const StudyBest& asked : study.best) {
-    const auto found = best_point(study, asked, points);
-    const std::size_t q = column(asked.quantity());
+    const auto found = best_point(study, asked, collected);
+    const std::size_t q = study.column(asked.quantity());
     Json varied = Json::object();
     const std::vector<std::string> names = study.varied();
     for (std::size_t i = 0; found && i < names.size(); ++i)
@@ -266,8 +241,7 @@ std::string study_json(const Study& study, const std::vector<StudyPoint>& points
 }
 
 post::Report study_report(const Study& study, const std::vector<StudyPoint>& points,
-                          const std::vector<std::string>& answers) {
-  const Collected collected(study, points);
+                          const Collected& collected, const std::vector<std::string>& answers) {
   post::Report report{
       .title = study.title,
       .subtitle = fmt::format("study of {}, {} points", study.base.filename().string(), points.size()),
@@ -289,7 +263,7 @@ post::Report study_report(const Study& study, const std::vector<StudyPoint>& poi
 
   std::vector<std::pair<std::size_t, std::string>> best; // point and quantity
   for (const StudyBest& one : study.best)
-    if (const auto found = best_point(study, one, points)) best.emplace_back(*found, one.quantity());
+    if (const auto found = best_point(study, one, collected)) best.emplace_back(*found, one.quantity());
   post::Table table{{"point"}, {}};
   for (std::string& name : study.varied()) table.header.push_back(std::move(name));
   for (const std::string& name : study.collect) table.header.push_back(name);

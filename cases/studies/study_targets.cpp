@@ -23,15 +23,10 @@ constexpr double rounding = 1e-8;        ///< of the value: what runs are good t
 /// Value of the key, and of the quantity less the target.
 using Point = std::pair<double, double>;
 
-std::size_t collected(const Study& study, const StudyTarget& target) {
-  const auto found = std::ranges::find(study.collect, target.quantity);
-  return static_cast<std::size_t>(found - study.collect.begin());
-}
-
 std::optional<double> difference(const Study& study, const StudyTarget& target,
                                  const std::optional<PointResult>& result) {
   if (!result || !result->has_ended()) return std::nullopt;
-  const auto value = result->quantities[collected(study, target)];
+  const auto value = result->quantities[study.column(target.quantity)];
   return value ? std::optional(*value - target.value) : std::nullopt;
 }
 
@@ -216,14 +211,12 @@ std::vector<TargetSolution> solve_targets(const Study& study, const std::vector<
 }
 
 std::vector<std::string> target_lines(const Study& study, const std::vector<StudyPoint>& points,
+                                      const Collected& collected,
                                       const std::vector<TargetSolution>& solutions) {
   std::vector<std::string> lines;
   for (std::size_t t = 0; t < study.targets.size(); ++t) {
     const StudyTarget& target = study.targets[t];
-    std::string quantity_unit;
-    for (const StudyPoint& point : points)
-      if (const auto result = result_of(study, point); result && quantity_unit.empty())
-        quantity_unit = result->units[collected(study, target)];
+    const std::string& quantity_unit = collected.units[study.column(target.quantity)];
     const std::string wanted =
         fmt::format("{} = {}", target.quantity, post::engineering(target.value, quantity_unit));
     const std::string unit = written_measure(points.front().values[0])->unit;
@@ -238,9 +231,10 @@ std::vector<std::string> target_lines(const Study& study, const std::vector<Stud
               : fmt::format("{}: not solved: {}", wanted, solution.problem));
     }
     if (!any)
-      lines.push_back(wanted +
-                      ": not within the values varied: between no two points beside each other "
-                      "does the quantity pass it (where it turns back between two, more points find it)");
+      lines.push_back(fmt::format(
+          "{}: {}: between no two points beside each other does the quantity pass it (where it turns back "
+          "between two, more points find it)",
+          wanted, not_within));
   }
   return lines;
 }

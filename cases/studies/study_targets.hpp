@@ -16,6 +16,8 @@ struct TargetSolution {
   std::string problem;    ///< why there is none; empty: it is solved
 };
 
+/// Why a target has no solution.
+inline constexpr const char* not_within = "not within the values varied";
 /// How the names of the runs' directories begin.
 inline constexpr const char* target_folder = "target-";
 
@@ -33,6 +35,7 @@ std::vector<TargetSolution> solve_targets(const Study& study, const std::vector<
 /// One line for each solution: "stiffness = 160 N/m at film.material.shear_modulus = 43.54 kPa (run there:
 /// 160 N/m)", and for each target without any.
 std::vector<std::string> target_lines(const Study& study, const std::vector<StudyPoint>& points,
+                                      const Collected& collected,
                                       const std::vector<TargetSolution>& solutions);
 
 } // namespace dielast::cases
