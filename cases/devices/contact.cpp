@@ -119,8 +119,33 @@ double lowest_of_underside(const Case& one, const meshing::Mesh& mesh, const mes
   return lowest;
 }
 
+/// What the cells are made of that have sides of a surface.
+struct Behind {
+  double modulus = std::numeric_limits<double>::infinity(); ///< Young's, of the softest, Pa
+  double width = 0;                                         ///< in plane strain, m: all have one
+
+  double barrier_stiffness(double thickness) const { // a gap of half of it bears about 1 % of the modulus
+    return 0.01 * modulus / thickness;
+  }
+};
+Behind behind(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
+              const meshing::CellBlock& sides) {
+  const std::set<int> on_surface(sides.nodes.begin(), sides.nodes.end());
+  Behind found;
+  for (int cell = 0; cell < mesh.film()->size(); ++cell) {
+    const auto own = mesh.film()->cell(cell);
+    if (std::ranges::count_if(own, [&](int node) { return on_surface.contains(node); }) <
+        std::ssize(sides.cell(0)))
+      continue;
+    const Film& film = *one.parts[static_cast<std::size_t>(parts[static_cast<std::size_t>(cell)])].film;
+    found.modulus = std::min(found.modulus, 3 * materials::initial_shear_modulus(film.material.law));
+    found.width = film.width;
+  }
+  return found;
+}
+
 /// The plane is where the barrier of the surface's lowest node begins.
-void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+void add_table(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model) {
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric,
              in_space = one.dimension == fem::Dimension::spatial;
   const int up = of_revolution ? 2 : 1;
@@ -130,18 +155,16 @@ void add_table(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
                       fmt::format("found {:.6g} mm, and what lies on the table is {:.6g} mm high: the solid "
                                   "may sink in by as much as the first",
                                   1e3 * thickness, 1e3 * height)}});
-  const Film& film = *one.unnamed()->film;
   const meshing::CellBlock sides =
       in_space ? meshing::faces_at(mesh, one.table->place)
                : meshing::sides_at(mesh, one.table->place, meshing::CellType::meridian3);
+  const Behind solid = behind(one, mesh, parts, sides);
   fem::PlaneContact contact =
       in_space ? fem::surface_of(mesh, sides)
-               : fem::surface_of(mesh, sides, of_revolution ? std::nullopt : std::optional(film.width));
-  const double modulus = 3 * materials::initial_shear_modulus(film.material.law);
+               : fem::surface_of(mesh, sides, of_revolution ? std::nullopt : std::optional(solid.width));
   contact.normal = Eigen::Vector3d::Unit(up);
   contact.origin = (lowest_of_underside(one, mesh, sides, up) - thickness) * contact.normal;
-  // A gap of half the barrier's thickness bears about 1 % of Young's modulus.
-  contact.barrier = {.thickness = thickness, .stiffness = 0.01 * modulus / thickness, .foot = 1};
+  contact.barrier = {.thickness = thickness, .stiffness = solid.barrier_stiffness(thickness), .foot = 1};
   contact.place = one.table->place;
   contact.friction = one.table->friction;
   model.blocks.push_back(fem::make_plane_contact_block(mesh, std::move(contact)));
@@ -169,13 +192,17 @@ bool cross(const meshing::Mesh& mesh, const meshing::CellBlock& one, const meshi
   const auto turn = [](const Vector2d& a, const Vector2d& b, const Vector2d& c) {
     return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
   };
+  const auto box = [](const Vector2d& a, const Vector2d& b) {
+    return Eigen::AlignedBox2d(a.cwiseMin(b), a.cwiseMax(b));
+  };
   for (int i = 0; i < one.size(); ++i) {
     const auto a = points(one.cell(i));
     for (int j = 0; j < other.size(); ++j) {
       const auto b = points(other.cell(j));
       for (std::size_t k = 0; k < chords; ++k)
         for (std::size_t l = 0; l < chords; ++l)
-          if (turn(a[k], a[k + 1], b[l]) * turn(a[k], a[k + 1], b[l + 1]) <= 0 &&
+          if (box(a[k], a[k + 1]).intersects(box(b[l], b[l + 1])) && // or apart on one line
+              turn(a[k], a[k + 1], b[l]) * turn(a[k], a[k + 1], b[l + 1]) <= 0 &&
               turn(b[l], b[l + 1], a[k]) * turn(b[l], b[l + 1], a[k + 1]) <= 0)
             return true;
     }
@@ -193,6 +220,34 @@ bool cross(const meshing::Mesh& mesh, const meshing::CellBlock& one, const meshi
   for (int i = 0; i < one.size(); ++i)
     for (int j = 0; j < other.size(); ++j)
       if (fem::cross(face(one.cell(i)), face(other.cell(j)))) return true;
+  return false;
+}
+
+/// Whether a node of a surface lies within a cell as drawn: then solids lie in each other.
+bool lies_inside(const meshing::Mesh& mesh, const meshing::CellBlock& surface) {
+  constexpr double on_its_side = 1e-6; // of a cell
+  const meshing::CellBlock& cells = *mesh.film();
+  const int dimension = meshing::is_tetrahedron(cells.type) ? 3 : 2;
+  const auto at = [&](int node) -> const Eigen::Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(node)];
+  };
+  Eigen::AlignedBox3d around;
+  for (const int node : surface.nodes) around.extend(at(node));
+  for (int c = 0; c < cells.size(); ++c) {
+    const auto own = cells.cell(c).first(static_cast<std::size_t>(dimension) + 1); // corners
+    Eigen::AlignedBox3d box;
+    for (const int node : own) box.extend(at(node));
+    if (!box.intersects(around)) continue;
+    Eigen::Matrix3d sides = Eigen::Matrix3d::Identity();
+    for (int k = 0; k < dimension; ++k) sides.col(k) = at(own[static_cast<std::size_t>(k) + 1]) - at(own[0]);
+    if (dimension == 2) sides.col(2) = sides.col(0).cross(sides.col(1));
+    const Eigen::Matrix3d local = sides.inverse();
+    for (const int node : surface.nodes) {
+      if (!box.contains(at(node))) continue;
+      const Eigen::VectorXd share = (local * (at(node) - at(own[0]))).head(dimension);
+      if (std::min(share.minCoeff(), 1 - share.sum()) > on_its_side) return true;
+    }
+  }
   return false;
 }
 
@@ -222,21 +277,22 @@ std::vector<int> mirrored(const Case& one, const meshing::Mesh& mesh,
 }
 
 /// Every surface and each other one.
-void add_surfaces(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+void add_surfaces(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
+                  fem::Model& model) {
   const bool of_revolution = one.dimension == fem::Dimension::axisymmetric,
              in_space = one.dimension == fem::Dimension::spatial;
   const double thickness = one.contact->thickness;
-  double modulus = std::numeric_limits<double>::infinity(), width = 0; // of the softest solid
-  for (const Part& part : one.parts)
-    if (part.film && part.film->is_solid()) {
-      modulus = std::min(modulus, 3 * materials::initial_shear_modulus(part.film->material.law));
-      width = part.film->width;
-    }
   const std::vector<std::string>& places = one.contact->between;
   std::vector<meshing::CellBlock> surfaces;
-  for (const std::string& place : places)
+  std::vector<Behind> solids;
+  for (const std::string& place : places) {
     surfaces.push_back(in_space ? meshing::faces_at(mesh, place)
                                 : meshing::sides_at(mesh, place, meshing::CellType::meridian3));
+    solids.push_back(behind(one, mesh, parts, surfaces.back()));
+    if (lies_inside(mesh, surfaces.back()))
+      throw meshing::MeshError(fmt::format(
+          "the surface \"{}\" lies inside a solid as drawn: what is to touch is drawn apart", place));
+  }
   for (std::size_t a = 0; a < places.size(); ++a)
     for (std::size_t b = a + 1; b < places.size(); ++b) {
       const auto fail = [&](const std::string& reason) {
@@ -248,23 +304,24 @@ void add_surfaces(const Case& one, const meshing::Mesh& mesh, fem::Model& model)
         fail(fmt::format("have {} and {} sides: any may meet any, which is too much; name the parts of "
                          "them that may touch",
                          surfaces[a].size(), surfaces[b].size()));
+      const Behind& softer = solids[a].modulus < solids[b].modulus ? solids[a] : solids[b];
       const auto contact = [&](double reach) {
-        // A gap of half the barrier's thickness bears about 1 % of Young's modulus, as on a table.
-        const fem::Barrier barrier{.thickness = reach, .stiffness = 0.01 * modulus / thickness, .foot = 1};
+        const fem::Barrier barrier{
+            .thickness = reach, .stiffness = softer.barrier_stiffness(thickness), .foot = 1};
         const std::array<std::string, 2> names{places[a], places[b]};
         const std::array<meshing::CellBlock, 2> both{surfaces[a], surfaces[b]};
         const std::vector<int> on_symmetry = mirrored(one, mesh, both);
         if (in_space)
           return fem::make_face_contact_block(mesh,
                                               {names, both, barrier, one.contact->friction, on_symmetry});
-        return fem::make_surface_contact_block(mesh, {names, both,
-                                                      of_revolution ? std::nullopt : std::optional(width),
-                                                      barrier, one.contact->friction, on_symmetry});
+        return fem::make_surface_contact_block(
+            mesh, {names, both, of_revolution ? std::nullopt : std::optional(softer.width), barrier,
+                   one.contact->friction, on_symmetry});
       };
       try {
         model.blocks.push_back(contact(thickness));
-      } catch (const std::invalid_argument&) {
-        fail("have nodes in common");
+      } catch (const std::invalid_argument& error) {
+        fail(error.what());
       }
       if (in_space ? cross(mesh, surfaces[a], surfaces[b])
                    : cross(mesh, surfaces[a], surfaces[b], of_revolution ? 2 : 1))
@@ -309,11 +366,12 @@ void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
     if (!carried.contains(node)) dofs.hold(node, 0);
 }
 
-void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+void add_contact(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
+                 fem::Model& model) {
   if (!one.contact) return;
-  if (!one.contact->between.empty()) add_surfaces(one, mesh, model);
+  if (!one.contact->between.empty()) add_surfaces(one, mesh, parts, model);
   if (one.table)
-    add_table(one, mesh, model);
+    add_table(one, mesh, parts, model);
   else if (!one.contact->between.empty())
     return;
   else if (const auto* roll = one.geometry<Roll>())

@@ -283,7 +283,7 @@ Device build_device(const Case& one) {
     throw meshing::MeshError(error.what());
   }
   if (!rotary.empty()) model.blocks.push_back(fem::make_relative_mass_block(rotary));
-  add_contact(one, mesh, model);
+  add_contact(one, mesh, parts, model);
 
   add_springs(one, mesh, shares, model);
   add_capacitors(one, model);

@@ -34,8 +34,9 @@ void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
 /// Adds what keeps the walls of a lattice's cells, surfaces of solids, a solid and its table, or a roll and
 /// its core apart, where the case has [contact]. Throws MeshError where walls or surfaces are closer as drawn
-/// than the barrier reaches, and for surfaces that cross.
-void add_contact(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
+/// than the barrier reaches, and for surfaces that cross. `parts` are film_parts().
+void add_contact(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
+                 fem::Model& model);
 
 /// Holds what a roll's core keeps at its radius, whether pressed or pulled. To be called behind the ties.
 void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs);

@@ -53,8 +53,8 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
   const auto report = [&](const char* section, const char* message) {
     reader.report(tree.find(section)->source, section, message);
   };
-  if (one.table && !(one.unnamed() && one.unnamed()->film && one.unnamed()->film->is_solid()))
-    report("table", "only for solids, with [film] at the top of the file");
+  if (one.table && !one.any_film([](const Film& film) { return film.is_solid(); }))
+    report("table", "only for solids");
   if (one.table && !one.contact) report("table", "needs [contact], which says how thick its barrier is");
   const auto* roll = one.geometry<Roll>();
   const bool core = roll && roll->core == RollCore::one_sided;

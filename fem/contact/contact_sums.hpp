@@ -33,7 +33,7 @@ struct ContactSums {
 inline void require_apart(const meshing::CellBlock& one, const meshing::CellBlock& other) {
   const std::set<int> nodes(one.nodes.begin(), one.nodes.end());
   if (std::ranges::any_of(other.nodes, [&](int node) { return nodes.contains(node); }))
-    throw std::invalid_argument("surfaces in contact have no nodes in common");
+    throw std::invalid_argument("have nodes in common: what touches has its own");
 }
 
 } // namespace dielast::fem

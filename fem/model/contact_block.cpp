@@ -52,13 +52,18 @@ double contact_force(const Model& model, const State& state, std::string_view pl
 
 std::vector<double> contact_pressure(const Model& model, const State& state) {
   const std::size_t nodes = state.displacement.size();
-  NodalPressure all{std::vector<double>(nodes, 0), std::vector<double>(nodes, 0)};
-  for_each_contact(model, [&](const ContactBlock& one) { one.add_pressure(state, all); });
-  if (std::ranges::none_of(all.area, [](double area) { return area > 0; })) return {};
   std::vector<double> pressure(nodes, 0);
-  for (std::size_t n = 0; n < nodes; ++n)
-    if (all.area[n] > 0) pressure[n] = all.force[n] / all.area[n];
-  return pressure;
+  bool may_touch = false;
+  for_each_contact(model, [&](const ContactBlock& one) { // each has the whole area of its surfaces
+    NodalPressure own{std::vector<double>(nodes, 0), std::vector<double>(nodes, 0)};
+    one.add_pressure(state, own);
+    for (std::size_t n = 0; n < nodes; ++n) {
+      if (!(own.area[n] > 0)) continue;
+      pressure[n] += own.force[n] / own.area[n];
+      may_touch = true;
+    }
+  });
+  return may_touch ? pressure : std::vector<double>();
 }
 
 double friction_heat(const Model& model, const State& state) {

@@ -64,7 +64,8 @@ bool is_pressed_first(const Model& model, const State& state);
 /// the largest change of a bound, over the largest of those that change.
 double bound_friction(const Model& model, State& state, bool solved, double eased = 1);
 
-/// Normal force over area as drawn, per node, Pa; 0 inside. Empty: no surface of a solid may touch anything.
+/// Normal force over area as drawn, per node, Pa, the sum over contacts; 0 inside. Empty: no surface of a
+/// solid may touch anything.
 /// Of the state's displacements alone.
 std::vector<double> contact_pressure(const Model& model, const State& state);
 

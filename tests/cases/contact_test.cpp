@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walls of a honeycomb that touch: [contact].
+// Walls of a honeycomb that touch, and solids on a table: [contact].
 #include "cases/devices/device.hpp"
 #include "fem/contact/wall_contact.hpp"
 #include "meshing/mesh_error.hpp"
@@ -192,177 +192,31 @@ TEST_F(Contacts, only_undersides_lie_on_a_table_and_the_barrier_is_thin) {
   }
 }
 
-/// A block, and one half as long above it, whose back is moved down by 0.1 mm; the gap in mm. `up`: y, of
-/// revolution z.
-std::string two_blocks(double gap, char up = 'y',
-                       const std::string& between = "\"lower.top\", \"upper.bottom\"") {
-  const bool of_revolution = up == 'z';
-  const auto part = [&](const char* name, const char* length, int across, const std::string& at) {
+/// The pressure of 4 N on 40 mm x 10 mm, whatever stands beside it.
+TEST_F(Contacts, of_a_part_and_its_table_go_by_the_part) {
+  const auto block = [](const std::string& part, const char* modulus, int width, int at) {
     return fmt::format(
-        "[part.{0}]\n{3}[part.{0}.film]\nthickness = \"1 mm\"\nsection = \"solid\"\nmaterial = \"VHB 4910 "
-        "(honeycomb)\"\n[part.{0}.slab]\nlength = \"{1}\"\nheight = \"2 mm\"\n[part.{0}.mesh]\nacross "
-        "= {2}\ngrading = 1\n",
-        name, length, across, at);
+        "[{0}film]\nthickness = \"1 mm\"\nsection = \"solid\"\nwidth = \"{2} mm\"\n[{0}film.material]\n"
+        "shear_modulus = \"{1}\"\npermittivity = \"4e-11 F/m\"\n[{0}slab]\nlength = \"10 mm\"\n"
+        "height = \"3 mm\"\n[{0}mesh]\nacross = 2\n{3}",
+        part, modulus, width,
+        part.empty() ? ""
+                     : fmt::format("[{}]\nat = [\"{} mm\", 0, 0]\n", part.substr(0, part.size() - 1), at));
   };
-  const std::string height = fmt::format("\"{} mm\"", 2 + gap);
-  return fmt::format("model = \"{}\"\n", of_revolution ? "axisymmetric" : "planar") +
-         part("lower", "10 mm", 2, "") +
-         part("upper", "5 mm", 3,
-              of_revolution ? "at = [0, 0, " + height + "]\n" : "at = [\"2 mm\", " + height + ", 0]\n") +
-         fmt::format(
-             "[contact]\nthickness = \"0.01 mm\"\nbetween = [{1}]\n"
-             "[[support]]\nplace = \"lower.bottom\"\nfix = [{2}\"{0}\"]\n"
-             "[[support]]\nplace = \"upper.top\"\n{3}displacement = {{ {0} = \"-0.1 mm\" }}\n"
-             "[[step]]\nkind = \"move\"\n[output]\nerror_estimate = false\n"
-             "[[quantity]]\nname = \"pressed\"\nkind = \"contact force\"\n"
-             "[[quantity]]\nname = \"below\"\nkind = \"contact force\"\nof = \"lower.top\"\n"
-             "[[quantity]]\nname = \"pressure\"\nkind = \"contact pressure\"\nof = \"upper.bottom\"\n"
-             "[[quantity]]\nname = \"held\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"{0}\"\n"
-             "[[quantity]]\nname = \"pushed\"\nkind = \"force\"\nof = \"upper.top\"\nalong = \"{0}\"\n",
-             up, between, of_revolution ? "" : "\"x\", ", of_revolution ? "" : "fix = [\"x\"]\n");
-}
-
-/// What the one block is pushed with the other one's support bears.
-TEST_F(Contacts, pass_the_force_on_from_solid_to_solid) {
-  for (const char up : {'y', 'z'}) {
-    const auto end = values(two_blocks(0.02, up));
-    EXPECT_GT(end.at("held"), 0) << up;
-    EXPECT_NEAR(end.at("pushed"), -end.at("held"), 1e-6 * end.at("held")) << up;
-    EXPECT_NEAR(end.at("pressed"), end.at("held"), 0.1 * end.at("held"))
-        << up; // at the edge some of it aside
-    EXPECT_EQ(end.at("below"), end.at("pressed")) << up;
-    const double area = up == 'y' ? 5e-3 * 1 : std::numbers::pi * 25e-6;
-    EXPECT_GT(end.at("pressure"), end.at("held") / area) << up;
-  }
-}
-
-/// Two discs alike, with few elements: the edge of one stands on that of the other, and slips off it. One
-/// that is wider by half of the barrier's reach is pressed on.
-TEST_F(Contacts, tell_of_edges_that_slip_off_each_other) {
-  const auto disc = [](const char* name, const char* at, double radius, int across) {
-    return fmt::format("[part.{0}]\nat = [0, 0, \"{1}\"]\n[part.{0}.film]\nthickness = \"1 mm\"\nsection = "
-                       "\"solid\"\n[part.{0}.film.material]\nshear_modulus = \"50 kPa\"\npermittivity = "
-                       "\"4e-11 F/m\"\n[part.{0}.slab]\nlength = \"{2} mm\"\nheight = \"4 "
-                       "mm\"\n[part.{0}.mesh]\nacross = {3}\n",
-                       name, at, radius, across);
-  };
-  for (const double wider : {0.0, 0.005}) {
-    const Run pressed =
-        run("model = \"axisymmetric\"\n" + disc("lower", "0 mm", 10 + wider, 3) +
-                disc("upper", "4.02 mm", 10, 2) +
-                "[contact]\nthickness = \"10 um\"\nbetween = [\"upper.bottom\", \"lower.top\"]\n"
-                "[[support]]\nplace = \"lower.bottom\"\nfix = [\"z\"]\n"
-                "[[support]]\nplace = \"upper.top\"\ndisplacement = { z = \"-0.5 mm\" }\n"
-                "[[step]]\nkind = \"move\"\n[output]\nerror_estimate = false\n"
-                "[[quantity]]\nname = \"held\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"z\"\n",
-            "held");
-    if (wider == 0) {
-      EXPECT_EQ(pressed.outcome.kind, "limit point");
-      EXPECT_NE(pressed.outcome.message.find("reach over the other by contact.thickness"), std::string::npos)
-          << pressed.outcome.message;
-    } else {
-      EXPECT_EQ(pressed.outcome.ending, Ending::complete) << pressed.outcome.message;
-    }
-  }
-}
-
-/// What moves without strain is on no other path: increments are as long as they are asked for.
-TEST_F(Contacts, let_a_solid_come_near_without_strain) {
-  std::string text = two_blocks(0.5);
-  const std::string kind = "kind = \"move\"\n";
-  text.insert(text.find(kind) + kind.size(), "increments = 2\n");
-  const Case one = read(text);
-  Simulation simulation(one, 1);
-  int accepted = 0;
-  SimulationObserver observer;
-  observer.on_accept = [&](const Frame&) { return ++accepted > 0; };
-  EXPECT_EQ(simulation.run(observer).ending, Ending::complete);
-  EXPECT_LE(accepted, 3); // as drawn, too
-}
-
-/// In space, one of 10 x 10 mm below one of 5 x 5 mm.
-std::string two_blocks_in_space(double gap, const std::string& besides = "") {
-  const auto part = [&](const char* name, const char* size, const std::string& at) {
-    return fmt::format(
-        "[part.{0}]\n{2}[part.{0}.film]\nthickness = \"1 mm\"\nsection = \"solid\"\nmaterial = "
-        "\"VHB 4910 (honeycomb)\"\n[part.{0}.slab]\nlength = \"{1}\"\nwidth = \"{1}\"\nheight = "
-        "\"2 mm\"\n[part.{0}.mesh]\nacross = 1\ngrading = 1\n",
-        name, size, at);
-  };
-  return "model = \"3d\"\n" + part("lower", "10 mm", "") +
-         part("upper", "5 mm", fmt::format("at = [\"2 mm\", \"{} mm\", \"0.3 mm\"]\n", 2 + gap)) +
-         fmt::format("[contact]\nthickness = \"0.01 mm\"\nbetween = [\"lower.top\", \"upper.bottom\"{}]\n",
-                     besides) +
-         "[[support]]\nplace = \"lower.bottom\"\nfix = [\"x\", \"y\", \"z\"]\n"
-         "[[support]]\nplace = \"upper.top\"\nfix = [\"x\", \"z\"]\ndisplacement = { y = \"-0.1 mm\" }\n"
-         "[[step]]\nkind = \"move\"\nincrements = 2\n[output]\nerror_estimate = false\n"
-         "[[quantity]]\nname = \"pressed\"\nkind = \"contact force\"\n"
-         "[[quantity]]\nname = \"below\"\nkind = \"contact force\"\nof = \"lower.top\"\n"
-         "[[quantity]]\nname = \"pressure\"\nkind = \"contact pressure\"\nof = \"upper.bottom\"\n"
-         "[[quantity]]\nname = \"held\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"y\"\n"
-         "[[quantity]]\nname = \"pushed\"\nkind = \"force\"\nof = \"upper.top\"\nalong = \"y\"\n";
-}
-
-TEST_F(Contacts, pass_the_force_on_from_solid_to_solid_in_space) {
-  const auto end = values(two_blocks_in_space(0.02));
-  EXPECT_GT(end.at("held"), 0);
-  EXPECT_NEAR(end.at("pushed"), -end.at("held"), 1e-6 * end.at("held"));
-  EXPECT_NEAR(end.at("pressed"), end.at("held"), 0.15 * end.at("held")); // at the edges some of it aside
-  EXPECT_EQ(end.at("below"), end.at("pressed"));
-  EXPECT_GT(end.at("pressure"), end.at("held") / 25e-6);
-  EXPECT_NO_THROW(build_device(read(two_blocks_in_space(0.01))));
-  EXPECT_THROW(build_device(read(two_blocks_in_space(0.009))), meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks_in_space(-0.5, ", \"upper.left\""))), meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks_in_space(0.1, ", \"lower.left\""))), meshing::MeshError);
-}
-
-/// Pressed and pushed aside by a little: without friction the lower one's support feels nothing of it.
-TEST_F(Contacts, hold_solids_with_friction_between_their_surfaces) {
-  const auto pushed = [&](std::string text, const std::string& friction) {
-    text.insert(text.find("between = "), "friction = " + friction + "\n");
-    const std::string down = "fix = [\"x\"]\ndisplacement = { y = \"-0.1 mm\" }";
-    text.replace(text.find(down), down.size(), "displacement = { y = \"-0.022 mm\", x = \"0.004 mm\" }");
-    text.replace(text.find("kind = \"move\""), 13, "kind = \"move\"\nincrements = 10");
-    text += "[[quantity]]\nname = \"aside\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"x\"\n"
-            "[[quantity]]\nname = \"heat\"\nkind = \"energy\"\nof = \"dissipated\"\n";
-    return values(text);
-  };
-  const auto smooth = pushed(two_blocks(0.02), "0"), rough = pushed(two_blocks(0.02), "0.2");
-  EXPECT_LT(std::abs(smooth.at("aside")), 0.01 * smooth.at("held"));
-  EXPECT_EQ(smooth.at("heat"), 0);
-  EXPECT_GT(std::abs(rough.at("aside")), 0.03 * rough.at("held"));
-  EXPECT_LT(std::abs(rough.at("aside")), 0.21 * rough.at("held"));
-  EXPECT_GT(rough.at("heat"), 0);
-}
-
-/// A block whose front comes down across the other one's upper edge: nothing but edges meet.
-TEST_F(Contacts, end_where_edges_of_surfaces_meet) {
-  std::string text = two_blocks_in_space(0.2);
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace("\"lower.top\", \"upper.bottom\"", "\"lower.right\", \"upper.front\"");
-  replace("at = [\"2 mm\"", "at = [\"6.77 mm\"");
-  replace("-0.1 mm", "-1 mm");
-  for (const char* name : {"pressed", "below", "pressure"}) {
-    const std::size_t at = text.find(std::string("[[quantity]]\nname = \"") + name);
-    text.erase(at, text.find("[[quantity]]", at + 1) - at);
-  }
-  const Case one = read(text);
-  Simulation simulation(one, 1);
-  const Outcome outcome = simulation.run({});
-  EXPECT_EQ(outcome.ending, Ending::gave_up);
-  EXPECT_NE(outcome.message.find("edges of surfaces in [contact] meet"), std::string::npos)
-      << outcome.message;
-}
-
-TEST_F(Contacts, refuse_surfaces_that_touch_or_cross_as_drawn) {
-  EXPECT_NO_THROW(build_device(read(two_blocks(0.01))));
-  EXPECT_THROW(build_device(read(two_blocks(0.009))), meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks(-0.5, 'y', "\"lower.top\", \"upper.bottom\", \"upper.left\""))),
-               meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks(0.1, 'y', "\"lower.top\", \"lower.left\", \"upper.bottom\""))),
-               meshing::MeshError);
+  const std::string rest =
+      "[table]\nat = \"b.bottom\"\n[contact]\nthickness = \"5 um\"\n"
+      "[[support]]\nplace = \"b.left\"\nfix = [\"x\"]\n[[load]]\nplace = \"b.top\"\nforce = [0, \"-4 N\", "
+      "0]\n"
+      "[[step]]\nkind = \"force\"\n[output]\nerror_estimate = false\n"
+      "[[quantity]]\nname = \"pressure\"\nkind = \"contact pressure\"\n"
+      "[[quantity]]\nname = \"sunk\"\nkind = \"displacement\"\nof = \"b.bottom\"\nalong = \"y\"\n";
+  const auto alone = values("model = \"planar\"\n" + block("part.b.", "10 kPa", 40, 0) + rest);
+  const auto beside = values("model = \"planar\"\n" + block("", "400 kPa", 10, 0) +
+                             "[[support]]\nplace = \"bottom\"\nfix = [\"x\", \"y\"]\n" +
+                             block("part.b.", "10 kPa", 40, 20) + rest);
+  EXPECT_NEAR(beside.at("pressure"), 10e3, 100);
+  EXPECT_NEAR(beside.at("pressure"), alone.at("pressure"), 1e-9 * 10e3);
+  EXPECT_NEAR(beside.at("sunk"), alone.at("sunk"), 1e-12);
 }
 
 } // namespace
