@@ -97,7 +97,8 @@ Widened widened_along(const Potential& psi, const InPlaneC<double>& C, const Mem
   MembranePotential<double> p = taut;
   for (int i = 0; i < 100 && b < widest * size; ++i) {
     const double slope = first(p).dot(n), curvature = n.dot(second(p) * n);
-    (slope < 0 ? low : high) = b; // beyond a stretch limit counts as too wide: the root lies before it
+    // Beyond a stretch limit, where slopes mean nothing, counts as too wide: the root lies before it.
+    (slope < 0 && std::isfinite(p.value) ? low : high) = b;
     const double newton = b - slope / curvature, end = std::min(high, b + 3 * (size + b));
     const bool near = curvature > 0 && std::abs(newton - b) <= 0.1 * b;
     if (near || (newton > low && newton < end))

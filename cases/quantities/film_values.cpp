@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -22,6 +23,15 @@ using meshing::CellType;
 
 constexpr double close_by = 1e-3;   ///< of an element's size
 constexpr double no_further = 0.02; ///< of I1 - 3, that a law at its limit does not let grow
+/// Permittivity over that of undeformed film below which film is taken to have none.
+constexpr double least_permittivity = 1e-9;
+constexpr double most_at_once = 1.25; ///< growth of wrinkled film's area in an increment
+
+const materials::Material& material_at(const Case& one, const Device& device, const fem::MembraneSample& at) {
+  const int part = device.film_parts[static_cast<std::size_t>(at.cell)];
+  const Film& film = *one.parts[static_cast<std::size_t>(part)].film;
+  return at.layer == 0 ? film.material : film.further_layers[static_cast<std::size_t>(at.layer) - 1].material;
+}
 
 /// Values of the shape functions at a place in an element and their derivatives there.
 struct LocalShape {
@@ -271,17 +281,15 @@ std::string law_limit(const Case& one, const Device& device, const fem::State& s
   double largest = 0;
   std::string of;
   for (const fem::MembraneSample& at : samples) {
-    const Part& part =
-        one.parts[static_cast<std::size_t>(device.film_parts[static_cast<std::size_t>(at.cell)])];
-    const materials::ElasticLaw& law =
-        at.layer == 0 ? part.film->material.law
-                      : part.film->further_layers[static_cast<std::size_t>(at.layer) - 1].material.law;
+    const materials::ElasticLaw& law = material_at(one, device, at).law;
     const Eigen::Matrix2d C = at.F.transpose() * at.F;
     const double I1 = at.solid ? at.solid->F.squaredNorm() : C.trace() + 1 / C.determinant();
     if (!std::isfinite(I1) || materials::admits(law, I1 + no_further * (I1 - 3))) continue;
     ++count;
     if (I1 - 3 <= largest) continue;
     largest = I1 - 3;
+    const Part& part =
+        one.parts[static_cast<std::size_t>(device.film_parts[static_cast<std::size_t>(at.cell)])];
     of = fmt::format("law \"{}\"{}", std::visit([](const auto& it) { return it.name; }, law),
                      part.name.empty() ? "" : fmt::format(" of part \"{}\"", part.name));
   }
@@ -292,6 +300,51 @@ std::string law_limit(const Case& one, const Device& device, const fem::State& s
       "law "
       "with a higher limit",
       of, largest, 100 * no_further, count, samples.size());
+}
+
+std::string permittivity_limit(const Case& one, const Device& device, const fem::State& state) {
+  if (std::ranges::none_of(one.film_materials(),
+                           [](const auto* material) { return material->dielectric.electrostriction != 0; }))
+    return "";
+  double smallest = std::numeric_limits<double>::infinity(), electrostriction = 0;
+  for (const fem::MembraneSample& at : device.model.sample(state).film) {
+    if (at.electrode < 0) continue;
+    const materials::Dielectric& dielectric = material_at(one, device, at).dielectric;
+    const Eigen::Matrix2d C = at.F.transpose() * at.F;
+    const double det = C.determinant() * at.widening * at.widening;
+    const double left = dielectric.permittivity_at(C.trace(), det) / dielectric.permittivity;
+    if (left < smallest) electrostriction = dielectric.electrostriction;
+    smallest = std::min(smallest, left);
+  }
+  if (smallest > least_permittivity) return "";
+  return fmt::format("electrostriction = {:.6g} would make the permittivity of film under an electrode "
+                     "negative, {:.3g} of the undeformed film's",
+                     electrostriction, smallest);
+}
+
+std::string snap_of_wrinkles(const Device& device, const fem::State& before, const fem::State& state) {
+  if (!device.tension_field) return "";
+  const auto from = device.model.sample(before).film, to = device.model.sample(state).film;
+  int count = 0;
+  double first = 0, then = 0, farthest = most_at_once;
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (to[i].tension == materials::Tension::taut && from[i].tension == materials::Tension::taut) continue;
+    const auto area = [](const fem::MembraneSample& at) {
+      return std::sqrt((at.F.transpose() * at.F).determinant()) * at.widening;
+    };
+    const double a = area(from[i]), b = area(to[i]), change = std::max(a, b) / std::min(a, b);
+    if (change > most_at_once) ++count;
+    if (change <= farthest) continue;
+    farthest = change;
+    first = a;
+    then = b;
+  }
+  if (count == 0) return "";
+  return fmt::format("beyond it wrinkled film snaps: its area would go from {:.3g} to {:.3g} times the "
+                     "unstretched one at once (in {} of {} integration points). Lower the drive or stretch "
+                     "the film more; where loads only change very fast, a smaller solver.smallest_increment "
+                     "helps",
+                     first, then, count, to.size());
 }
 
 } // namespace dielast::cases

@@ -66,6 +66,14 @@ std::vector<FilmElements> films_of(const std::string& place, const Case& one, co
 /// no further, in words, with what to do; empty where none is.
 std::string law_limit(const Case& one, const Device& device, const fem::State& state);
 
+/// Where film under an electrode has no positive permittivity, in words; empty where none is.
+std::string permittivity_limit(const Case& one, const Device& device, const fem::State& state);
+
+/// Where wrinkled film is much wider or narrower than `before`, the accepted state before, in words; empty
+/// where none is. What wrinkles take up moves no node: a film may go from one natural state to another
+/// (Gent's law pulled in by the field) in equilibria that are neighbours by all displacements.
+std::string snap_of_wrinkles(const Device& device, const fem::State& before, const fem::State& state);
+
 /// Mean of `value(sample, reading)`; NaN without readings.
 template<class Value>
 double mean(const std::vector<FilmReading>& readings, const fem::Samples& samples, Value&& value) {

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 
 namespace dielast::cases {
 
@@ -31,8 +30,6 @@ std::string ways_on(const Case& one, const Step& step) {
 
 /// Forces below this fraction of the film's own leave the drawn state in equilibrium.
 constexpr double balanced = 1e-9, balanced_shells = 1e-2;
-/// Permittivity over that of undeformed film below which film is taken to have none.
-constexpr double least_permittivity = 1e-9;
 
 const std::string drawn = "drawn"; ///< name of the state before the first step
 
@@ -203,33 +200,23 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
   }
 }
 
-/// Whether the permittivity of film under an electrode is positive everywhere; otherwise refusal_ says where
-/// it is not.
+/// Whether film can be in that state, wherever it comes from; otherwise refusal_ says why not.
 bool Simulation::admits(const Step& step, double load_factor, const fem::State& state) {
   refusal_.reset();
-  if (std::ranges::none_of(case_.film_materials(),
-                           [](const auto* material) { return material->dielectric.electrostriction != 0; }))
-    return true;
-  double smallest = std::numeric_limits<double>::infinity(), electrostriction = 0;
-  for (const fem::MembraneSample& at : device_.model.sample(state).film) {
-    if (at.electrode < 0) continue;
-    const int part = device_.film_parts[static_cast<std::size_t>(at.cell)];
-    const Film& film = *case_.parts[static_cast<std::size_t>(part)].film;
-    const materials::Dielectric& dielectric =
-        at.layer == 0 ? film.material.dielectric
-                      : film.further_layers[static_cast<std::size_t>(at.layer) - 1].material.dielectric;
-    const Eigen::Matrix2d C = at.F.transpose() * at.F;
-    const double det = C.determinant() * at.widening * at.widening;
-    const double left = dielectric.permittivity_at(C.trace(), det) / dielectric.permittivity;
-    if (left < smallest) electrostriction = dielectric.electrostriction;
-    smallest = std::min(smallest, left);
-  }
-  if (smallest > least_permittivity) return true;
-  refusal_ = {
-      Ending::gave_up, "loss of permittivity",
-      fmt::format("step \"{}\" stopped: at load factor {:.4g} electrostriction = {:.6g} would make the "
-                  "permittivity of film under an electrode negative, {:.3g} of the undeformed film's",
-                  step.name, load_factor, electrostriction, smallest)};
+  const std::string limit = permittivity_limit(case_, device_, state);
+  if (limit.empty()) return true;
+  refusal_ = {Ending::gave_up, "loss of permittivity",
+              fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name, load_factor, limit)};
+  return false;
+}
+
+/// Whether an increment may lead there from the last accepted state; otherwise refusal_ says why not.
+bool Simulation::leads(const Step& step, double load_factor, const fem::State& state) {
+  if (!admits(step, load_factor, state)) return false;
+  const std::string snap = snap_of_wrinkles(device_, accounted_, state);
+  if (snap.empty()) return true;
+  refusal_ = {Ending::gave_up, "limit point",
+              fmt::format("step \"{}\" stopped at load factor {:.4g}: {}", step.name, load_factor, snap)};
   return false;
 }
 
@@ -371,7 +358,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
           news_.back().before = {critical.load_factor, critical.state.time, voltages(critical.state)};
           if (observer.on_critical) observer.on_critical(critical, event);
         },
-        [&](double s, const fem::State& state) { return admits(step, s, state); },
+        [&](double s, const fem::State& state) { return leads(step, s, state); },
         [this](const fem::State& state) { return law_limit(case_, device_, state); },
         [&](const fem::State& state, const fem::Increment& increment, Reached reached) {
           return accept(observer, step, state, increment, reached);
@@ -385,8 +372,8 @@ Outcome Simulation::run(const SimulationObserver& observer) {
     if (refusal_) return *std::exchange(refusal_, std::nullopt);
     if (outcome.ending != Ending::complete) return outcome;
   }
-  const auto last = std::ranges::find_if(steps_ | std::views::reverse,
-                                         [](const Step& step) { return !step.is_analysis(); });
+  const auto last = // Clang 14 knows no views of ranges
+      std::find_if(steps_.rbegin(), steps_.rend(), [](const Step& step) { return !step.is_analysis(); });
   return last == steps_.rend() || last->inertia ? Outcome{} : end_at_rest(*equilibrium_, state());
 }
 

@@ -22,7 +22,7 @@ struct Taken {
 /// Where a simulation stands between two increments: with it, it goes on bit for bit.
 struct SimulationProgress {
   int step = 0;    ///< number of the current step, from 0
-  int records = 0; ///< accepted states so far, the drawn one included
+  int records = 0; ///< recorded states so far, the drawn one included
   StepProgress in_step;
   fem::EnergyBalance::Record energy;
   std::map<std::string, double> references;
@@ -105,6 +105,7 @@ class Simulation {
   bool pins_bear(const fem::State& given);
   void catch_what_moves(const fem::State& state, fem::EnergyBalance::Record& record);
   bool admits(const Step& step, double load_factor, const fem::State& state);
+  bool leads(const Step& step, double load_factor, const fem::State& state);
   void come_to(const fem::State& state);
   bool sample(const Step& step, double load_factor, Measured& measured);
   bool accept(const SimulationObserver& observer, const Step& step, const fem::State& state,

@@ -19,14 +19,37 @@ constexpr double rounded = 1e-12;           ///< of the energy: smaller changes 
 constexpr int most_steps = 400;
 
 constexpr double next_to_nothing = 1e-9; ///< of the film's stiffness: tension that is none
+/// Part of a film's unknowns, the stiffest last, up to which none but it resists: the others may be held by
+/// springs or bars, too.
+constexpr double of_film_alone = 0.9;
 
 } // namespace
 
+/// N/m, of film that may be slack, as drawn.
+double Equilibrium::film_stiffness() const {
+  std::vector<double> all;
+  for (const auto& block : model_.blocks) {
+    if (!block->may_be_slack()) continue;
+    std::vector<int> equations(static_cast<std::size_t>(block->dofs_per_element()));
+    for (int e = 0; e < block->element_count(); ++e) {
+      block->element_equations(e, model_.dofs, equations);
+      for (const int equation : equations)
+        if (equation >= 0 && equation < stiffness_.size()) all.push_back(stiffness_[equation]);
+    }
+  }
+  if (all.empty()) return stiffness_.size() > 0 ? stiffness_.maxCoeff() : 0; // its nodes are tied to others
+  const auto there =
+      all.begin() + static_cast<std::ptrdiff_t>(of_film_alone * static_cast<double>(all.size()));
+  std::ranges::nth_element(all, there);
+  return *there;
+}
+
 bool Equilibrium::is_slack(const State& state) const {
-  const double stiffness = stiffness_.size() > 0 ? stiffness_.maxCoeff() : 0; // N/m
-  const auto film = model_.sample(state).film;
-  return !film.empty() && std::ranges::all_of(film, [stiffness](const MembraneSample& sample) {
-    return sample.voltage == 0 && sample.S.norm() * sample.thickness <= next_to_nothing * stiffness;
+  Samples samples;
+  for (const auto& block : model_.blocks)
+    if (block->may_be_slack()) block->sample(state, samples);
+  return !samples.film.empty() && std::ranges::all_of(samples.film, [this](const MembraneSample& sample) {
+    return sample.voltage == 0 && sample.S.norm() * sample.thickness <= next_to_nothing * film_stiffness_;
   });
 }
 

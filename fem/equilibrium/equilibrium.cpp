@@ -108,6 +108,7 @@ Equilibrium::Equilibrium(const Model& model, int threads)
   round_off_ = std::numeric_limits<double>::epsilon() * stiffest * model.extent *
                std::sqrt(static_cast<double>(K.size));
   stiffness_ = stiffness_.array().max(least_stiffness * stiffest / squared);
+  film_stiffness_ = film_stiffness();
   energy_scale_ = (squared == 1).select(stiffness_.array(), 0).sum() * model.extent * model.extent;
   if (model.ports.any_sheet()) conduction_.emplace(model);
 }

@@ -96,8 +96,8 @@ class Equilibrium {
   NewtonResult balance_forces(State& state, const NewtonOptions& options,
                               const std::function<void(const Iteration&)>& log = {});
 
-  /// Whether the film carries no tension, nor a field that balances one: the tangent tells of rounding there,
-  /// and no path leads on.
+  /// Whether film that bears nothing but tension carries none, nor a field that balances one: the tangent
+  /// tells of rounding there, and no path leads on.
   bool is_slack(const State& state) const;
   /// Whether all but so many unstable modes of a state are none: of what carries no tension rounding has the
   /// sign, and film that is slack under a field keeps a trace of its compression.
@@ -172,6 +172,7 @@ class Equilibrium {
   void balance(State& state, Balance& balance, Pressure pressure);
   bool follow_charges(State& state, Pressure pressure) const;
   bool fill(State& state);
+  double film_stiffness() const;
   State widened(State state, double strain) const;
   double backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings,
                    double balanced_to);
@@ -180,6 +181,7 @@ class Equilibrium {
   Assembler assembler_;
   Eigen::VectorXd weight_;
   Eigen::VectorXd stiffness_;
+  double film_stiffness_ = 0;
   BorderedTangent tangent_;
   std::optional<SheetConduction> conduction_; ///< where there are sheets
   std::optional<Balance> solved_;

@@ -27,6 +27,7 @@ class FilmBlock : public FilmPoints {
   int element_count() const override { return count_; }
   int dofs_per_element() const override { return dofs; }
   int granularity() const override { return lanes; }
+  bool may_be_slack() const override { return true; }
   void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   void sample_points(const State& state, Samples& samples) const override;

@@ -106,6 +106,8 @@ class ElementBlock {
   virtual int dofs_per_element() const = 0;
   /// Elements with so many equal nodes have their tangents added node by node, by add_by_nodes().
   virtual NodeOrder node_order() const { return {}; }
+  /// Whether it is film that across itself resists nothing but by its tension, and slack nothing at all.
+  virtual bool may_be_slack() const { return false; }
   /// Elements are evaluated in multiples of this many.
   virtual int granularity() const { return 1; }
   /// Adds this block's scalars and remembers their places; to be called before the unknowns are numbered.

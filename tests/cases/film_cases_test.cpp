@@ -46,6 +46,21 @@ TEST_F(FilmCases, a_film_goes_on_where_its_electrode_is_slack) {
   }
 }
 
+// An inflated balloon whose poles a spring holds apart: in tension, however stiff the spring.
+TEST_F(FilmCases, film_in_tension_is_not_slack_beside_a_stiff_spring) {
+  for (const char* stiffness : {"1e3 N/m", "1e9 N/m"}) {
+    write("film.toml",
+          fmt::format("model = \"axisymmetric\"\n[film]\nthickness = \"10 um\"\n[film.material]\n"
+                      "shear_modulus = \"40 kPa\"\nrelative_permittivity = 3\n[balloon]\nradius = \"10 "
+                      "mm\"\n[chamber]\n"
+                      "pressure = \"1 kPa\"\n[[spring]]\nbetween = [\"south\", \"north\"]\nalong = \"z\"\n"
+                      "free_length = \"20 mm\"\nstiffness = \"{}\"\n[[step]]\nkind = \"pressure\"\n",
+                      stiffness));
+    const Case one = read_case(directory / "film.toml");
+    EXPECT_EQ(Simulation(one, 1).run({}).kind, "limit point") << stiffness;
+  }
+}
+
 // A side without stress is neither taut nor wrinkled: next to it the tangent of wrinkled film leads far off.
 TEST_F(FilmCases, a_slack_patch_can_be_pulled) {
   const double stress = 20e3, mu = 50e3;

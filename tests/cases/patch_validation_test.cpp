@@ -227,6 +227,43 @@ voltage = "30 kV"
   EXPECT_EQ(outcome.kind, "electromechanical loss") << outcome.message;
 }
 
+// No node moves, and none of the equilibria is unstable: the charge alone would jump, by two decades.
+TEST_F(PatchValidation, slack_film_that_snaps_is_a_limit_point) {
+  write("patch.toml", R"(
+[film]
+thickness = "1 mm"
+wrinkling = "tension field"
+[film.material]
+law = "gent"
+shear_modulus = "40 kPa"
+stretch_limit = 30
+permittivity = "4e-11 F/m"
+[patch]
+stretch_x = 1
+stretch_y = 1
+[drive]
+voltage = "24 kV"
+)");
+  const Case one = read_case(directory / "patch.toml");
+  Simulation simulation(one, 1);
+  double voltage = 0;
+  SimulationObserver observer;
+  observer.on_accept = [&](const Frame& frame) {
+    voltage = frame.record.voltages.front();
+    return true;
+  };
+  const Outcome outcome = simulation.run(observer);
+  EXPECT_EQ(outcome.ending, Ending::gave_up);
+  EXPECT_EQ(outcome.kind, "limit point") << outcome.message;
+  // eps V^2/H^2 = mu J/(J - I1 + 3) (1 - l^-6)/l^2 has its first maximum there
+  double most = 0;
+  for (double l = 1; l < 1.6; l += 1e-4)
+    most = std::max(most, 30 / (33 - 2 * l * l - 1 / std::pow(l, 4)) * (1 - std::pow(l, -6)) / (l * l));
+  const double limit = 1e-3 * std::sqrt(40e3 * most / 4e-11);
+  EXPECT_LT(voltage, limit);
+  EXPECT_GT(voltage, 0.999 * limit);
+}
+
 // Stopped at any record and resumed through a checkpoint's bytes, a run ends in the same bits: in time, along
 // a followed path, and behind a jump.
 TEST_F(PatchValidation, resumed_runs_end_in_the_same_bits) {

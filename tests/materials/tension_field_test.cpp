@@ -205,6 +205,20 @@ TEST(TensionField, a_stretch_limit_holds_what_a_neo_hookean_film_would_lose) {
   EXPECT_NEAR((1 - 1 / (60 * C22 * C22)) / (1 - (I1 - 3) / 100), k * 60, 1e-10);
 }
 
+// The way to the wrinkles' width leads beyond the limit, where the law has slopes that mean nothing.
+TEST(TensionField, slack_film_pulled_towards_its_stretch_limit_has_a_natural_state) {
+  const Gent law{1, 30};
+  for (double k = 0.5; k < 2; k += 0.01) {
+    const auto psi = [&](const InPlaneC<double>& C) { return membrane_potential(law, Dielectric{}, C, k); };
+    const InPlaneC<double> C{4, 1, 0};
+    const TensionField at = relax(psi, C, psi(C));
+    ASSERT_EQ(at.tension, Tension::slack) << k;
+    const double c = at.natural.C11, I1 = 2 * c + 1 / (c * c);
+    EXPECT_NEAR((1 - 1 / (c * c * c)) / (1 - (I1 - 3) / 30), k * c, 1e-9 * k * c) << k;
+    EXPECT_NEAR(at.natural.C22, c, 1e-9 * c);
+  }
+}
+
 TEST(TensionField, wrinkles_next_to_the_stretch_limit_too) {
   const Gent law{1, 100};
   const auto psi = [&](const InPlaneC<double>& C) { return membrane_potential(law, Dielectric{}, C, 0.0); };
