@@ -54,9 +54,12 @@ struct QuantityKind {
   /// Empty: nothing.
   std::string (*refusal)(const Case& one, const Quantity& quantity) = nullptr;
   std::string (*idle)(const Case& one, const Quantity& quantity) = nullptr;
+  /// Whether it is a work or heat, known no better than the balance of energies.
+  bool (*of_balance)(const Quantity& quantity) = nullptr;
   /// What is said of it instead of an estimate of its error. Empty: there is one.
   std::string (*without_error)(const Quantity& quantity) = nullptr;
 
+  bool shares = false;                     ///< a mean over its place, by the shares of the nodes
   bool directed = false;                   ///< its gradient is that along an axis
   bool fields = false;                     ///< read from the samples of a state
   bool extreme = false;                    ///< the smallest or largest value of a field

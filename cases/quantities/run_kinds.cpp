@@ -16,37 +16,39 @@ struct EnergyPart {
   const char* word;
   const char* meaning;
   double (*value)(const fem::EnergyBalance& balance);
+  bool exchanged = false; ///< a work or heat, not what a state stores
 };
 using Balance = const fem::EnergyBalance&;
 constexpr std::array energy_parts{
     EnergyPart{"electrical_work", "done on the film's electrodes: sum of int Phi dQ",
-               [](Balance b) { return b.work().electrical; }},
+               [](Balance b) { return b.work().electrical; }, true},
     EnergyPart{
         "mechanical_work",
         "done by loads, moved supports and the pressure in a chamber (on its walls: int p dV of its own "
         "volume, without what it takes to compress the filling); where several loads jump at once they do "
         "so along a straight line",
-        [](Balance b) { return b.work().mechanical; }},
+        [](Balance b) { return b.work().mechanical; }, true},
     EnergyPart{"stored", "elastic, branches, electric and kinetic together",
                [](Balance b) { return b.stored(); }},
-    EnergyPart{"elastic", "stored by the equilibrium law, walls and springs",
+    EnergyPart{"elastic",
+               "stored by the equilibrium law, walls, springs, contact and what sticks by friction",
                [](Balance b) { return b.parts().elastic; }},
     EnergyPart{"branches", "stored by the springs of the branches",
                [](Balance b) { return b.parts().branches; }},
     EnergyPart{"electric", "stored by the field", [](Balance b) { return b.parts().electric; }},
     EnergyPart{"kinetic", "of everything that has a mass", [](Balance b) { return b.parts().kinetic; }},
-    EnergyPart{"dissipated", "turned into heat by dashpots, dampers and resistive electrodes",
-               [](Balance b) { return b.work().dissipated; }},
+    EnergyPart{"dissipated", "turned into heat by dashpots, dampers, resistive electrodes and friction",
+               [](Balance b) { return b.work().dissipated; }, true},
     EnergyPart{"source_work", "given by the sources: electrical_work, resistance_heat and leak_heat",
-               [](Balance b) { return b.work().source(); }},
+               [](Balance b) { return b.work().source(); }, true},
     EnergyPart{"resistance_heat", "turned into heat by the resistances and limits of current of circuits",
-               [](Balance b) { return b.work().resistance; }},
+               [](Balance b) { return b.work().resistance; }, true},
     EnergyPart{"leak_heat", "turned into heat by the current that leaks through the film",
-               [](Balance b) { return b.work().leak; }},
+               [](Balance b) { return b.work().leak; }, true},
     EnergyPart{"released",
                "set free when the device is cut free, jumps to another state, comes to rest where a step "
                "without inertia follows one with it, or is caught by a support while it moves",
-               [](Balance b) { return b.work().released; }},
+               [](Balance b) { return b.work().released; }, true},
     EnergyPart{"wrinkle_regularisation",
                "part of `elastic` that only keeps wrinkled film from being singular",
                [](Balance b) { return b.parts().regularised; }},
@@ -60,10 +62,14 @@ std::vector<Key> energy_keys() {
   return {word("of", parts, to(&Quantity::of), "the part")};
 }
 
+const EnergyPart& part_of(const Quantity& quantity) {
+  return *std::ranges::find(energy_parts, quantity.of,
+                            [](const EnergyPart& each) { return std::string(each.word); });
+}
+
 Probe energy(const Probing& probing) {
-  const auto part = std::ranges::find(energy_parts, probing.quantity.of,
-                                      [](const EnergyPart& each) { return std::string(each.word); });
-  return [value = part->value](const Measured& measured) { return value(measured.energy); };
+  return
+      [value = part_of(probing.quantity).value](const Measured& measured) { return value(measured.energy); };
 }
 
 // --- courses: a mean over time is that of straight lines between the states where the subject has a value at
@@ -145,6 +151,7 @@ std::vector<QuantityKind> run_kinds() {
        .in_words =
            [](const Quantity& q) { return fmt::format("energy balance: {}{}", field_words(q), at_words(q)); },
        .probe = energy,
+       .of_balance = [](const Quantity& q) { return part_of(q).exchanged; },
        .without_error =
            [](const Quantity& q) { return std::string(q.of == "error" ? "an error itself" : ""); }},
       {.word = "peak",

@@ -112,8 +112,7 @@ Shape displacement(const Probing& probing) {
       Eigen::Vector3d moved = Eigen::Vector3d::Zero();
       const auto nodes = mesh.film()->cell(at.cell);
       for (std::size_t a = 0; a < nodes.size(); ++a)
-        moved +=
-            at.shape[static_cast<Eigen::Index>(a)] * state.displacement[static_cast<std::size_t>(nodes[a])];
+        moved += at.shape[static_cast<int>(a)] * state.displacement[static_cast<std::size_t>(nodes[a])];
       return towards(turn * moved);
     };
   const Device& device = probing.device;
@@ -158,8 +157,6 @@ Shape radius(const Probing& probing) {
   };
 }
 
-// --- gradients
-
 /// How a rotation vector goes with a small rotation that follows it, about axes that stay.
 Eigen::Matrix3d spin_per_turn(const Eigen::Vector3d& spin) {
   const double angle = spin.norm();
@@ -201,9 +198,8 @@ struct Row {
 
 Eigen::VectorXd distance_gradient(const Probing& probing, const fem::State& state) {
   const Quantity& quantity = probing.quantity;
-  const Device& device = probing.device;
   Row row(probing);
-  const auto apart = [&](const fem::State& at) -> Eigen::Vector3d {
+  const auto apart = [&, &device = probing.device](const fem::State& at) -> Eigen::Vector3d {
     return centroid(device, quantity.between[1], at) - centroid(device, quantity.between[0], at);
   };
   Eigen::Vector3d along = apart(state).normalized();
@@ -239,17 +235,18 @@ Eigen::VectorXd radius_gradient(const Probing& probing, const fem::State& state)
 
 Eigen::VectorXd displacement_gradient(const Probing& probing, const fem::State&) {
   const Quantity& quantity = probing.quantity;
+  const meshing::Mesh& mesh = probing.device.mesh;
   Row row(probing);
-  const Eigen::Vector3d along =
+  Eigen::Vector3d along =
       quantity.along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along);
-  if (!quantity.point) {
+  if (quantity.point) {
+    along = turn_to(Eigen::Vector3d(quantity.point->data()), mesh).transpose() * along;
+    const ElementPoint at = element_at_point(probing);
+    for (Eigen::Index a = 0; a < at.shape.size(); ++a)
+      row.add(mesh.film()->cell(at.cell)[static_cast<std::size_t>(a)], at.shape[a] * along);
+  } else {
     row.add_mean(quantity.of, along);
-    return row.values;
   }
-  const ElementPoint at = element_at_point(probing);
-  const auto nodes = probing.device.mesh.film()->cell(at.cell);
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    row.add(nodes[a], at.shape[static_cast<Eigen::Index>(a)] * along);
   return row.values;
 }
 
@@ -285,6 +282,7 @@ std::vector<QuantityKind> shape_kinds() {
        .shape = displacement,
        .since = difference,
        .gradient = displacement_gradient,
+       .shares = true,
        .directed = true},
       {.word = "angle",
        .meaning = "rotation of a body about an axis: the part of its rotation vector; within 60 degrees of "
@@ -307,7 +305,8 @@ std::vector<QuantityKind> shape_kinds() {
        .keys = [] { return std::vector<Key>{place_key()}; },
        .in_words = [](const Quantity& q) { return fmt::format("mean radius of {}{}", q.of, at_words(q)); },
        .shape = radius,
-       .gradient = radius_gradient},
+       .gradient = radius_gradient,
+       .shares = true},
       {.word = "distance",
        .meaning =
            "between the centroids of two places (m); in a model of revolution of what lies in the half "

@@ -193,7 +193,8 @@ std::vector<QuantityKind> stiffness_kinds() {
            return give_of(probing, probing.quantity.of, measured, fem::relaxed(measured.state)).force;
          };
        },
-       .idle = without_support},
+       .idle = without_support,
+       .shares = true},
       {.word = "coupling",
        .meaning = "force on a held place per squared voltage, over the capacitance per length, as drawn, of "
                   "what the electrode covers, branches relaxed; none where the state is not at rest (-)",
@@ -208,7 +209,8 @@ std::vector<QuantityKind> stiffness_kinds() {
        .probe = [](const Probing& probing) -> Probe {
          return [probing](const Measured& measured) { return coupling(probing, measured); };
        },
-       .idle = without_support},
+       .idle = without_support,
+       .shares = true},
       {.word = "natural frequency",
        .meaning = "of small vibrations about the state, branches relaxed, those of a device that nothing "
                   "holds without its rigid motions; none where it is not at rest (rad/s)",

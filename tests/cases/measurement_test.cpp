@@ -189,5 +189,39 @@ since = "voltage"
   EXPECT_DOUBLE_EQ(moved(), 5e-4);
 }
 
+// Points of a film of revolution turn with it, as do the responses of linear models and harmonic analyses.
+TEST_F(DiscMeasurement, TheGradientAtAPointIsThatOfItsDisplacement) {
+  std::string text = "model = \"axisymmetric\"\n" + test::small_disc;
+  int count = 0;
+  for (const char* point : {"20e-3, 0", "-20e-3, 0", "0, 20e-3", "-12e-3, -15e-3"})
+    for (const char* along : {"x", "y"})
+      text += fmt::format("[[quantity]]\nname = \"q{}\"\nkind = \"displacement\"\npoint = [{}, 0]\n"
+                          "along = \"{}\"\n",
+                          ++count, point, along);
+  write("points.toml", text);
+  one = read_case(directory / "points.toml");
+  device.emplace(build_device(one));
+  state = device->model.initial_state();
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(device->model.dofs.count());
+  for (std::size_t n = 0; n < state.displacement.size(); ++n) {
+    const double x = device->mesh.nodes[n].x();
+    state.displacement[n] = {1e-3 * (1 + 40 * x), 0, 0};
+    if (const int e = device->model.dofs.equation(static_cast<int>(n), 0); e != fem::DofMap::absent)
+      moved[e] = state.displacement[n].x();
+    else
+      state.displacement[n].setZero();
+  }
+  const fem::Samples none;
+  int turned = 0;
+  for (const Quantity& quantity : one.quantities) {
+    if (!quantity.point) continue;
+    const Probing probing{quantity, one, *device, none, ""};
+    const double value = quantity.kind->shape(probing)(state);
+    EXPECT_NEAR(quantity.kind->gradient(probing, state).dot(moved), value, 1e-15) << quantity.name;
+    turned += value < -1e-4;
+  }
+  EXPECT_EQ(turned, 3); // x of the second, both of the last
+}
+
 } // namespace
 } // namespace dielast::cases::measurement_test
