@@ -316,6 +316,8 @@ struct Part {
   const GeometryTraits& traits() const {
     return std::visit([](const auto& own) -> const GeometryTraits& { return own.traits; }, geometry);
   }
+  /// What its keys begin with.
+  std::string key_prefix() const { return name.empty() ? "" : "part." + name + "."; }
   /// A place of its own mesh as the case calls it.
   std::string called(const std::string& own_place) const {
     return name.empty() ? own_place : name + "." + own_place;

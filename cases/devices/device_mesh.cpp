@@ -23,10 +23,10 @@ meshing::Mesh mesh_of_regions(const Part& part, const std::vector<meshing::Regio
   const meshing::RoundFilm film = *round_film(part);
   meshing::Mesh mesh =
       meshing::region_mesh(film, regions, part.mesh.rings, std::max(1.0, part.mesh.grading), part.mesh.order);
-  if (film.inner_radius == 0) { // the places of a disc that is all electrode
+  if (film.inner_radius == 0 && !mesh.cell_sets.contains("electrode")) { // of a disc that is all electrode
     mesh.cell_sets["electrode"] = mesh.cell_sets.at("film");
     mesh.node_sets["electrode"] = mesh.node_sets.at("film");
-    mesh.node_sets["electrode_edge"] = mesh.node_sets.at("rim");
+    mesh.node_sets.try_emplace("electrode_edge", mesh.node_sets.at("rim"));
   }
   for (int k = 0; part.sectors && k < part.sectors->count; ++k) { // "a" is "sector[0]", too
     const std::string& name = regions[static_cast<std::size_t>(k)].name;

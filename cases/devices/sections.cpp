@@ -41,7 +41,7 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
   return map;
 }
 
-/// Film under the electrode of a layer must have that layer.
+/// Film under the electrode of a layer must have that layer, which must have a permittivity.
 void require_layers(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts) {
   for (const Electrode& electrode : one.electrodes) {
     if (electrode.layer.empty()) continue;
@@ -49,9 +49,12 @@ void require_layers(const Case& one, const meshing::Mesh& mesh, const std::vecto
     for (std::size_t i = 0; cells && i < cells->size(); ++i) {
       const int part = parts[static_cast<std::size_t>((*cells)[i])];
       const std::vector<Layer>& layers = one.parts[static_cast<std::size_t>(part)].film->further_layers;
-      if (std::ranges::count(layers, electrode.layer, &Layer::name) == 0)
-        throw meshing::MeshError(fmt::format("electrode \"{}\": some film of \"{}\" has no layer \"{}\"",
-                                             electrode.name, electrode.place, electrode.layer));
+      const auto layer = std::ranges::find(layers, electrode.layer, &Layer::name);
+      const bool is_there = layer != layers.end();
+      if (!is_there || layer->material.dielectric.permittivity == 0)
+        throw meshing::MeshError(fmt::format("electrode \"{}\": some film of \"{}\" has no layer \"{}\"{}",
+                                             electrode.name, electrode.place, electrode.layer,
+                                             is_there ? " with a permittivity" : ""));
     }
   }
 }

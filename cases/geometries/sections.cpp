@@ -164,7 +164,11 @@ std::optional<Conflict> patch_conflict(const void* object) {
 
 Section patch_section() {
   const auto stretch = [](std::string name, std::optional<Waveform> Patch::*part, std::string meaning) {
-    return wave(std::move(name), "1", to(part), std::move(meaning)).above(0).at_most(100).optional();
+    return wave(std::move(name), "1", to(part), std::move(meaning))
+        .of_stretch()
+        .above(0)
+        .at_most(100)
+        .optional();
   };
   const auto stress = [](std::string name, std::optional<Waveform> Patch::*part, std::string meaning) {
     return wave(std::move(name), "Pa", to(part), std::move(meaning)).optional();

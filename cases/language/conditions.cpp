@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/language/conditions.hpp"
 
-#include "cases/case/part_kind.hpp"
-#include "meshing/solids/surface.hpp"
+#include "cases/language/condition_on.hpp"
 
 #include <fmt/format.h>
 
@@ -115,17 +114,13 @@ bool follows_chamber(const Case& one, StepKind kind) {
   return false;
 }
 
-/// A condition on the case alone.
-template<class Rule>
-Condition on_case(std::string needs, Rule rule) {
-  return {std::move(needs), [rule](const Case& one, const void*) { return rule(one); }};
-}
-
-/// A condition on the object of the key's section, too.
-template<class T, class Rule>
-Condition on(std::string needs, Rule rule) {
-  return {std::move(needs),
-          [rule](const Case& one, const void* object) { return rule(one, *static_cast<const T*>(object)); }};
+/// Whether a ramp of that kind, or a transient, leads an electrode to what its drive says.
+bool leads(const Case& one, const Drive& drive, StepKind kind, Control control) {
+  const auto its = std::ranges::find_if(one.drives, [&](const auto& d) { return &d.second == &drive; });
+  return std::ranges::any_of(one.steps, [&](const Step& step) {
+    return (step.kind == kind && !step.to && (step.electrode.empty() || step.electrode == its->first)) ||
+           (step.kind == StepKind::transient && step.control == control);
+  });
 }
 
 } // namespace
@@ -164,8 +159,6 @@ Condition branches() {
   return on_case("a [[film.material.branch]] or a viscosity",
                  [](const Case& one) { return has_branches(one); });
 }
-
-Condition time_passes() { return on_case("a step with a duration", is_timed); }
 
 Condition sheets_matter() {
   return on_case("a step with a duration, or a leakage_resistance", [](const Case& one) {
@@ -266,16 +259,23 @@ Condition time_steps_matter() {
 }
 
 Condition voltage_applies() {
-  return on_case(
-      "a step of kind \"voltage\" without `to`, \"transient\" with control = \"voltage\", or \"harmonic\" "
-      "without `driven`",
-      [](const Case& one) {
-        return (one.linearise && one.linearise->driven.empty()) || any_step(one, [](const Step& step) {
-                 return (step.kind == StepKind::voltage && !step.to) ||
-                        (step.kind == StepKind::transient && step.control == Control::voltage) ||
-                        (step.kind == StepKind::harmonic && step.driven.empty());
+  return on<Drive>(
+      "a step of kind \"voltage\" about its electrode and without `to`, \"transient\" with control = "
+      "\"voltage\", or \"harmonic\" without `driven`",
+      [](const Case& one, const Drive& drive) {
+        return (one.linearise && one.linearise->driven.empty()) ||
+               leads(one, drive, StepKind::voltage, Control::voltage) || any_step(one, [](const Step& step) {
+                 return step.kind == StepKind::harmonic && step.driven.empty();
                });
       });
+}
+
+Condition charge_applies() {
+  return on<Drive>("a step of kind \"charge\" about its electrode and without `to`, or \"transient\" with "
+                   "control = \"charge\"",
+                   [](const Case& one, const Drive& drive) {
+                     return leads(one, drive, StepKind::charge, Control::charge);
+                   });
 }
 
 Condition chamber_is_open() {
@@ -301,49 +301,11 @@ Condition volume_applies() {
                  [](const Case& one) { return follows_chamber(one, StepKind::inflate); });
 }
 
-Condition elements() {
-  const auto are_one = [](const PartKind& kind) { return kind.one_element; };
-  return on<Part>(fmt::format("more than {}, which is one element", words_of_kinds(are_one)),
-                  [](const Case&, const Part& part) { return !is_one_element(part); });
-}
-
-Condition curved_triangles() {
-  return on<Part>("6-node triangles: mesh.order = 2 of a membrane that is not of revolution",
-                  [](const Case& one, const Part& part) {
-                    const bool membranes =
-                        one.any_film([](const Film& film) { return film.section == FilmSection::membrane; });
-                    return membranes && part.mesh.order == 2 && one.dimension != fem::Dimension::axisymmetric;
-                  });
-}
-
 Condition an_electrode_keeps_off_walls() {
   return on_case("an [[electrode]] at the place \"electrode\"", [](const Case& one) {
     return std::ranges::any_of(one.electrodes,
                                [](const Electrode& e) { return e.place.ends_with("electrode"); });
   });
-}
-
-Condition shell() {
-  return on<Film>("section = \"shell\"",
-                  [](const Case&, const Film& film) { return film.section == FilmSection::shell; });
-}
-
-Condition solid() {
-  return on<Film>("section = \"solid\"", [](const Case&, const Film& film) { return film.is_solid(); });
-}
-
-Condition layers() {
-  return on<Film>("section = \"solid\" and field = \"layers\"",
-                  [](const Case&, const Film& film) { return film.is_solid() && !film.potential; });
-}
-
-Condition law_without_volume() {
-  return on<Film>("section = \"solid\" and another law than \"st-venant-kirchhoff\", whose poisson_ratio "
-                  "says what changes of volume take",
-                  [](const Case&, const Film& film) {
-                    return film.is_solid() &&
-                           !std::holds_alternative<materials::StVenantKirchhoff>(film.material.law);
-                  });
 }
 
 Condition of_revolution() {
@@ -355,40 +317,21 @@ Condition in_space() {
   return on_case("model = \"3d\"", [](const Case& one) { return one.dimension == fem::Dimension::spatial; });
 }
 
-Condition fills_a_surface() {
-  return on<Part>("a file of a surface: .stl, .ply or .off", [](const Case&, const Part& part) {
-    const auto* file = std::get_if<MeshFile>(&part.geometry);
-    return file && meshing::is_surface_file(file->path);
-  });
-}
-
-Condition plane_strain() {
-  return on<Film>("section = \"solid\" in a planar model", [](const Case& one, const Film& film) {
-    return film.is_solid() && one.dimension == fem::Dimension::planar;
-  });
-}
-
 Condition moves_along_it() {
-  return on<Quantity>("motion along that direction: a planar model has none along z, one of revolution none "
-                      "along y",
-                      [](const Case& one, const Quantity& quantity) {
-                        if (quantity.along != along_gravity)
-                          return !quantity.along || fem::moves(one.dimension, *quantity.along);
-                        for (int c = 0; c < 3; ++c)
-                          if (one.gravity.direction[static_cast<std::size_t>(c)] != 0 &&
-                              fem::moves(one.dimension, c))
-                            return true;
-                        return false;
-                      });
-}
-
-Condition order_matters() {
-  return on<Part>(
-      fmt::format("another part than {}, whose elements have no nodes between their ends",
-                  words_of_kinds([](const PartKind& kind) { return kind.line && !kind.has_middles; })),
-      [](const Case&, const Part& part) {
-        const PartKind* kind = kind_of(part);
-        return !kind || kind->has_middles || !std::holds_alternative<Line>(part.geometry);
+  return on<Quantity>(
+      "motion along that direction: a planar model has none along z, one of revolution none along y but at a "
+      "point beside y = 0",
+      [](const Case& one, const Quantity& quantity) {
+        const auto moves = [&](int c) {
+          const bool turned = one.dimension == fem::Dimension::axisymmetric && c == 1 && quantity.point &&
+                              (*quantity.point)[1] != 0;
+          return turned || fem::moves(one.dimension, c);
+        };
+        const auto pulls = [&](std::size_t c) {
+          return one.gravity.direction[c] != 0 && moves(static_cast<int>(c));
+        };
+        if (quantity.along == along_gravity) return pulls(0) || pulls(1) || pulls(2);
+        return !quantity.along || moves(*quantity.along);
       });
 }
 

@@ -13,7 +13,6 @@ Condition charges_film();        ///< one charges the film itself
 Condition charges_layer();       ///< one charges the key's own layer
 Condition voltages();            ///< a step brings a voltage
 Condition branches();            ///< the film has branches
-Condition time_passes();         ///< a step has a duration
 Condition sheets_matter();       ///< likewise, or a circuit leaks
 Condition without_duration();    ///< the key's own step has none
 Condition weight();              ///< gravity acts in a step
@@ -32,6 +31,7 @@ Condition circuits_matter();     ///< time passes, something is linearised, or t
 Condition limits_matter();       ///< time passes, or the circuit leaks
 Condition time_steps_matter();   ///< in a step with a duration something flows or has inertia
 Condition voltage_applies();
+Condition charge_applies();
 Condition chamber_is_open(); ///< a step reaches or follows its pressure
 Condition chamber_is_closed();
 Condition volume_applies();   ///< a step pumps it

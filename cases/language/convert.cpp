@@ -28,6 +28,15 @@ std::string shown_text(const Node& node) {
 
 bool is_measure(const Key& key) { return key.type == Type::measure || key.type == Type::wave; }
 
+/// 300 % is no stretch: some mean a length that is three times as long, others four times.
+void require_no_percent(const Key& key, const Node& node) {
+  if (key.is_stretch && node.is(Node::Kind::text) && node.text.find('%') != std::string::npos)
+    throw Mismatch{fmt::format("found {}: a stretch is a length over a length, without %; 3 is three times "
+                               "as long",
+                               shown_text(node)),
+                   node.source};
+}
+
 std::vector<std::string> words_of(const Key& key) {
   std::vector<std::string> words;
   for (const Choice& choice : key.choices) words.push_back(choice.word);
@@ -95,6 +104,7 @@ Scalar convert_measure(const Key& key, const Node& node, std::string_view unit) 
     return {node.number, ""};
   }
   if (!node.is(Node::Kind::text)) mismatch(node, "", allowed);
+  require_no_percent(key, node);
   try {
     if (key.type == Type::tolerance && node.text.ends_with('%')) {
       const Measure part = parse_measure(node.text, "1");
@@ -131,6 +141,8 @@ Scalar convert_item(const Key& key, const Node& node, std::string_view unit, con
   switch (key.type) {
   case Type::wave:
     if (const auto table = read_wave ? wave_table(node) : std::nullopt) {
+      for (const char* level : {"from", "to", "mean"})
+        if (const Node* written = table->find(level)) require_no_percent(key, *written);
       Scalar driven{0, "", read_wave(*table)};
       if (const Node* to = table->find("to");
           to && driven.wave->constant()) // resolved.toml has it as a number

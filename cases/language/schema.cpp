@@ -73,6 +73,10 @@ Key Key::or_one_for_all() && {
   spreads = true;
   return std::move(*this);
 }
+Key Key::of_stretch() && {
+  is_stretch = true;
+  return std::move(*this);
+}
 Key Key::only(std::vector<std::string> selected) && {
   only_for = std::move(selected);
   return std::move(*this);

@@ -89,6 +89,7 @@ struct Key {
   bool required = true;
   std::size_t least = 1, most = 1; ///< number of values; a list unless both are 1
   bool spreads = false;            ///< a single value stands for all of the list
+  bool is_stretch = false;         ///< a length over a length, which "50 %" may mean in two ways
   std::vector<std::string>
       only_for;           ///< values of the section's selector for which the key exists; empty: all
   std::string instead_of; ///< another way to give this key: exactly one of the two
@@ -112,6 +113,7 @@ struct Key {
   Key optional() &&;
   Key values(std::size_t fewest, std::size_t largest) &&;
   Key or_one_for_all() &&;
+  Key of_stretch() &&;
   Key only(std::vector<std::string> selected) &&;
   Key replacing(std::string other_key) &&;
   Key distinct() &&;

@@ -5,9 +5,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dielast::cases {
+
+namespace {
+
+constexpr double alike = 1e-9; ///< changes that differ by rounding
+
+} // namespace
 
 std::string load_text(const fem::Model& model, const fem::LoadPath& path, const fem::State& at, double s,
                       bool timed) {
@@ -22,8 +29,9 @@ std::string load_text(const fem::Model& model, const fem::LoadPath& path, const 
     const bool isolated = fem::is_isolated(at.supply[e]);
     const double from = isolated ? begin.charge[e] : begin.voltage[e];
     const double to = isolated ? at.charge[e] : at.voltage[e];
-    if (std::abs(to - from) <= largest) continue;
-    largest = std::abs(to - from);
+    const double change = std::abs(to - from) / std::max(std::abs(from), std::abs(to)); // 0/0: none
+    if (!(change > (1 + alike) * largest)) continue;
+    largest = change;
     const bool chamber = model.ports[e].chamber.has_value();
     const char* unit = chamber ? (isolated ? "m^3" : "Pa") : (isolated ? "C" : "V");
     text = post::engineering(to, unit, post::Ratio::plain, 5);

@@ -9,8 +9,9 @@
 
 namespace dielast::cases {
 
-/// The loads of a state at s of a path, as a person would name them: that which has changed most since the
-/// beginning, in a timed step since the moment before it.
+/// The loads of a state at s of a path, as a person would name them: of voltages, pressures, charges and
+/// volumes that which has changed by the largest part of itself since the beginning, in a timed step since
+/// the moment before it; of those that have changed alike the first.
 std::string load_text(const fem::Model& model, const fem::LoadPath& path, const fem::State& at, double s,
                       bool timed);
 

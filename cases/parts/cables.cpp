@@ -24,6 +24,7 @@ Section cable_section() {
       measure("youngs_modulus", "Pa", to(&Cable::youngs_modulus), "of its straight fibres").above(0),
       number("prestretch", to(&Cable::prestretch),
              "length as drawn over that at rest; below 1 it hangs slack as drawn, though drawn straight")
+          .of_stretch()
           .above(0)
           .at_most(100)
           .otherwise("1"),

@@ -48,14 +48,15 @@ class Columns {
     const std::string unit = written == name ? "" : split_unit(written).unit;
     const bool ratio = unit == "%" || unit == "1" || unit == "-"; // an angle is none
     const bool known = si_unit == "1" ? unit.empty() || ratio
-                       : unit.empty() ? name != "phase"
+                       : unit.empty() ? name != "phase" && name != "time"
                                       : !ratio && factor_to_si(csv_, column, si_unit).has_value();
     if (known) return si_column(csv_, column, si_unit);
     const Source header{csv_.file, csv_.header_line, 1};
     if (unit.empty())
       wrong_.push_back({header, "",
                         fmt::format("found {} without a unit; write {} or {}", toml_string(written),
-                                    toml_string(name + "[deg]"), toml_string(name + "[rad]"))});
+                                    toml_string(name + (name == "time" ? "[s]" : "[deg]")),
+                                    toml_string(name + (name == "time" ? "[min]" : "[rad]")))});
     else
       wrong_.push_back(
           {header, "",
@@ -75,6 +76,10 @@ class Columns {
 FrequencyTable read_response(MeasuredResponse response, const CsvTable& csv, const Columns& columns,
                              std::vector<Diagnostic>& wrong) {
   const std::size_t before = wrong.size();
+  if (columns.find("magnitude") >= 0 && columns.find("real") >= 0)
+    wrong.push_back({{csv.file, csv.header_line, 1},
+                     "",
+                     "the response is given twice, by magnitude and by real part; leave one out"});
   std::string_view unit = unit_of(response);
   if (const int column = std::max(columns.find("magnitude"), columns.find("real"));
       response == MeasuredResponse::displacement && column >= 0 && !factor_to_si(csv, column, unit) &&
@@ -150,11 +155,17 @@ void load(const std::filesystem::path& file, const std::filesystem::path& folder
 }
 
 /// A test's own settings are keys of the case, which no schema of this file knows.
-void read_settings(const Node& table, DeviceTest& test) {
+void read_settings(SectionReader& reader, const Node& table, const std::string& path,
+                   const std::vector<std::string>& unknowns, DeviceTest& test) {
   const Node* set = table.find("set");
   if (!set) return;
-  for (std::size_t i = 0; set->is(Node::Kind::table) && i < set->items.size(); ++i)
+  for (std::size_t i = 0; set->is(Node::Kind::table) && i < set->items.size(); ++i) {
     test.settings.push_back(set->keys[i] + "=" + text_of(set->items[i]));
+    if (std::ranges::count(unknowns, set->keys[i]) > 0)
+      reader.report(set->items[i].key_source, path + ".set",
+                    fmt::format("found {}: it is one of the unknowns, which are found for all tests",
+                                toml_string(set->keys[i])));
+  }
 }
 
 /// The unknowns with their start values: the case's, or those of identify.start.
@@ -271,12 +282,13 @@ Identification read_identification(const std::filesystem::path& path) {
   check_tests(reader, section, one, asked);
   std::vector<Diagnostic> wrong;
   for (std::size_t t = 0; t < asked.tests.size() && reader.diagnostics().empty(); ++t) {
-    read_settings(tests.items[t], asked.tests[t]);
+    const std::string test_path = fmt::format("identify.test[{}]", t + 1);
+    read_settings(reader, tests.items[t], test_path, asked.keys, asked.tests[t]);
     Node with = base;
     for (const std::string& setting : asked.tests[t].settings) apply_override(with, setting);
     DeviceTest& test = asked.tests[t];
     const Case changed = interpret(with, asked.base);
-    load(test.file, path.parent_path(), {tests.items[t], fmt::format("identify.test[{}]", t + 1)}, wrong,
+    load(test.file, path.parent_path(), {tests.items[t], test_path}, wrong,
          [&](const CsvTable& csv, const Columns& columns) {
            if (!test.is_response()) return read_quantity(test, csv, columns, changed, wrong);
            FrequencyTable table = read_response(test.response, csv, columns, wrong);

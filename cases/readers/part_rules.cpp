@@ -55,31 +55,19 @@ void check_stressed_patch(const WrittenPart& written) {
   }
 }
 
-/// 300 % is no stretch: some mean a length that is three times as long, others four times.
-void check_prestretch(const WrittenPart& written) {
-  const Node* film = written.top().find("film");
-  const Node* prestretch = film ? film->find("prestretch") : nullptr;
-  if (!prestretch) return;
-  for (const Node& one :
-       prestretch->is(Node::Kind::list) ? prestretch->items : std::vector<Node>{*prestretch})
-    if (one.is(Node::Kind::text) && one.text.find('%') != std::string::npos)
-      written.report_film("prestretch",
-                          "a stretch is a length over a length, without %; 3 is three times as long");
-}
-
 /// Electrodes of layers that there are, and that can be charged.
 void check_layers(SectionReader& reader, const Node& tree, const Case& one) {
-  std::vector<std::string> names, passive;
+  std::vector<std::string> names, chargeable; // parts may have layers of one name
   for (const Part& part : one.parts)
     for (std::size_t l = 0; part.film && l < part.film->further_layers.size(); ++l)
       if (const Layer& layer = part.film->further_layers[l]; !layer.name.empty()) {
         names.push_back(layer.name);
-        if (layer.material.dielectric.permittivity == 0) passive.push_back(layer.name);
+        if (layer.material.dielectric.permittivity > 0) chargeable.push_back(layer.name);
       }
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     const std::string& layer = one.electrodes[e].layer;
-    const bool is_passive = std::ranges::count(passive, layer) > 0;
-    if (layer.empty() || (std::ranges::count(names, layer) > 0 && !is_passive)) continue;
+    if (layer.empty() || std::ranges::count(chargeable, layer) > 0) continue;
+    const bool is_passive = std::ranges::count(names, layer) > 0;
     reader.report(tree.find("electrode")->items.at(e).find("layer")->source,
                   fmt::format("electrode[{}].layer", e + 1),
                   is_passive ? fmt::format("found \"{}\": its material has no permittivity", layer)
@@ -195,7 +183,6 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     const Node& top = written.top();
     check_patch(written);
     check_stressed_patch(written);
-    check_prestretch(written);
     check_geometry(written);
     check_strip(written);
     for (const PartKind& kind : part_kinds())

@@ -73,6 +73,8 @@ void check_regions(SectionReader& reader, const Node& tree, const Case& one) {
       const bool taken = std::ranges::count(regions, drawn.name, &meshing::Region::name) > 0;
       if (one.plate && drawn.name == "plate")
         report(at, "the edge that the [plate] carries is the place \"plate\"; call the region otherwise");
+      if (std::ranges::count(one.bodies, drawn.name, &Body::name) > 0)
+        report(at, fmt::format("a body is called \"{}\"; call the region otherwise", drawn.name));
       if (taken) report(at, fmt::format("a sector is called \"{}\"; call the region otherwise", drawn.name));
       regions.push_back(region_of(drawn, *film));
     } catch (const std::invalid_argument& error) {

@@ -32,10 +32,6 @@ void report_step(SectionReader& reader, const Node& tree, const Case& one, const
 auto of_kind(StepKind kind) {
   return [kind](const Step& step) { return step.kind == kind; };
 }
-/// That has no target of its own.
-auto open_of_kind(StepKind kind) {
-  return [kind](const Step& step) { return step.kind == kind && !step.to; };
-}
 
 void check_loads(SectionReader& reader, const Node& tree, const Case& one) {
   if (one.loads.empty())
@@ -66,40 +62,32 @@ void check_drives(SectionReader& reader, const Node& tree, const Case& one) {
       if (const Node* written = tree.find(section); written && !written->items.empty())
         reader.report(written->source, section,
                       "there is no electrode for it; add an [[electrode]] with a name and a place");
-  const bool voltage =
-      std::ranges::any_of(one.drives, [](const auto& d) { return d.second.voltage.has_value(); });
-  const bool charge =
-      std::ranges::any_of(one.drives, [](const auto& d) { return d.second.charge.has_value(); });
-  if (!charge)
-    report_step(reader, tree, one, open_of_kind(StepKind::charge),
-                "a step of kind \"charge\" has no charge to reach; give [drive] a charge");
-  if (charge && !voltage)
-    report_step(reader, tree, one, open_of_kind(StepKind::voltage),
-                "a step of kind \"voltage\" has no voltage to reach; give [drive] a voltage");
-  const bool follows_charge = std::ranges::any_of(one.steps, [](const Step& step) {
-    return (step.kind == StepKind::charge && !step.to) ||
-           (step.kind == StepKind::transient && step.control == Control::charge);
-  });
-  if (charge && !follows_charge)
-    report_at(reader, tree, "drive", "no step applies its charge; add a [[step]] with kind = \"charge\"");
-}
-
-/// Every row of the history is kept until the run ends.
-void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
-  constexpr double most_rows = 100000;
-  double rows = 0;
-  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+  const auto any_drive = [&](std::optional<Waveform> Drive::*given) {
+    return std::ranges::any_of(one.drives, [&](const auto& d) { return (d.second.*given).has_value(); });
+  };
+  const bool charge = any_drive(&Drive::charge);
+  const bool driven =
+      charge || any_drive(&Drive::voltage) || std::ranges::any_of(one.steps, [](const Step& step) {
+        return step.to && (step.kind == StepKind::voltage || step.kind == StepKind::charge);
+      });
+  for (std::size_t s = 0; s < one.steps.size() && !one.electrodes.empty(); ++s) {
     const Step& step = one.steps[s];
-    const double before = rows;
-    rows += step.record ? *step.duration / *step.record : step.increments;
-    if (rows <= most_rows || before > most_rows) continue;
+    const bool charges = step.kind == StepKind::charge;
+    if ((!charges && step.kind != StepKind::voltage) || step.to) continue;
+    const bool leads = std::ranges::any_of(one.drives, [&](const auto& drive) {
+      return (step.electrode.empty() || step.electrode == drive.first) &&
+             (charges ? drive.second.charge : drive.second.voltage).has_value();
+    });
     const StepPlace at = place_of_step(tree, s);
-    reader.report(
-        at.source, at.key + (step.record ? ".record" : ".increments"),
-        fmt::format(
-            "the history would have {:.6g} rows at the end of this step, allowed {:.0f}; record fewer", rows,
-            most_rows));
+    if (const char* what = charges ? "charge" : "voltage"; !leads && (charges || driven))
+      reader.report(at.source, at.key,
+                    fmt::format("a step of kind \"{0}\" has no {0} to reach; give [drive] a {0}", what));
   }
+  if (charge && std::ranges::none_of(one.steps, [](const Step& step) {
+        return step.kind == StepKind::charge ||
+               (step.kind == StepKind::transient && step.control == Control::charge);
+      }))
+    report_at(reader, tree, "drive", "no step applies its charge; add a [[step]] with kind = \"charge\"");
 }
 
 /// Whether a support held until the step before.
@@ -142,12 +130,17 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
           "found \"instantaneous\": a film with a viscosity resists what is moved in no time with an "
           "infinite force; let it take time, by kind = \"transient\" and a ramp");
     const auto& [x, y, z] = one.gravity.direction;
+    const Node* gravity = tree.find("gravity");
+    const Node* direction = gravity ? gravity->find("direction") : nullptr;
+    const auto report_direction = [&](const char* message) {
+      reader.report(direction ? direction->source : at.source, direction ? "gravity.direction" : at.key,
+                    message);
+    };
     if (step.kind == StepKind::weight && one.dimension == fem::Dimension::planar && !one.plate && x == 0 &&
         y == 0)
-      reader.report(at.source, at.key,
-                    "a planar model does not move along z; give [gravity] a direction in the plane");
+      report_direction("a planar model does not move along z; give [gravity] a direction in the plane");
     if (step.kind == StepKind::weight && one.dimension == fem::Dimension::axisymmetric && (x != 0 || y != 0))
-      reader.report(at.source, at.key, "a model of revolution moves along z alone; use model = \"3d\"");
+      report_direction("a model of revolution moves along z alone; use model = \"3d\"");
     if (step.kind != StepKind::harmonic) continue;
     if (one.electrodes.empty())
       reader.report(at.source, at.key, "there is no electrode whose source could swing");
@@ -377,7 +370,6 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_motions(reader, tree, one);
   check_drives(reader, tree, one);
   check_waves(reader, tree, one);
-  check_rows(reader, tree, one);
   check_masses(reader, tree, one);
   check_own_weight(reader, tree, one);
   check_leaks(reader, tree, one);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What follows a wave, and how finely.
+// What follows a drive or a wave, and how finely.
 #include "cases/readers/rules.hpp"
 
 #include "cases/case/sudden_motion.hpp"
@@ -132,9 +132,28 @@ void check_beginnings(SectionReader& reader, const Case& one) {
   }
 }
 
+/// Every row of the history is kept until the run ends.
+void check_rows(SectionReader& reader, const Node& tree, const Case& one) {
+  constexpr double most_rows = 100000;
+  double rows = 0;
+  for (std::size_t s = 0; s < one.steps.size(); ++s) {
+    const Step& step = one.steps[s];
+    const double before = rows;
+    rows += step.record ? *step.duration / *step.record : step.increments;
+    if (rows <= most_rows || before > most_rows) continue;
+    const StepPlace at = place_of_step(tree, s);
+    reader.report(
+        at.source, at.key + (step.record ? ".record" : ".increments"),
+        fmt::format(
+            "the history would have {:.6g} rows at the end of this step, allowed {:.0f}; record fewer", rows,
+            most_rows));
+  }
+}
+
 } // namespace
 
 void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
+  check_rows(reader, tree, one);
   for (const WrittenWave& written : reader.waves()) {
     using enum Waveform::Kind;
     const Waveform& wave = written.wave;

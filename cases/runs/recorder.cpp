@@ -135,7 +135,6 @@ std::vector<double> history_row(const post::StepRecord& record, const std::vecto
   return row;
 }
 
-/// How an electrode's voltage is called in tables and series.
 std::string table_name(std::string_view of) { return fmt::format("{}.csv", of); }
 
 json archive(const post::SeriesStep& step, const fem::State& state) {

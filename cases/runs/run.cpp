@@ -163,14 +163,14 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
                  : "");
   for (const std::string& warning : simulation.warnings()) log.warn("{}", as_warning(warning));
   if (!recorder.journal().records.empty())
-    log.info("resumed behind {} accepted states", recorder.journal().records.size());
+    log.info("resumed behind {} recorded states", recorder.journal().records.size());
   else if (settings.resume)
-    log.info("no accepted states to resume behind: it begins anew");
+    log.info("no recorded states to resume behind: it begins anew");
 
   const Outcome outcome = simulation.run(observe(one, recorder, log));
   if (outcome.ending == Ending::interrupted) {
     recorder.save_checkpoint();
-    log.warn("interrupted: {} accepted states kept in {}; go on with --resume",
+    log.warn("interrupted: {} recorded states kept in {}; go on with --resume",
              recorder.journal().records.size(), settings.directory.string());
     return ExitCode::interrupted;
   }

@@ -367,7 +367,8 @@ Section drive_section() {
       wave("charge", "C", to(&Drive::charge),
            "charge that the steps of kind \"charge\" reach, and \"transient\" with control = \"charge\" "
            "follow")
-          .optional(),
+          .optional()
+          .only_with(when::charge_applies()),
   };
   return section;
 }

@@ -210,6 +210,7 @@ Key thickness_key(Binding binding, std::string meaning) {
 
 Key prestretch_key(Binding binding, std::string meaning) {
   return number("prestretch", std::move(binding), std::move(meaning))
+      .of_stretch()
       .values(2, 2)
       .or_one_for_all()
       .above(0)

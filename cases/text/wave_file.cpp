@@ -48,8 +48,14 @@ void load_samples(Waveform& wave, std::string_view unit, const std::filesystem::
     require_growing(csv, time, wrong, "; a jump takes a time, be it short");
     const int column = value_column(csv, csv.names[static_cast<std::size_t>(time)], wave, table, path, wrong);
     if (wrong.size() > errors_before) return;
+    const std::string& name = csv.names[static_cast<std::size_t>(column)];
+    if (unit == "1" && name.find("strain") != std::string::npos) {
+      wrong.push_back({{csv.file, csv.header_line, 1},
+                       name,
+                       "is wanted as a stretch, a length over the unstretched one: 1 plus the strain"});
+      return;
+    }
     if (!factor_to_si(csv, column, unit)) {
-      const std::string& name = csv.names[static_cast<std::size_t>(column)];
       wrong.push_back({{csv.file, csv.header_line, 1},
                        name,
                        fmt::format("there is no unit; allowed a name that ends in one of {}, such as {}_{}",

@@ -127,7 +127,8 @@ std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& 
         warn(section, i, "between", fmt::format("both places are \"{}\"", first));
       else if (held.rests(first, objects[i].along) && held.rests(second, objects[i].along))
         warn(section, i, "between",
-             fmt::format("\"{}\" and \"{}\" are held along {}", first, second, "xyz"[objects[i].along]));
+             fmt::format("\"{}\" and \"{}\" are held along {}, and what holds them bears all of it", first,
+                         second, "xyz"[objects[i].along]));
     }
   };
   check("spring", one.springs);
@@ -193,8 +194,7 @@ std::vector<std::string> pressure_warnings(const Case& one, const meshing::Mesh&
       held = parts[static_cast<std::size_t>(cell)] != static_cast<int>(p) ||
              std::ranges::all_of(mesh.film()->cell(cell), is_held);
     if (!held) continue;
-    const std::string key =
-        (one.parts[p].name.empty() ? "" : "part." + one.parts[p].name + ".") + "film.bulk_modulus";
+    const std::string key = one.parts[p].key_prefix() + "film.bulk_modulus";
     warnings.push_back(
         Diagnostic{one.where(key), key,
                    "is missing: this solid is held everywhere and incompressible, so that nothing tells "

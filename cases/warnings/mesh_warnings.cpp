@@ -71,8 +71,7 @@ double drawn_thickness(const Layer& layer) {
 std::vector<std::string> layer_warnings(const Case& one) {
   std::vector<std::string> warnings;
   const auto warn = [&](const Part& part, const std::string& message) {
-    warnings.push_back(
-        fmt::format("{}film.thickness: {}", part.name.empty() ? "" : "part." + part.name + ".", message));
+    warnings.push_back(fmt::format("{}film.thickness: {}", part.key_prefix(), message));
   };
   for (const Part& part : one.parts) {
     if (!part.film) continue;
@@ -136,6 +135,13 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
                                             std::span<const int> parts) {
   constexpr double largest = 1; // m, of the templates' dimensions
   std::vector<std::string> warnings;
+  for (std::size_t p = 0; p < one.parts.size(); ++p) {
+    if (!one.parts[p].film || std::ranges::count(parts, static_cast<int>(p)) > 0) continue;
+    const std::string key = one.parts[p].key_prefix() + "film.thickness";
+    warnings.push_back(Diagnostic{one.where(key), key,
+                                  "has no effect here: other parts take all of this film", Severity::warning}
+                           .text());
+  }
   for (const Part& owner : one.parts) {
     if (!std::holds_alternative<MeshFile>(owner.geometry)) continue;
     std::vector<int> cells;
@@ -146,7 +152,7 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
     }
     const meshing::CellBlock film = meshing::subset(*mesh.film(), cells);
     if (film.size() == 0) continue;
-    const std::string part = owner.name.empty() ? "" : "part." + owner.name + ".";
+    const std::string part = owner.key_prefix();
     if (const int cut = meshing::nodes_on_others(mesh, film))
       warnings.push_back(
           fmt::format("{}the film is cut: {} of its nodes lie on others; let gmsh fragment the drawing to "
@@ -200,11 +206,10 @@ std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh
     double thickness = drawn_thickness(*film);
     for (const Layer& layer : film->further_layers) thickness += drawn_thickness(layer);
     if (width < thin * thickness)
-      warnings.push_back(
-          fmt::format("{}film.thickness: the film is {} thick and {} wide; membranes and shells are "
-                      "of thin films, section = \"solid\" of thick ones",
-                      one.parts[p].name.empty() ? "" : "part." + one.parts[p].name + ".",
-                      post::engineering(thickness, "m"), post::engineering(width, "m")));
+      warnings.push_back(fmt::format(
+          "{}film.thickness: the film is {} thick and {} wide; membranes and shells are "
+          "of thin films, section = \"solid\" of thick ones",
+          one.parts[p].key_prefix(), post::engineering(thickness, "m"), post::engineering(width, "m")));
   }
   return warnings;
 }
@@ -218,9 +223,7 @@ std::vector<std::string> share_warnings(const Case& one,
   for (const Linkage& linkage : one.linkages) places.insert(linkage.between.begin(), linkage.between.end());
   for (const Quantity& quantity : one.quantities) {
     places.insert(quantity.between.begin(), quantity.between.end());
-    const std::string& word = quantity.kind->word;
-    if (word == "displacement" || word == "radius" || word == "stiffness") places.insert(quantity.of);
-    if (word == "coupling") places.insert(quantity.place);
+    if (quantity.kind->shares) places.insert(quantity.place.empty() ? quantity.of : quantity.place);
   }
   std::vector<std::string> warnings;
   for (const std::string& place : places)

@@ -137,7 +137,7 @@ class MeshFile {
       if (!take(head)) return;
       const auto [type, count, tags] = head;
       const KnownType* known = known_type(type);
-      if (!known || count < 1 || tags < 0 || tags > 1000) return;
+      if (!known || count < 1 || tags < 0 || tags > 1000) break;
       std::vector<std::int32_t> element(static_cast<std::size_t>(1 + tags + known->nodes));
       for (std::int32_t i = 0; i < count; ++i) {
         if (!take(element)) return;

@@ -322,6 +322,19 @@ TEST_F(Identify, ConvertsFrequenciesAndPercent) {
       << message();
 }
 
+TEST_F(Identify, RefusesATimeWithoutUnitAndSettingsOfUnknowns) {
+  write("v.csv", "time,breakdown_ratio\n0.2,1\n0.4,2\n");
+  write_test("\"film.material.shear_modulus\"",
+             "[[identify.test]]\nfile = \"v.csv\"\nquantity = \"breakdown_ratio\"\n"
+             "[identify.test.set]\n\"film.material.shear_modulus\" = \"20 kPa\"\n");
+  const std::string told = message();
+  EXPECT_NE(told.find("found \"time\" without a unit; write \"time[s]\" or \"time[min]\""), std::string::npos)
+      << told;
+  EXPECT_NE(told.find("test[1].set: found \"film.material.shear_modulus\": it is one of the unknowns"),
+            std::string::npos)
+      << told;
+}
+
 TEST_F(Identify, TellsWhatAResponseLacks) {
   write("g.csv", "hertz,real[m/V^2],imaginary[m/V^2]\n1,1,0\n10,1,0\n");
   write_test("\"film.material.shear_modulus\"", displacement);

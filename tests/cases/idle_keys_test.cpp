@@ -55,6 +55,7 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       "[[film.material.branch]]\nshear_modulus = \"1 kPa\"\nrelaxation_time = \"1 s\"\n";
   const std::string instantaneous = "[[step]]\nkind = \"voltage\"\nresponse = \"instantaneous\"\n";
   const std::string drive = "[drive]\nvoltage = \"1 kV\"\n";
+  const std::string sectors = "[disc]\nradius = \"20 mm\"\n[sectors]\ncount = 2\n";
   const std::string weight = "[[step]]\nkind = \"weight\"\n";
   const std::string point_mass = "[[point_mass]]\nplace = \"electrode\"\nmass = \"1 g\"\n";
   const std::string inflate = "[[step]]\nkind = \"inflate\"\n", pressure = "[[step]]\nkind = \"pressure\"\n";
@@ -182,6 +183,18 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
        film + balloon + inflate + pressure + "to = \"500 Pa\"\n" + transient},
       {"drive.voltage", film + disc + drive + ramp + "to = \"1 kV\"\n",
        film + disc + drive + ramp + "to = \"1 kV\"\n[[step]]\nkind = \"harmonic\"\n"},
+      {"drive.a.voltage",
+       film + sectors + "[drive.a]\nvoltage = 1000\n[drive.b]\nvoltage = 900\n" + ramp +
+           "electrode = \"b\"\n",
+       film + sectors + "[drive.a]\nvoltage = 1000\n[drive.b]\nvoltage = 900\n" + ramp},
+      {"drive.b.charge",
+       film + sectors + "[drive.b]\ncharge = 1e-9\n[[step]]\nkind = \"charge\"\nto = 2e-9\n",
+       film + sectors + "[drive.b]\ncharge = 1e-9\n[[step]]\nkind = \"charge\"\nelectrode = \"b\"\n"},
+      {"quantity[1].along",
+       "model = \"axisymmetric\"\n" + film + disc +
+           "[[quantity]]\nname = \"u\"\nkind = \"displacement\"\npoint = [0.01, 0, 0]\nalong = \"y\"\n",
+       "model = \"axisymmetric\"\n" + film + disc +
+           "[[quantity]]\nname = \"u\"\nkind = \"displacement\"\npoint = [0, 0.01, 0]\nalong = \"y\"\n"},
       {"drive.voltage", "model = \"3d\"\n" + film + disc + drive + weight + "[gravity]\nfilm = true\n",
        film + disc + drive},
       {"step[1].control",

@@ -61,6 +61,16 @@ TEST_F(Regions, AreElectrodesWhereTheCaseHasNoOthers) {
   EXPECT_EQ(named.electrodes[0].place, "film");
 }
 
+// As any other; without such a region it is the whole disc.
+TEST_F(Regions, MayBeCalledElectrode) {
+  const std::string ring = "[[region]]\nname = \"{}\"\nkind = \"ring\"\ninner_radius = \"10 mm\"\n";
+  const auto capacitance = [&](const std::string& name) {
+    return values(disc + fmt::format(fmt::runtime(ring), name) + "[output]\nerror_estimate = false\n")
+        .at("capacitance");
+  };
+  EXPECT_DOUBLE_EQ(capacitance("electrode"), capacitance("a"));
+}
+
 // Of film that is held where it is drawn: permittivity times area over the stretched thickness.
 TEST_F(Regions, HaveTheCapacitanceOfTheirArea) {
   const std::string drawn = R"(

@@ -94,6 +94,28 @@ TEST_F(Paths, a_sheet_is_sheared_alike_whichever_layer_is_the_film) {
   EXPECT_NEAR(film_first, sheet_first, 1e-7 * sheet_first);
 }
 
+// One that is charged, and one that has no permittivity.
+TEST_F(Paths, layers_of_two_parts_may_have_one_name) {
+  const auto part = [](const char* name, const char* permittivity) {
+    return fmt::format("[part.{0}]\nat = [\"{2} mm\", 0, 0]\n[part.{0}.film]\nsection = \"shell\"\n"
+                       "thickness = \"50 um\"\n[part.{0}.film.material]\n{1}"
+                       "[[part.{0}.film.layer]]\nname = \"skin\"\nthickness = \"50 um\"\n"
+                       "[part.{0}.film.layer.material]\nshear_modulus = \"100 kPa\"\n{3}"
+                       "[part.{0}.rectangle]\nlength = \"10 mm\"\nwidth = \"2 mm\"\n"
+                       "[part.{0}.mesh]\nacross = 1\n[[support]]\nplace = \"{0}.left\"\n"
+                       "fix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n",
+                       name, silicone, name[0] == 'a' ? 0 : 20, permittivity);
+  };
+  const auto device = [&](const char* place) {
+    return "model = \"3d\"\n" + part("a", "relative_permittivity = 3\n") + part("b", "") +
+           fmt::format("[[electrode]]\nname = \"e\"\nplace = \"{}.film\"\nlayer = \"skin\"\n"
+                       "[drive]\nvoltage = \"100 V\"\n[[step]]\nkind = \"voltage\"\n",
+                       place);
+  };
+  EXPECT_NO_THROW(build_device(read(device("a"))));
+  EXPECT_THROW(build_device(read(device("b"))), meshing::MeshError);
+}
+
 // Mirrored at the surface where it is drawn.
 TEST_F(Paths, a_bimorph_bends_to_either_side_alike) {
   const std::string layer = fmt::format("[[film.layer]]\nname = \"upper\"\nthickness = \"50 um\"\n"
