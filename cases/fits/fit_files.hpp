@@ -8,7 +8,10 @@
 
 namespace dielast::cases {
 
-// What fits of materials and of devices share.
+// What fits of materials, of devices and of functions share.
+
+inline constexpr double poor_fit = 0.2; ///< rms error, relative, from which on a fit is warned of
+
 /// Null where it is no number.
 nlohmann::ordered_json finite_json(double value);
 const char* word(FitEnding ending);

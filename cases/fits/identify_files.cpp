@@ -18,8 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using post::Cell, post::Tone;
 
-constexpr double poor = 0.2; ///< rms error, relative
-
 std::string ending(const IdentifyOutcome& outcome) {
   return fmt::format("{} after {} iterations", word(outcome.ending), outcome.iterations);
 }
@@ -96,7 +94,7 @@ std::vector<std::string> identify_warnings(const Identification& asked, const Id
                                   asked.unknowns[j].key, key, r));
   }
   for (std::size_t t = 0; t < outcome.errors.size(); ++t)
-    if (outcome.errors[t] > poor)
+    if (outcome.errors[t] > poor_fit)
       all.push_back(fmt::format("{}: the model misses what was measured by {:.0f} % (rms): columns, their "
                                 "units, or the case may not be those of the test",
                                 asked.tests[t].name(), 100 * outcome.errors[t]));

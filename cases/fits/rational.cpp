@@ -63,6 +63,11 @@ std::vector<std::string> warnings_of(const RationalFit& fit, const RationalOutco
   if (!outcome.stable)
     all.push_back(
         fmt::format("{}: a pole in the right half plane: nothing at rest has such a response", fit.name()));
+  if (outcome.error > poor_fit)
+    all.push_back(fmt::format("{}: the function misses what was measured by {:.0f} % (rms): columns, their "
+                              "units, or the sign of the phase (below 0 where the response lags behind) may "
+                              "not be those of the test",
+                              fit.name(), 100 * outcome.error));
   for (const FittedNumber& one : outcome.numbers)
     if (!one.number.determined())
       all.push_back(

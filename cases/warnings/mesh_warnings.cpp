@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numbers>
 #include <set>
 
 namespace dielast::cases {
@@ -106,10 +107,27 @@ std::vector<std::string> layer_warnings(const Case& one) {
   return warnings;
 }
 
+/// A sentence where a chamber is to hold far more than there is room for about the device.
+std::vector<std::string> volume_warnings(const Case& one, const meshing::Mesh& mesh) {
+  constexpr double far_more = 1e3;
+  if (!one.chamber || !one.chamber->volume) return {};
+  const auto [least, most] = one.chamber->volume->extremes();
+  const double ball = std::numbers::pi / 6 * std::pow(mesh.bounds().diagonal().norm(), 3),
+               volume = std::max(std::abs(least), std::abs(most));
+  if (volume <= far_more * ball) return {};
+  return {Diagnostic{one.where("chamber.volume"), "chamber.volume",
+                     fmt::format("{} is {:.1g} times as much as a ball as large as the device; a number "
+                                 "without a unit is in m^3",
+                                 post::engineering(volume, "m^3"), volume / ball),
+                     Severity::warning}
+              .text()};
+}
+
 } // namespace
 
 std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mesh) {
   std::vector<std::string> warnings = drilling_warnings(one, mesh);
+  std::ranges::move(volume_warnings(one, mesh), std::back_inserter(warnings));
   std::ranges::move(layer_warnings(one), std::back_inserter(warnings));
   if (one.dimension == fem::Dimension::spatial && one.any_geometry<HollowSphere>())
     warnings.push_back("hollow_sphere: in space its eighth at x, y, z >= 0 is computed; volumes, charges, "

@@ -39,6 +39,29 @@ TEST_F(DeviceWarnings, LayersThatDoNotFit) {
   EXPECT_FALSE(warns(slab(1.8, "cover_thickness = \"0.1 mm\"\n"), told));
 }
 
+TEST_F(DeviceWarnings, VolumesWithoutTheirUnit) {
+  const auto disc = [&](const char* volume) {
+    return "model = \"axisymmetric\"\n" + film("thickness = \"1 mm\"\nprestretch = 3") +
+           fmt::format("[disc]\nradius = \"90 mm\"\n[chamber]\nvolume = {}\n[[step]]\nkind = "
+                       "\"inflate\"\n",
+                       volume);
+  };
+  EXPECT_TRUE(warns(disc("20"), "a number without a unit is in m^3"));
+  EXPECT_FALSE(warns(disc("\"20 ml\""), "a number without a unit"));
+}
+
+TEST_F(DeviceWarnings, FilmOfWhichPartsTakeAll) {
+  const auto disc = [&](const char* place) {
+    return film("thickness = \"1 mm\"\nprestretch = 3") +
+           fmt::format("[disc]\nradius = \"90 mm\"\nelectrode_radius = \"30 mm\"\n[part.b]\nplace = \"{}\"\n"
+                       "[part.b.film]\nthickness = \"2 mm\"\n[part.b.film.material]\nshear_modulus = "
+                       "\"40 kPa\"\nrelative_permittivity = 3\n",
+                       place);
+  };
+  EXPECT_TRUE(warns(disc("film"), "other parts take all of this film"));
+  EXPECT_FALSE(warns(disc("electrode"), "other parts take all of this film"));
+}
+
 TEST_F(DeviceWarnings, RollsThatCannotBeWound) {
   const auto roll = [&](int turns) {
     return film("thickness = \"1 mm\"\nprestretch = 2") +

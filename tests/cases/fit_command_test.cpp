@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <complex>
+#include <numbers>
 #include <regex>
 
 namespace dielast::test::fit_command_test {
@@ -320,6 +323,24 @@ TEST_F(FitCommand, RunsTakeTheMaterialThatAFitHasWritten) {
   EXPECT_EQ(bad.exit_code, 2);
   EXPECT_NE(bad.err.find("bad.toml:2:7: error: film.material.law: found \"gentt\""), std::string::npos)
       << bad.err;
+}
+
+// A phase that leads where every circuit's lags behind.
+TEST_F(FitCommand, AFunctionThatMissesWhatWasMeasuredIsToldSo) {
+  for (const char* sign : {"-", ""}) {
+    std::string table = "frequency[Hz],magnitude[Ohm],phase[deg]\n";
+    for (const double f : {1.0, 3.0, 10.0, 30.0, 100.0}) {
+      const std::complex<double> z = 1e5 + 1.0 / std::complex(1e-9, 2 * std::numbers::pi * f * 1e-9);
+      table += fmt::format("{},{},{}{}\n", f, std::abs(z), sign, -std::arg(z) * 180 / std::numbers::pi);
+    }
+    write("z.csv", table);
+    write("z.toml", "[[rational]]\nfile = \"z.csv\"\nresponse = \"impedance\"\n"
+                    "circuit = [\"resistance\", \"leakage_resistance\", \"capacitance\"]\n");
+    const Ended ended = dielast({"fit", "z.toml", "-o", "out"});
+    EXPECT_EQ((ended.out + ended.err).find("the function misses what was measured by") == std::string::npos,
+              *sign == '-')
+        << ended.out << ended.err;
+  }
 }
 
 TEST_F(FitCommand, HelpInfoAndSchemaKnowIt) {
