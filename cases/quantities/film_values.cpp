@@ -340,7 +340,7 @@ std::string snap_of_wrinkles(const Device& device, const fem::State& before, con
     then = b;
   }
   if (count == 0) return "";
-  return fmt::format("beyond it wrinkled film snaps: its area would go from {:.3g} to {:.3g} times the "
+  return fmt::format("wrinkled film snaps: its area would go from {:.3g} to {:.3g} times the "
                      "unstretched one at once (in {} of {} integration points). Lower the drive or stretch "
                      "the film more; where loads only change very fast, a smaller solver.smallest_increment "
                      "helps",

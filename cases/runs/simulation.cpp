@@ -216,7 +216,7 @@ bool Simulation::leads(const Step& step, double load_factor, const fem::State& s
   const std::string snap = snap_of_wrinkles(device_, accounted_, state);
   if (snap.empty()) return true;
   refusal_ = {Ending::gave_up, "limit point",
-              fmt::format("step \"{}\" stopped at load factor {:.4g}: {}", step.name, load_factor, snap)};
+              fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name, load_factor, snap)};
   return false;
 }
 

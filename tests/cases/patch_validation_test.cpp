@@ -261,7 +261,7 @@ voltage = "24 kV"
     most = std::max(most, 30 / (33 - 2 * l * l - 1 / std::pow(l, 4)) * (1 - std::pow(l, -6)) / (l * l));
   const double limit = 1e-3 * std::sqrt(40e3 * most / 4e-11);
   EXPECT_LT(voltage, limit);
-  EXPECT_GT(voltage, 0.999 * limit);
+  EXPECT_GT(voltage, limit - 2e-3 * 24e3); // two of the smallest increments
 }
 
 // Stopped at any record and resumed through a checkpoint's bytes, a run ends in the same bits: in time, along
