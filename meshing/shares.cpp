@@ -172,15 +172,15 @@ class Sharing {
 
   Shares in(const std::string& place, const std::vector<int>& nodes) {
     const auto count = static_cast<double>(nodes.size());
-    const Shares even{std::vector<double>(nodes.size(), 1 / count)};
+    const Shares even{.of_nodes = std::vector<double>(nodes.size(), 1 / count)};
     if (nodes.size() < 2) return even;
     const std::optional<Cells> cells = cells_of(place, nodes);
     if (!cells) return even;
-    if (marks_of(*cells) != marks(nodes)) return {even.of_nodes, true};
+    if (marks_of(*cells) != marks(nodes)) return {.of_nodes = even.of_nodes, .mixed = true};
     Eigen::VectorXd share = integrals(mesh_, *cells, is_turned(*cells));
-    share /= share.sum();
+    Shares found{.size = share.sum()};
+    share /= found.size;
     const double largest = share.cwiseAbs().maxCoeff();
-    Shares found;
     for (const int node : nodes) // zero without round-off, which is no mass
       found.of_nodes.push_back(std::abs(share[node]) < round_off * largest ? 0 : share[node]);
     return found;

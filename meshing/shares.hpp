@@ -15,6 +15,7 @@ struct Shares {
   /// In the order of Mesh::node_sets; they sum to 1. Those of corners of curved quadratic cells may be
   /// negative, and always are where the place is filled with 10-node tetrahedra.
   std::vector<double> of_nodes;
+  double size = 0; ///< length, area or volume of what the place is made of; 0 where it is made of points
   /// Some nodes lie on what the place is made of and others do not: all have the same share.
   bool mixed = false;
 };

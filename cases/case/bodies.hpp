@@ -31,7 +31,7 @@ struct Body {
   std::vector<std::string> places;
   double mass = 0;                             ///< kg
   std::array<double, 3> inertia{};             ///< about axes along x, y, z through the centre, kg m^2
-  std::optional<std::array<double, 3>> centre; ///< of mass, as drawn, m; absent: the mean of its nodes
+  std::optional<std::array<double, 3>> centre; ///< of mass, as drawn, m; absent: the centroid of its places
   std::optional<std::array<double, 3>> pivot;  ///< a point that stays where it is drawn, m
   std::array<bool, 6> fixed{};                 ///< displacements of its own place, rotations about x, y, z
   double damping_rate = 0; ///< c / m of dampers between all of its mass and the ground, 1/s

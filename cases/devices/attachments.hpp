@@ -5,16 +5,10 @@
 #include "cases/devices/bodies.hpp"
 #include "cases/devices/fins.hpp"
 #include "fem/model/model.hpp"
-#include "meshing/shares.hpp"
 
-#include <map>
-#include <string>
 #include <vector>
 
 namespace dielast::cases {
-
-/// The shares of the nodes of every place in what is spread over it.
-using PlaceShares = std::map<std::string, meshing::Shares>;
 
 /// Springs and linkages between the centroids of places.
 void add_springs(const Case& one, const meshing::Mesh& mesh, const PlaceShares& shares, fem::Model& model);

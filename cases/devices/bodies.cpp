@@ -24,12 +24,23 @@ std::set<int> nodes_of(const Body& body, const meshing::Mesh& mesh) {
   return nodes;
 }
 
-Eigen::Vector3d centre_of(const Body& body, const meshing::Mesh& mesh) {
+/// As it is given, or the centroid of the places: by their lengths or areas, of points by the number of
+/// nodes.
+Eigen::Vector3d centre_of(const Body& body, const meshing::Mesh& mesh, const PlaceShares& shares) {
   if (body.centre) return Eigen::Vector3d(body.centre->data());
-  const std::set<int> nodes = nodes_of(body, mesh);
+  const bool points =
+      std::ranges::any_of(body.places, [&](const std::string& place) { return shares.at(place).size == 0; });
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int node : nodes) sum += mesh.nodes[static_cast<std::size_t>(node)];
-  return sum / static_cast<double>(nodes.size());
+  double whole = 0;
+  for (const std::string& place : body.places) {
+    const std::vector<int>& nodes = mesh.node_sets.at(place);
+    const meshing::Shares& share = shares.at(place);
+    const double weight = points ? static_cast<double>(nodes.size()) : share.size;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      sum += weight * share.of_nodes[n] * mesh.nodes[static_cast<std::size_t>(nodes[n])];
+    whole += weight;
+  }
+  return sum / whole;
 }
 
 /// Point masses, from the centre, with the mass and the moments of a body: pairs on the axes, at the distance
@@ -56,14 +67,14 @@ std::vector<std::pair<Eigen::Vector3d, double>> equivalent_masses(const Body& bo
 
 } // namespace
 
-std::vector<BodyNodes> add_body_nodes(const Case& one, meshing::Mesh& mesh) {
+std::vector<BodyNodes> add_body_nodes(const Case& one, const PlaceShares& shares, meshing::Mesh& mesh) {
   std::vector<BodyNodes> all;
   const auto add = [&mesh](const Eigen::Vector3d& x) {
     mesh.nodes.push_back(x);
     return mesh.node_count() - 1;
   };
   for (const Body& body : one.bodies) {
-    const Eigen::Vector3d centre = centre_of(body, mesh);
+    const Eigen::Vector3d centre = centre_of(body, mesh, shares);
     BodyNodes nodes{add(body.pivot ? Eigen::Vector3d(body.pivot->data()) : centre), {}, body.damping_rate};
     for (const auto& [from_centre, mass] : equivalent_masses(body, one.dimension))
       nodes.masses.emplace_back(add(centre + from_centre), mass);

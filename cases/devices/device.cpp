@@ -247,10 +247,10 @@ Device build_device(const Case& one) {
   const fem::Dimension dimension = one.dimension;
   std::vector<std::string> warnings = mesh_warnings(one, mesh);
   const Eigen::Vector3d size = mesh.bounds().sizes(); // bodies have nodes of their own
-  const std::vector<BodyNodes> bodies = add_body_nodes(one, mesh);
+  PlaceShares shares = meshing::shares(mesh, dimension == fem::Dimension::axisymmetric);
+  const std::vector<BodyNodes> bodies = add_body_nodes(one, shares, mesh);
+  for (const Body& body : one.bodies) shares[body.name] = {.of_nodes = {1}};
   std::vector<FinPoints> fins = add_fin_nodes(one, mesh);
-  std::map<std::string, meshing::Shares> shares =
-      meshing::shares(mesh, dimension == fem::Dimension::axisymmetric);
   std::ranges::move(share_warnings(one, shares), std::back_inserter(warnings));
   const std::vector<fem::Tie> links = set_off_bars(one, mesh);
   if (!mesh.film()) throw meshing::MeshError("the case has no film: neither triangles nor rods");

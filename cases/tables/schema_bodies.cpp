@@ -27,7 +27,8 @@ Section body_section() {
           .otherwise("0 kg.m^2")
           .or_one_for_all()
           .only_with(when::turns_matter()),
-      measure("centre", "m", to(&Body::centre), "of its mass, as drawn; without it the mean of its nodes")
+      measure("centre", "m", to(&Body::centre),
+              "of its mass, as drawn; without it the centroid of its places, by their lengths or areas")
           .values(3, 3)
           .optional(),
       measure("pivot", "m", to(&Body::pivot), "a point of the body, as drawn, that stays where it is")
