@@ -11,6 +11,24 @@
 namespace dielast::cases {
 namespace {
 
+/// Solids that no electrode touches have no field: nothing tells their potential, which is the ground's here.
+void ground_what_is_not_charged(const meshing::CellBlock& film, std::vector<int>& map) {
+  std::vector<char> touched(map.size());
+  const auto is_touched = [&](int node) { return touched[static_cast<std::size_t>(node)] != 0; };
+  for (std::size_t n = 0; n < map.size(); ++n) touched[n] = map[n] != fem::NodePotential::follows;
+  for (bool grows = true; grows;) { // from cell to cell
+    grows = false;
+    for (int cell = 0; cell < film.size(); ++cell) {
+      const auto own = film.cell(cell);
+      if (std::ranges::none_of(own, is_touched) || std::ranges::all_of(own, is_touched)) continue;
+      for (const int node : own) touched[static_cast<std::size_t>(node)] = 1;
+      grows = true;
+    }
+  }
+  for (const int node : film.nodes)
+    if (!is_touched(node)) map[static_cast<std::size_t>(node)] = fem::NodePotential::ground;
+}
+
 /// Electrode or ground at each node of solids with a potential.
 std::vector<int> potential_map(const Case& one, const meshing::Mesh& mesh) {
   std::vector<int> map(mesh.nodes.size(), fem::NodePotential::follows);
@@ -42,6 +60,7 @@ std::vector<int> potential_map(const Case& one, const meshing::Mesh& mesh) {
       claim(electrode, electrode.ground, fem::NodePotential::ground);
       claim(electrode, electrode.place, static_cast<int>(e));
     }
+  ground_what_is_not_charged(film, map);
   return map;
 }
 

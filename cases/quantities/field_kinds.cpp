@@ -73,7 +73,9 @@ std::vector<FilmReading> readings_of(const Probing& probing) {
     if (!readings.empty()) return readings;
     readings = readings_at(quantity.place, device.mesh, probing.drawn);
   }
-  if (readings.empty()) probing.refuse(key, "there is no film; coordinates are those of the film as drawn");
+  if (readings.empty())
+    probing.refuse(key, no_element_text(probing.one, quantity.point ? Eigen::Vector3d(quantity.point->data())
+                                                                    : Eigen::Vector3d::Zero()));
   for (const FilmReading& reading : readings)
     if (film_of(probing, reading) != film_of(probing, readings[0]))
       probing.refuse(key, fmt::format("{}; give a point beside it, or a part of the film", two_values));

@@ -182,6 +182,15 @@ std::vector<ElementPoint> elements_at(const Eigen::Vector3d& point, const meshin
   return found;
 }
 
+std::string no_element_text(const Case& one, const Eigen::Vector3d& point) {
+  const bool beside = one.dimension == fem::Dimension::axisymmetric && point.y() != 0 &&
+                      one.any_film([](const Film& film) { return film.is_solid(); });
+  return beside
+             ? "there is no film: points of a solid of revolution are told in the half plane y = 0, x being "
+               "the radius"
+             : "there is no film; coordinates are those of the film as drawn";
+}
+
 Eigen::Matrix3d turn_to(const Eigen::Vector3d& point, const meshing::Mesh& mesh) {
   const double radius = point.head<2>().norm();
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();

@@ -33,6 +33,9 @@ struct ElementPoint {
 /// may be at any angle about the z axis. None beside the film.
 std::vector<ElementPoint> elements_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh);
 
+/// Why there are none.
+std::string no_element_text(const Case& one, const Eigen::Vector3d& point);
+
 /// Turns the half plane y = 0, in which film of revolution is drawn, about z to the point; of other film, and
 /// on the axis, the identity.
 Eigen::Matrix3d turn_to(const Eigen::Vector3d& point, const meshing::Mesh& mesh);

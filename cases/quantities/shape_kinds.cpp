@@ -89,8 +89,9 @@ Shape stretch(const Probing& probing) {
 }
 
 ElementPoint element_at_point(const Probing& probing) {
-  const auto found = elements_at(Eigen::Vector3d(probing.quantity.point->data()), probing.device.mesh);
-  if (found.empty()) probing.refuse("point", "there is no film; coordinates are those of the film as drawn");
+  const Eigen::Vector3d point(probing.quantity.point->data());
+  const auto found = elements_at(point, probing.device.mesh);
+  if (found.empty()) probing.refuse("point", no_element_text(probing.one, point));
   const auto first = probing.device.mesh.film()->cell(found.front().cell);
   for (const ElementPoint& at : found) { // neighbours have nodes in common
     const auto own = probing.device.mesh.film()->cell(at.cell);
