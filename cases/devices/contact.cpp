@@ -223,7 +223,8 @@ bool cross(const meshing::Mesh& mesh, const meshing::CellBlock& one, const meshi
   return false;
 }
 
-/// Whether a node of a surface lies within a cell as drawn: then solids lie in each other.
+/// Whether a node of a surface lies within a cell of others as drawn: then solids lie in each other. Of cells
+/// with straight sides; beside its own, whose sides may be hollow, a node may lie.
 bool lies_inside(const meshing::Mesh& mesh, const meshing::CellBlock& surface) {
   constexpr double on_its_side = 1e-6; // of a cell
   const meshing::CellBlock& cells = *mesh.film();
@@ -243,7 +244,7 @@ bool lies_inside(const meshing::Mesh& mesh, const meshing::CellBlock& surface) {
     if (dimension == 2) sides.col(2) = sides.col(0).cross(sides.col(1));
     const Eigen::Matrix3d local = sides.inverse();
     for (const int node : surface.nodes) {
-      if (!box.contains(at(node))) continue;
+      if (!box.contains(at(node)) || std::ranges::count(cells.cell(c), node) > 0) continue;
       const Eigen::VectorXd share = (local * (at(node) - at(own[0]))).head(dimension);
       if (std::min(share.minCoeff(), 1 - share.sum()) > on_its_side) return true;
     }
