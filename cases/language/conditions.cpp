@@ -132,8 +132,14 @@ Condition electrodes() {
 }
 
 Condition charges_film() {
-  return on_case("an [[electrode]] of the film itself", [](const Case& one) {
-    return std::ranges::any_of(one.electrodes, [](const Electrode& e) { return e.layer.empty(); });
+  return on<Film>("an [[electrode]] of the film itself", [](const Case& one, const Film& film) {
+    const auto owner =
+        std::ranges::find_if(one.parts, [&](const Part& part) { return part.film && &*part.film == &film; });
+    const bool by_name = owner != one.parts.end() && owner->has_mesh() && !owner->name.empty();
+    return std::ranges::any_of(one.electrodes, [&](const Electrode& e) {
+      return e.layer.empty() &&
+             (!by_name || e.place == owner->name || e.place.starts_with(owner->name + "."));
+    });
   });
 }
 

@@ -9,7 +9,7 @@ namespace dielast::cases {
 namespace when {
 
 Condition electrodes();          ///< there is an electrode
-Condition charges_film();        ///< one charges the film itself
+Condition charges_film();        ///< one charges the key's own film itself
 Condition charges_layer();       ///< one charges the key's own layer
 Condition voltages();            ///< a step brings a voltage
 Condition branches();            ///< the film has branches

@@ -33,6 +33,12 @@ auto of_kind(StepKind kind) {
   return [kind](const Step& step) { return step.kind == kind; };
 }
 
+void check_step_names(SectionReader& reader, const Node& tree, const Case& one) {
+  report_step(
+      reader, tree, one, [](const Step& step) { return step.name == "drawn"; },
+      "found the name \"drawn\", which the history gives the device as it is drawn; call the step otherwise");
+}
+
 void check_loads(SectionReader& reader, const Node& tree, const Case& one) {
   if (one.loads.empty())
     report_step(reader, tree, one, of_kind(StepKind::force),
@@ -366,6 +372,7 @@ StepPlace place_of_step(const Node& tree, std::size_t number) {
 
 void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   if (!reader.diagnostics().empty()) return; // these would complain of what is only misspelt
+  check_step_names(reader, tree, one);
   check_loads(reader, tree, one);
   check_motions(reader, tree, one);
   check_drives(reader, tree, one);

@@ -88,7 +88,15 @@ Simulation::Simulation(const Case& one, int threads)
   };
   // A film drawn in tension with free edges must find its equilibrium before it can be driven.
   const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
-  if (settles) steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
+  if (settles) {
+    if (const auto taken = std::ranges::find(steps_, "settle", &Step::name); taken != steps_.end()) {
+      const std::string key = fmt::format("step[{}].name", taken - steps_.begin() + 1);
+      throw CaseError({{one.where(key), key,
+                        "\"settle\" is taken by the step that cuts the film free before the first; call this "
+                        "one otherwise, or say so by a first [[step]] of kind \"release\""}});
+    }
+    steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
+  }
   if (holding_in(case_, steps_, 0) != holding_) {
     enter(0);
     frame_ = frame_force();

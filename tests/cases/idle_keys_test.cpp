@@ -3,6 +3,7 @@
 #include "cases/readers/resolved.hpp"
 #include "tests/cases/scratch.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,6 +56,13 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
       "[[film.material.branch]]\nshear_modulus = \"1 kPa\"\nrelaxation_time = \"1 s\"\n";
   const std::string instantaneous = "[[step]]\nkind = \"voltage\"\nresponse = \"instantaneous\"\n";
   const std::string drive = "[drive]\nvoltage = \"1 kV\"\n";
+  const auto patch = [](const std::string& name) {
+    return fmt::format(
+        "[part.{0}.film]\nthickness = \"1 mm\"\n[part.{0}.film.material]\nshear_modulus = 1e4\n"
+        "relative_permittivity = 3\nbreakdown_field = 5e7\n[part.{0}.patch]\n",
+        name);
+  };
+  const std::string two_patches = patch("a") + patch("b");
   const std::string sectors = "[disc]\nradius = \"20 mm\"\n[sectors]\ncount = 2\n";
   const std::string weight = "[[step]]\nkind = \"weight\"\n";
   const std::string point_mass = "[[point_mass]]\nplace = \"electrode\"\nmass = \"1 g\"\n";
@@ -187,6 +195,9 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
        film + sectors + "[drive.a]\nvoltage = 1000\n[drive.b]\nvoltage = 900\n" + ramp +
            "electrode = \"b\"\n",
        film + sectors + "[drive.a]\nvoltage = 1000\n[drive.b]\nvoltage = 900\n" + ramp},
+      {"part.b.film.material.breakdown_field",
+       two_patches + "[[electrode]]\nname = \"e\"\nplace = \"a.film\"\n",
+       two_patches + "[[electrode]]\nname = \"e\"\nplace = \"b.film\"\n"},
       {"drive.b.charge",
        film + sectors + "[drive.b]\ncharge = 1e-9\n[[step]]\nkind = \"charge\"\nto = 2e-9\n",
        film + sectors + "[drive.b]\ncharge = 1e-9\n[[step]]\nkind = \"charge\"\nelectrode = \"b\"\n"},

@@ -17,6 +17,22 @@ mesh = { rings = 8 }
 film = { thickness = "1 mm", prestretch = 2, material = { shear_modulus = "40 kPa", permittivity = "4e-11 F/m" } }
 )";
 
+TEST_F(StepOrder, NoStepHasTheNameOfTheOneThatCutsTheFilmFree) {
+  const auto named = [&](const char* name) {
+    write(
+        "film.toml",
+        fmt::format("[film]\nthickness = \"0.5 mm\"\nprestretch = 1.3\n[film.material]\nshear_modulus = "
+                    "\"40 kPa\"\nrelative_permittivity = 3\n[rectangle]\nlength = \"10 mm\"\n[mesh]\nacross "
+                    "= 2\n[[support]]\nplace = \"left\"\nfix = [\"x\", \"y\"]\n[[step]]\nname = \"{}\"\nkind "
+                    "= \"voltage\"\n",
+                    name));
+    return read_case(directory / "film.toml");
+  };
+  const Case settle = named("settle"), rise = named("rise");
+  EXPECT_THROW(Simulation(settle, 1), CaseError);
+  EXPECT_NO_THROW(Simulation(rise, 1));
+}
+
 // What was kinetic, and what the forces that accelerated it had stretched, is released, and told.
 TEST_F(StepOrder, AStepWithoutInertiaGoesOnFromWhereWhatMovedComesToRest) {
   const auto ends = [&](const std::string& steps) {
