@@ -27,9 +27,12 @@ constexpr double no_further = 0.02; ///< of I1 - 3, that a law at its limit does
 constexpr double least_permittivity = 1e-9;
 constexpr double most_at_once = 1.25; ///< growth of wrinkled film's area in an increment
 
+const Part& part_at(const Case& one, const Device& device, const fem::MembraneSample& at) {
+  return one.parts[static_cast<std::size_t>(device.film_parts[static_cast<std::size_t>(at.cell)])];
+}
+
 const materials::Material& material_at(const Case& one, const Device& device, const fem::MembraneSample& at) {
-  const int part = device.film_parts[static_cast<std::size_t>(at.cell)];
-  const Film& film = *one.parts[static_cast<std::size_t>(part)].film;
+  const Film& film = *part_at(one, device, at).film;
   return at.layer == 0 ? film.material : film.further_layers[static_cast<std::size_t>(at.layer) - 1].material;
 }
 
@@ -297,8 +300,7 @@ std::string law_limit(const Case& one, const Device& device, const fem::State& s
     ++count;
     if (I1 - 3 <= largest) continue;
     largest = I1 - 3;
-    const Part& part =
-        one.parts[static_cast<std::size_t>(device.film_parts[static_cast<std::size_t>(at.cell)])];
+    const Part& part = part_at(one, device, at);
     of = fmt::format("law \"{}\"{}", std::visit([](const auto& it) { return it.name; }, law),
                      part.name.empty() ? "" : fmt::format(" of part \"{}\"", part.name));
   }

@@ -52,11 +52,11 @@ class Columns {
                                       : !ratio && factor_to_si(csv_, column, si_unit).has_value();
     if (known) return si_column(csv_, column, si_unit);
     const Source header{csv_.file, csv_.header_line, 1};
+    const auto [usual, other] = name == "time" ? std::pair{"s", "min"} : std::pair{"deg", "rad"};
     if (unit.empty())
       wrong_.push_back({header, "",
-                        fmt::format("found {} without a unit; write {} or {}", toml_string(written),
-                                    toml_string(name + (name == "time" ? "[s]" : "[deg]")),
-                                    toml_string(name + (name == "time" ? "[min]" : "[rad]")))});
+                        fmt::format("found {0} without a unit; write \"{1}[{2}]\" or \"{1}[{3}]\"",
+                                    toml_string(written), name, usual, other)});
     else
       wrong_.push_back(
           {header, "",

@@ -206,20 +206,16 @@ viscosity = "1e7 Pa s"
   EXPECT_NEAR(two[1], 0.6647, 1e-4);
 }
 
+/// Without bending stiffness, held at these stretches under a voltage in kV.
+std::string wrinkling_patch(const std::string& law, double x, double y, double voltage) {
+  return "[film]\nthickness = \"1 mm\"\nwrinkling = \"tension field\"\n[film.material]\n" + law +
+         fmt::format("permittivity = \"4e-11 F/m\"\n[patch]\nstretch_x = {}\nstretch_y = {}\n[drive]\n"
+                     "voltage = \"{} kV\"\n",
+                     x, y, voltage);
+}
+
 TEST_F(PatchValidation, wrinkled_film_that_the_field_pulls_wider_without_limit_is_told_apart) {
-  write("patch.toml", R"(
-[film]
-thickness = "1 mm"
-wrinkling = "tension field"
-[film.material]
-shear_modulus = "45 kPa"
-permittivity = "4e-11 F/m"
-[patch]
-stretch_x = 1.5
-stretch_y = 0.9
-[drive]
-voltage = "30 kV"
-)");
+  write("patch.toml", wrinkling_patch("shear_modulus = \"45 kPa\"\n", 1.5, 0.9, 30));
   const Case one = read_case(directory / "patch.toml");
   Simulation simulation(one, 1);
   const Outcome outcome = simulation.run({});
@@ -229,21 +225,8 @@ voltage = "30 kV"
 
 // No node moves, and none of the equilibria is unstable: the charge alone would jump, by two decades.
 TEST_F(PatchValidation, slack_film_that_snaps_is_a_limit_point) {
-  write("patch.toml", R"(
-[film]
-thickness = "1 mm"
-wrinkling = "tension field"
-[film.material]
-law = "gent"
-shear_modulus = "40 kPa"
-stretch_limit = 30
-permittivity = "4e-11 F/m"
-[patch]
-stretch_x = 1
-stretch_y = 1
-[drive]
-voltage = "24 kV"
-)");
+  write("patch.toml",
+        wrinkling_patch("law = \"gent\"\nshear_modulus = \"40 kPa\"\nstretch_limit = 30\n", 1, 1, 24));
   const Case one = read_case(directory / "patch.toml");
   Simulation simulation(one, 1);
   double voltage = 0;
