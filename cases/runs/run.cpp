@@ -43,8 +43,9 @@ spdlog::logger make_logger(const RunSettings& settings, post::ResultsFolder& fol
   spdlog::sink_ptr terminal = std::make_shared<spdlog::sinks::stdout_sink_st>();
   if (settings.quiet) terminal = std::make_shared<spdlog::sinks::stderr_sink_st>();
   terminal->set_level(settings.quiet ? spdlog::level::err : spdlog::level::info);
-  spdlog::logger logger("run", {file, terminal});
+  spdlog::logger logger(settings.called, {file, terminal});
   logger.set_pattern("%v");
+  if (!settings.called.empty()) terminal->set_pattern("%n: %v");
   logger.set_level(spdlog::level::debug);
   logger.flush_on(spdlog::level::info);
   logger.set_error_handler([](const std::string&) {}); // a full disk is told by the results' own files

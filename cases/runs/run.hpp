@@ -14,7 +14,8 @@ struct RunSettings {
   std::filesystem::path directory;     ///< of all outputs; made when it does not exist
   int threads = 0;                     ///< 0: every core
   bool resume = false;                 ///< go on from the directory's checkpoint, if the case is as it was
-  bool quiet = false;                  ///< nothing on the terminal; run.log is written all the same
+  bool quiet = false;                  ///< only errors on the terminal; run.log is written all the same
+  std::string called{};                ///< before its errors, where others run beside it
   std::optional<post::Link> part_of{}; ///< the page of the study whose point this is
 };
 

@@ -122,15 +122,17 @@ bool all_answered(const Study& study, const Collected& collected,
       study.best, [&](const StudyBest& best) { return best_point(study, best, collected).has_value(); });
 }
 
-/// Warnings of the section, and of varied keys that have no effect at the points but those with one of their
-/// values, the default.
+/// Warnings of the section, of checks that no point is asked, and of varied keys that have no effect at the
+/// points but those with one of their values, the default.
 std::vector<std::string> warnings_of(const Study& study, const std::vector<StudyPoint>& points) {
   const std::vector<std::string> keys = study.varied();
   std::vector<std::set<std::string>> not_told(keys.size()); // values at the other points
   std::vector<std::string> reasons(keys.size());
+  bool has_idle_checks = false;
   for (const StudyPoint& point : points) {
     try {
       const Case one = read_case(study.base, point.overrides);
+      has_idle_checks = has_idle_checks || one.skipped_checks > 0;
       for (std::size_t k = 0; k < keys.size(); ++k) {
         const auto warning = std::ranges::find(one.warnings, keys[k], &Diagnostic::key);
         if (warning == one.warnings.end())
@@ -143,6 +145,12 @@ std::vector<std::string> warnings_of(const Study& study, const std::vector<Study
   }
   std::vector<std::string> warnings;
   for (const Diagnostic& warning : study.warnings) warnings.push_back(warning.text());
+  if (has_idle_checks)
+    warnings.push_back(Diagnostic{{study.source.string()},
+                                  "check",
+                                  "has no effect in a study of other devices than the file's",
+                                  Severity::warning}
+                           .text());
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (!reasons[k].empty() && not_told[k].size() <= 1)
       warnings.push_back(Diagnostic{{study.source.string()},
@@ -224,7 +232,10 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   for (std::size_t p = 0; p < points.size(); ++p)
     if (const auto& result = collected.results[p]; !result || result->exit_code != 0) {
       ++failed;
-      say("failed: {}: {}\n", label(study, points[p]), result ? result->message : "not finished");
+      say("failed: {}: {}\n", label(study, points[p]),
+          !result                   ? "not finished"
+          : result->message.empty() ? "checks failed, see its run.log"
+                                    : result->message);
     }
   for (const std::string& line : answers) say("{}\n", line);
   say("{} of {} points reached their ends, all are in {}, report in {}\n",

@@ -36,6 +36,7 @@ namespace {
                                       .threads = 1,
                                       .resume = resume,
                                       .quiet = true,
+                                      .called = label(study, point),
                                       .part_of = post::Link{study.title, "../report.html"}}));
   } catch (const post::FolderInUse&) { // another job runs it
     code = static_cast<int>(ExitCode::interrupted);

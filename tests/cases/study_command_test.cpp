@@ -113,6 +113,24 @@ TEST_F(StudyCommand, WarnsOfRangesThatMissTheirEndAndOfValuesThatStandTwice) {
   EXPECT_EQ(dielast(into("out", {"--dry-run"})).err, "");
 }
 
+TEST_F(StudyCommand, ChecksAreAskedOfPointsThatAreTheFilesDevice) {
+  write("small.toml", small_honeycomb + "[[check]]\nquantity = \"eps_y\"\nvalue = 5\ntolerance = \"1 %\"\n"
+                                        "source = \"nobody\"\n");
+  write_study(R"({ "mesh.order" = [1, 2] })");
+  const Ended asked = dielast(into("out"));
+  EXPECT_EQ(asked.err.find("warning"), std::string::npos) << asked.err;
+  EXPECT_NE(asked.err.find("mesh.order = 1:   check eps_y              FAILED: "), std::string::npos)
+      << asked.err;
+  EXPECT_NE(asked.out.find("failed: mesh.order = 2: checks failed, see its run.log\n"), std::string::npos)
+      << asked.out;
+  write_study(R"({ "drive.voltage" = ["1 kV", "2 kV"] })");
+  const Ended not_asked = dielast(into("out"));
+  EXPECT_EQ(not_asked.exit_code, 0);
+  EXPECT_NE(not_asked.err.find("check: has no effect in a study of other devices than the file's"),
+            std::string::npos)
+      << not_asked.err;
+}
+
 TEST_F(StudyCommand, ADryRunListsThePointsAndWritesNothing) {
   write("study.toml", R"(title = "Discs"
 case = "disc.toml"
