@@ -349,6 +349,16 @@ struct Case {
     const auto found = keys.find(key);
     return found == keys.end() ? Source{source.string()} : found->second;
   }
+  /// What is wrong with a key's value, where that stands.
+  Diagnostic told_at(const std::string& key, std::string message, Severity severity = Severity::error) const {
+    return {where(key), key, std::move(message), severity};
+  }
+  CaseError error_at(const std::string& key, std::string message) const {
+    return CaseError({told_at(key, std::move(message))});
+  }
+  std::string warning_at(const std::string& key, std::string message) const {
+    return told_at(key, std::move(message), Severity::warning).text();
+  }
 };
 
 } // namespace dielast::cases

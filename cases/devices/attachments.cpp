@@ -34,10 +34,10 @@ void require_a_direction(const Case& one, const meshing::Mesh& mesh, const fem::
                  mesh.nodes[static_cast<std::size_t>(distance.ends[end].nodes[n])][distance.axis];
   if (between[0] == between[1] || std::abs(at[1] - at[0]) > 1e-9 * extent) return;
   const std::string key = object + ".along";
-  throw CaseError(
-      {{one.where(key), key,
-        fmt::format("\"{}\" and \"{}\" are drawn at the same {}: along it nothing says which way it pushes",
-                    between[0], between[1], "xyz"[distance.axis])}});
+  throw one.error_at(
+      key,
+      fmt::format("\"{}\" and \"{}\" are drawn at the same {}: along it nothing says which way it pushes",
+                  between[0], between[1], "xyz"[distance.axis]));
 }
 
 /// The shares of a place's nodes, without those that have none.

@@ -46,14 +46,12 @@ void for_each_set_of_bars(
     const std::function<void(const AlikeBars&, const std::vector<int>& lines, std::size_t part)>& use) {
   std::set<int> taken;
   const auto take = [&](std::size_t p, const std::string& place, const AlikeBars& bars) {
-    const std::string& part = one.parts[p].name;
+    const std::string key = one.parts[p].key_prefix() + "place";
     const std::vector<int>* lines = mesh.cells_of(place, mesh.walls());
-    if (!lines)
-      throw meshing::MeshError(
-          fmt::format("part \"{}\": the place \"{}\" has no lines in the mesh", part, place));
+    if (!lines) throw one.error_at(key, fmt::format("\"{}\" has no lines in the mesh", place));
     for (const int line : *lines)
       if (!taken.insert(line).second)
-        throw meshing::MeshError(fmt::format("part \"{}\": a line of \"{}\" has a bar already", part, place));
+        throw one.error_at(key, fmt::format("a line of \"{}\" has a bar already", place));
     use(bars, *lines, p);
   };
   for (std::size_t p = 0; p < one.parts.size(); ++p) {

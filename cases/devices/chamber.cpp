@@ -27,8 +27,8 @@ meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh) {
     return meshing::sides_at(mesh, place, meshing::CellType::meridian3);
   meshing::CellBlock faces = meshing::faces_at(mesh, place);
   if (!one.geometry<HollowSphere>() && !meshing::is_closed(faces))
-    throw meshing::MeshError(
-        fmt::format("chamber: the surface \"{}\" has an edge; a chamber in a solid is closed", place));
+    throw one.error_at("chamber.at",
+                       fmt::format("the surface \"{}\" has an edge; a chamber in a solid is closed", place));
   return faces;
 }
 
@@ -132,17 +132,16 @@ double area_under_plate(const Case& one, const meshing::Mesh& mesh, const meshin
   const double off = 1e-9 * mesh.bounds().diagonal().norm();
   for (const auto& [end, count] : ends)
     if (const Eigen::Vector3d x = drawn(end); count != 0 && std::min(std::abs(x.x()), std::abs(x.y())) > off)
-      throw CaseError(
-          {{one.where("plate.at"), "plate.at",
-            fmt::format(
-                "found \"{}\": what of the [chamber] this plate closes is not known, as its edge ends at "
-                "x = {:.4g} mm, y = {:.4g} mm: it is closed, or ends where x = 0 or y = 0 is a plane of "
-                "symmetry",
-                one.plate->place, 1e3 * x.x(), 1e3 * x.y())}});
+      throw one.error_at(
+          "plate.at",
+          fmt::format(
+              "found \"{}\": what of the [chamber] this plate closes is not known, as its edge ends at "
+              "x = {:.4g} mm, y = {:.4g} mm: it is closed, or ends where x = 0 or y = 0 is a plane of "
+              "symmetry",
+              one.plate->place, 1e3 * x.x(), 1e3 * x.y()));
   if (area < 0)
-    throw CaseError({{one.where("plate.at"), "plate.at",
-                      "how far a chamber reaches under a plate that lies around the film is not known: the "
-                      "plate must close a hole in it"}});
+    throw one.error_at("plate.at", "how far a chamber reaches under a plate that lies around the film is not "
+                                   "known: the plate must close a hole in it");
   return area;
 }
 

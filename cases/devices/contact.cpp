@@ -80,8 +80,9 @@ void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
       mesh, std::move(pairs), {thickness, 0.01 * wall.material.youngs_modulus * wall.height / thickness}));
   const fem::Evaluation drawn = as_drawn(*model.blocks.back(), mesh);
   if (!drawn.feasible || drawn.energy > 0)
-    throw meshing::MeshError(fmt::format(
-        "walls of a cell are closer as drawn than the {:.6g} mm of contact.thickness", 1e3 * thickness));
+    throw one.error_at(
+        "contact.thickness",
+        fmt::format("walls of a cell are closer as drawn than these {:.6g} mm", 1e3 * thickness));
 }
 
 /// How low, m, the faces or sides of a solid are that lie on a table. Throws CaseError where the place is not
@@ -89,10 +90,9 @@ void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
 double lowest_of_underside(const Case& one, const meshing::Mesh& mesh, const meshing::CellBlock& sides,
                            int up) {
   const auto fail = [&one](const char* what) {
-    throw CaseError(
-        {{one.where("table.at"), "table.at",
-          fmt::format("\"{}\" {}: name the surface that lies on the table, at the bottom of the solid",
-                      one.table->place, what)}});
+    throw one.error_at("table.at", fmt::format("\"{}\" {}: name the surface that lies on the table, at the "
+                                               "bottom of the solid",
+                                               one.table->place, what));
   };
   const auto drawn = [&mesh](int node) -> const Eigen::Vector3d& {
     return mesh.nodes[static_cast<std::size_t>(node)];
@@ -151,10 +151,10 @@ void add_table(const Case& one, const meshing::Mesh& mesh, const std::vector<int
   const int up = of_revolution ? 2 : 1;
   const double thickness = one.contact->thickness, height = mesh.bounds().sizes()[up];
   if (thickness > height)
-    throw CaseError({{one.where("contact.thickness"), "contact.thickness",
-                      fmt::format("found {:.6g} mm, and what lies on the table is {:.6g} mm high: the solid "
-                                  "may sink in by as much as the first",
-                                  1e3 * thickness, 1e3 * height)}});
+    throw one.error_at("contact.thickness",
+                       fmt::format("found {:.6g} mm, and what lies on the table is {:.6g} mm high: the solid "
+                                   "may sink in by as much as the first",
+                                   1e3 * thickness, 1e3 * height));
   const meshing::CellBlock sides =
       in_space ? meshing::faces_at(mesh, one.table->place)
                : meshing::sides_at(mesh, one.table->place, meshing::CellType::meridian3);
@@ -291,14 +291,15 @@ void add_surfaces(const Case& one, const meshing::Mesh& mesh, const std::vector<
                                 : meshing::sides_at(mesh, place, meshing::CellType::meridian3));
     solids.push_back(behind(one, mesh, parts, surfaces.back()));
     if (lies_inside(mesh, surfaces.back()))
-      throw meshing::MeshError(fmt::format(
-          "the surface \"{}\" lies inside a solid as drawn: what is to touch is drawn apart", place));
+      throw one.error_at(
+          "contact.between",
+          fmt::format("\"{}\" lies inside a solid as drawn: what is to touch is drawn apart", place));
   }
   for (std::size_t a = 0; a < places.size(); ++a)
     for (std::size_t b = a + 1; b < places.size(); ++b) {
       const auto fail = [&](const std::string& reason) {
-        throw meshing::MeshError(
-            fmt::format("the surfaces \"{}\" and \"{}\" {}", places[a], places[b], reason));
+        throw one.error_at("contact.between",
+                           fmt::format("the surfaces \"{}\" and \"{}\" {}", places[a], places[b], reason));
       };
       constexpr int most = 1'000'000;
       if (!in_space && std::int64_t{2} * surfaces[a].size() * surfaces[b].size() > most)

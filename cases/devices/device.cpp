@@ -28,7 +28,7 @@ namespace {
 [[noreturn]] void reject_load(const Case& one, std::size_t number, const std::string& reason) {
   const std::string load = fmt::format("load[{}].", number + 1);
   const char* what = one.loads[number].moment ? "moment" : "force";
-  throw CaseError({{one.where(load + what), load + what, reason}});
+  throw one.error_at(load + what, reason);
 }
 
 /// Times that tell whether the loads balance at all times.

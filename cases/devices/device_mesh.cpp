@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -18,7 +19,7 @@ namespace dielast::cases {
 
 namespace {
 
-/// A disc or an annulus in which regions are drawn.
+/// A disc or an annulus in which regions are drawn. Throws MeshError.
 meshing::Mesh mesh_of_regions(const Part& part, const std::vector<meshing::Region>& regions) {
   const meshing::RoundFilm film = *round_film(part);
   meshing::Mesh mesh =
@@ -36,10 +37,20 @@ meshing::Mesh mesh_of_regions(const Part& part, const std::vector<meshing::Regio
   return mesh;
 }
 
-/// The mesh of a part, as it is drawn by itself.
-meshing::Mesh own_mesh(const Drawing& drawing) {
+/// The mesh of a part of a case, as it is drawn by itself.
+meshing::Mesh own_mesh(const Case& one, const Drawing& drawing) {
   const Part& part = drawing.part;
-  if (const auto regions = regions_of(part); !regions.empty()) return mesh_of_regions(part, regions);
+  if (const auto regions = regions_of(part); !regions.empty()) {
+    try {
+      return mesh_of_regions(part, regions);
+    } catch (const meshing::MeshError& error) {
+      const auto drawn = std::ranges::find(part.regions, error.region, &DrawnRegion::name);
+      if (drawn == part.regions.end()) throw; // a sector, or none
+      throw one.error_at(
+          fmt::format("{}region[{}].name", part.key_prefix(), drawn - part.regions.begin() + 1),
+          error.what());
+    }
+  }
   return std::visit([&](const auto& geometry) { return mesh_of(geometry, drawing); }, part.geometry);
 }
 
@@ -77,8 +88,8 @@ meshing::Mesh build_mesh(const Case& one) {
   try {
     for (const Part& part : one.parts) {
       if (!part.has_mesh()) continue;
-      meshing::Mesh mesh = own_mesh({part, one.dimension == fem::Dimension::axisymmetric,
-                                     one.dimension == fem::Dimension::spatial, curved ? 2 : 1, bars});
+      meshing::Mesh mesh = own_mesh(one, {part, one.dimension == fem::Dimension::axisymmetric,
+                                          one.dimension == fem::Dimension::spatial, curved ? 2 : 1, bars});
       if (part.name.empty()) {
         whole = std::move(mesh);
         continue;
@@ -86,10 +97,16 @@ meshing::Mesh build_mesh(const Case& one) {
       place(mesh, part);
       meshing::append(whole, mesh, part.name);
     }
-    for (const TiedPlaces& tie : one.ties)
-      if (std::ranges::all_of(tie.between,
-                              [&](const auto& place) { return whole.node_sets.contains(place); }))
-        meshing::join(whole, tie.between[0], tie.between[1]);
+    for (std::size_t t = 0; t < one.ties.size(); ++t) {
+      const std::array<std::string, 2>& between = one.ties[t].between;
+      if (!std::ranges::all_of(between, [&](const auto& place) { return whole.node_sets.contains(place); }))
+        continue; // reported elsewhere
+      try {
+        meshing::join(whole, between[0], between[1]);
+      } catch (const meshing::MeshError& error) {
+        throw one.error_at(fmt::format("tie[{}].between", t + 1), error.what());
+      }
+    }
   } catch (const std::invalid_argument& error) {
     throw meshing::MeshError(error.what());
   }

@@ -25,16 +25,17 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
     if (!one.electrodes[e].ground.empty()) continue; // a surface
     if (one.electrodes[e].layer != layer) continue;
     const std::vector<int>* cells = mesh.cells_of(one.electrodes[e].place, &film);
+    const std::string key = fmt::format("electrode[{}].place", e + 1);
     if (!cells)
-      throw CaseError(
-          {{one.where(fmt::format("electrode[{}].place", e + 1)), fmt::format("electrode[{}].place", e + 1),
-            fmt::format("\"{}\" is no part of the film, which an electrode covers: an edge, a point, or bars",
-                        one.electrodes[e].place)}});
+      throw one.error_at(key,
+                         fmt::format("\"{}\" is no part of the film, which an electrode covers: an edge, "
+                                     "a point, or bars",
+                                     one.electrodes[e].place));
     for (const int cell : *cells) {
       int& electrode = map[static_cast<std::size_t>(cell)];
       if (electrode != fem::passive)
-        throw meshing::MeshError("electrodes \"" + one.electrodes[static_cast<std::size_t>(electrode)].name +
-                                 "\" and \"" + one.electrodes[e].name + "\" overlap");
+        throw one.error_at(key, fmt::format("\"{}\" overlaps the electrode \"{}\"", one.electrodes[e].place,
+                                            one.electrodes[static_cast<std::size_t>(electrode)].name));
       electrode = static_cast<int>(e);
     }
   }
@@ -43,7 +44,8 @@ std::vector<int> electrode_map(const Case& one, const meshing::Mesh& mesh, const
 
 /// Film under the electrode of a layer must have that layer, which must have a permittivity.
 void require_layers(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts) {
-  for (const Electrode& electrode : one.electrodes) {
+  for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
+    const Electrode& electrode = one.electrodes[e];
     if (electrode.layer.empty()) continue;
     const std::vector<int>* cells = mesh.cells_of(electrode.place, mesh.film());
     for (std::size_t i = 0; cells && i < cells->size(); ++i) {
@@ -52,9 +54,9 @@ void require_layers(const Case& one, const meshing::Mesh& mesh, const std::vecto
       const auto layer = std::ranges::find(layers, electrode.layer, &Layer::name);
       const bool is_there = layer != layers.end();
       if (!is_there || layer->material.dielectric.permittivity == 0)
-        throw meshing::MeshError(fmt::format("electrode \"{}\": some film of \"{}\" has no layer \"{}\"{}",
-                                             electrode.name, electrode.place, electrode.layer,
-                                             is_there ? " with a permittivity" : ""));
+        throw one.error_at(fmt::format("electrode[{}].layer", e + 1),
+                           fmt::format("some film of \"{}\" has no layer \"{}\"{}", electrode.place,
+                                       electrode.layer, is_there ? " with a permittivity" : ""));
     }
   }
 }
@@ -67,14 +69,14 @@ std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh) {
   const auto claim = [&](std::size_t p, const std::string& place, bool alone) {
     const std::vector<int>* cells = mesh.cells_of(place, &film);
     if (!cells)
-      throw meshing::MeshError(
-          fmt::format("part \"{}\": the place \"{}\" is no film of the mesh", one.parts[p].name, place));
+      throw one.error_at(one.parts[p].key_prefix() + "place",
+                         fmt::format("\"{}\" is no film of the mesh", place));
     for (const int cell : *cells) {
       int& part = parts[static_cast<std::size_t>(cell)];
       if (alone && part >= 0 && !one.parts[static_cast<std::size_t>(part)].has_mesh())
-        throw meshing::MeshError(fmt::format("parts \"{}\" and \"{}\" overlap",
-                                             one.parts[static_cast<std::size_t>(part)].name,
-                                             one.parts[p].name));
+        throw one.error_at(one.parts[p].key_prefix() + "place",
+                           fmt::format("\"{}\" overlaps the part \"{}\"", place,
+                                       one.parts[static_cast<std::size_t>(part)].name));
       part = static_cast<int>(p);
     }
   };

@@ -54,7 +54,7 @@ struct RodWidths {
   double charged, passive;
 };
 
-RodWidths rod_widths(const Part& part) {
+RodWidths rod_widths(const Case& one, const Part& part) {
   const Rod& rod = *part.rolled();
   const auto* line = std::get_if<Line>(&part.geometry);
   const double length = line
@@ -63,10 +63,9 @@ RodWidths rod_widths(const Part& part) {
                             : std::get<AntagonisticRolls>(part.geometry).length;
   const double electrode = rod.electrode_length.value_or(length);
   if (electrode > length * (1 + 1e-9))
-    throw meshing::MeshError(
-        fmt::format("{}: the electrode is {:.6g} mm long, the unstretched rod {:.6g} mm",
-                    part.called(line ? "rod.electrode_length" : "antagonistic_rolls.electrode_length"),
-                    1e3 * electrode, 1e3 * length));
+    throw one.error_at(
+        part.key_prefix() + (line ? "rod.electrode_length" : "antagonistic_rolls.electrode_length"),
+        fmt::format("found {:.6g} mm: the unstretched rod is {:.6g} mm long", 1e3 * electrode, 1e3 * length));
   const double charged = rod.layers * rod.electrode_width.value_or(rod.width) * electrode / length;
   return {charged, std::max(0.0, rod.layers * rod.width - charged)};
 }
@@ -75,7 +74,7 @@ RodWidths rod_widths(const Part& part) {
 void add_rods(const Case& one, const meshing::Mesh& mesh, std::span<const PartFilm> films,
               fem::Model& model) {
   for (const PartFilm& film : films) {
-    const RodWidths widths = rod_widths(*film.part);
+    const RodWidths widths = rod_widths(one, *film.part);
     fem::MembraneSection strip = section_of(*film.part);
     strip.width = widths.charged;
     std::optional<fem::MembraneSection> beside;

@@ -42,23 +42,23 @@ std::vector<int> potential_map(const Case& one, const meshing::Mesh& mesh) {
         return true;
     return false;
   };
-  const auto claim = [&](const Electrode& electrode, const std::string& place, int potential) {
+  const auto claim = [&](const std::string& key, const std::string& place, int potential) {
     if (!is_surface(mesh.node_sets.at(place)))
-      throw meshing::MeshError(fmt::format("electrode \"{}\": \"{}\" is no surface of the solid, but a "
-                                           "point or line, whose field has no limit",
-                                           electrode.name, place));
+      throw one.error_at(key,
+                         fmt::format("\"{}\" is no surface of the solid, but a point or line, whose field "
+                                     "has no limit",
+                                     place));
     for (const int node : mesh.node_sets.at(place)) {
       int& known = map[static_cast<std::size_t>(node)];
       if (known != fem::NodePotential::follows && known != potential)
-        throw meshing::MeshError(fmt::format(
-            "electrode \"{}\": \"{}\" touches a surface of another potential", electrode.name, place));
+        throw one.error_at(key, fmt::format("\"{}\" touches a surface of another potential", place));
       known = potential;
     }
   };
   for (std::size_t e = 0; e < one.electrodes.size(); ++e)
     if (const Electrode& electrode = one.electrodes[e]; !electrode.ground.empty()) {
-      claim(electrode, electrode.ground, fem::NodePotential::ground);
-      claim(electrode, electrode.place, static_cast<int>(e));
+      claim(fmt::format("electrode[{}].ground", e + 1), electrode.ground, fem::NodePotential::ground);
+      claim(fmt::format("electrode[{}].place", e + 1), electrode.place, static_cast<int>(e));
     }
   ground_what_is_not_charged(film, map);
   return map;

@@ -20,8 +20,7 @@ std::span<const QuantityKind> quantity_kinds() {
 }
 
 void Probing::refuse(const std::string& key, const std::string& message) const {
-  const std::string where = path + "." + key;
-  throw CaseError({{one.where(where), where, message}});
+  throw one.error_at(path + "." + key, message);
 }
 
 std::size_t Probing::electrode() const { return device.model.ports.electrode(quantity.of); }

@@ -76,11 +76,11 @@ void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::D
         if (moves[a].is_like(moves[b], step) || !moves[a].meets(moves[b], mesh, dofs)) continue;
         const bool swapped = moves[b].support().standard; // it is not written
         const Move &told = moves[swapped ? a : b], &other = moves[swapped ? b : a];
-        throw CaseError(
-            {{one.where(told.key()), told.key(),
-              fmt::format("in step \"{}\" it moves nodes of \"{}\" that {} moves elsewhere, as a part of "
-                          "\"{}\"; let both say the same, or let them hold in different steps",
-                          step.name, told.support().place, other.origin(), other.support().place)}});
+        throw one.error_at(
+            told.key(),
+            fmt::format("in step \"{}\" it moves nodes of \"{}\" that {} moves elsewhere, as a part of "
+                        "\"{}\"; let both say the same, or let them hold in different steps",
+                        step.name, told.support().place, other.origin(), other.support().place));
       }
   }
 }

@@ -90,10 +90,10 @@ Simulation::Simulation(const Case& one, int threads)
   const bool settles = !at_rest && (steps_.empty() || steps_.front().kind != StepKind::release);
   if (settles) {
     if (const auto taken = std::ranges::find(steps_, "settle", &Step::name); taken != steps_.end()) {
-      const std::string key = fmt::format("step[{}].name", taken - steps_.begin() + 1);
-      throw CaseError({{one.where(key), key,
-                        "\"settle\" is taken by the step that cuts the film free before the first; call this "
-                        "one otherwise, or say so by a first [[step]] of kind \"release\""}});
+      throw one.error_at(
+          fmt::format("step[{}].name", taken - steps_.begin() + 1),
+          "\"settle\" is taken by the step that cuts the film free before the first; call this "
+          "one otherwise, or say so by a first [[step]] of kind \"release\"");
     }
     steps_.insert(steps_.begin(), {StepKind::release, "settle", 1});
   }

@@ -44,16 +44,13 @@ std::vector<std::string> carrying_warnings(const Case& one) {
         continue;
       const bool own = std::ranges::none_of(one.supports, &Support::standard);
       const std::string key = fmt::format("support[{}].displacement.{}", s + 1, "xyz"[axis]);
-      warnings.push_back(
-          Diagnostic{one.where(key), key,
-                     fmt::format("nothing else holds the device along {}: it is carried along with \"{}\" as "
-                                 "it is{}",
-                                 "xyz"[axis], support.place,
-                                 own ? "; the [[support]] of a case stand instead of those that its geometry "
-                                       "brings (dielast info tells these), hold such places, too"
-                                     : ""),
-                     Severity::warning}
-              .text());
+      warnings.push_back(one.warning_at(
+          key, fmt::format("nothing else holds the device along {}: it is carried along with \"{}\" as "
+                           "it is{}",
+                           "xyz"[axis], support.place,
+                           own ? "; the [[support]] of a case stand instead of those that its geometry "
+                                 "brings (dielast info tells these), hold such places, too"
+                               : "")));
     }
   return warnings;
 }
@@ -93,12 +90,10 @@ std::vector<std::string> weight_warnings(const Case& one) {
     }
     if (held.empty() || !follows) continue;
     const std::string key = "gravity.direction";
-    warnings.push_back(Diagnostic{one.where(key), key,
-                                  fmt::format("has no effect along {} on the body \"{}\", which is held "
-                                              "there; a [[body]] of that name with another `fix` is not",
-                                              fmt::join(held, " and "), body.name),
-                                  Severity::warning}
-                           .text());
+    warnings.push_back(
+        one.warning_at(key, fmt::format("has no effect along {} on the body \"{}\", which is held "
+                                        "there; a [[body]] of that name with another `fix` is not",
+                                        fmt::join(held, " and "), body.name)));
   }
   return warnings;
 }
@@ -110,8 +105,7 @@ std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& 
   const auto warn = [&](const std::string& section, std::size_t number, const char* key,
                         const std::string& why) {
     const std::string path = fmt::format("{}[{}].{}", section, number + 1, key);
-    warnings.push_back(
-        Diagnostic{one.where(path), path, "has no effect here: " + why, Severity::warning}.text());
+    warnings.push_back(one.warning_at(path, "has no effect here: " + why));
   };
   const bool weighs =
       std::ranges::any_of(one.steps, [](const Step& step) { return step.kind == StepKind::weight; });
@@ -162,15 +156,12 @@ std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mes
     const auto body = std::ranges::find(one.bodies, load.place, &Body::name);
     const bool at_pivot = !load.moment && body != one.bodies.end() && body->pivot;
     const std::string key = fmt::format("load[{}].{}", l + 1, load.moment ? "moment" : "force");
-    warnings.push_back(
-        Diagnostic{one.where(key), key,
-                   fmt::format("has no effect {} {}: \"{}\" is held there while it acts{}",
-                               load.moment ? "about" : "along", fmt::join(axes, " and "), load.place,
-                               at_pivot ? "; a force on a body with a pivot acts at the pivot: write its "
-                                          "moment about that point, moment = [...], instead"
-                                        : ""),
-                   Severity::warning}
-            .text());
+    warnings.push_back(one.warning_at(
+        key, fmt::format("has no effect {} {}: \"{}\" is held there while it acts{}",
+                         load.moment ? "about" : "along", fmt::join(axes, " and "), load.place,
+                         at_pivot ? "; a force on a body with a pivot acts at the pivot: write its "
+                                    "moment about that point, moment = [...], instead"
+                                  : "")));
   }
   return warnings;
 }
@@ -195,12 +186,9 @@ std::vector<std::string> pressure_warnings(const Case& one, const meshing::Mesh&
              std::ranges::all_of(mesh.film()->cell(cell), is_held);
     if (!held) continue;
     const std::string key = one.parts[p].key_prefix() + "film.bulk_modulus";
-    warnings.push_back(
-        Diagnostic{one.where(key), key,
-                   "is missing: this solid is held everywhere and incompressible, so that nothing tells "
-                   "its pressures, and the tangent is singular",
-                   Severity::warning}
-            .text());
+    warnings.push_back(one.warning_at(
+        key, "is missing: this solid is held everywhere and incompressible, so that nothing tells "
+             "its pressures, and the tangent is singular"));
   }
   return warnings;
 }

@@ -50,14 +50,11 @@ std::vector<std::string> drilling_warnings(const Case& one, const meshing::Mesh&
     std::ranges::set_intersection(first, second, std::back_inserter(common));
     if (common.size() != 1) continue;
     const std::string key = fmt::format("tie[{}].between", t + 1);
-    warnings.push_back(Diagnostic{
-        one.where(key), key,
-        fmt::format("\"{}\" and \"{}\" have one node in common: a point of a shell carries next to no "
-                    "moment about the shell's normal, about which the bar hangs as on a hinge; let a "
-                    "[[body]] carry a side of the shell, and the bar's end, instead",
-                    between[0], between[1]),
-        Severity::warning}
-                           .text());
+    warnings.push_back(one.warning_at(
+        key, fmt::format("\"{}\" and \"{}\" have one node in common: a point of a shell carries next to no "
+                         "moment about the shell's normal, about which the bar hangs as on a hinge; let a "
+                         "[[body]] carry a side of the shell, and the bar's end, instead",
+                         between[0], between[1])));
   }
   return warnings;
 }
@@ -115,12 +112,10 @@ std::vector<std::string> volume_warnings(const Case& one, const meshing::Mesh& m
   const double ball = std::numbers::pi / 6 * std::pow(mesh.bounds().diagonal().norm(), 3),
                volume = std::max(std::abs(least), std::abs(most));
   if (volume <= far_more * ball) return {};
-  return {Diagnostic{one.where("chamber.volume"), "chamber.volume",
-                     fmt::format("{} is {:.1g} times as much as a ball as large as the device; a number "
-                                 "without a unit is in m^3",
-                                 post::engineering(volume, "m^3"), volume / ball),
-                     Severity::warning}
-              .text()};
+  return {one.warning_at("chamber.volume",
+                         fmt::format("{} is {:.1g} times as much as a ball as large as the device; a number "
+                                     "without a unit is in m^3",
+                                     post::engineering(volume, "m^3"), volume / ball))};
 }
 
 } // namespace
@@ -156,9 +151,7 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
   for (std::size_t p = 0; p < one.parts.size(); ++p) {
     if (!one.parts[p].film || std::ranges::count(parts, static_cast<int>(p)) > 0) continue;
     const std::string key = one.parts[p].key_prefix() + "film.thickness";
-    warnings.push_back(Diagnostic{one.where(key), key,
-                                  "has no effect here: other parts take all of this film", Severity::warning}
-                           .text());
+    warnings.push_back(one.warning_at(key, "has no effect here: other parts take all of this film"));
   }
   for (const Part& owner : one.parts) {
     if (!std::holds_alternative<MeshFile>(owner.geometry)) continue;
@@ -185,9 +178,7 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
             beside));
     if (const std::string key = part + "mesh.quadrature";
         film.type == meshing::CellType::triangle3 && owner.mesh.quadrature != MeshOptions{}.quadrature)
-      warnings.push_back(Diagnostic{
-          one.where(key), key, "has no effect here: the file's triangles have 3 nodes", Severity::warning}
-                             .text());
+      warnings.push_back(one.warning_at(key, "has no effect here: the file's triangles have 3 nodes"));
     Eigen::AlignedBox3d box;
     for (const int node : film.nodes) box.extend(mesh.nodes[static_cast<std::size_t>(node)]);
     const Eigen::Vector3d size = box.sizes();

@@ -221,17 +221,20 @@ void name_regions(Mesh& mesh, const Triangulation& cut, std::span<const Region> 
   for (const Region& region : regions) {
     CellSet& place = mesh.cell_sets[region.name];
     if (!place.cells.empty())
-      throw MeshError(fmt::format("there is a place \"{}\" already; call the region otherwise", region.name));
+      throw MeshError(fmt::format("there is a place \"{}\" already; call the region otherwise", region.name),
+                      region.name);
     std::vector<char> own(inside.size());
     for (std::size_t p = 0; p < inside.size(); ++p) {
       own[p] = region.contains(inside[p]);
       if (!own[p]) continue;
       if (const auto [other, fresh] = owner.try_emplace(static_cast<int>(p), &region); !fresh)
-        throw MeshError(fmt::format("regions \"{}\" and \"{}\" overlap", other->second->name, region.name));
+        throw MeshError(fmt::format("regions \"{}\" and \"{}\" overlap", other->second->name, region.name),
+                        region.name);
     }
     for (std::size_t t = 0; t < cut.pieces.size(); ++t)
       if (own[static_cast<std::size_t>(cut.pieces[t])]) place.cells.push_back(static_cast<int>(t));
-    if (place.cells.empty()) throw MeshError(fmt::format("the region \"{}\" has no film", region.name));
+    if (place.cells.empty())
+      throw MeshError(fmt::format("the region \"{}\" has no film", region.name), region.name);
   }
 }
 
@@ -277,7 +280,8 @@ Mesh region_mesh(const RoundFilm& film, std::span<const Region> regions, int rin
   const auto name_circle = [&](const char* place, double radius) {
     std::vector<int>& nodes = mesh.node_sets[place];
     if (!nodes.empty())
-      throw MeshError(fmt::format("there is a place \"{}\" already; call the region otherwise", place));
+      throw MeshError(fmt::format("there is a place \"{}\" already; call the region otherwise", place),
+                      place);
     for (int n = 0; n < mesh.node_count(); ++n)
       if (std::abs(mesh.nodes[static_cast<std::size_t>(n)].norm() - radius) <= 2e-7 * film.outer_radius)
         nodes.push_back(n);

@@ -122,7 +122,7 @@ TEST_F(Contacts, friction_does_not_ask_how_many_increments_there_are) {
 }
 
 TEST_F(Contacts, refuse_walls_that_touch_as_drawn) {
-  EXPECT_THROW(build_device(read(honeycomb(63, contact))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(honeycomb(63, contact))), CaseError);
 }
 
 /// In space: its weight, and with friction less stretch.

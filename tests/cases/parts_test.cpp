@@ -20,9 +20,13 @@ namespace {
 
 class Parts : public test::CaseTest {
  protected:
+  /// Of the mesh as a whole, or of a key, with its line and path.
   std::string mesh_error(const std::string& text) const {
     try {
       build_device(read(text));
+    } catch (const CaseError& error) {
+      const auto& [at, key, message, severity] = error.diagnostics().front();
+      return fmt::format("{}: {}: {}", at.line, key, message);
     } catch (const meshing::MeshError& error) {
       return error.what();
     }
@@ -250,9 +254,10 @@ TEST_F(Parts, FilmOfNoPartOverlapsAndWrongPlacesAreErrors) {
     std::string text = two_thicknesses;
     return text.replace(text.find(from), from.size(), to);
   };
-  EXPECT_EQ(mesh_error(with("place = \"thick\"", "place = \"film\"")), "parts \"a\" and \"b\" overlap");
+  EXPECT_EQ(mesh_error(with("place = \"thick\"", "place = \"film\"")),
+            "13: part.b.place: \"film\" overlaps the part \"a\"");
   EXPECT_EQ(mesh_error(with("place = \"thick\"", "place = \"left\"")),
-            "part \"b\": the place \"left\" is no film of the mesh");
+            "13: part.b.place: \"left\" is no film of the mesh");
   meshing::Mesh half = strip(); // with a group of its own that has the name of all
   half.node_sets["film"] = half.node_sets["thin"], half.cell_sets["film"] = half.cell_sets["thin"];
   write("strip.msh", meshing::gmsh_text(half));

@@ -72,6 +72,18 @@ TEST_F(Regions, MayBeCalledElectrode) {
 }
 
 // Of film that is held where it is drawn: permittivity times area over the stretched thickness.
+TEST_F(Regions, WithTheNameOfAnotherPlaceAreToldAtTheirLine) {
+  const Case one = read(disc + "[[region]]\nname = \"rim\"\nkind = \"ring\"\nouter_radius = \"5 mm\"\n");
+  try {
+    build_mesh(one);
+    ADD_FAILURE();
+  } catch (const CaseError& error) {
+    const auto& [at, key, message, severity] = error.diagnostics().front();
+    EXPECT_EQ(fmt::format("{}: {}: {}", at.line, key, message),
+              "13: region[1].name: there is a place \"rim\" already; call the region otherwise");
+  }
+}
+
 TEST_F(Regions, HaveTheCapacitanceOfTheirArea) {
   const std::string drawn = R"(
 [[region]]

@@ -189,7 +189,7 @@ between = ["start", "end"]
 TEST_F(Rods, AnElectrodeLongerThanTheRodIsRefused) {
   write("case.toml", roll("[drive]\nvoltage = \"1 kV\"\n"));
   Case one = read_case(directory / "case.toml", {"rod.electrode_length=22 mm"});
-  EXPECT_THROW(build_device(one), meshing::MeshError);
+  EXPECT_THROW(build_device(one), CaseError);
 }
 
 } // namespace

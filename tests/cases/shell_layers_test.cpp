@@ -113,7 +113,7 @@ TEST_F(Paths, layers_of_two_parts_may_have_one_name) {
                        place);
   };
   EXPECT_NO_THROW(build_device(read(device("a"))));
-  EXPECT_THROW(build_device(read(device("b"))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(device("b"))), CaseError);
 }
 
 // Mirrored at the surface where it is drawn.
@@ -225,7 +225,7 @@ TEST_F(Paths, an_electrode_charges_a_layer_only_where_it_lies) {
              place + "\"\nlayer = \"upper\"\n[drive]\nvoltage = \"1 V\"\n" + frame));
   };
   EXPECT_NO_THROW(device("passive"));
-  EXPECT_THROW(device("electrode"), meshing::MeshError);
+  EXPECT_THROW(device("electrode"), CaseError);
 }
 
 // The softer one has the lowest mode, and has been moved far: a stiffness of the other one was -5.2 mN/m

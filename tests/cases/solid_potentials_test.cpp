@@ -48,7 +48,7 @@ TEST_F(SolidPotentials, a_solid_may_touch_the_inside_of_a_hollow_sphere) {
            "[contact]\nthickness = \"0.05 mm\"\nbetween = [\"s.inner\", \"a.top\"]\n";
   };
   EXPECT_NO_THROW(build_device(read(device("-2 mm"))));
-  EXPECT_THROW(build_device(read(device("9.5 mm"))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(device("9.5 mm"))), CaseError);
 }
 
 TEST_F(SolidPotentials, points_of_solids_of_revolution_are_told_at_y_0) {

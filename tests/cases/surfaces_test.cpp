@@ -151,10 +151,10 @@ TEST_F(Surfaces, pass_the_force_on_from_solid_to_solid_in_space) {
   EXPECT_EQ(end.at("below"), end.at("pressed"));
   EXPECT_GT(end.at("pressure"), end.at("held") / 25e-6);
   EXPECT_NO_THROW(build_device(read(two_blocks_in_space(0.01))));
-  EXPECT_THROW(build_device(read(two_blocks_in_space(0.009))), meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks_in_space(-0.1))), meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks_in_space(-0.5, ", \"upper.left\""))), meshing::MeshError);
-  EXPECT_THROW(build_device(read(two_blocks_in_space(0.1, ", \"lower.left\""))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(two_blocks_in_space(0.009))), CaseError);
+  EXPECT_THROW(build_device(read(two_blocks_in_space(-0.1))), CaseError);
+  EXPECT_THROW(build_device(read(two_blocks_in_space(-0.5, ", \"upper.left\""))), CaseError);
+  EXPECT_THROW(build_device(read(two_blocks_in_space(0.1, ", \"lower.left\""))), CaseError);
 }
 
 /// Pressed and pushed aside by a little: without friction the lower one's support feels nothing of it.
@@ -199,13 +199,13 @@ TEST_F(Surfaces, end_where_edges_of_surfaces_meet) {
 
 TEST_F(Surfaces, refuse_surfaces_that_touch_or_cross_as_drawn) {
   EXPECT_NO_THROW(build_device(read(two_blocks(0.01))));
-  EXPECT_THROW(build_device(read(two_blocks(0.009))), meshing::MeshError);
+  EXPECT_THROW(build_device(read(two_blocks(0.009))), CaseError);
   for (const double inside : {-0.1, -1.0, -1.9}) // no sides cross, and none is near the other's
-    EXPECT_THROW(build_device(read(two_blocks(inside))), meshing::MeshError) << inside;
+    EXPECT_THROW(build_device(read(two_blocks(inside))), CaseError) << inside;
   EXPECT_THROW(build_device(read(two_blocks(-0.5, 'y', "\"lower.top\", \"upper.bottom\", \"upper.left\""))),
-               meshing::MeshError);
+               CaseError);
   EXPECT_THROW(build_device(read(two_blocks(0.1, 'y', "\"lower.top\", \"lower.left\", \"upper.bottom\""))),
-               meshing::MeshError);
+               CaseError);
 }
 
 } // namespace
