@@ -16,21 +16,21 @@
 #include <span>
 
 namespace dielast::cases {
-namespace {
 
-/// The surface of a solid on which the chamber presses. In space it must be closed, or be so with its mirror
-/// images: otherwise its volume would depend on where its edge is.
 meshing::CellBlock wall_of_chamber(const Case& one, const meshing::Mesh& mesh) {
   const std::string& place = one.chamber->place;
   if (place.empty()) return *mesh.film();
   if (one.dimension != fem::Dimension::spatial)
     return meshing::sides_at(mesh, place, meshing::CellType::meridian3);
+  // It must be closed, or be so with its mirror images, or its volume would depend on where its edge is.
   meshing::CellBlock faces = meshing::faces_at(mesh, place);
   if (!one.geometry<HollowSphere>() && !meshing::is_closed(faces))
     throw one.error_at("chamber.at",
                        fmt::format("the surface \"{}\" has an edge; a chamber in a solid is closed", place));
   return faces;
 }
+
+namespace {
 
 /// Tells of every edge whether a pressure has a potential there, see fem/elements/chamber_block.hpp.
 class Edges {

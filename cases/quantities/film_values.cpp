@@ -253,6 +253,14 @@ std::vector<char> film_at(const std::string& place, const Case& one, const Devic
   return both;
 }
 
+std::set<int> film_parts_at(const std::string& place, const Case& one, const Device& device) {
+  const std::vector<char> near = film_at(place, one, device);
+  std::set<int> parts;
+  for (std::size_t cell = 0; cell < near.size(); ++cell)
+    if (near[cell]) parts.insert(device.film_parts[cell]);
+  return parts;
+}
+
 fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state) {
   fem::Samples points;
   if (const auto* membrane = dynamic_cast<const fem::FilmPoints*>(&film))
@@ -263,11 +271,7 @@ fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state) {
 }
 
 std::vector<FilmElements> films_of(const std::string& place, const Case& one, const Device& device) {
-  const std::vector<char> near = film_at(place, one, device);
-  const auto part_of = [&](int cell) { return device.film_parts[static_cast<std::size_t>(cell)]; };
-  std::set<int> parts;
-  for (int cell = 0; cell < std::ssize(near); ++cell)
-    if (near[static_cast<std::size_t>(cell)]) parts.insert(part_of(cell));
+  const std::set<int> parts = film_parts_at(place, one, device);
   std::vector<FilmElements> films;
   for (int b = 0; b < device.films; ++b) {
     const fem::Samples points =
@@ -277,7 +281,7 @@ std::vector<FilmElements> films_of(const std::string& place, const Case& one, co
     for (const fem::MembraneSample& point : points.film) {
       if (std::exchange(last, point.cell) == point.cell) continue;
       ++element;
-      if (parts.contains(part_of(point.cell)))
+      if (parts.contains(device.film_parts[static_cast<std::size_t>(point.cell)]))
         film.elements.push_back(element);
       else
         ++others;

@@ -3,6 +3,7 @@
 
 #include "cases/devices/device.hpp"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,9 @@ std::vector<FilmReading> readings_in(const std::string& place, const meshing::Me
 /// mesh only those of that mesh, whatever it is tied to.
 std::vector<char> film_at(const std::string& place, const Case& one, const Device& device);
 
+/// Numbers, in Case::parts, of those whose film that is.
+std::set<int> film_parts_at(const std::string& place, const Case& one, const Device& device);
+
 /// The points of a block of film, also where it speaks for nobody in the model's samples.
 fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state);
 
@@ -62,7 +66,7 @@ struct FilmElements {
   std::vector<int> elements;
 };
 
-/// Of each of a device's blocks of film the elements of those parts that have film at a place.
+/// Of each of a device's blocks of film the elements of film_parts_at() a place.
 std::vector<FilmElements> films_of(const std::string& place, const Case& one, const Device& device);
 
 /// Where film is so near the limit of stretch of its law (Gent, Arruda-Boyce) that it takes the whole device

@@ -19,12 +19,11 @@ Probe force(const Probing& probing) {
 }
 
 Probe pull_of_film(const Probing& probing) {
-  std::vector<FilmElements> counted = films_of(probing.quantity.of, probing.one, probing.device);
-  if (std::ranges::all_of(counted, [](const FilmElements& film) { return film.elements.empty(); }))
-    probing.refuse("of", "no film meets this place, so none pulls on it");
+  PullingFilm film = film_that_pulls(probing.quantity.of, probing.one, probing.device);
+  if (film.elements.empty()) probing.refuse("of", "no film meets this place, so none pulls on it");
   return [&device = probing.device, &quantity = probing.quantity,
-          counted = std::move(counted)](const Measured& measured) {
-    return component(film_force(device, quantity.of, counted, measured.equilibrium, measured.state),
+          film = std::move(film)](const Measured& measured) {
+    return component(film_force(device, quantity.of, film, measured.equilibrium, measured.state),
                      quantity.along);
   };
 }
@@ -133,7 +132,8 @@ std::vector<QuantityKind> force_kinds() {
        .probe = force},
       {.word = "film force",
        .meaning =
-           "with which the film pulls on a place; that of the place's own part, whatever it is tied to; "
+           "with which the film pulls on a place, without the pressure of a chamber on the elements beside "
+           "it; that of the place's own part, whatever it is tied to; "
            "in a model of revolution the radial pulls all around are summed as if they were along x (N)",
        .unit = "N",
        .keys =

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <span>
 
 namespace dielast::fem {
 
@@ -25,6 +26,16 @@ template<int Nodes>
 struct UnderTriangle {
   static constexpr int nodes = Nodes, dim = 3;
   static constexpr std::array<int, 3> components{0, 1, 2};
+
+  /// int N n da, by nodes, m^2.
+  static Eigen::Matrix<double, 3, Nodes> areas(const Eigen::Matrix<double, 3, Nodes>& x) {
+    Eigen::Matrix<double, 3, Nodes> areas = Eigen::Matrix<double, 3, Nodes>::Zero();
+    for (const TrianglePoint& at : triangle_rule(Nodes == 6 ? 6 : 1)) {
+      const Eigen::Matrix<double, 3, 2> t = x * shape_gradients<Nodes>(at.xi, at.eta);
+      areas += at.weight * t.col(0).cross(t.col(1)) * shape_values<Nodes>(at.xi, at.eta).transpose();
+    }
+    return areas;
+  }
 
   static Volume<3 * Nodes> of(const Eigen::Matrix<double, 3, Nodes>& x) {
     Volume<3 * Nodes> V;
@@ -60,6 +71,18 @@ struct UnderMeridian {
   static constexpr int nodes = Nodes, dim = 2;
   static constexpr std::array<int, 2> components{0, 2};
 
+  /// int N n da all around, by nodes, m^2.
+  static Eigen::Matrix<double, 2, Nodes> areas(const Eigen::Matrix<double, 2, Nodes>& x) {
+    Eigen::Matrix<double, 2, Nodes> areas = Eigen::Matrix<double, 2, Nodes>::Zero();
+    for (const MeridianPoint& at : meridian_rule(3)) {
+      const Eigen::Matrix<double, Nodes, 1> N = meridian_shape<Nodes>(at.xi);
+      const Eigen::Vector2d t = x * meridian_slope<Nodes>(at.xi);
+      const double around = 2 * std::numbers::pi * x.row(0).dot(N);
+      areas += at.weight * around * Eigen::Vector2d(t.y(), -t.x()) * N.transpose();
+    }
+    return areas;
+  }
+
   static Volume<2 * Nodes> of(const Eigen::Matrix<double, 2, Nodes>& x) {
     Volume<2 * Nodes> V;
     for (const MeridianPoint& at : meridian_rule(3)) {
@@ -82,6 +105,36 @@ struct UnderMeridian {
     return V;
   }
 };
+
+/// Where the nodes of a cell are, in the components of its unknowns.
+template<class Under>
+Eigen::Matrix<double, Under::dim, Under::nodes>
+positions(std::span<const int> cell, const std::vector<Eigen::Vector3d>& drawn, const State& state) {
+  Eigen::Matrix<double, Under::dim, Under::nodes> x;
+  for (int a = 0; a < Under::nodes; ++a) {
+    const auto n = static_cast<std::size_t>(cell[static_cast<std::size_t>(a)]);
+    for (int d = 0; d < Under::dim; ++d) {
+      const int c = Under::components[static_cast<std::size_t>(d)];
+      x(d, a) = drawn[n][c] + state.displacement[n][c];
+    }
+  }
+  return x;
+}
+
+template<class Under>
+std::vector<Eigen::Vector3d> forces_of(const meshing::Mesh& mesh, const meshing::CellBlock& wall,
+                                       const State& state, double pressure) {
+  std::vector<Eigen::Vector3d> forces;
+  for (int cell = 0; cell < wall.size(); ++cell) {
+    const auto areas = Under::areas(positions<Under>(wall.cell(cell), mesh.nodes, state)).eval();
+    for (int a = 0; a < Under::nodes; ++a) {
+      Eigen::Vector3d& force = forces.emplace_back(Eigen::Vector3d::Zero());
+      for (int d = 0; d < Under::dim; ++d)
+        force[Under::components[static_cast<std::size_t>(d)]] = pressure * areas(d, a);
+    }
+  }
+  return forces;
+}
 
 template<class Under>
 class PressureBlock final : public ElementBlock {
@@ -114,6 +167,18 @@ class PressureBlock final : public ElementBlock {
     }
     return result;
   }
+  /// Those of edges that stay where they are, or in a plane of symmetry: p n da less the gradient.
+  void add_forces_at_rest(const State& state, const DofMap& dofs, Eigen::VectorXd& residual) const override {
+    std::array<int, size> equations;
+    for (int e = 0; e < element_count(); ++e) {
+      element_equations(e, dofs, equations);
+      const Eigen::Matrix<double, Dim, Nodes> areas = Under::areas(position(state, e));
+      const Volume<size> V = volume(state, e);
+      for (int i = 0; i < size; ++i)
+        if (const int at = equations[static_cast<std::size_t>(i)]; at >= 0)
+          residual[at] -= state.voltage[port_] * (areas(i % Dim, i / Dim) - V.gradient[i]);
+    }
+  }
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
   void add_charges(const State& state, const DofMap* dofs, Charges& charges) const override {
     std::array<int, size> equations;
@@ -132,17 +197,11 @@ class PressureBlock final : public ElementBlock {
   static constexpr int Nodes = Under::nodes, Dim = Under::dim, size = Nodes * Dim;
 
   int node(int element, int a) const { return nodes_[static_cast<std::size_t>(element * Nodes + a)]; }
-  Volume<size> volume(const State& state, int element) const {
-    Eigen::Matrix<double, Dim, Nodes> x;
-    for (int a = 0; a < Nodes; ++a) {
-      const auto n = static_cast<std::size_t>(node(element, a));
-      for (int d = 0; d < Dim; ++d) {
-        const int c = Under::components[static_cast<std::size_t>(d)];
-        x(d, a) = reference_[n][c] + state.displacement[n][c];
-      }
-    }
-    return Under::of(x);
+  Eigen::Matrix<double, Dim, Nodes> position(const State& state, int element) const {
+    const auto first = static_cast<std::size_t>(element * Nodes);
+    return positions<Under>(std::span(nodes_).subspan(first, Nodes), reference_, state);
   }
+  Volume<size> volume(const State& state, int element) const { return Under::of(position(state, element)); }
 
   std::size_t port_;
   std::vector<int> nodes_;
@@ -178,6 +237,12 @@ class LevelEdgeBlock final : public ElementBlock {
       if (scatter.tangent) scatter.add_tangent(e, std::array{2 * k});
     }
     return result;
+  }
+  /// It is in p n da already.
+  void add_forces_at_rest(const State& state, const DofMap& dofs, Eigen::VectorXd& residual) const override {
+    for (int e = 0; e < element_count(); ++e)
+      if (const int at = dofs.equation(edge(e).node, 0); at >= 0)
+        residual[at] += 2 * state.voltage[port_] * edge(e).height * radius(state, e);
   }
   void sample(const State& /*state*/, Samples& /*samples*/) const override {}
   void add_charges(const State& state, const DofMap* dofs, Charges& charges) const override {
@@ -252,6 +317,20 @@ std::unique_ptr<ElementBlock> make_pressure_block(const meshing::Mesh& mesh, con
     return std::make_unique<PressureBlock<UnderMeridian<3>>>(mesh, film, port);
   default:
     return std::make_unique<PressureBlock<UnderMeridian<2>>>(mesh, film, port);
+  }
+}
+
+std::vector<Eigen::Vector3d> pressure_forces(const meshing::Mesh& mesh, const meshing::CellBlock& wall,
+                                             const State& state, double pressure) {
+  switch (wall.type) {
+  case meshing::CellType::triangle6:
+    return forces_of<UnderTriangle<6>>(mesh, wall, state, pressure);
+  case meshing::CellType::triangle3:
+    return forces_of<UnderTriangle<3>>(mesh, wall, state, pressure);
+  case meshing::CellType::meridian3:
+    return forces_of<UnderMeridian<3>>(mesh, wall, state, pressure);
+  default:
+    return forces_of<UnderMeridian<2>>(mesh, wall, state, pressure);
   }
 }
 

@@ -19,6 +19,11 @@ namespace dielast::fem {
 std::unique_ptr<ElementBlock> make_pressure_block(const meshing::Mesh& mesh, const meshing::CellBlock& film,
                                                   std::size_t port);
 
+/// Force of a pressure, Pa, on each node of each cell of a wall, p int N n da, N; all around where it is of
+/// meridians. Unlike the gradient of a pressure block it is nothing but what presses on the cell.
+std::vector<Eigen::Vector3d> pressure_forces(const meshing::Mesh& mesh, const meshing::CellBlock& wall,
+                                             const State& state, double pressure);
+
 /// Edges of meridians that rest along z, wherever they go along r: E = -p pi r^2 z at a meridian's end, with
 /// the other sign at its beginning, which takes what the edge adds to the block above off its gradient. Where
 /// all ends are such, V = pi int r^2 dz, what is around the axis. `ends`: nodes of one cell each.

@@ -118,6 +118,10 @@ class ElementBlock {
   virtual void element_equations(int element, const DofMap& dofs, std::span<int> equations) const = 0;
   /// Evaluates elements first..last-1 and scatters what is wanted.
   virtual Evaluation evaluate(const State& state, int first, int last, const Scatter& scatter) const = 0;
+  /// Adds what it exerts besides dE/du on equations that rest, and that its energy therefore does not know
+  /// (N, with the sign of a residual; at other equations nothing but rounding).
+  virtual void add_forces_at_rest(const State& /*state*/, const DofMap& /*dofs*/,
+                                  Eigen::VectorXd& /*residual*/) const {}
   /// Appends this block's integration points.
   virtual void sample(const State& state, Samples& samples) const = 0;
 

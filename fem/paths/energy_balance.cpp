@@ -293,7 +293,13 @@ Holding holding(Equilibrium& equilibrium, const State& state) {
 Eigen::VectorXd reactions(const Model& model, const State& state, const Holding& held) {
   Eigen::VectorXd dead = state.dead_force; // supports carry those on tied nodes
   model.dofs.gather(state, dead);
-  return held.force - dead;
+  Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(dead.size());
+  for (const auto& block : model.blocks) block->add_forces_at_rest(state, model.dofs, at_rest);
+  model.dofs.gather(state, at_rest);
+  const auto supported = Eigen::seqN(model.dofs.free_count(), model.dofs.held_count());
+  Eigen::VectorXd reaction = held.force - dead;
+  reaction(supported) += at_rest(supported);
+  return reaction;
 }
 
 EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length, const Holding& held) {

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
 
 namespace dielast::fem::chamber_test {
 namespace {
@@ -84,6 +85,36 @@ TEST(Chamber, a_frustum_closed_by_a_lid_has_its_volume) {
   const Charges held = model->charges(state, false);
   EXPECT_NEAR(held.charge[0], pi * (1 + 3 + 9) / 3, 1e-13);
   EXPECT_EQ(held.capacitance[0], 0);
+}
+
+// Also on edges that its potential does not know to be pushed, as they rest.
+TEST(Chamber, pressure_acts_along_the_normal_everywhere) {
+  for (const int order : {1, 2})
+    for (const bool turned : {false, true}) { // about the z axis: of revolution
+      const meshing::Mesh mesh =
+          turned ? test::shaped(
+                       meshing::disc_meridian(2, 1, 5, order),
+                       [](const Eigen::Vector3d& X) { return Eigen::Vector3d(X.x(), 0, 3 * (2 - X.x())); })
+                 : test::shaped(test::distorted_square(3, order, 2), [](const Eigen::Vector3d& X) {
+                     return Eigen::Vector3d(X.x(), X.y(), 1 + X.x() / 2 + X.y());
+                   });
+      const auto model = chamber(mesh);
+      State state = model->initial_state();
+      state.voltage = {20};
+      Eigen::VectorXd force;
+      Assembler(*model, 1).residual(state, force);
+      model->blocks[0]->add_forces_at_rest(state, model->dofs, force);
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (int n = 0; n < mesh.node_count(); ++n)
+        for (int c = 0; c < 3; ++c)
+          if (const int e = model->dofs.equation(n, c); e != DofMap::absent) sum[c] -= force[e];
+      const Eigen::Vector3d area = turned ? Eigen::Vector3d(12 * pi, 0, 4 * pi) : Eigen::Vector3d(-2, -4, 4);
+      EXPECT_LT((sum - 20 * area).norm(), 1e-11) << order << turned;
+      const auto pressed = pressure_forces(mesh, mesh.blocks[0], state, 20);
+      EXPECT_LT(
+          (std::accumulate(pressed.begin(), pressed.end(), Eigen::Vector3d(0, 0, 0)) - 20 * area).norm(),
+          1e-11);
+    }
 }
 
 // A tube whose ends rest along z: what is around the axis, and p 2 pi r dz outwards on every node, ends or
