@@ -219,6 +219,7 @@ PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sid
                         std::optional<double> width) {
   const auto at = [&](int node) -> const Vector3d& { return mesh.nodes[static_cast<std::size_t>(node)]; };
   std::map<int, double> areas;
+  std::vector<std::array<int, 2>> corners;
   for (int side = 0; side < sides.size(); ++side) {
     const auto own = sides.cell(side); // ends, and a middle
     const double length = (at(own[1]) - at(own[0])).norm();
@@ -227,8 +228,12 @@ PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& sid
                  mean = (across(own[0]) + across(own[1])) / 2;
     for (std::size_t i = 0; i < own.size(); ++i)
       areas[own[i]] += length * std::max((i == 2 ? 4.0 / 6 : end_share) * across(own[i]), least_share * mean);
+    for (std::size_t end = 0; end < 2 && own.size() == 3; ++end)
+      if (across(own[end]) < least_share * mean) corners.push_back({own[end], own[2]});
   }
-  return of_nodes(areas);
+  PlaneContact surface = of_nodes(areas);
+  surface.corners = std::move(corners);
+  return surface;
 }
 
 PlaneContact surface_of(const meshing::Mesh& mesh, const meshing::CellBlock& faces) {

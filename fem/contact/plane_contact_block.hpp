@@ -25,8 +25,9 @@ struct PlaneContact {
   /// Nodes of which something else keeps the distance, so that the barrier does not tell how they press, and
   /// those that press as much per area: film pulls at the former as at the latter.
   std::vector<std::array<int, 2>> kept{};
-  /// Each corner of 6-node faces with each midside beside it. Force over area of corners alone, which stand
-  /// for next to nothing, says little: halves of these midsides count with them.
+  /// Each corner of 6-node faces with each midside beside it, and an end on the axis of revolution with its
+  /// side's middle. Force over area of these alone, which stand for next to nothing, says little: halves of
+  /// the middles count with them.
   std::vector<std::array<int, 2>> corners{};
 };
 

@@ -121,6 +121,46 @@ TEST_F(Contacts, friction_does_not_ask_how_many_increments_there_are) {
   }
 }
 
+/// The node on the axis stands for next to no area: its own force over that was 692 kPa. It has the pressure
+/// of the node beside it, in the middle of an element.
+TEST_F(Contacts, a_sphere_presses_the_table_as_hertz_says) {
+  for (const auto& [across, close] : {std::pair{12, 0.25}, {24, 0.1}}) {
+    const auto found = values(fmt::format(R"toml([film]
+thickness = "5 mm"
+[film.material]
+shear_modulus = "100 kPa"
+permittivity = "4e-11 F/m"
+[hollow_sphere]
+inner_radius = "5 mm"
+outer_radius = "10 mm"
+[mesh]
+across = {}
+[table]
+at = "outer"
+[contact]
+thickness = "5 um"
+[[support]]
+place = "equator"
+displacement = {{ z = "-0.1 mm" }}
+[[step]]
+kind = "move"
+increments = 5
+[[quantity]]
+name = "force"
+kind = "contact force"
+[[quantity]]
+name = "pressure"
+kind = "contact pressure"
+[output]
+error_estimate = false
+)toml",
+                                          across));
+    const double force = found.at("force"), radius = std::cbrt(3 * force * 10e-3 / (16 * 100e3));
+    const double expected = 1.5 * force / (std::numbers::pi * radius * radius);
+    EXPECT_NEAR(found.at("pressure"), expected, close * expected) << across;
+  }
+}
+
 TEST_F(Contacts, refuse_walls_that_touch_as_drawn) {
   EXPECT_THROW(build_device(read(honeycomb(63, contact))), CaseError);
 }
