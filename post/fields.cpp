@@ -38,7 +38,7 @@ FilmPoint::FilmPoint(const fem::MembraneSample& at) : sample(at) {
   stretch(2) = 1 / area_stretch;
   C(2, 2) = stretch(2) * stretch(2);
   thickness = sample.thickness * stretch(2);
-  electric_field = std::abs(sample.voltage) / thickness;
+  electric_field = std::abs(sample.voltage) * sample.field_share / thickness;
 }
 
 /// Of half the angle of ((C11 - C22)/2, C12), the larger one first: the other would cancel.

@@ -30,6 +30,7 @@ struct MembraneSample {
   materials::Tension tension{}; ///< by the principal stresses, or as the relaxed film found it
   double thickness = 0;         ///< undeformed thickness H, m
   double voltage = 0;           ///< Phi across the film here, V; 0 outside every electrode
+  double field_share = 1;       ///< nominal field here over Phi/H: of a bent layer's, uneven across it
   int electrode = -1;           ///< number of the electrode that covers it; -1: none
   int layer = 0;                ///< of a shell with several: 0 is the film itself, others lie on it
   double breakdown_field = 0;   ///< true field at which this film breaks down, V/m

@@ -24,9 +24,13 @@ materials::MembranePotential<Lanes> FilmLayer::potential(const State& state,
   return psi;
 }
 
-FilmLayer::Potential FilmLayer::charge_density(const C& at) const {
+materials::MembranePotential<Lanes> FilmLayer::capacitance_ratio(const materials::InPlaneC<Lanes>& at) const {
   return materials::in_components<false>(
       materials::capacitance_ratio(film_.dielectric(), at.trace(), at.det()), at, C{1, 1, 0}, 1.0);
+}
+
+Lanes FilmLayer::capacitance_ratio_value(const materials::InPlaneC<Lanes>& at) const {
+  return materials::capacitance_ratio_value(film_.dielectric(), at.trace(), at.det());
 }
 
 EnergyParts FilmLayer::energies(const State& state, int point, const C& at) const {

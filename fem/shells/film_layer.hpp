@@ -22,8 +22,10 @@ class FilmLayer {
   materials::TensionField resolve(const State& state, int point, const C& at, double k) const {
     return film_.resolve(state, point, at, k);
   }
-  /// e det C and its derivatives in (C11, C22, C12): the charge is the integral of eps Phi/H^2 times it.
-  Potential charge_density(const C& at) const;
+  /// e det C with its derivatives in (C11, C22, C12), and alone: what a voltage across a slice of the layer
+  /// charges it with, over eps/H times it.
+  materials::MembranePotential<Lanes> capacitance_ratio(const materials::InPlaneC<Lanes>& at) const;
+  Lanes capacitance_ratio_value(const materials::InPlaneC<Lanes>& at) const;
   EnergyParts energies(const State& state, int point, const C& at) const;
   Potential relaxation(const State& state, int point, const C& at, double k, const RateWeight& weight) const {
     return film_.relaxation(state, point, at, k, weight);

@@ -48,6 +48,15 @@ class SectionPotential {
     Lanes a[3], b[3];
     Lanes aa[3][3], ab[3][3], bb[3][3];
   };
+  /// Adds factor g g^T to the second derivatives, g the first ones of another potential.
+  void add_square(const Lanes& factor, const Derivatives& g) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        squares_.aa[i][j] += factor * g.a[i] * g.a[j];
+        squares_.ab[i][j] += factor * g.a[i] * g.b[j];
+        squares_.bb[i][j] += factor * g.b[i] * g.b[j];
+      }
+  }
   template<bool with_second>
   Derivatives derivatives() const {
     const auto& [a, b] = strain_;
@@ -56,7 +65,7 @@ class SectionPotential {
     Lanes s1[3]; // d s/d a
     for (int i = 0; i < 3; ++i) s1[i] = -0.5 * s * per_det * f1[i];
     const Lanes bent = M_[0] * kappa[0] + M_[1] * kappa[1] + M_[2] * kappa[2];
-    Derivatives d{};
+    Derivatives d = squares_;
     for (int i = 0; i < 3; ++i) {
       d.a[i] = N_[i] + 2.0 * bent * s1[i];
       d.b[i] = 2.0 * s * M_[i];
@@ -76,10 +85,10 @@ class SectionPotential {
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
           const Lanes s2 = 3.0 * s1[i] * s1[j] / s - 0.5 * s * per_det * f2[i][j];
-          d.aa[i][j] = D0_[place[i][j]] + 2.0 * (D1b[i] * s1[j] + s1[i] * D1b[j]) +
-                       4.0 * bDb * s1[i] * s1[j] + 2.0 * bent * s2;
-          d.ab[i][j] = 2.0 * s1[i] * M_[j] + 2.0 * s * (D1_[place[i][j]] + 2.0 * s1[i] * D2b[j]);
-          d.bb[i][j] = 4.0 * s * s * D2_[place[i][j]];
+          d.aa[i][j] += D0_[place[i][j]] + 2.0 * (D1b[i] * s1[j] + s1[i] * D1b[j]) +
+                        4.0 * bDb * s1[i] * s1[j] + 2.0 * bent * s2;
+          d.ab[i][j] += 2.0 * s1[i] * M_[j] + 2.0 * s * (D1_[place[i][j]] + 2.0 * s1[i] * D2b[j]);
+          d.bb[i][j] += 4.0 * s * s * D2_[place[i][j]];
         }
     }
     return d;
@@ -89,6 +98,7 @@ class SectionPotential {
   ShellStrain strain_;
   Lanes value_{}, N_[3] = {}, M_[3] = {};
   Lanes D0_[6] = {}, D1_[6] = {}, D2_[6] = {};
+  Derivatives squares_{};
 };
 
 } // namespace dielast::fem

@@ -44,8 +44,9 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
     const double H = section.depth_of(layer);
     std::vector<int>& over = electrodes[layers_.size()];
     over.resize(static_cast<std::size_t>(packs * lanes), over.back());
+    const bool charged = std::ranges::any_of(over, [](int electrode) { return electrode != passive; });
     layers_.push_back({FilmLayer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
-                       layer.number, std::move(over)});
+                       layer.number, std::move(over), charged});
     shear_.add_layer(layer.material, H, section.extra_stretch(layer));
     height_ += H;
   });
@@ -227,15 +228,33 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
     const FaceStrain face = face_strain(pack, p, f);
     const Lanes det = face.strain().a.det();
     SectionPotential section(face.strain());
-    for (const Layer& layer : layers_)
+    for (const Layer& layer : layers_) {
+      const bool couples = with_tangent && layer.charged;
+      SectionPotential elastance(face.strain()); // int 1/r dZ, see across()
       across(state, layer, pack, p, face.strain(), [&](const Place& place) {
         const Lanes within = place.C.det();
         for (int l = 0; l < lanes; ++l)
           if (!(within[l] > 0)) feasible = false;
-        section.add(
-            place.Z, Lanes{} + place.weight,
-            layer.in_section(layer.film.potential(state, place.point, lanes_of(pack), place.C, place.k)));
+        auto psi = layer.film.potential(state, place.point, lanes_of(pack), place.C, place.k);
+        if (couples) {
+          auto r = layer.film.capacitance_ratio(place.C);
+          for (std::size_t i = 0; i < 6; ++i) {
+            const auto [m, n] = materials::component_pairs[i];
+            psi.second[i] += place.k / r.value * r.first[static_cast<std::size_t>(m)] *
+                             r.first[static_cast<std::size_t>(n)];
+          }
+          const Lanes slope = -1.0 / (r.value * r.value);
+          r.value = 1.0 / r.value;
+          for (Lanes& first : r.first) first *= slope;
+          elastance.add(place.Z, Lanes{} + place.weight, layer.in_section(r));
+        }
+        section.add(place.Z, Lanes{} + place.weight, layer.in_section(psi));
       });
+      if (!couples) continue;
+      const Lanes whole = elastance.value() / layer.depth;
+      section.add_square(-electric_modulus(state, layer, pack) / (layer.depth * whole * whole * whole),
+                         elastance.derivatives<false>());
+    }
     for (int l = 0; l < lanes; ++l)
       if (!(f.normal[l] > 0 && det[l] > 0)) feasible = false;
     ShellStress stress =

@@ -69,6 +69,7 @@ class ShellBlock final : public ElementBlock {
     std::array<double, 2> extra_stretch; ///< see ShellSection
     int number;
     std::vector<int> electrodes; ///< padded like nodes_
+    bool charged;                ///< there is one
 
     bool stretched() const { return extra_stretch != std::array{1.0, 1.0}; }
     /// By which C of the section, components 11, 22, 12, becomes the layer's.
@@ -99,7 +100,8 @@ class ShellBlock final : public ElementBlock {
     Lanes height;                 ///< above the drawn surface, along the director, m
     std::array<int, lanes> point; ///< numbers in the layer
     materials::InPlaneC<Lanes> C; ///< of the layer
-    Lanes k;                      ///< Pa
+    Lanes field;                  ///< nominal, over Phi/H
+    Lanes k;                      ///< of that field, Pa
   };
 
   int node(int element, int a) const { return nodes_[static_cast<std::size_t>(element * Nodes + a)]; }
@@ -172,18 +174,30 @@ class ShellBlock final : public ElementBlock {
   std::shared_ptr<const std::vector<TiltAxes>> tilt_axes_; ///< see DofMap
 };
 
+/// The faces of a charged layer have one potential each, wherever it is bent: the nominal displacement eps r
+/// Phi'(Z), r = e det C(Z), is even across it, and the field is Phi/H over r(Z) times the mean of 1/r.
 template<class Visitor>
 void ShellBlock::across(const State& state, const Layer& layer, int pack, int p, const ShellStrain& strain,
                         const Visitor& visit) const {
   const Lanes k = electric_modulus(state, layer, pack), thinning = strain.thinning();
-  for (int q = 0; q < depths; ++q) {
-    const Depth& depth = depth_rule[static_cast<std::size_t>(q)];
+  std::array<double, depths> Z;
+  std::array<materials::InPlaneC<Lanes>, depths> C;
+  std::array<Lanes, depths> field;
+  Lanes mean{};
+  for (std::size_t q = 0; q < depths; ++q) {
+    Z[q] = layer.middle + depth_rule[q].place * layer.depth / 2 - face_;
+    C[q] = layer.own(strain.at(thinning, Z[q]));
+    field[q] = Lanes{} + 1.0;
+    if (layer.charged) field[q] /= layer.film.capacitance_ratio_value(C[q]);
+    mean += depth_rule[q].weight * field[q];
+  }
+  for (std::size_t q = 0; q < depths; ++q) {
     std::array<int, lanes> numbers;
     for (int l = 0; l < lanes; ++l)
-      numbers[static_cast<std::size_t>(l)] = ((pack * lanes + l) * points + p) * depths + q;
-    const double Z = layer.middle + depth.place * layer.depth / 2 - face_;
-    visit(Place{layer, Z, depth.weight * layer.depth, gap_ + Z * thinning, numbers,
-                layer.own(strain.at(thinning, Z)), k});
+      numbers[static_cast<std::size_t>(l)] = ((pack * lanes + l) * points + p) * depths + static_cast<int>(q);
+    if (layer.charged) field[q] /= mean;
+    visit(Place{layer, Z[q], depth_rule[q].weight * layer.depth, gap_ + Z[q] * thinning, numbers, C[q],
+                field[q], k * field[q] * field[q]});
   }
 }
 

@@ -27,6 +27,7 @@ void ShellBlock::sample(const State& state, Samples& samples) const {
     s.tension = field.tension;
     s.thickness = layer.thickness;
     s.voltage = electrode == passive ? 0 : state.voltage[static_cast<std::size_t>(electrode)];
+    s.field_share = at.place.field[at.lane];
     s.electrode = electrode;
     s.layer = layer.number;
     s.breakdown_field = layer.film.dielectric().breakdown_field_at(C.det());
@@ -48,9 +49,8 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
         const FaceStrain face = face_strain(pack, p, f);
         SectionPotential section(face.strain());
         across(state, layer, pack, p, face.strain(), [&](const Place& place) {
-          materials::MembranePotential<Lanes> q{};
-          for (int l = 0; l < lanes; ++l) set_lane(q, l, layer.film.charge_density(lane_of(place.C, l)));
-          section.add(place.Z, Lanes{} + place.weight, layer.in_section(q));
+          section.add(place.Z, place.weight * place.field * place.field,
+                      layer.in_section(layer.film.capacitance_ratio(place.C)));
         });
         density += here.area * section.value();
         sum.add(table, f, ShellStress::of<false>(here, face.by_drawn<false>(section.derivatives<false>())));
