@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,7 @@ struct Study {
   std::vector<std::string> parameters; ///< axes that are no keys of the case: variables of expressions
   std::vector<std::string> settings;   ///< "key=value" of all points
   std::vector<std::string> collect;    ///< quantities
+  std::set<std::string> relative{};    ///< those that are changes, which are shown in %
   std::vector<StudyPlot> plots;
   std::vector<StudyTarget> targets;
   std::vector<StudyBest> best;

@@ -117,7 +117,7 @@ void check_targets(SectionReader& reader, const Node& section, const Study& stud
   }
 }
 
-/// Without `collect` every quantity is collected; what the plots show always is.
+/// Without `collect` every quantity is collected; what the plots show always is. Notes which are changes.
 void complete_collection(Study& study, const Case& base) {
   const auto add = [&](const std::string& name) {
     const bool known = std::any_of(base.quantities.begin(), base.quantities.end(),
@@ -125,6 +125,8 @@ void complete_collection(Study& study, const Case& base) {
     if (known && std::find(study.collect.begin(), study.collect.end(), name) == study.collect.end())
       study.collect.push_back(name);
   };
+  for (const Quantity& quantity : base.quantities)
+    if (quantity.kind->relative) study.relative.insert(quantity.name);
   if (study.collect.empty())
     for (const Quantity& quantity : base.quantities) add(quantity.name);
   for (const StudyTarget& target : study.targets) add(target.quantity);
@@ -178,6 +180,10 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
                                     text_of(*base_name))}});
   }
   Node base = read_case_file(study.base);
+  if (base_name && base.find("case"))
+    throw CaseError(
+        {{base_name->source, "case",
+          fmt::format("found {}, which is a study of another case: name that", text_of(*base_name))}});
   if (const Node* output = base.find("output"); !output || !output->find("states")) {
     study.settings.emplace_back("output.states=\"last\""); // a grid of whole series fills disks
     apply_override(base, study.settings.back());

@@ -77,9 +77,8 @@ std::vector<Column> columns_of(const std::string& name, const std::vector<std::s
   return columns;
 }
 
-/// A pure number is a strain or a ratio; studies of strains are read in percent.
-post::Ratio ratio_of(const std::string& quantity) {
-  return quantity.starts_with("eps") ? post::Ratio::percent : post::Ratio::plain;
+post::Ratio ratio_of(const Study& study, const std::string& quantity) {
+  return study.relative.contains(quantity) ? post::Ratio::percent : post::Ratio::plain;
 }
 
 /// A plot for each unit among those of a plot's quantities: an axis has one unit.
@@ -89,7 +88,7 @@ std::vector<StudyPlot> by_unit(const Study& study, const StudyPlot& spec, const 
   for (const std::string& y : spec.y) {
     const auto q = position(study.collect, y);
     if (!q) continue;
-    const std::pair unit{collected.units[*q], ratio_of(y)};
+    const std::pair unit{collected.units[*q], ratio_of(study, y)};
     const auto found = std::ranges::find(units, unit);
     if (found == units.end()) {
       units.push_back(unit);
@@ -134,7 +133,7 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
   for (const std::string& y : spec.y) {
     const auto q = position(study.collect, y);
     if (!q) continue;
-    const auto scale = post::scaled_unit(size, collected.units[*q], ratio_of(y));
+    const auto scale = post::scaled_unit(size, collected.units[*q], ratio_of(study, y));
     names += (names.empty() ? "" : ", ") + y;
     plot.y_label = fmt::format("{} [{}]", names, scale.unit.empty() ? "1" : scale.unit);
     std::map<std::string, post::Series> curves;
@@ -275,7 +274,7 @@ post::Report study_report(const Study& study, const std::vector<StudyPoint>& poi
     for (const std::string& value : points[p].values) row.emplace_back(unquoted(value));
     for (std::size_t q = 0; q < study.collect.size(); ++q)
       row.emplace_back(
-          post::engineering(collected.value(p, q), collected.units[q], ratio_of(study.collect[q])),
+          post::engineering(collected.value(p, q), collected.units[q], ratio_of(study, study.collect[q])),
           std::ranges::count(best, std::pair(p, study.collect[q])) ? post::Tone::good : post::Tone::plain);
     if (const auto& result = collected.results[p]) {
       row.emplace_back(std::to_string(result->exit_code),

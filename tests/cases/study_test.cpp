@@ -39,6 +39,8 @@ TEST(Study, PairsParametersAndDerivedKeys) {
                                                       "mesh.wall_elements=3"}));
   // what the best must hold is collected although it is not asked for
   EXPECT_EQ(study.collect, (std::vector<std::string>{"eps_x", "eps_y", "breakdown_ratio"}));
+  EXPECT_TRUE(study.relative.contains("eps_y")); // strains are shown in %, whatever they are called
+  EXPECT_FALSE(study.relative.contains("breakdown_ratio"));
   EXPECT_EQ(study.best.at(0).largest, "eps_y");
   EXPECT_EQ(study.best.at(0).where.at(0).below, 0.9);
 }
