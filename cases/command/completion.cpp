@@ -62,14 +62,15 @@ _dielast() {{
     return
   fi
   case "$previous" in
-    -o|--output) COMPREPLY=($(compgen -d -- "$current")); return ;;
+    -o|--output) local IFS=$'\n'; COMPREPLY=($(compgen -d -- "$current")); return ;;
     --set|-j|--threads) return ;;
   esac
   case "${{COMP_WORDS[1]}}" in
 {1}  esac
   COMPREPLY=($(compgen -W "$words" -- "$current"))
   case "${{COMP_WORDS[1]}}" in
-    {2}) [[ $current == -* ]] || COMPREPLY+=($(compgen -f -X '!*.toml' -- "$current") $(compgen -d -- "$current")) ;;
+    {2}) local IFS=$'\n' # names may have spaces
+      [[ $current == -* ]] || COMPREPLY+=($(compgen -f -X '!*.toml' -- "$current") $(compgen -d -- "$current")) ;;
   esac
 }}
 complete -o filenames -F _dielast dielast

@@ -33,6 +33,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <unistd.h>
 
 using namespace dielast;
@@ -137,6 +138,9 @@ cases::Cluster cluster(const Arguments& arguments, const std::filesystem::path& 
 }
 
 ExitCode study(const Arguments& arguments) {
+  if (arguments.points && (arguments.dry_run || arguments.slurm))
+    throw std::invalid_argument(
+        fmt::format("--points runs them here: leave out {}", arguments.dry_run ? "--dry-run" : "--slurm"));
   const cases::Study asked = cases::read_study(arguments.case_file, arguments.overrides);
   if (fem::better_blas_kernels())
     take_better_blas_kernels(cases::read_case(asked.base, asked.settings), arguments);

@@ -215,7 +215,8 @@ void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts
     }
   for (const auto& [part, z] : range)
     if (z.second - z.first > 1e-9 * extent)
-      throw meshing::MeshError("the film must lie in a plane of constant z");
+      throw meshing::MeshError("a membrane or shell must be drawn flat, in a plane of constant z; a closed "
+                               "surface of a solid is filled with section = \"solid\"");
 }
 
 } // namespace dielast::cases

@@ -26,7 +26,9 @@ std::string in_unit(double value, const Unknown& unknown) {
   return fmt::format("{:.6g}{}{}", value, unknown.unit.empty() ? "" : " ", unknown.unit);
 }
 
-std::string interval(const FittedParameter& one, const Unknown& unknown) {
+/// Of one that was interrupted nobody knows: it is what the last step leads to.
+std::string interval(const FittedParameter& one, const Unknown& unknown, FitEnding ending) {
+  if (ending == FitEnding::interrupted) return "interrupted";
   if (one.at_bound) return "at its bound";
   if (!one.determined()) return "not identifiable";
   return fmt::format("{:.6g} to {}", one.low, in_unit(one.high, unknown));
@@ -36,10 +38,10 @@ post::Table unknown_table(const Identification& asked, const IdentifyOutcome& ou
   post::Table table{{"unknown", "value", "95 % interval", "start"}, {}};
   for (std::size_t i = 0; i < asked.unknowns.size(); ++i) {
     const FittedParameter& one = outcome.unknowns[i];
-    table.rows.push_back(
-        {Cell{asked.unknowns[i].key}, Cell{in_unit(one.value, asked.unknowns[i])},
-         Cell{interval(one, asked.unknowns[i]), one.determined() ? Tone::plain : Tone::warning},
-         Cell{in_unit(one.start, asked.unknowns[i])}});
+    table.rows.push_back({Cell{asked.unknowns[i].key}, Cell{in_unit(one.value, asked.unknowns[i])},
+                          Cell{interval(one, asked.unknowns[i], outcome.ending),
+                               one.determined() ? Tone::plain : Tone::warning},
+                          Cell{in_unit(one.start, asked.unknowns[i])}});
   }
   return table;
 }
@@ -78,6 +80,7 @@ void append_plots(std::vector<post::Plot>& plots, const DeviceTest& test,
 
 std::vector<std::string> identify_warnings(const Identification& asked, const IdentifyOutcome& outcome) {
   std::vector<std::string> all;
+  if (outcome.ending == FitEnding::interrupted) return all; // nothing is known of it yet
   for (std::size_t i = 0; i < outcome.unknowns.size(); ++i) {
     const std::string& key = asked.unknowns[i].key;
     if (outcome.unknowns[i].at_bound)

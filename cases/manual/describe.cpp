@@ -144,6 +144,7 @@ std::vector<std::string> topics() {
 }
 
 std::string describe(const std::string& topic) {
+  if (topic.empty()) return overview();
   for (const Topic& candidate : all_topics)
     if (topic == candidate.name) return candidate.text();
   if (std::string text = explain_name(topic); !text.empty()) return text;

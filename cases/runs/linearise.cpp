@@ -238,10 +238,14 @@ post::Report report_of(const Case& one, const Linearised& found) {
 } // namespace
 
 ExitCode linearise_case(const Case& one, const LineariseSettings& settings) {
-  if (one.electrodes.empty() || !response_quantity(one, one.linearise->output))
-    throw CaseError({{{one.source.string()},
-                      "linearise",
-                      "needs an electrode and a quantity of kind " + response_kinds(" with a direction")}});
+  if (one.electrodes.empty()) throw one.error_at("linearise", "needs an electrode");
+  const std::string& output = one.linearise->output;
+  if (!response_quantity(one, output)) {
+    const std::string wanted = "a quantity of kind " + response_kinds(" with a direction");
+    throw output.empty()
+        ? one.error_at("linearise", "needs " + wanted)
+        : one.error_at("linearise.output", fmt::format("found \"{}\", allowed {}", output, wanted));
+  }
   post::ResultsFolder folder(settings.directory, "linearise");
   folder.begin();
   Simulation simulation(one, settings.threads);

@@ -228,8 +228,7 @@ Section layer_section() {
   section.keys = {
       text("name", to(&Layer::name), "its name, for the electrodes on its faces").optional().distinct(),
       word("side",
-           {{"above",
-             "where z is larger than in the film as drawn; of a curved shell where its normal points", false},
+           {{"above", "where z is larger than in the film as drawn", false},
             {"below", "on the other side", true}},
            to(&Layer::below), "the side of the film on which it lies")
           .otherwise("above"),
@@ -276,7 +275,8 @@ Section film_section() {
           "field",
           {{"layers",
             "of layers of its thickness, each between two electrodes, stacked along the height: voltage over "
-            "thickness, along the layers' normal",
+            "thickness, along the layers' normal; even within each, which in one or few layers that bend it "
+            "is not",
             false},
            {"potential", "follows from the electric potential between an electrode's place and its ground",
             true}},

@@ -46,12 +46,16 @@ Section study_section() {
       text("tolerance", tolerance,
            "difference at which it counts as found: \"0.1 %\" of the value, or in the quantity's "
            "unit; without it 0.01 % of the value or of its change between the two points of the study beside "
-           "it, whichever is smaller");
+           "it, whichever is smaller; of a value of 0 that of the change");
   allowance.type = Type::tolerance;
   target.keys = {
       text("quantity", to(&StudyTarget::quantity), "name of the quantity"),
       measure("value", "", to(&StudyTarget::value), "value that it is to have, in the quantity's unit"),
       std::move(allowance).above(0).optional(),
+  };
+  target.check = [](const void* object) -> std::optional<Conflict> {
+    if (static_cast<const StudyTarget*>(object)->tolerance != 0.0) return std::nullopt;
+    return Conflict{"tolerance", "a part of zero is zero; give it in the quantity's unit"};
   };
   Section bound =
       list_section("where", "what a point must hold to be among the best", each(&StudyBest::where));

@@ -159,6 +159,15 @@ set = { "drive.voltage" = "1 kV" }
 }
 
 // What a point writes is little unless the case or the study wants more.
+TEST_F(StudyCommand, ADryRunOfSomePointsIsRefused) {
+  for (const char* other : {"--dry-run", "--slurm=--time=1"}) {
+    const Ended ended = dielast(into("out", {"--points", "1", other}));
+    EXPECT_EQ(ended.exit_code, 1) << other;
+    EXPECT_NE(ended.err.find("--points runs them here: leave out --"), std::string::npos) << ended.err;
+    EXPECT_FALSE(std::filesystem::exists(directory / "out")) << other;
+  }
+}
+
 TEST_F(StudyCommand, PointsKeepTheLastStateOfEachStep) {
   write_study(R"({ "drive.voltage" = ["2 kV"] })");
   ASSERT_EQ(dielast(into("out")).exit_code, 0);

@@ -57,6 +57,7 @@ TEST_F(Topics, InfoExplainsAnyName) {
     for (const char* word : words)
       EXPECT_NE(ended.out.find(word), std::string::npos) << name << ": " << ended.out;
   }
+  EXPECT_EQ(dielast({"info", ""}).out, dielast({"info"}).out);
   const Ended wrong = dielast({"info", "film.thicknes"});
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_NE(wrong.err.find("did you mean \"film.thickness\"?"), std::string::npos) << wrong.err;
@@ -122,6 +123,8 @@ COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _dielast; printf '%s\n' "${COMPREPLY[
   EXPECT_EQ(bash("info devi"), std::vector<std::string>{"devices"});
   EXPECT_EQ(bash("run smal"), std::vector<std::string>{"small.toml"});
   EXPECT_EQ(bash("completion z"), std::vector<std::string>{"zsh"});
+  write("my case.toml", "");
+  EXPECT_EQ(bash("run my"), std::vector<std::string>{"my case.toml"});
   for (const std::string& command : commands) {
     EXPECT_NE(page.find(".SS dielast " + command), std::string::npos) << command;
     EXPECT_NE(zsh.find("  " + command + ") _arguments"), std::string::npos) << command;
