@@ -55,7 +55,7 @@ struct PartKind {
 
   /// Refuses what it cannot be in a case; asked of every part.
   void (*check)(const WrittenPart& written) = nullptr;
-  /// Of film: adds the blocks of all such parts of a case. Throws MeshError and std::invalid_argument.
+  /// Of film: adds the blocks of all such parts of a case. Throws CaseError and std::invalid_argument.
   void (*add)(const Case& one, const meshing::Mesh& mesh, std::span<const PartFilm> films,
               fem::Model& model) = nullptr;
   AlikeBars (*bars)(const Part& part) = nullptr; ///< of bars

@@ -2,7 +2,6 @@
 #include "cases/devices/sections.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/parts/part_kinds.hpp"
-#include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include "cases/text/diagnostics.hpp"
 #include "cases/warnings/held_places.hpp"
 #include "fem/elements/chamber_block.hpp"
-#include "meshing/mesh_error.hpp"
 #include "meshing/solids/sides.hpp"
 
 #include <fmt/format.h>

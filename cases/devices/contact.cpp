@@ -7,7 +7,6 @@
 #include "fem/contact/surface_contact_block.hpp"
 #include "fem/contact/wall_contact.hpp"
 #include "fem/contact/wall_contact_block.hpp"
-#include "meshing/mesh_error.hpp"
 #include "meshing/solids/sides.hpp"
 
 #include <fmt/format.h>

@@ -41,13 +41,15 @@ struct Device {
   std::vector<std::string> warnings; ///< what the user should know of the mesh, one sentence each
 };
 
-/// The mesh that the case asks for. Throws meshing::MeshError.
+/// The mesh that the case asks for. Throws meshing::MeshError, and CaseError for ties and regions that cannot
+/// be.
 meshing::Mesh build_mesh(const Case& one);
 
 /// Names of all places of a mesh, sorted.
 std::vector<std::string> places_of(const meshing::Mesh& mesh);
 
-/// Mesh and model. Throws meshing::MeshError, and CaseError when the case names a place that the mesh lacks.
+/// Mesh and model. Throws meshing::MeshError, and CaseError when the case names a place that the mesh lacks,
+/// or has otherwise than the case takes it.
 Device build_device(const Case& one);
 
 } // namespace dielast::cases

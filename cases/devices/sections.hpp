@@ -10,11 +10,11 @@
 namespace dielast::cases {
 
 /// For each cell of the mesh's film the part to which it belongs, a number in Case::parts: a part that is a
-/// place, otherwise the part whose mesh it is. Throws MeshError: a place that is no film, two places that
-/// overlap, film of no part.
+/// place, otherwise the part whose mesh it is. Throws CaseError for a place that is no film, and two places
+/// that overlap; MeshError for film of no part.
 std::vector<int> film_parts(const Case& one, const meshing::Mesh& mesh);
 
-/// Adds the blocks of all parts that are film, kind by kind; `parts` are film_parts(). Throws MeshError and
+/// Adds the blocks of all parts that are film, kind by kind; `parts` are film_parts(). Throws CaseError and
 /// std::invalid_argument for electrodes and elements that cannot be.
 void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts, fem::Model& model);
 
@@ -22,18 +22,18 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
 void add_capacitors(const Case& one, fem::Model& model);
 
 /// Puts the bars whose axes lie beside the lines of the mesh on nodes of their own. Returns the rigid links
-/// by which the lines' nodes carry them. Throws MeshError as add_bars().
+/// by which the lines' nodes carry them. Throws CaseError as add_bars().
 std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh);
 
 /// Lets the nodes that carry them turn, as film alone does not, and ties the bars' nodes to them.
 void link_bars(const std::vector<fem::Tie>& links, fem::Dimension dimension, fem::DofMap& dofs);
 
-/// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws MeshError for a place without
+/// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws CaseError for a place without
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);
 
 /// Adds what keeps the walls of a lattice's cells, surfaces of solids, a solid and its table, or a roll and
-/// its core apart, where the case has [contact]. Throws MeshError where walls or surfaces are closer as drawn
+/// its core apart, where the case has [contact]. Throws CaseError where walls or surfaces are closer as drawn
 /// than the barrier reaches, and for surfaces that cross. `parts` are film_parts().
 void add_contact(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
                  fem::Model& model);
@@ -42,7 +42,7 @@ void add_contact(const Case& one, const meshing::Mesh& mesh, const std::vector<i
 void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs);
 
 /// Adds nodes to the mesh, on the arms of the bars' rotary inertia; none where nothing accelerates. Returns
-/// their masses. To be called behind set_off_bars(). Throws MeshError as add_bars().
+/// their masses. To be called behind set_off_bars(). Throws CaseError as add_bars().
 std::vector<fem::RelativeMass> add_rotary_nodes(const Case& one, meshing::Mesh& mesh);
 
 /// Ties these nodes to the bars'.

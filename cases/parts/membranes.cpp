@@ -4,7 +4,6 @@
 #include "fem/films/membrane_block.hpp"
 #include "fem/model/model.hpp"
 #include "meshing/bars/bars.hpp"
-#include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 #include "cases/parts/part_kinds.hpp"
 #include "fem/model/model.hpp"
 #include "fem/solids/solid_block.hpp"
-#include "meshing/mesh_error.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 // Walls of a honeycomb that touch, and solids on a table: [contact].
 #include "cases/devices/device.hpp"
 #include "fem/contact/wall_contact.hpp"
-#include "meshing/mesh_error.hpp"
 #include "tests/cases/path_cases.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rods of film: against closed forms, a patch in uniaxial tension, and the antagonistic rolls' reduced model.
 #include "cases/runs/simulation.hpp"
-#include "meshing/mesh_error.hpp"
 #include "tests/cases/case_test.hpp"
 
 #include <fmt/format.h>

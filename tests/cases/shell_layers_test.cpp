@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shells of several layers as a user writes them: [[film.layer]].
 #include "cases/devices/device.hpp"
-#include "meshing/mesh_error.hpp"
 #include "tests/cases/path_cases.hpp"
 
 #include <fmt/format.h>

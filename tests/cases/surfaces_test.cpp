@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces of solids that touch: [contact] between.
 #include "cases/devices/device.hpp"
-#include "meshing/mesh_error.hpp"
 #include "tests/cases/path_cases.hpp"
 
 #include <fmt/format.h>

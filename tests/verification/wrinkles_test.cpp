@@ -103,7 +103,8 @@ TEST(Wrinkles, sheared_prestretched_film_has_the_mean_shape_of_its_tension_field
 // A strip between clamps, a apart, under the tension N_x along it: compressed across itself by N_y it
 // wrinkles with w = sin(pi x/a) sin(k y), N_x (pi/a)^2/k^2 + D k^2 being least: k^4 = N_x (pi/a)^2/D at N_y =
 // 2 (pi/a) sqrt(N_x D). D is the incremental one across the wrinkles, at constant voltage: what is bent is a
-// cylindrical capacitor, which adds eps E^2 h^3/3 to that under an even field. The disc's diameter is a; away from the middle the wrinkles are shorter and need a little more.
+// cylindrical capacitor, which adds eps E^2 h^3/3 to that under an even field. The disc's diameter is a; away
+// from the middle the wrinkles are shorter and need a little more.
 TEST(Wrinkles, a_charged_film_loosens_and_wrinkles_across_the_tension_that_is_left) {
   constexpr double mu = 45e3, permittivity = 4.7 * 8.8541878128e-12, H = 0.1e-3, a = 50e-3, lx = 1.1,
                    ly = 1.02;
