@@ -304,34 +304,34 @@ class LidBlock final : public ElementBlock {
   std::size_t port_;
 };
 
+/// Calls `use` with what is under cells of that type.
+template<class Use>
+auto by_kind(meshing::CellType type, const Use& use) {
+  switch (type) {
+  case meshing::CellType::triangle6:
+    return use(UnderTriangle<6>());
+  case meshing::CellType::triangle3:
+    return use(UnderTriangle<3>());
+  case meshing::CellType::meridian3:
+    return use(UnderMeridian<3>());
+  default:
+    return use(UnderMeridian<2>());
+  }
+}
+
 } // namespace
 
 std::unique_ptr<ElementBlock> make_pressure_block(const meshing::Mesh& mesh, const meshing::CellBlock& film,
                                                   std::size_t port) {
-  switch (film.type) {
-  case meshing::CellType::triangle6:
-    return std::make_unique<PressureBlock<UnderTriangle<6>>>(mesh, film, port);
-  case meshing::CellType::triangle3:
-    return std::make_unique<PressureBlock<UnderTriangle<3>>>(mesh, film, port);
-  case meshing::CellType::meridian3:
-    return std::make_unique<PressureBlock<UnderMeridian<3>>>(mesh, film, port);
-  default:
-    return std::make_unique<PressureBlock<UnderMeridian<2>>>(mesh, film, port);
-  }
+  return by_kind(film.type, [&]<class Under>(Under) -> std::unique_ptr<ElementBlock> {
+    return std::make_unique<PressureBlock<Under>>(mesh, film, port);
+  });
 }
 
 std::vector<Eigen::Vector3d> pressure_forces(const meshing::Mesh& mesh, const meshing::CellBlock& wall,
                                              const State& state, double pressure) {
-  switch (wall.type) {
-  case meshing::CellType::triangle6:
-    return forces_of<UnderTriangle<6>>(mesh, wall, state, pressure);
-  case meshing::CellType::triangle3:
-    return forces_of<UnderTriangle<3>>(mesh, wall, state, pressure);
-  case meshing::CellType::meridian3:
-    return forces_of<UnderMeridian<3>>(mesh, wall, state, pressure);
-  default:
-    return forces_of<UnderMeridian<2>>(mesh, wall, state, pressure);
-  }
+  return by_kind(wall.type,
+                 [&]<class Under>(Under) { return forces_of<Under>(mesh, wall, state, pressure); });
 }
 
 std::unique_ptr<ElementBlock> make_level_edge_block(const meshing::Mesh& mesh,
