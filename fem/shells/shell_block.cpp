@@ -21,6 +21,25 @@ void rotation_matrix(const Lanes (&q)[4], Lanes (&R)[3][3]) {
     for (int j = 0; j < 3; ++j) R[i][j] = matrix[i][j];
 }
 
+using Potential = materials::MembranePotential<Lanes>;
+
+/// Adds factor g g^T to the second derivatives of `psi`, g the first ones of `other`.
+void add_square(Potential& psi, const Lanes& factor, const Potential& other) {
+  for (std::size_t p = 0; p < 6; ++p) {
+    const auto [i, j] = materials::component_pairs[p];
+    psi.second[p] +=
+        factor * other.first[static_cast<std::size_t>(i)] * other.first[static_cast<std::size_t>(j)];
+  }
+}
+
+/// 1/r with its first derivatives.
+Potential reciprocal(const Potential& r) {
+  Potential inverse{.value = 1.0 / r.value};
+  const Lanes slope = -1.0 / (r.value * r.value);
+  for (std::size_t i = 0; i < 3; ++i) inverse.first[i] = r.first[i] * slope;
+  return inverse;
+}
+
 } // namespace
 
 Matrix32 axes(const Matrix32& tangents) {
@@ -237,16 +256,9 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
           if (!(within[l] > 0)) feasible = false;
         auto psi = layer.film.potential(state, place.point, lanes_of(pack), place.C, place.k);
         if (couples) {
-          auto r = layer.film.capacitance_ratio(place.C);
-          for (std::size_t i = 0; i < 6; ++i) {
-            const auto [m, n] = materials::component_pairs[i];
-            psi.second[i] += place.k / r.value * r.first[static_cast<std::size_t>(m)] *
-                             r.first[static_cast<std::size_t>(n)];
-          }
-          const Lanes slope = -1.0 / (r.value * r.value);
-          r.value = 1.0 / r.value;
-          for (Lanes& first : r.first) first *= slope;
-          elastance.add(place.Z, Lanes{} + place.weight, layer.in_section(r));
+          const auto r = layer.film.capacitance_ratio(place.C);
+          add_square(psi, place.k / r.value, r);
+          elastance.add(place.Z, Lanes{} + place.weight, layer.in_section(reciprocal(r)));
         }
         section.add(place.Z, Lanes{} + place.weight, layer.in_section(psi));
       });
