@@ -117,7 +117,7 @@ void check_targets(SectionReader& reader, const Node& section, const Study& stud
   }
 }
 
-/// Without `collect` every quantity is collected; what the plots show always is. Notes which are changes.
+/// Without `collect` every quantity is collected; what the plots show always is.
 void complete_collection(Study& study, const Case& base) {
   const auto add = [&](const std::string& name) {
     const bool known = std::any_of(base.quantities.begin(), base.quantities.end(),
@@ -125,8 +125,6 @@ void complete_collection(Study& study, const Case& base) {
     if (known && std::find(study.collect.begin(), study.collect.end(), name) == study.collect.end())
       study.collect.push_back(name);
   };
-  for (const Quantity& quantity : base.quantities)
-    if (quantity.kind->relative) study.relative.insert(quantity.name);
   if (study.collect.empty())
     for (const Quantity& quantity : base.quantities) add(quantity.name);
   for (const StudyTarget& target : study.targets) add(target.quantity);
@@ -201,6 +199,8 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   check_names(reader, *section, study, base_case);
   check_targets(reader, *section, study, base_case);
   complete_collection(study, base_case);
+  for (const Quantity& quantity : base_case.quantities)
+    if (quantity.kind->relative) study.relative.insert(quantity.name);
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
   study.warnings = reader.warnings();
   return study;
