@@ -43,6 +43,14 @@ std::optional<double> turn(Equilibrium& equilibrium, ContinuationProgress& at) {
   return 1 / length; // their product is 1 before this one is normalised
 }
 
+/// Whether the unknowns went back by more than the prediction `arc` x direction was to take them on: where
+/// that is nearly all of the load factor's, Newton's method may end on another path at that load factor.
+bool went_back(const Equilibrium& equilibrium, const Eigen::VectorXd& direction, double arc,
+               const Eigen::VectorXd& moved) {
+  const Eigen::VectorXd row = dual(equilibrium, direction);
+  return arc * row.dot(moved) < 0 && dual(equilibrium, moved).dot(moved) > arc * arc * row.dot(direction);
+}
+
 /// The point where the path crosses the load factor s between `progress` and a point close by.
 std::optional<ContinuationProgress> land(Equilibrium& equilibrium, const LoadPath& path,
                                          const NewtonOptions& options, ContinuationProgress beyond,
@@ -98,7 +106,7 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double previous_norm = infinity, previous_residual = infinity, step = infinity;
   Balance current;
-  Eigen::VectorXd du;
+  Eigen::VectorXd du, moved = arc * from.direction;
   for (to.newton = {};; ++to.newton.iterations) {
     if (!apply_freely(equilibrium.model(), to.state,
                       [&](State& state) { path.apply(state, to.load_factor); }))
@@ -119,8 +127,10 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
     to.load_factor += change;
     const State before = to.state;
     dofs.advance(to.state, du, 1);
+    moved += du;
     if (free_way(equilibrium.model(), before, to.state) < 1) return std::nullopt;
   }
+  if (went_back(equilibrium, from.direction, arc, moved)) return std::nullopt;
   to.newton.outcome = Outcome::converged;
   const auto cosine = turn(equilibrium, to);
   if (!cosine || *cosine < least_cosine) return std::nullopt;
