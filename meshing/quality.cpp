@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 
 namespace dielast::meshing {
@@ -16,11 +17,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// In the plane in which the triangles are drawn: along x and y, of a solid of revolution x and z.
-struct Plane {
-  int up;
-  explicit Plane(const Mesh& mesh) : up(mesh.nodes.empty() || mesh.bounds().sizes().y() > 0 ? 1 : 2) {}
-  double cross(const Vector3d& a, const Vector3d& b) const { return a.x() * b[up] - a[up] * b.x(); }
+/// Where triangles are seen from: drawn in a plane of constant z, from above; of a solid of revolution, in
+/// the x-z plane, from -y; on another surface each from its corners' side.
+class Seen {
+ public:
+  explicit Seen(const Mesh& mesh) {
+    if (mesh.nodes.empty()) return;
+    const Vector3d size = mesh.bounds().sizes();
+    if (!(size.y() > 0))
+      from_ = -Vector3d::UnitY();
+    else if (size.z() > 1e-9 * size.norm())
+      from_.reset();
+  }
+  Vector3d from(const Vector3d& along, const Vector3d& to_the_left) const {
+    return from_ ? *from_ : along.cross(to_the_left).normalized();
+  }
+
+ private:
+  std::optional<Vector3d> from_ = Vector3d::UnitZ();
 };
 
 struct Measure {
@@ -28,10 +42,11 @@ struct Measure {
   bool inverted;
 };
 
-Measure measure(const Mesh& mesh, const Plane& plane, std::span<const int> nodes) {
+Measure measure(const Mesh& mesh, const Seen& seen, std::span<const int> nodes) {
   const auto x = [&](int k) -> const Vector3d& { return mesh.nodes[nodes[k]]; };
+  const Vector3d from = seen.from(x(1) - x(0), x(2) - x(0));
   if (nodes.size() == 3) {
-    const double area = plane.cross(x(1) - x(0), x(2) - x(0)) / 2;
+    const double area = (x(1) - x(0)).cross(x(2) - x(0)).dot(from) / 2;
     return {area, !(area > 0)};
   }
   // Points and weights of degree 4 (Dunavant 1985): barycentric (s, s, 1 - 2 s) and its permutations.
@@ -46,7 +61,7 @@ Measure measure(const Mesh& mesh, const Plane& plane, std::span<const int> nodes
       const Vector3d from_0 = (4 * l[0] - 1) * x(0) + 4 * l[1] * x(3) + 4 * l[2] * x(5);
       const Vector3d along_1 = (4 * l[1] - 1) * x(1) + 4 * l[0] * x(3) + 4 * l[2] * x(4) - from_0;
       const Vector3d along_2 = (4 * l[2] - 1) * x(2) + 4 * l[1] * x(4) + 4 * l[0] * x(5) - from_0;
-      const double jacobian = plane.cross(along_1, along_2);
+      const double jacobian = along_1.cross(along_2).dot(from);
       result.area += weight * jacobian / 2;
       result.inverted |= !(jacobian > 0);
     }
@@ -189,7 +204,7 @@ QualityReport quality(const Mesh& mesh) {
                        .smallest_angle = infinity,
                        .smallest_area = infinity,
                        .largest_area = -infinity};
-  const Plane plane(mesh);
+  const Seen seen(mesh);
   for (const CellBlock& block : mesh.blocks) {
     if (is_tetrahedron(block.type)) {
       add_tetrahedra(mesh, block, report);
@@ -207,13 +222,12 @@ QualityReport quality(const Mesh& mesh) {
       double smallest = infinity, longest = 0, perimeter = 0;
       for (int k = 0; k < 3; ++k) {
         const Vector3d u = x(k + 1) - x(k), v = x(k + 2) - x(k);
-        smallest =
-            std::min(smallest, std::atan2(std::abs(plane.cross(u, v)), u.dot(v)) * 180 / std::numbers::pi);
+        smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / std::numbers::pi);
         longest = std::max(longest, u.norm());
         perimeter += u.norm();
       }
-      const double inradius = std::abs(plane.cross(x(1) - x(0), x(2) - x(0))) / perimeter;
-      const auto [area, inverted] = measure(mesh, plane, nodes);
+      const double inradius = (x(1) - x(0)).cross(x(2) - x(0)).norm() / perimeter;
+      const auto [area, inverted] = measure(mesh, seen, nodes);
       if (smallest < report.smallest_angle) {
         report.smallest_angle = smallest;
         report.worst_cell = c;
@@ -291,8 +305,9 @@ std::string format(const QualityReport& report) {
   } else {
     text += fmt::format("area       {:.6g} mm2 (triangles {:.4g} .. {:.4g} mm2)\n", report.area * 1e6,
                         report.smallest_area * 1e6, report.largest_area * 1e6);
-    text += fmt::format("angle      {:.2f} deg at least, triangle {} at ({:.4g}, {:.4g}) mm\n",
-                        report.smallest_angle, report.worst_cell, worst.x(), worst.y());
+    text += fmt::format("angle      {:.2f} deg at least, triangle {} at ({:.4g}, {:.4g}{}) mm\n",
+                        report.smallest_angle, report.worst_cell, worst.x(), worst.y(),
+                        worst.z() == 0 ? "" : fmt::format(", {:.4g}", worst.z()));
   }
   text += fmt::format("aspect     {:.3g} at most (1 is equilateral)\ninverted   {}\n", report.largest_aspect,
                       report.inverted);

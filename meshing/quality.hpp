@@ -32,7 +32,7 @@ struct QualityReport {
 /// tetrahedron. Cells of corners alone do not fold.
 bool folds(const Mesh& mesh, CellType type, std::span<const int> nodes);
 
-/// For triangles in the x-y or the x-z plane, and for tetrahedra.
+/// For triangles, in a plane of constant z, the x-z plane or on a surface in space, and for tetrahedra.
 QualityReport quality(const Mesh& mesh);
 
 /// Nodes of cells that lie on others of these: where parts of a drawing meet without being joined, it is cut.

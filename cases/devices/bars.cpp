@@ -2,6 +2,7 @@
 #include "cases/devices/sections.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/parts/part_kinds.hpp"
+#include "meshing/normals.hpp"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,19 @@ void for_each_set_of_bars(
 
 std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh) {
   std::vector<fem::Tie> links;
-  for_each_set_of_bars(one, mesh, [&](const AlikeBars& bars, const std::vector<int>& own, std::size_t) {
+  std::vector<Eigen::Vector3d> normals(mesh.nodes.size(), Eigen::Vector3d::Zero());
+  if (one.dimension == fem::Dimension::spatial && mesh.film() && meshing::is_triangle(mesh.film()->type))
+    normals = meshing::node_normals(mesh, *mesh.film());
+  for_each_set_of_bars(one, mesh, [&](const AlikeBars& bars, const std::vector<int>& own, std::size_t p) {
+    const auto is_on_tilted_film = [&](int line) {
+      return std::ranges::any_of(mesh.walls()->cell(line), [&](int node) {
+        const Eigen::Vector3d& normal = normals[static_cast<std::size_t>(node)];
+        return normal.head<2>().norm() > 1e-6;
+      });
+    };
+    if (bars.rotary && std::ranges::any_of(own, is_on_tilted_film))
+      throw one.error_at(one.parts[p].key_prefix() + "place",
+                         "found a beam on film that does not lie across z: beams have their height along z");
     if (bars.offset == 0) return;
     meshing::CellBlock& lines = *std::ranges::find_if(
         mesh.blocks, [](const meshing::CellBlock& block) { return meshing::is_line(block.type); });

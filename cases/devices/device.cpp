@@ -268,7 +268,7 @@ Device build_device(const Case& one) {
   const meshing::CellBlock* film = mesh.film();
   std::ranges::move(thickness_warnings(one, mesh, parts), std::back_inserter(warnings));
   const bool of_solid = one.any_film([](const Film& f) { return f.is_solid(); });
-  if (meshing::is_triangle(film->type) && !of_solid) require_flat_films(mesh, parts, model.extent);
+  if (meshing::is_triangle(film->type) && !of_solid) check_film_in_space(one, mesh, parts, model.extent);
   const auto elements = static_cast<double>(film->size());
   model.length_scale = model.extent / (meshing::is_meridian(film->type)      ? elements
                                        : meshing::is_tetrahedron(film->type) ? std::cbrt(elements)

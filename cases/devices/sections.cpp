@@ -203,7 +203,8 @@ void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& 
   }
 }
 
-void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent) {
+void check_film_in_space(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
+                         double extent) {
   std::map<int, std::pair<double, double>> range;
   const meshing::CellBlock& film = *mesh.film();
   for (int cell = 0; cell < film.size(); ++cell)
@@ -213,10 +214,25 @@ void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts
       low = std::min(low, z);
       high = std::max(high, z);
     }
-  for (const auto& [part, z] : range)
-    if (z.second - z.first > 1e-9 * extent)
-      throw meshing::MeshError("a membrane or shell must be drawn flat, in a plane of constant z; a closed "
-                               "surface of a solid is filled with section = \"solid\"");
+  for (const auto& [number, z] : range) {
+    if (z.second - z.first <= 1e-9 * extent) continue;
+    const Part& part = one.parts[static_cast<std::size_t>(number)];
+    const std::string film_keys = part.key_prefix() + "film.";
+    if (part.film->section != FilmSection::shell)
+      throw one.error_at(
+          film_keys + "section",
+          "this film is not drawn in a plane of constant z, as a membrane must be: film that "
+          "resists bending may be curved as drawn (section = \"shell\"), a closed surface of a "
+          "solid is filled with section = \"solid\"");
+    const auto stretched = [](const std::array<double, 2>& stretch) {
+      return stretch != std::array{1.0, 1.0};
+    };
+    if (stretched(part.film->prestretch) ||
+        std::ranges::any_of(part.film->further_layers, stretched, &Layer::prestretch))
+      throw one.error_at(film_keys + "prestretch",
+                         "a shell that is not drawn in a plane of constant z is free of stress as drawn: "
+                         "leave out prestretch");
+  }
 }
 
 } // namespace dielast::cases

@@ -5,6 +5,7 @@
 #include "fem/elements/point_mass_block.hpp"
 #include "fem/shells/shell_section.hpp"
 
+#include <map>
 #include <vector>
 
 namespace dielast::cases {
@@ -22,7 +23,8 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
 void add_capacitors(const Case& one, fem::Model& model);
 
 /// Puts the bars whose axes lie beside the lines of the mesh on nodes of their own. Returns the rigid links
-/// by which the lines' nodes carry them. Throws CaseError as add_bars().
+/// by which the lines' nodes carry them. Throws CaseError as add_bars(), and for beams on film that does not
+/// lie across z, the direction of their height.
 std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh);
 
 /// Lets the nodes that carry them turn, as film alone does not, and ties the bars' nodes to them.
@@ -52,8 +54,9 @@ void tie_rotary_nodes(const std::vector<fem::RelativeMass>& masses, const meshin
 /// The mass of the shells of one part, and the nodes that carry it, see fem::make_shell_mass_block().
 struct MassOfShells {
   fem::ShellMass mass;
-  std::vector<int> cells;    ///< of the film
-  std::vector<int> carriers; ///< for each of their nodes
+  std::vector<int> cells;                  ///< of the film
+  std::vector<int> carriers;               ///< for each of their nodes
+  std::map<int, Eigen::Vector3d> arm_from; ///< a node of the film to its carrier, m
 };
 
 /// Adds nodes to the mesh where the mass of a shell has its centre beside the drawn surface; none where
@@ -74,7 +77,9 @@ Bars bars(const Case& one, const meshing::Mesh& mesh);
 /// near a joint to the joint's: they move with the wall's sections.
 void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs);
 
-/// Throws MeshError where a film does not lie in a plane of constant z. `extent`: of the mesh, m.
-void require_flat_films(const meshing::Mesh& mesh, const std::vector<int>& parts, double extent);
+/// Throws CaseError where film that is not drawn in a plane of constant z is no shell, or is prestretched.
+/// `extent`: of the mesh, m.
+void check_film_in_space(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,
+                         double extent);
 
 } // namespace dielast::cases

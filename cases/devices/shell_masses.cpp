@@ -3,6 +3,7 @@
 #include "cases/language/conditions.hpp"
 #include "cases/parts/shells.hpp"
 #include "fem/shells/shell_block.hpp"
+#include "meshing/normals.hpp"
 
 #include <map>
 #include <set>
@@ -15,22 +16,23 @@ std::vector<MassOfShells> add_mass_nodes(const Case& one, const std::vector<int>
   std::vector<MassOfShells> all;
   for (std::size_t p = 0; p < one.parts.size(); ++p) {
     if (!one.parts[p].film || one.parts[p].film->section != FilmSection::shell) continue;
-    MassOfShells shells{shell_mass(one.parts[p]), {}, {}};
+    MassOfShells shells{shell_mass(one.parts[p]), {}, {}, {}};
     if (shells.mass.per_area == 0) continue;
-    std::map<int, int> carrier; // of each node
-    for (std::size_t cell = 0; cell < parts.size(); ++cell) {
-      if (parts[cell] != static_cast<int>(p)) continue;
-      shells.cells.push_back(static_cast<int>(cell));
-      const auto nodes = mesh.film()->cell(static_cast<int>(cell));
-      for (const int node : nodes) {
-        if (shells.mass.lever == 0 || !matters) {
-          shells.carriers.push_back(node);
-          continue;
-        }
+    for (std::size_t cell = 0; cell < parts.size(); ++cell)
+      if (parts[cell] == static_cast<int>(p)) shells.cells.push_back(static_cast<int>(cell));
+    const meshing::CellBlock film = meshing::subset(*mesh.film(), shells.cells);
+    if (shells.mass.lever == 0 || !matters) {
+      shells.carriers = film.nodes;
+    } else {
+      const std::vector<Eigen::Vector3d> normal = meshing::node_normals(mesh, film);
+      std::map<int, int> carrier; // of each node
+      for (const int node : film.nodes) {
         const auto [entry, fresh] = carrier.try_emplace(node, mesh.node_count());
-        if (fresh)
-          mesh.nodes.emplace_back(mesh.nodes[static_cast<std::size_t>(node)] +
-                                  shells.mass.lever * Eigen::Vector3d::UnitZ()); // films are drawn flat
+        if (fresh) {
+          const auto n = static_cast<std::size_t>(node);
+          const Eigen::Vector3d& arm = shells.arm_from[node] = shells.mass.lever * normal[n];
+          mesh.nodes.emplace_back(mesh.nodes[n] + arm);
+        }
         shells.carriers.push_back(entry->second);
       }
     }
@@ -52,8 +54,7 @@ void tie_mass_nodes(const std::vector<MassOfShells>& shells, const meshing::Mesh
     std::set<int> tied;
     for (std::size_t i = 0; i < own.carriers.size(); ++i) {
       const int carrier = own.carriers[i], node = cells.nodes[i];
-      if (carrier == node || !tied.insert(carrier).second) continue;
-      dofs.tie({carrier, node, {0, 0, own.mass.lever}});
+      if (carrier != node && tied.insert(carrier).second) dofs.tie({carrier, node, own.arm_from.at(node)});
     }
   }
 }

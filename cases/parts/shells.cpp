@@ -4,10 +4,13 @@
 #include "fem/films/membrane_block.hpp"
 #include "fem/model/model.hpp"
 #include "fem/shells/shell_block.hpp"
+#include "meshing/normals.hpp"
+#include "post/engineering.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dielast::cases {
 namespace {
@@ -41,14 +44,55 @@ LaidShell lay(const Part& part, const PartFilm* film) {
   return shell;
 }
 
-void add_shells(const Case&, const meshing::Mesh& mesh, std::span<const PartFilm> films, fem::Model& model) {
+/// The largest curvature of triangles as drawn, 1/m, by how their normals turn between their nodes.
+double largest_curvature(const meshing::Mesh& mesh, const meshing::CellBlock& cells) {
+  double largest = 0;
+  for (int c = 0; c < cells.size(); ++c) {
+    const auto nodes = cells.cell(c);
+    const std::vector<Eigen::Vector3d> normals = meshing::normals(mesh.nodes, nodes);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        largest = std::max(largest, (normals[a] - normals[b]).norm() /
+                                        (mesh.nodes[static_cast<std::size_t>(nodes[a])] -
+                                         mesh.nodes[static_cast<std::size_t>(nodes[b])])
+                                            .norm());
+  }
+  return largest;
+}
+
+/// Lengths of fibres, and volumes, are those of the drawn surface: of what lies Z above a radius R they are
+/// Z/R off, which a middle surface makes (H/R)^2/12.
+void check_curvature(const Case& one, const Part& part, const fem::ShellSection& section, double curvature) {
+  constexpr double most_beside = 0.0025, most_thick = 0.2; // half a per cent of a stiffness
+  double height = 0;
+  for (const fem::ShellLayer& layer : section.layers) height += section.depth_of(layer);
+  const std::string keys = part.key_prefix() + "film.", radius = post::engineering(1 / curvature, "m");
+  if (height * curvature > most_thick)
+    throw one.error_at(
+        keys + "thickness",
+        fmt::format("{} on a radius of {} is too thick for a shell: section = \"solid\" has it",
+                    post::engineering(height, "m"), radius));
+  if (std::abs(section.offset) * curvature > most_beside)
+    throw one.error_at(
+        keys + (part.film->further_layers.empty() ? "offset" : "layer"),
+        fmt::format(
+            "the middle of its layers is {} beside a surface that is drawn with a radius of {}, where "
+            "fibres are not as long: draw the surface in their middle",
+            post::engineering(std::abs(section.offset), "m"), radius));
+}
+
+void add_shells(const Case& one, const meshing::Mesh& mesh, std::span<const PartFilm> films,
+                fem::Model& model) {
   for (const PartFilm& film : films) {
     const LaidShell shell = lay(*film.part, &film);
+    const meshing::CellBlock cells = meshing::subset(*mesh.film(), film.cells);
+    if (const double curvature = largest_curvature(mesh, cells))
+      check_curvature(one, *film.part, shell.section, curvature);
     std::vector<std::vector<int>> electrodes;
     for (const std::vector<int>* under : shell.electrodes)
       electrodes.push_back(under ? *under : std::vector<int>(film.cells.size(), fem::passive));
-    model.blocks.push_back(fem::make_shell_block(mesh, meshing::subset(*mesh.film(), film.cells),
-                                                 shell.section, std::move(electrodes), film.cells));
+    model.blocks.push_back(
+        fem::make_shell_block(mesh, cells, shell.section, std::move(electrodes), film.cells));
   }
 }
 
@@ -88,7 +132,8 @@ fem::ShellMass shell_mass(const Part& part) { return fem::ShellMass::of(lay(part
 PartKind shell_kind() {
   return {.word = "shell",
           .plural = "shells",
-          .meaning = "it resists bending, and its nodes turn; in space, of 6-node triangles",
+          .meaning = "it resists bending, and its nodes turn; in space, of 6-node triangles; without a "
+                     "prestretch a mesh file may draw it curved",
           .section = FilmSection::shell,
           .is = is_film_of<FilmSection::shell>,
           .check = check_shell,

@@ -29,11 +29,8 @@ inline std::string each_once(const Value& words) {
   return "";
 }
 
-inline const std::vector<Choice> motions{{"x", "along x", 0},
-                                         {"y", "along y", 1},
-                                         {"z", "normal to the undeformed film", 2},
-                                         {"turn_x", "about x", 3},
-                                         {"turn_y", "about y", 4},
-                                         {"turn_z", "about z, the normal of the undeformed film", 5}};
+inline const std::vector<Choice> motions{
+    {"x", "along x", 0},      {"y", "along y", 1},      {"z", "along z, normal to flat film", 2},
+    {"turn_x", "about x", 3}, {"turn_y", "about y", 4}, {"turn_z", "about z, the normal of flat film", 5}};
 
 } // namespace dielast::cases

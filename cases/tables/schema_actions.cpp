@@ -12,7 +12,7 @@ namespace {
 constexpr double smallest_resistance = 1e-3; ///< Ohm: below, charging is quicker than any step of time
 
 const std::vector<Choice> axes{
-    {"x", "along x", 0}, {"y", "along y", 1}, {"z", "normal to the undeformed film", 2}};
+    {"x", "along x", 0}, {"y", "along y", 1}, {"z", "along z, normal to flat film", 2}};
 
 Section electrode_section() {
   Section section = list_section("electrode", "a charged part of the film", each(&Case::electrodes));

@@ -3,6 +3,7 @@
 
 #include "cases/case/quantity_kind.hpp"
 #include "cases/text/diagnostics.hpp"
+#include "meshing/normals.hpp"
 #include "meshing/quality.hpp"
 #include "post/engineering.hpp"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -142,6 +144,30 @@ std::set<int> nodes_of_lines_and_places(const Case& one, const meshing::Mesh& me
   return all;
 }
 
+/// The mean angle, rad, between neighbours of a surface of 6-node triangles where these stand for facets of a
+/// curved one: many meet at angles, none of them wide. 0 where they are curved or in one plane, or meet along
+/// few folds.
+double angle_of_facets(const meshing::Mesh& mesh, const meshing::CellBlock& film) {
+  constexpr double least = 0.01, fold = 0.8; // rad
+  constexpr double many = 0.1;
+  std::map<int, std::vector<Eigen::Vector3d>> normals; // at the middles of sides
+  for (int cell = 0; cell < film.size(); ++cell) {
+    const auto own = meshing::normals(mesh.nodes, film.cell(cell));
+    for (std::size_t k = 3; k < own.size(); ++k) normals[film.cell(cell)[k]].push_back(own[k]);
+  }
+  int sides = 0, edges = 0;
+  double sum = 0;
+  for (const auto& [node, beside] : normals) {
+    if (beside.size() != 2) continue;
+    const double angle = std::atan2(beside[0].cross(beside[1]).norm(), beside[0].dot(beside[1]));
+    ++sides;
+    if (angle < least || angle > fold) continue;
+    ++edges;
+    sum += angle;
+  }
+  return edges > many * sides ? sum / edges : 0;
+}
+
 } // namespace
 
 std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh& mesh,
@@ -179,6 +205,13 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
     if (const std::string key = part + "mesh.quadrature";
         film.type == meshing::CellType::triangle3 && owner.mesh.quadrature != MeshOptions{}.quadrature)
       warnings.push_back(one.warning_at(key, "has no effect here: the file's triangles have 3 nodes"));
+    if (const double angle = film.type == meshing::CellType::triangle6 ? angle_of_facets(mesh, film) : 0)
+      warnings.push_back(one.warning_at(
+          part + "mesh.file",
+          fmt::format("the film is made of flat facets, {:.2g} deg between neighbours: error estimates and "
+                      "mesh.refine divide these and come no nearer to a curved surface; let gmsh put middle "
+                      "nodes onto the surface (Mesh.SecondOrderLinear = 0)",
+                      angle * 180 / std::numbers::pi)));
     Eigen::AlignedBox3d box;
     for (const int node : film.nodes) box.extend(mesh.nodes[static_cast<std::size_t>(node)]);
     const Eigen::Vector3d size = box.sizes();

@@ -51,6 +51,15 @@ Matrix32 axes(const Matrix32& tangents) {
   return axes;
 }
 
+Matrix36 directors(const Matrix36& X) {
+  Matrix36 D;
+  for (int a = 0; a < ShellTables::nodes; ++a) {
+    const Matrix32 t = X * matrix(shell_tables().node[static_cast<std::size_t>(a)]);
+    D.col(a) = t.col(0).cross(t.col(1)).normalized();
+  }
+  return D;
+}
+
 ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                        const ShellSection& section, std::vector<std::vector<int>> electrodes,
                        std::vector<int> numbers)
@@ -84,11 +93,7 @@ void ShellBlock::place_element(int element) {
     throw std::invalid_argument("triangle " + std::to_string(numbers_[static_cast<std::size_t>(element)]) +
                                 what);
   };
-  Matrix36 D;
-  for (int a = 0; a < Nodes; ++a) {
-    const Matrix32 t = X * matrix(shell_tables().node[static_cast<std::size_t>(a)]);
-    D.col(a) = t.col(0).cross(t.col(1)).normalized();
-  }
+  const Matrix36 D = directors(X);
   const Eigen::Vector3d middle = X.col(0);
   const double slenderness = std::sqrt((X.col(1) - middle).cross(X.col(2) - middle).norm()) / height_,
                stiffness = std::min(1.0, std::pow(slenderest / slenderness, 2)); // see make_shell_block()
@@ -144,11 +149,10 @@ void ShellBlock::place_element(int element) {
 
 void ShellBlock::claim_dofs(DofMap& dof_map, Dimension /*only space will do*/) {
   for (int e = 0; e < count_; ++e) {
-    const Matrix36 X = drawn(e);
+    const Matrix36 D = directors(drawn(e));
     for (int a = 0; a < Nodes; ++a) {
       for (int c = 0; c < 3; ++c) dof_map.add(node(e, a), c);
-      const Matrix32 t = X * matrix(shell_tables().node[static_cast<std::size_t>(a)]);
-      dof_map.add_director(node(e, a), t.col(0).cross(t.col(1)).normalized());
+      dof_map.add_director(node(e, a), D.col(a));
     }
   }
   tilt_axes_ = dof_map.tilt_axes();

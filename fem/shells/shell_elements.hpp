@@ -35,6 +35,9 @@ inline Eigen::Matrix<double, 6, 2> matrix(const ShellTables::Gradient& gradient)
 /// and to the left of it about the normal.
 Matrix32 axes(const Matrix32& tangents);
 
+/// Normals at the nodes of an element whose nodes are these columns.
+Matrix36 directors(const Matrix36& X);
+
 /// See make_shell_block().
 class ShellBlock final : public ElementBlock {
  public:

@@ -14,13 +14,15 @@ void ShellBlock::sample(const State& state, Samples& samples) const {
     MembraneSample s;
     s.cell = numbers_[static_cast<std::size_t>(at.element)];
     s.volume = at.volume;
-    const Matrix32 t =
-        drawn(at.element) * matrix(shell_tables().point[static_cast<std::size_t>(at.p)].gradient);
+    const Eigen::Matrix<double, 6, 2> gradient =
+        matrix(shell_tables().point[static_cast<std::size_t>(at.p)].gradient);
+    const Matrix36 X = drawn(at.element);
+    const Matrix32 surface = X * gradient, t = surface + (gap_ + at.place.Z) * directors(X) * gradient;
     Matrix32 moved;
     for (int i = 0; i < 2; ++i)
       for (int c = 0; c < 3; ++c)
         moved(c, i) = at.f.x[i][c][at.lane] + at.place.height[at.lane] * at.f.d[i][c][at.lane];
-    s.F = moved * (axes(t).transpose() * t).inverse() *
+    s.F = moved * (axes(surface).transpose() * t).inverse() *
           Eigen::Vector2d(prestretch_[0] * layer.extra_stretch[0], prestretch_[1] * layer.extra_stretch[1])
               .asDiagonal();
     s.S = materials::tension_field::stress(field.potential);

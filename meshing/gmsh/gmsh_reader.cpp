@@ -5,6 +5,7 @@
 #include "meshing/gmsh/gmsh_contents.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/middle_nodes.hpp"
+#include "meshing/normals.hpp"
 #include "meshing/quality.hpp"
 
 #include <Eigen/Geometry>
@@ -80,7 +81,7 @@ class Converter {
     add_cells();
     number_nodes();
     for (CellBlock& block : mesh_.blocks) {
-      turn_counter_clockwise(block);
+      if (is_triangle(block.type)) turn_alike(mesh_.nodes, block);
       turn_outwards(block);
       require_unfolded(block);
       require_spread_out(block);
@@ -207,18 +208,6 @@ class Converter {
                         "triangles overlap",
                         middle.x(), middle.y(), middle.z()));
       }
-  }
-
-  void turn_counter_clockwise(CellBlock& block) const {
-    if (!is_triangle(block.type)) return;
-    const int n = nodes_per_cell(block.type);
-    for (int c = 0; c < block.size(); ++c) {
-      int* const cell = block.nodes.data() + c * n;
-      const Eigen::Vector3d &p = mesh_.nodes[cell[0]], &q = mesh_.nodes[cell[1]], &r = mesh_.nodes[cell[2]];
-      if ((q - p).cross(r - p).z() >= 0) continue;
-      std::swap(cell[1], cell[2]);
-      if (n == 6) std::swap(cell[3], cell[5]);
-    }
   }
 
   void add_place(const GmshContents::PhysicalGroup& group) {
