@@ -63,18 +63,19 @@ double largest_curvature(const meshing::Mesh& mesh, const meshing::CellBlock& ce
 /// Lengths of fibres, and volumes, are those of the drawn surface: of what lies Z above a radius R they are
 /// Z/R off, which a middle surface makes (H/R)^2/12.
 void check_curvature(const Case& one, const Part& part, const fem::ShellSection& section, double curvature) {
-  constexpr double most_beside = 0.0025, most_thick = 0.2; // half a per cent of a stiffness
+  constexpr double most_beside = 0.0025, most_thick = 0.2, most_of_layers = 0.02; // one per cent at most
+  const bool layered = !part.film->further_layers.empty(); // whose stiffness has its middle anywhere
   double height = 0;
   for (const fem::ShellLayer& layer : section.layers) height += section.depth_of(layer);
   const std::string keys = part.key_prefix() + "film.", radius = post::engineering(1 / curvature, "m");
-  if (height * curvature > most_thick)
+  if (height * curvature > (layered ? most_of_layers : most_thick))
     throw one.error_at(
-        keys + "thickness",
-        fmt::format("{} on a radius of {} is too thick for a shell: section = \"solid\" has it",
-                    post::engineering(height, "m"), radius));
+        keys + (layered ? "layer" : "thickness"),
+        fmt::format("{} on a radius of {} is too thick for a shell{}: section = \"solid\" has it",
+                    post::engineering(height, "m"), radius, layered ? " of layers" : ""));
   if (std::abs(section.offset) * curvature > most_beside)
     throw one.error_at(
-        keys + (part.film->further_layers.empty() ? "offset" : "layer"),
+        keys + (layered ? "layer" : "offset"),
         fmt::format(
             "the middle of its layers is {} beside a surface that is drawn with a radius of {}, where "
             "fibres are not as long: draw the surface in their middle",

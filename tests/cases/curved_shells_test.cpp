@@ -184,7 +184,8 @@ kind = "modes"
   const auto lying = values(rest + "[gravity]\nfilm = true\ndirection = [1, 0.3, -0.2]\n" + asked("x", "z"));
   // x -> z, y -> x, z -> y
   draw(surface(8, 2, [](double u, double v) { return Vector3d(5e-3 * v, 0, 20e-3 * u); }));
-  const auto standing = values(rest + "[gravity]\nfilm = true\ndirection = [0.3, -0.2, 1]\n" + asked("z", "y"));
+  const auto standing =
+      values(rest + "[gravity]\nfilm = true\ndirection = [0.3, -0.2, 1]\n" + asked("z", "y"));
   EXPECT_GT(std::abs(lying.at("sinks")), 1e-4);
   for (const auto& [name, value] : lying)
     EXPECT_NEAR(standing.at(name), value, 1e-8 * std::abs(value)) << name;
@@ -266,7 +267,14 @@ TEST_F(CurvedShells, what_is_too_thick_or_lies_too_far_beside_its_surface_is_ref
       "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = \"release\"\n";
   std::string thick = of_tube + held;
   thick.replace(thick.find("50 um"), 5, "3 mm");
-  EXPECT_NE(refusal(thick).find("film.thickness: 3.000 mm on a radius of"), std::string::npos) << refusal(thick);
+  EXPECT_NE(refusal(thick).find("film.thickness: 3.000 mm on a radius of"), std::string::npos)
+      << refusal(thick);
+  std::string layered = of_tube + held;
+  layered.insert(layered.find("[film.material]"),
+                 "layer = [{ name = \"upper\", thickness = \"250 um\", material = { shear_modulus = \"1 "
+                 "MPa\", permittivity = \"2.5e-11 F/m\" } }]\n");
+  EXPECT_NE(refusal(layered).find("film.layer: 300.0 µm on a radius of"), std::string::npos)
+      << refusal(layered);
   const auto with_offset = [&](const char* offset) {
     std::string text = of_tube + held;
     return text.insert(text.find("section"), fmt::format("offset = \"{}\"\n", offset));
@@ -288,7 +296,8 @@ TEST_F(CurvedShells, have_no_strain_as_drawn) {
   const fem::Samples samples = device.model.sample(device.model.initial_state());
   ASSERT_FALSE(samples.film.empty());
   for (const fem::MembraneSample& sample : samples.film)
-    EXPECT_LT((sample.F.transpose() * sample.F - Eigen::Matrix2d::Identity()).norm(), 1e-7); // (H/2)/R is 0.05
+    EXPECT_LT((sample.F.transpose() * sample.F - Eigen::Matrix2d::Identity()).norm(),
+              1e-7); // (H/2)/R is 0.05
 }
 
 TEST_F(CurvedShells, flat_facets_are_told) {
