@@ -119,7 +119,7 @@ class Surfaces {
   }
 
   bool faces_down_or_inwards(const std::vector<int>& surface) const {
-    constexpr double round_off = 1e-6;
+    constexpr double round_off = 1e-6, steep = 0.5;
     Vector3d sum = Vector3d::Zero(), centre = Vector3d::Zero();
     double area = 0;
     for (const int cell : surface) {
@@ -128,7 +128,7 @@ class Surfaces {
       centre += across(cell).norm() * middle(cell);
     }
     centre /= area;
-    if (std::abs(sum.z()) > round_off * area) return sum.z() < 0;
+    if (std::abs(sum.z()) > std::max(steep * sum.norm(), round_off * area)) return sum.z() < 0;
     double volume = 0;
     for (const int cell : surface) volume += across(cell).dot(middle(cell) - centre);
     return volume < -round_off * area * std::sqrt(area);

@@ -11,9 +11,9 @@
 namespace dielast::meshing {
 
 /// Turns triangles (3 or 6 nodes) so that neighbours have their normals on one side. Triangles of a plane of
-/// constant z, and surfaces that face up or down as a whole, have them upwards; others away from their
-/// middle, and where neither tells, as in the first triangle. Surfaces end where a side belongs to more than
-/// two triangles. Throws MeshError for a surface with one side only.
+/// constant z, and surfaces whose mean normal is 30 degrees or more above or below that plane, have them
+/// upwards; others away from their middle, and where neither tells, as in the first triangle. Surfaces end
+/// where a side belongs to more than two triangles. Throws MeshError for a surface with one side only.
 void turn_alike(const std::vector<Eigen::Vector3d>& nodes, CellBlock& triangles);
 
 /// Unit normals of triangles at their nodes, 3 or 6 (d(x)/d(xi) x d(x)/d(eta), as they turn).

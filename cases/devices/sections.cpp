@@ -224,14 +224,15 @@ void check_film_in_space(const Case& one, const meshing::Mesh& mesh, const std::
           "this film is not drawn in a plane of constant z, as a membrane must be: film that "
           "resists bending may be curved as drawn (section = \"shell\"), a closed surface of a "
           "solid is filled with section = \"solid\"");
-    const auto stretched = [](const std::array<double, 2>& stretch) {
-      return stretch != std::array{1.0, 1.0};
+    const auto require_unstretched = [&](const std::array<double, 2>& stretch, const std::string& key) {
+      if (stretch != std::array{1.0, 1.0})
+        throw one.error_at(film_keys + key, "a shell that is not drawn in a plane of constant z is free of "
+                                            "stress as drawn: leave out prestretch");
     };
-    if (stretched(part.film->prestretch) ||
-        std::ranges::any_of(part.film->further_layers, stretched, &Layer::prestretch))
-      throw one.error_at(film_keys + "prestretch",
-                         "a shell that is not drawn in a plane of constant z is free of stress as drawn: "
-                         "leave out prestretch");
+    require_unstretched(part.film->prestretch, "prestretch");
+    for (std::size_t l = 0; l < part.film->further_layers.size(); ++l)
+      require_unstretched(part.film->further_layers[l].prestretch,
+                          fmt::format("layer[{}].prestretch", l + 1));
   }
 }
 

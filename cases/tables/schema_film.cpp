@@ -228,10 +228,7 @@ Section layer_section() {
   section.keys = {
       text("name", to(&Layer::name), "its name, for the electrodes on its faces").optional().distinct(),
       word("side",
-           {{"above",
-             "where z is larger than in the film as drawn; of a surface that faces neither up nor down as a "
-             "whole, outside",
-             false},
+           {{"above", "where z is larger than in the film as drawn; of a standing surface outside", false},
             {"below", "on the other side", true}},
            to(&Layer::below), "the side of the film on which it lies")
           .otherwise("above"),

@@ -151,9 +151,19 @@ double angle_of_facets(const meshing::Mesh& mesh, const meshing::CellBlock& film
   constexpr double least = 0.01, fold = 0.8; // rad
   constexpr double many = 0.1;
   std::map<int, std::vector<Eigen::Vector3d>> normals; // at the middles of sides
+  const auto at = [&mesh](int node) -> const Eigen::Vector3d& {
+    return mesh.nodes[static_cast<std::size_t>(node)];
+  };
   for (int cell = 0; cell < film.size(); ++cell) {
-    const auto own = meshing::normals(mesh.nodes, film.cell(cell));
-    for (std::size_t k = 3; k < own.size(); ++k) normals[film.cell(cell)[k]].push_back(own[k]);
+    const auto nodes = film.cell(cell);
+    bool straight = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d &a = at(nodes[k]), &b = at(nodes[(k + 1) % 3]);
+      straight = straight && (at(nodes[3 + k]) - (a + b) / 2).norm() < 1e-6 * (b - a).norm();
+    }
+    if (!straight) continue;
+    const auto own = meshing::normals(mesh.nodes, nodes);
+    for (std::size_t k = 3; k < own.size(); ++k) normals[nodes[k]].push_back(own[k]);
   }
   int sides = 0, edges = 0;
   double sum = 0;
@@ -168,6 +178,21 @@ double angle_of_facets(const meshing::Mesh& mesh, const meshing::CellBlock& film
   return edges > many * sides ? sum / edges : 0;
 }
 
+/// Which side is above, where a shell whose layers lie beside its surface, or are several, is not drawn with
+/// that side upwards all over; "" otherwise.
+std::string side_text(const Film& film, const meshing::Mesh& mesh, const meshing::CellBlock& cells) {
+  if (film.section != FilmSection::shell || (film.offset == 0 && film.further_layers.empty())) return "";
+  const std::vector<Eigen::Vector3d> normals = meshing::node_normals(mesh, cells);
+  const auto lowest = std::ranges::min_element(
+      cells.nodes, {}, [&](int node) { return normals[static_cast<std::size_t>(node)].z(); });
+  const Eigen::Vector3d& normal = normals[static_cast<std::size_t>(*lowest)];
+  if (normal.z() > 0.01) return "";
+  const Eigen::Vector3d x = 1e3 * mesh.nodes[static_cast<std::size_t>(*lowest)];
+  return fmt::format("the film is not drawn with one side upwards: above is the side of its normal, which at "
+                     "({:.4g}, {:.4g}, {:.4g}) mm is ({:.2f}, {:.2f}, {:.2f})",
+                     x.x(), x.y(), x.z(), normal.x(), normal.y(), normal.z());
+}
+
 } // namespace
 
 std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh& mesh,
@@ -178,6 +203,18 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
     if (!one.parts[p].film || std::ranges::count(parts, static_cast<int>(p)) > 0) continue;
     const std::string key = one.parts[p].key_prefix() + "film.thickness";
     warnings.push_back(one.warning_at(key, "has no effect here: other parts take all of this film"));
+  }
+  for (std::size_t p = 0; p < one.parts.size(); ++p) {
+    const Part& part = one.parts[p];
+    if (!part.film || part.film->section != FilmSection::shell) continue;
+    std::vector<int> cells;
+    for (std::size_t cell = 0; cell < parts.size(); ++cell)
+      if (parts[cell] == static_cast<int>(p)) cells.push_back(static_cast<int>(cell));
+    if (cells.empty()) continue;
+    if (const std::string text = side_text(*part.film, mesh, meshing::subset(*mesh.film(), cells));
+        !text.empty())
+      warnings.push_back(one.warning_at(
+          part.key_prefix() + (part.film->further_layers.empty() ? "film.offset" : "film.layer"), text));
   }
   for (const Part& owner : one.parts) {
     if (!std::holds_alternative<MeshFile>(owner.geometry)) continue;

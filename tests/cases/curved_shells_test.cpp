@@ -300,6 +300,24 @@ TEST_F(CurvedShells, have_no_strain_as_drawn) {
               1e-7); // (H/2)/R is 0.05
 }
 
+TEST_F(CurvedShells, which_side_is_above_is_told_of_what_stands) {
+  const std::string held =
+      "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = \"release\"\n";
+  const auto told = [&](const std::string& text) {
+    const Device device = build_device(read(text));
+    return std::ranges::any_of(device.warnings, [](const std::string& warning) {
+      return warning.find("film.offset: the film is not drawn with one side upwards") != std::string::npos;
+    });
+  };
+  std::string beside = of_tube + held;
+  beside.insert(beside.find("section"), "offset = \"10 um\"\n");
+  draw(surface(6, 4, quarter));
+  EXPECT_FALSE(told(of_tube + held));
+  EXPECT_TRUE(told(beside));
+  draw(surface(6, 4, [](double u, double v) { return Vector3d(10e-3 * u, 8e-3 * v, 3e-3 * u * u); }));
+  EXPECT_FALSE(told(beside));
+}
+
 TEST_F(CurvedShells, flat_facets_are_told) {
   const std::string held =
       "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = \"release\"\n";

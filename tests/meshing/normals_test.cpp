@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace dielast::meshing::normals_test {
 namespace {
@@ -80,6 +81,26 @@ TEST(TurnAlike, has_what_faces_up_or_down_face_up) {
       turn_alike(mesh.nodes, mesh.blocks[0]);
       for (const Vector3d& normal : node_normals(mesh, mesh.blocks[0])) EXPECT_GT(normal.z(), 0.2);
     }
+  }
+}
+
+// Arcs about y, from one angle above the x axis to another; nearly as much of each looks up as down.
+TEST(TurnAlike, has_what_stands_face_outwards) {
+  for (const auto& [from, to] : {std::pair(-40.0, 40.0), {-40.5, 39.5}, {-39.5, 40.5}, {-60.0, 20.0}}) {
+    Mesh mesh;
+    CellBlock& film = mesh.blocks.emplace_back(CellBlock{CellType::triangle3, {}});
+    for (int i = 0; i <= 10; ++i) {
+      const double angle = (from + i * (to - from) / 10) * std::numbers::pi / 180;
+      for (const int side : {0, 1}) mesh.nodes.emplace_back(std::cos(angle), side, std::sin(angle));
+      if (i == 0) continue;
+      const int n = 2 * i;
+      film.nodes.insert(film.nodes.end(), {n - 2, n - 1, n, n - 1, n + 1, n});
+    }
+    turn_some(film, 4);
+    turn_alike(mesh.nodes, film);
+    const std::vector<Vector3d> normals = node_normals(mesh, film);
+    for (std::size_t n = 0; n < normals.size(); ++n)
+      EXPECT_GT(normals[n].dot(Vector3d(mesh.nodes[n].x(), 0, mesh.nodes[n].z())), 0.9) << from;
   }
 }
 
