@@ -17,23 +17,37 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where triangles are seen from: drawn in a plane of constant z, from above; of a solid of revolution, in
-/// the x-z plane, from -y; on another surface each from its corners' side.
+/// Where triangles are seen from: drawn in a plane of constant z, from above; in the x-z plane, as of solids
+/// of revolution, from the side from which most of them turn to the left; on another surface each from its
+/// corners' side.
 class Seen {
  public:
   explicit Seen(const Mesh& mesh) {
     if (mesh.nodes.empty()) return;
     const Vector3d size = mesh.bounds().sizes();
     if (!(size.y() > 0))
-      from_ = -Vector3d::UnitY();
+      from_ = Vector3d::UnitY() * std::copysign(1.0, across_y(mesh));
     else if (size.z() > 1e-9 * size.norm())
       from_.reset();
   }
-  Vector3d from(const Vector3d& along, const Vector3d& to_the_left) const {
-    return from_ ? *from_ : along.cross(to_the_left).normalized();
+  /// Twice the area of a piece of a cell, negative where it is seen from behind; `normal` is that of the
+  /// cell's corners.
+  double area(const Vector3d& along, const Vector3d& to_the_left, const Vector3d& normal) const {
+    const Vector3d across = along.cross(to_the_left);
+    return from_ ? across.dot(*from_) : std::copysign(across.norm(), across.dot(normal));
   }
 
  private:
+  static double across_y(const Mesh& mesh) {
+    double sum = 0;
+    for (const CellBlock& block : mesh.blocks)
+      for (int c = 0; is_triangle(block.type) && c < block.size(); ++c) {
+        const auto x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(block.cell(c)[k])]; };
+        sum += (x(1) - x(0)).cross(x(2) - x(0)).y();
+      }
+    return sum;
+  }
+
   std::optional<Vector3d> from_ = Vector3d::UnitZ();
 };
 
@@ -44,9 +58,9 @@ struct Measure {
 
 Measure measure(const Mesh& mesh, const Seen& seen, std::span<const int> nodes) {
   const auto x = [&](int k) -> const Vector3d& { return mesh.nodes[nodes[k]]; };
-  const Vector3d from = seen.from(x(1) - x(0), x(2) - x(0));
+  const Vector3d normal = (x(1) - x(0)).cross(x(2) - x(0));
   if (nodes.size() == 3) {
-    const double area = (x(1) - x(0)).cross(x(2) - x(0)).dot(from) / 2;
+    const double area = seen.area(x(1) - x(0), x(2) - x(0), normal) / 2;
     return {area, !(area > 0)};
   }
   // Points and weights of degree 4 (Dunavant 1985): barycentric (s, s, 1 - 2 s) and its permutations.
@@ -61,7 +75,7 @@ Measure measure(const Mesh& mesh, const Seen& seen, std::span<const int> nodes) 
       const Vector3d from_0 = (4 * l[0] - 1) * x(0) + 4 * l[1] * x(3) + 4 * l[2] * x(5);
       const Vector3d along_1 = (4 * l[1] - 1) * x(1) + 4 * l[0] * x(3) + 4 * l[2] * x(4) - from_0;
       const Vector3d along_2 = (4 * l[2] - 1) * x(2) + 4 * l[1] * x(4) + 4 * l[0] * x(5) - from_0;
-      const double jacobian = along_1.cross(along_2).dot(from);
+      const double jacobian = seen.area(along_1, along_2, normal);
       result.area += weight * jacobian / 2;
       result.inverted |= !(jacobian > 0);
     }

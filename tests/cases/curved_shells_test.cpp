@@ -83,6 +83,10 @@ shear_modulus = "1 MPa"
 permittivity = "2.5e-11 F/m"
 )toml";
 
+/// Of which a test wants no more than the device.
+const std::string held =
+    "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = \"release\"\n";
+
 class CurvedShells : public test::CaseTest {
  protected:
   void draw(const meshing::Mesh& mesh) const { write("film.msh", meshing::gmsh_text(mesh)); }
@@ -244,8 +248,6 @@ along = "z"
 
 TEST_F(CurvedShells, what_must_be_drawn_flat_is_told_at_its_key) {
   draw(surface(6, 4, quarter));
-  const std::string held =
-      "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = \"release\"\n";
   std::string membrane = of_tube + held;
   membrane.replace(membrane.find("section = \"shell\"\n"), 18, "");
   EXPECT_NE(refusal(membrane).find("film.section"), std::string::npos) << refusal(membrane);
@@ -263,8 +265,6 @@ TEST_F(CurvedShells, what_must_be_drawn_flat_is_told_at_its_key) {
 
 TEST_F(CurvedShells, what_is_too_thick_or_lies_too_far_beside_its_surface_is_refused) {
   draw(surface(6, 4, quarter));
-  const std::string held =
-      "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = \"release\"\n";
   std::string thick = of_tube + held;
   thick.replace(thick.find("50 um"), 5, "3 mm");
   EXPECT_NE(refusal(thick).find("film.thickness: 3.000 mm on a radius of"), std::string::npos)
@@ -288,11 +288,9 @@ TEST_F(CurvedShells, what_is_too_thick_or_lies_too_far_beside_its_surface_is_ref
 // At rest, at every depth.
 TEST_F(CurvedShells, have_no_strain_as_drawn) {
   draw(surface(3, 2, quarter));
-  std::string thick = of_tube;
+  std::string thick = of_tube + held;
   thick.replace(thick.find("50 um"), 5, "1 mm");
-  const Device device =
-      build_device(read(thick + "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = "
-                                "\"release\"\n"));
+  const Device device = build_device(read(thick));
   const fem::Samples samples = device.model.sample(device.model.initial_state());
   ASSERT_FALSE(samples.film.empty());
   for (const fem::MembraneSample& sample : samples.film)
@@ -301,8 +299,6 @@ TEST_F(CurvedShells, have_no_strain_as_drawn) {
 }
 
 TEST_F(CurvedShells, which_side_is_above_is_told_of_what_stands) {
-  const std::string held =
-      "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = \"release\"\n";
   const auto told = [&](const std::string& text) {
     const Device device = build_device(read(text));
     return std::ranges::any_of(device.warnings, [](const std::string& warning) {
@@ -319,8 +315,6 @@ TEST_F(CurvedShells, which_side_is_above_is_told_of_what_stands) {
 }
 
 TEST_F(CurvedShells, flat_facets_are_told) {
-  const std::string held =
-      "[[support]]\nplace = \"u0\"\nfix = [\"x\", \"y\", \"z\"]\n[[step]]\nkind = \"release\"\n";
   const auto told = [&] {
     const Device device = build_device(read(of_tube + held));
     return std::ranges::any_of(device.warnings, [](const std::string& warning) {

@@ -6,6 +6,7 @@
 
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace dielast::meshing::quality_test {
 namespace {
@@ -50,6 +51,24 @@ TEST(Quality, FindsInvertedTriangles) {
   add_middle_nodes(folded);
   folded.nodes[folded.blocks[0].cell(1)[4]] -= Eigen::Vector3d(0.6e-3, 0.6e-3, 0); // past the opposite corner
   EXPECT_EQ(quality(folded).inverted, 1);
+}
+
+// Neither x, y nor the way round matter on a surface in space.
+TEST(Quality, IsThatOfTrianglesInAnyPlane) {
+  for (const auto& [u, v] : {std::pair<Eigen::Vector3d, Eigen::Vector3d>({1, 0, 0}, {0, 0, 1}),
+                             {{0, 0, 1}, {1, 0, 0}},
+                             {{0, 0.6, 0.8}, {0, -0.8, 0.6}},
+                             {{0.6, 0, 0.8}, {0, 1, 0}}}) {
+    Mesh mesh = two_triangles();
+    for (Eigen::Vector3d& x : mesh.nodes) x = x.x() * u + x.y() * v;
+    for (const bool middles : {false, true}) {
+      if (middles) add_middle_nodes(mesh);
+      const QualityReport report = quality(mesh);
+      EXPECT_EQ(report.inverted, 0);
+      EXPECT_NEAR(report.area, 6.5e-6, 1e-18);
+      EXPECT_NEAR(report.smallest_angle, std::atan2(3, 4) * 180 / std::numbers::pi, 1e-12);
+    }
+  }
 }
 
 // The determinant is a quadratic form of the barycentric coordinates; a grid finds where it is negative.
