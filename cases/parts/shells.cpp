@@ -70,12 +70,12 @@ void check_curvature(const Case& one, const Part& part, const fem::ShellSection&
   const std::string keys = part.key_prefix() + "film.", radius = post::engineering(1 / curvature, "m");
   if (height * curvature > (layered ? most_of_layers : most_thick))
     throw one.error_at(
-        keys + (layered ? "layer" : "thickness"),
+        keys + (layered ? "layer[1].thickness" : "thickness"),
         fmt::format("{} on a radius of {} is too thick for a shell{}: section = \"solid\" has it",
                     post::engineering(height, "m"), radius, layered ? " of layers" : ""));
   if (std::abs(section.offset) * curvature > most_beside)
     throw one.error_at(
-        keys + (layered ? "layer" : "offset"),
+        keys + (layered ? "layer[1].thickness" : "offset"),
         fmt::format(
             "the middle of its layers is {} beside a surface that is drawn with a radius of {}, where "
             "fibres are not as long: draw the surface in their middle",
