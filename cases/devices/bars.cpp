@@ -73,7 +73,8 @@ void for_each_set_of_bars(
 std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh) {
   std::vector<fem::Tie> links;
   std::vector<Eigen::Vector3d> normals(mesh.nodes.size(), Eigen::Vector3d::Zero());
-  if (one.dimension == fem::Dimension::spatial && mesh.film() && meshing::is_triangle(mesh.film()->type))
+  const auto may_be_tilted = [](const Film& film) { return film.section == FilmSection::shell; };
+  if (one.any_film(may_be_tilted) && mesh.film() && meshing::is_triangle(mesh.film()->type))
     normals = meshing::node_normals(mesh, *mesh.film());
   for_each_set_of_bars(one, mesh, [&](const AlikeBars& bars, const std::vector<int>& own, std::size_t p) {
     const auto is_on_tilted_film = [&](int line) {

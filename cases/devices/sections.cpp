@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/devices/sections.hpp"
 
+#include "cases/case/film_cells.hpp"
 #include "cases/case/part_kind.hpp"
 #include "cases/text/diagnostics.hpp"
 #include "fem/elements/capacitor_block.hpp"
@@ -102,9 +103,7 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
     std::vector<PartFilm> films;
     for (std::size_t p = 0; p < one.parts.size(); ++p) {
       if (kind_of(one.parts[p]) != &kind) continue;
-      PartFilm own{&one.parts[p], {}, {}, {}};
-      for (int cell = 0; cell < film.size(); ++cell)
-        if (parts[static_cast<std::size_t>(cell)] == static_cast<int>(p)) own.cells.push_back(cell);
+      PartFilm own{&one.parts[p], cells_of_part(parts, p), {}, {}};
       if (own.cells.empty()) continue;
       const auto over_cells = [&](const std::vector<int>& all) {
         std::vector<int> over;

@@ -5,7 +5,6 @@
 #include "fem/elements/point_mass_block.hpp"
 #include "fem/shells/shell_section.hpp"
 
-#include <map>
 #include <vector>
 
 namespace dielast::cases {
@@ -54,9 +53,8 @@ void tie_rotary_nodes(const std::vector<fem::RelativeMass>& masses, const meshin
 /// The mass of the shells of one part, and the nodes that carry it, see fem::make_shell_mass_block().
 struct MassOfShells {
   fem::ShellMass mass;
-  std::vector<int> cells;                  ///< of the film
-  std::vector<int> carriers;               ///< for each of their nodes
-  std::map<int, Eigen::Vector3d> arm_from; ///< a node of the film to its carrier, m
+  std::vector<int> cells;    ///< of the film
+  std::vector<int> carriers; ///< for each of their nodes
 };
 
 /// Adds nodes to the mesh where the mass of a shell has its centre beside the drawn surface; none where

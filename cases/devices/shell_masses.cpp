@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/film_cells.hpp"
 #include "cases/devices/sections.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/parts/shells.hpp"
@@ -16,10 +17,8 @@ std::vector<MassOfShells> add_mass_nodes(const Case& one, const std::vector<int>
   std::vector<MassOfShells> all;
   for (std::size_t p = 0; p < one.parts.size(); ++p) {
     if (!one.parts[p].film || one.parts[p].film->section != FilmSection::shell) continue;
-    MassOfShells shells{shell_mass(one.parts[p]), {}, {}, {}};
+    MassOfShells shells{shell_mass(one.parts[p]), cells_of_part(parts, p), {}};
     if (shells.mass.per_area == 0) continue;
-    for (std::size_t cell = 0; cell < parts.size(); ++cell)
-      if (parts[cell] == static_cast<int>(p)) shells.cells.push_back(static_cast<int>(cell));
     const meshing::CellBlock film = meshing::subset(*mesh.film(), shells.cells);
     if (shells.mass.lever == 0 || !matters) {
       shells.carriers = film.nodes;
@@ -28,11 +27,8 @@ std::vector<MassOfShells> add_mass_nodes(const Case& one, const std::vector<int>
       std::map<int, int> carrier; // of each node
       for (const int node : film.nodes) {
         const auto [entry, fresh] = carrier.try_emplace(node, mesh.node_count());
-        if (fresh) {
-          const auto n = static_cast<std::size_t>(node);
-          const Eigen::Vector3d& arm = shells.arm_from[node] = shells.mass.lever * normal[n];
-          mesh.nodes.emplace_back(mesh.nodes[n] + arm);
-        }
+        if (const auto n = static_cast<std::size_t>(node); fresh)
+          mesh.nodes.emplace_back(mesh.nodes[n] + shells.mass.lever * normal[n]);
         shells.carriers.push_back(entry->second);
       }
     }
@@ -49,12 +45,14 @@ void add_masses_of_shells(const std::vector<MassOfShells>& shells, const meshing
 }
 
 void tie_mass_nodes(const std::vector<MassOfShells>& shells, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  const auto drawn = [&mesh](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
   for (const MassOfShells& own : shells) {
     const meshing::CellBlock cells = meshing::subset(*mesh.film(), own.cells);
     std::set<int> tied;
     for (std::size_t i = 0; i < own.carriers.size(); ++i) {
       const int carrier = own.carriers[i], node = cells.nodes[i];
-      if (carrier != node && tied.insert(carrier).second) dofs.tie({carrier, node, own.arm_from.at(node)});
+      if (carrier != node && tied.insert(carrier).second)
+        dofs.tie({carrier, node, drawn(carrier) - drawn(node)});
     }
   }
 }

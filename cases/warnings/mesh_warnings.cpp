@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/warnings/mesh_warnings.hpp"
 
+#include "cases/case/film_cells.hpp"
 #include "cases/case/quantity_kind.hpp"
 #include "cases/text/diagnostics.hpp"
 #include "meshing/normals.hpp"
@@ -181,7 +182,7 @@ double angle_of_facets(const meshing::Mesh& mesh, const meshing::CellBlock& film
 /// Which side is above, where a shell whose layers lie beside its surface, or are several, is not drawn with
 /// that side upwards all over; "" otherwise.
 std::string side_text(const Film& film, const meshing::Mesh& mesh, const meshing::CellBlock& cells) {
-  if (film.section != FilmSection::shell || (film.offset == 0 && film.further_layers.empty())) return "";
+  if (film.offset == 0 && film.further_layers.empty()) return "";
   const std::vector<Eigen::Vector3d> normals = meshing::node_normals(mesh, cells);
   const auto lowest = std::ranges::min_element(
       cells.nodes, {}, [&](int node) { return normals[static_cast<std::size_t>(node)].z(); });
@@ -207,14 +208,13 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
   for (std::size_t p = 0; p < one.parts.size(); ++p) {
     const Part& part = one.parts[p];
     if (!part.film || part.film->section != FilmSection::shell) continue;
-    std::vector<int> cells;
-    for (std::size_t cell = 0; cell < parts.size(); ++cell)
-      if (parts[cell] == static_cast<int>(p)) cells.push_back(static_cast<int>(cell));
+    const std::vector<int> cells = cells_of_part(parts, p);
     if (cells.empty()) continue;
     if (const std::string text = side_text(*part.film, mesh, meshing::subset(*mesh.film(), cells));
         !text.empty())
       warnings.push_back(one.warning_at(
-          part.key_prefix() + (part.film->further_layers.empty() ? "film.offset" : "film.layer"), text));
+          part.key_prefix() + (part.film->further_layers.empty() ? "film.offset" : "film.layer[1].thickness"),
+          text));
   }
   for (const Part& owner : one.parts) {
     if (!std::holds_alternative<MeshFile>(owner.geometry)) continue;
@@ -242,16 +242,18 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
     if (const std::string key = part + "mesh.quadrature";
         film.type == meshing::CellType::triangle3 && owner.mesh.quadrature != MeshOptions{}.quadrature)
       warnings.push_back(one.warning_at(key, "has no effect here: the file's triangles have 3 nodes"));
-    if (const double angle = film.type == meshing::CellType::triangle6 ? angle_of_facets(mesh, film) : 0)
+    Eigen::AlignedBox3d box;
+    for (const int node : film.nodes) box.extend(mesh.nodes[static_cast<std::size_t>(node)]);
+    const Eigen::Vector3d size = box.sizes();
+    const bool level = one.dimension != fem::Dimension::spatial || !(size.z() > 1e-9 * size.norm());
+    if (const double angle =
+            !level && film.type == meshing::CellType::triangle6 ? angle_of_facets(mesh, film) : 0)
       warnings.push_back(one.warning_at(
           part + "mesh.file",
           fmt::format("the film is made of flat facets, {:.2g} deg between neighbours: error estimates and "
                       "mesh.refine divide these and come no nearer to a curved surface; let gmsh put middle "
                       "nodes onto the surface (Mesh.SecondOrderLinear = 0)",
                       angle * 180 / std::numbers::pi)));
-    Eigen::AlignedBox3d box;
-    for (const int node : film.nodes) box.extend(mesh.nodes[static_cast<std::size_t>(node)]);
-    const Eigen::Vector3d size = box.sizes();
     const bool has_unit = owner.mesh.unit.has_value();
     if (!has_unit || size.maxCoeff() > largest)
       warnings.push_back(
