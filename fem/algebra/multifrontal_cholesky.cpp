@@ -68,21 +68,44 @@ typename MultifrontalCholesky<Real>::Front MultifrontalCholesky<Real>::front(int
           updates_.data() + nodes_.update_start[at(s)]};
 }
 
-/// to[place[i]] += from[i] for i = first..count-1, of which together[i] follow one another.
+/// to(i, j) += from(i, j) for i = 0..size-1 and j = 0..columns-1, with the distances of columns; goes on to
+/// the rows behind these.
+template<int size, class Real>
+void add_rows(int columns, const Real*& from, int stride, Real*& to, int stride_to) {
+  using Rows = Eigen::Array<Real, size, 1>;
+  for (std::ptrdiff_t j = 0; j < columns; ++j)
+    Eigen::Map<Rows>(to + j * stride_to) += Eigen::Map<const Rows>(from + j * stride);
+  from += size;
+  to += size;
+}
+
+/// That of all rows.
 template<class Real>
-void add(int first, int count, const int* place, const int* together, const Real* from, Real* to) {
-  for (int i = first; i < count; i += together[i]) {
-    const Real* __restrict of_run = from + i;
-    Real* __restrict to_run = to + place[i];
-    int left = together[i];
-    const auto add_runs = [&]<int size>() {
-      for (; left >= size; left -= size, of_run += size, to_run += size)
-        for (int k = 0; k < size; ++k) to_run[k] += of_run[k];
-    };
-    add_runs.template operator()<16>();
-    add_runs.template operator()<4>();
-    add_runs.template operator()<1>();
+void add_block(int rows, int columns, const Real* from, int stride, Real* to, int stride_to) {
+  for (int k = 0; k < rows / 8; ++k) add_rows<8>(columns, from, stride, to, stride_to);
+  if (rows & 4) add_rows<4>(columns, from, stride, to, stride_to);
+  if (rows & 2) add_rows<2>(columns, from, stride, to, stride_to);
+  if (rows & 1) add_rows<1>(columns, from, stride, to, stride_to);
+}
+
+/// to(place[i], place[j]) += from(i, j) for j = first..last-1 and i = j..size-1, by columns. Of the places
+/// together[i] follow one another, so that these are blocks; those on the diagonal are added as a whole, as
+/// what lies above it may become anything.
+template<class Real>
+void add(int first, int last, int size, const int* place, const int* together, const Real* from, Real* to,
+         int stride_to) {
+  for (int j = first, columns; j < last; j += columns) {
+    columns = std::min(together[j], last - j);
+    const Real* const of_columns = from + static_cast<std::ptrdiff_t>(j) * size;
+    Real* const to_columns = to + static_cast<std::ptrdiff_t>(place[j]) * stride_to;
+    for (int i = j; i < size; i += together[i])
+      add_block(together[i], columns, of_columns + i, size, to_columns + place[i], stride_to);
   }
+}
+
+/// How many of a child's columns, whose places are given, are some of a panel's.
+int columns_within(int width, const int* place, int count) {
+  return static_cast<int>(std::lower_bound(place, place + count, width) - place);
 }
 
 /// The panel of the matrix, and what the children change in it.
@@ -109,9 +132,8 @@ void MultifrontalCholesky<Real>::gather(const std::vector<double>& entries, doub
     const Front child = front(nodes_.child[at(c)]);
     const int* const place = nodes_.place_in_parent(nodes_.child[at(c)]);
     const int* const together = nodes_.together_in_parent(nodes_.child[at(c)]);
-    for (int j = 0; j < child.below && place[j] < own.width; ++j)
-      add(j, child.below, place, together, child.update + static_cast<std::ptrdiff_t>(j) * child.below,
-          own.panel + static_cast<std::ptrdiff_t>(place[j]) * own.height);
+    add(0, columns_within(own.width, place, child.below), child.below, place, together, child.update,
+        own.panel, own.height);
   }
 }
 
@@ -122,11 +144,10 @@ void MultifrontalCholesky<Real>::pass_on(int s) {
   for (int c = nodes_.child_start[at(s)]; c < nodes_.child_start[at(s) + 1]; ++c) {
     const Front child = front(nodes_.child[at(c)]);
     const int* const place = nodes_.place_in_parent(nodes_.child[at(c)]);
-    const auto behind = std::lower_bound(place, place + child.below, own.width) - place;
     const int* const together = nodes_.together_in_parent(nodes_.child[at(c)]);
-    for (auto j = static_cast<int>(behind); j < child.below; ++j)
-      add(j, child.below, place, together, child.update + static_cast<std::ptrdiff_t>(j) * child.below,
-          own.update + static_cast<std::ptrdiff_t>(place[j] - own.width) * own.below - own.width);
+    const std::ptrdiff_t before = own.width * (own.below + std::ptrdiff_t(1)); // the panel's rows and columns
+    add(columns_within(own.width, place, child.below), child.below, child.below, place, together,
+        child.update, own.update - before, own.below);
   }
 }
 
