@@ -33,6 +33,8 @@ class FilmBlock : public FilmPoints {
   void sample_points(const State& state, Samples& samples) const override;
   void add_mass(int element, std::span<double> packed) const override;
   void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
+  /// The charges alone, of film that never wrinkles.
+  void add_taut_charges(const State& state, Charges& charges) const;
   void place_sheets(SheetMap& sheets) override {
     sheets_.claim(sheets, electrodes_, [this](int element, int a) { return node(element, a); });
   }
@@ -327,6 +329,7 @@ void FilmBlock<Kinematics>::sample_points(const State& state, Samples& samples) 
 
 template<class Kinematics>
 void FilmBlock<Kinematics>::add_charges(const State& state, const DofMap* dof_map, Charges& charges) const {
+  if (!dof_map && !section_.tension_field) return add_taut_charges(state, charges);
   for_each_point(state, [&](const Visit& at) {
     const int electrode = electrodes_[static_cast<std::size_t>(at.element)];
     if (electrode == passive) return;
@@ -349,6 +352,29 @@ void FilmBlock<Kinematics>::add_charges(const State& state, const DofMap* dof_ma
             per_volt * phi * (q[0] * slope[0][at.lane] + q[1] * slope[1][at.lane] + q[2] * slope[2][at.lane]);
       }
   });
+}
+
+template<class Kinematics>
+void FilmBlock<Kinematics>::add_taut_charges(const State& state, Charges& charges) const {
+  const double per_volume = permittivity() / (section_.thickness * section_.thickness);
+  for (int pack = 0; pack * lanes < count_; ++pack) {
+    Lanes x[Nodes][Dim], capacitance{}, charge{};
+    gather(state, pack, x);
+    for (int p = 0; p < points_; ++p) {
+      const Point at = point(pack, p);
+      const materials::InPlaneC<Lanes> C = Kinematics::deformation(x, at).C;
+      const Lanes per_volt =
+          per_volume * at.volume * materials::capacitance_ratio_value(film_.dielectric(), C.trace(), C.det());
+      capacitance += per_volt;
+      charge += per_volt * lanes_of([&](int l) { return voltage(state, pack * lanes + l, p); });
+    }
+    for (int l = 0; l < lanes && pack * lanes + l < count_; ++l) {
+      const int electrode = electrodes_[static_cast<std::size_t>(pack * lanes + l)];
+      if (electrode == passive) continue;
+      charges.capacitance[static_cast<std::size_t>(electrode)] += capacitance[l];
+      charges.charge[static_cast<std::size_t>(electrode)] += charge[l];
+    }
+  }
 }
 
 /// The current flows along the film itself, wrinkles included.
