@@ -175,13 +175,17 @@ void EnergyBalance::arrive(EnergyPoint point) {
   if (!jumps) stand();
   const Work& work = record_.work;
   // What is known no better than to itself has not been exchanged for certain.
-  const double unknown = error() - record_.doubt_of_circuits;
-  for (const double energy :
-       {work.electrical, work.mechanical, work.dissipated, work.released, stored() - record_.stored_at_start})
-    if (std::abs(energy) > 2 * unknown) record_.exchanged = std::max(record_.exchanged, std::abs(energy));
-  record_.given = std::max(record_.given, record_.exchanged);
-  for (const double energy : {work.resistance, work.leak})
-    if (energy > 2 * error()) record_.given = std::max(record_.given, energy);
+  const double unknown = error() - record_.doubt_of_circuits, taken = stored() - record_.stored_at_start;
+  const auto note = [&](double cut, double& exchanged, double& given) {
+    for (const double energy :
+         {work.electrical, work.mechanical, work.dissipated, work.released - cut, taken + cut})
+      if (std::abs(energy) > 2 * unknown) exchanged = std::max(exchanged, std::abs(energy));
+    given = std::max(given, exchanged);
+    for (const double energy : {work.resistance, work.leak})
+      if (energy > 2 * error()) given = std::max(given, energy);
+  };
+  note(0, record_.exchanged, record_.given);
+  note(record_.cut, record_.without_cuts, record_.given_without_cuts);
 }
 
 void EnergyBalance::add(EnergyPoint point) {
@@ -219,7 +223,9 @@ EnergyBalance::JumpRelease EnergyBalance::add_after_jump(EnergyPoint point) {
 }
 
 void EnergyBalance::add_cut_free(EnergyPoint point) {
+  const double released = record_.work.released;
   account(point, true);
+  record_.cut += record_.work.released - released;
   arrive(std::move(point));
 }
 
@@ -245,7 +251,7 @@ void EnergyBalance::judge(double scale, int row, int step) {
   const double of_circuits = record_.doubt_of_circuits;
   for (const bool given : {false, true}) {
     const Resolution now{std::max(0.0, error() - known - (given ? 0 : of_circuits)),
-                         given ? record_.given : record_.exchanged,
+                         given ? record_.given_without_cuts : record_.without_cuts,
                          given,
                          error(),
                          row,

@@ -99,7 +99,7 @@ class EnergyBalance {
   struct Resolution {
     double error = 0;     ///< beyond rounding
     double exchanged = 0; ///< largest energy so far that went in or out, was stored or turned into heat, and
-                          ///< was known to half of itself at least
+                          ///< was known to half of itself at least; without what cuts set free
     bool given = false;   ///< of all that sources gave, the heat of resistances and leaks, too, or without it
     double told = 0;      ///< error() then, rounding included
     int row = 0, step = 0; ///< of the result
@@ -110,7 +110,8 @@ class EnergyBalance {
   /// Equilibrium::energy_scale(), J.
   void judge(double scale, int row = 0, int step = 0);
   /// Of the worst result so far. A result that has exchanged less than a thousandth of what the run has so
-  /// far is compared with that thousandth: about an instant at which a wave sets in, every rule is poor.
+  /// far, cuts included, is compared with that thousandth: about an instant at which a wave sets in, every
+  /// rule is poor.
   Resolution worst() const;
 
   bool empty() const { return record_.points.empty(); }
@@ -120,6 +121,9 @@ class EnergyBalance {
     Work work;
     double stored_at_start = 0, exchanged = 0;
     double given = 0;                ///< `exchanged` with the heat of resistances and leaks, J
+    double cut = 0;                  ///< what cuts set free, J
+    double without_cuts = 0;         ///< `exchanged` but for that, J
+    double given_without_cuts = 0;   ///< and `given`, J
     double doubt = 0;                ///< sum of differences of rules, J
     double doubt_of_circuits = 0;    ///< likewise, of the heat of resistances and leaks
     double rest = 0;                 ///< left by the balance where nothing can take it, J

@@ -205,6 +205,28 @@ TEST(EnergyBalance, a_result_beyond_one_percent_is_poor_unless_the_run_exchanges
   EXPECT_FALSE(worst_after(5000, 0.04).is_poor());
 }
 
+// What a drawn film stores until it is let go says nothing of what follows, but for a thousandth of it.
+TEST(EnergyBalance, what_a_cut_sets_free_is_no_measure) {
+  for (const double stored : {100.0, 3100.0}) {
+    EnergyBalance balance;
+    EnergyPoint point = point_at(0, 0, 0);
+    point.mechanical = pair(1, 0);
+    point.energy.elastic = stored;
+    balance.add(point);
+    point.energy.elastic = 0;
+    balance.add_cut_free(point);
+    balance.judge(0);
+    EXPECT_FALSE(balance.worst().is_poor());
+    EXPECT_NEAR(balance.work().released, stored, 1e-12);
+    point.moves = true;
+    point.mechanical = pair(1, 1);
+    point.energy.elastic = 0.97;
+    balance.add(point);
+    balance.judge(0);
+    EXPECT_EQ(EnergyBalance(balance.record()).worst().is_poor(), stored < 3000);
+  }
+}
+
 // A resistance takes most of what the source gives, and is known to a part of that; the electrode's own
 // energy is known better, or else is poor.
 TEST(EnergyBalance, heat_of_circuits_is_judged_beside_what_the_source_gives) {

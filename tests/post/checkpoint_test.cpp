@@ -183,6 +183,8 @@ TEST(Checkpoint, EnergiesAreKeptToTheLastBit) {
   const fem::EnergyBalance::Record record{.work = {1.0 / 3, 2, 3, 4, 5, -1.0 / 7},
                                           .stored_at_start = 0.1,
                                           .exchanged = 0.2,
+                                          .cut = 0.15,
+                                          .without_cuts = 0.05,
                                           .doubt = 0.3,
                                           .rest = -0.4,
                                           .poor = {{0.5, 0.6}, {0.55, 0.9, true, 0.7, 3, 1}},
@@ -192,6 +194,8 @@ TEST(Checkpoint, EnergiesAreKeptToTheLastBit) {
   const fem::EnergyBalance::Record restored = restore_energy(archived, sizes);
   EXPECT_EQ(archive(restored), archived);
   EXPECT_EQ(restored.work.leak, record.work.leak);
+  EXPECT_EQ(restored.cut, record.cut);
+  EXPECT_EQ(restored.without_cuts, record.without_cuts);
   EXPECT_EQ(restored.rest, record.rest);
   ASSERT_EQ(restored.poor.size(), 2u);
   EXPECT_EQ(restored.poor[1].exchanged, 0.9);
