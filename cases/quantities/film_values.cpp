@@ -121,16 +121,6 @@ bool is_inside(CellType type, const Eigen::VectorXd& local) {
   return std::min(local.minCoeff(), 1 - local.sum()) >= -close_by;
 }
 
-/// The part whose mesh has a place, by its name; null: a body, or no part.
-const Part* part_with(const std::string& place, const Case& one) {
-  if (std::ranges::find(one.bodies, place, &Body::name) != one.bodies.end()) return nullptr;
-  const auto found = std::ranges::find_if(one.parts, [&](const Part& part) {
-    return part.has_mesh() && !part.name.empty() &&
-           (place == part.name || place.starts_with(part.name + "."));
-  });
-  return found != one.parts.end() ? &*found : one.unnamed();
-}
-
 } // namespace
 
 std::vector<FilmReading> readings_at(const std::string& place, const meshing::Mesh& mesh,
@@ -231,6 +221,15 @@ std::vector<FilmReading> readings_in(const std::string& place, const meshing::Me
         {cell, first, mesh.nodes[static_cast<std::size_t>(film.cell(cell)[0])], std::move(volume)});
   }
   return readings;
+}
+
+const Part* part_with(const std::string& place, const Case& one) {
+  if (std::ranges::find(one.bodies, place, &Body::name) != one.bodies.end()) return nullptr;
+  const auto found = std::ranges::find_if(one.parts, [&](const Part& part) {
+    return part.has_mesh() && !part.name.empty() &&
+           (place == part.name || place.starts_with(part.name + "."));
+  });
+  return found != one.parts.end() ? &*found : one.unnamed();
 }
 
 std::vector<char> film_at(const std::string& place, const Case& one, const Device& device) {

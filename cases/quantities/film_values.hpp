@@ -50,6 +50,9 @@ std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing
 std::vector<FilmReading> readings_in(const std::string& place, const meshing::Mesh& mesh,
                                      const fem::Samples& samples);
 
+/// The part whose mesh has a place, by its name; null: a body, or no part.
+const Part* part_with(const std::string& place, const Case& one);
+
 /// Which elements of the film belong to a place: its own, or those with a node there; of a place of a part's
 /// mesh only those of that mesh, whatever it is tied to.
 std::vector<char> film_at(const std::string& place, const Case& one, const Device& device);

@@ -19,6 +19,10 @@ Probe force(const Probing& probing) {
 }
 
 Probe pull_of_film(const Probing& probing) {
+  if (const Part* part = part_with(probing.quantity.of, probing.one); part && !part->film)
+    probing.refuse("of",
+                   "bars end there; the film that is tied to them pulls on its own place, and a support "
+                   "has the \"force\" of both");
   PullingFilm film = film_that_pulls(probing.quantity.of, probing.one, probing.device);
   if (film.elements.empty()) probing.refuse("of", "no film meets this place, so none pulls on it");
   return [&device = probing.device, &quantity = probing.quantity,

@@ -123,6 +123,17 @@ TEST_F(Cables, PullWhatPullsThem) {
   }
 }
 
+/// At a joint it is the rod's end that its film pulls on, not the cable's.
+TEST_F(Cables, EndWhereNoFilmPulls) {
+  const auto pulled = [&](const std::string& place) {
+    return values(muscle("2 kV", 1, 2, false) + "[[quantity]]\nname = \"pulled\"\nkind = \"film force\"\n" +
+                  "along = \"x\"\nof = \"" + place + "\"\n")
+        .at("pulled");
+  };
+  EXPECT_NEAR(pulled("muscle.end"), -film_force(1.3 * balance(2000, 1) / 40e-3, 2000), 1e-9);
+  EXPECT_THROW(pulled("tendon.start"), CaseError);
+}
+
 /// Its voltage lets the film grow longer than it is held: the tendon hangs slack, and the film is as long as
 /// it likes. In between it is where its fibres are crimped.
 TEST_F(Cables, HangSlackWhereNothingPulls) {
