@@ -361,10 +361,8 @@ void add_core(const Case& one, const Roll& roll, const meshing::Mesh& mesh, fem:
 void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
   const auto* roll = one.geometry<Roll>();
   if (!roll || roll->core != RollCore::two_sided) return;
-  std::set<int> carried; // by end caps, which keep their radius
-  for (const fem::Tie& tie : dofs.ties()) carried.insert(tie.node);
   for (const int node : mesh.node_sets.at("film"))
-    if (!carried.contains(node)) dofs.hold(node, 0);
+    if (!dofs.is_carried(node)) dofs.hold(node, 0); // end caps keep their radius
 }
 
 void add_contact(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,

@@ -52,6 +52,22 @@ TEST_F(Bodies, what_no_support_takes_the_film_does) {
   EXPECT_NEAR(ran.last("sag"), weight * std::log(b / a) / (2 * pi * tension) + arm * ran.last("angle"), 5e-7);
 }
 
+TEST_F(Bodies, of_revolution_may_reach_the_axis) {
+  const auto sag = [&](const std::string& of, const std::string& rigid) {
+    return run("model = \"axisymmetric\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\n"
+               "shear_modulus = \"50 kPa\"\nrelative_permittivity = 4\n[disc]\nradius = \"20 "
+               "mm\"\nelectrode_radius = \"5 mm\"\n"
+               "[mesh]\nrings = 8\n[[step]]\nkind = \"weight\"\n[[quantity]]\nname = \"sag\"\nkind = "
+               "\"displacement\"\nalong = \"z\"\nof = \"" +
+               of + "\"\n" + rigid)
+        .last("sag");
+  };
+  const double plate = sag("electrode", "[plate]\nmass = \"30 g\"\nat = \"electrode\"\n");
+  EXPECT_LT(plate, -1e-3);
+  EXPECT_NEAR(sag("hub", "[[body]]\nname = \"hub\"\nplaces = [\"electrode\"]\nmass = \"30 g\"\n"), plate,
+              1e-9);
+}
+
 TEST_F(Bodies, gravity_pulls_where_it_is_told_to) {
   const std::string in_plane = "[gravity]\ndirection = [0, -2, 0]\n[[step]]\nkind = \"weight\"\n";
   for (const char* model : {"planar", "3d"}) {
