@@ -35,7 +35,9 @@ class ControlSignal : public Signal {
   }
 
   void begin(double duration) override {
+    if (samples_ > 0) since_ = std::max(0.0, duration_ - (samples_ - 1) * controller_.every);
     samples_ = 0;
+    duration_ = duration;
     close_ = same_time * duration;
   }
 
@@ -45,7 +47,7 @@ class ControlSignal : public Signal {
     const double lack = controller_.target - measurement.value(quantity_, measured);
     if (!std::isfinite(lack))
       return fmt::format("quantity \"{}\", which a controller measures, has no value", controller_.quantity);
-    const double integral = samples_ > 0 ? integral_ + lack_ * controller_.every : integral_;
+    const double integral = integral_ + lack_ * (samples_ > 0 ? controller_.every : since_);
     const double share = controller_.integral_gain * integral;
     const double base = said_ ? said_->at(t) : 0;
     const double wanted = base + controller_.gain * lack + share;
@@ -60,12 +62,13 @@ class ControlSignal : public Signal {
   }
 
   std::vector<double> memory() const override {
-    return {static_cast<double>(samples_), close_, held_, before_, integral_, lack_};
+    return {static_cast<double>(samples_), duration_, close_, held_, before_, integral_, lack_, since_};
   }
   void recall(const std::vector<double>& memory) override {
     samples_ = static_cast<int>(memory.at(0));
-    close_ = memory.at(1), held_ = memory.at(2), before_ = memory.at(3);
-    integral_ = memory.at(4), lack_ = memory.at(5);
+    duration_ = memory.at(1), close_ = memory.at(2);
+    held_ = memory.at(3), before_ = memory.at(4);
+    integral_ = memory.at(5), lack_ = memory.at(6), since_ = memory.at(7);
   }
 
  private:
@@ -73,10 +76,12 @@ class ControlSignal : public Signal {
   const Waveform* said_;
   std::size_t quantity_ = 0;
   int samples_ = 0;              ///< in this step
+  double duration_ = 0;          ///< of this step, s
   double close_ = 0;             ///< times as close as this are one, s
   double held_ = 0, before_ = 0; ///< since the last measurement, and until then
   double integral_ = 0;          ///< of what the quantity lacks, s times its unit
   double lack_ = 0;              ///< at the last measurement
+  double since_ = 0;             ///< from that to the beginning of this step, s
 };
 
 } // namespace

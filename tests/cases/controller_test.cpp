@@ -33,6 +33,16 @@ struct Loop {
   }
 };
 
+/// Where the film is at rest under the stress.
+double rest(double voltage) {
+  double low = 0.5, high = 4;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (low + high) / 2;
+    (film_stress(middle, voltage) < stress ? low : high) = middle;
+  }
+  return low;
+}
+
 /// A block of film with a mass at its side: one degree of freedom, pulled by a stress. The width is held.
 class ControllerTest : public test::ScratchTest {
  protected:
@@ -57,7 +67,7 @@ class ControllerTest : public test::ScratchTest {
     const auto at = static_cast<std::size_t>(std::ranges::find(one.quantities, "stretch_x", &Quantity::name) -
                                              one.quantities.begin());
     observer.on_accept = [&](const Frame& frame) {
-      if (frame.record.step == "transient" && !frame.record.jumped)
+      if (frame.record.step.starts_with("transient") && !frame.record.jumped)
         rows.push_back({frame.record.time, frame.record.voltages[0], frame.values[at]});
       return static_cast<int>(rows.size()) != stop_after;
     };
@@ -139,14 +149,6 @@ TEST_F(ControllerTest, IsAMapWhereNothingTakesTime) {
   const Case one = read(loop, force + half_second + "inertia = false\n");
   Simulation simulation(one, 1);
   const std::vector<Row> rows = run(simulation, one);
-  const auto rest = [](double voltage) {
-    double low = 0.5, high = 4;
-    for (int i = 0; i < 200; ++i) {
-      const double middle = (low + high) / 2;
-      (film_stress(middle, voltage) < stress ? low : high) = middle;
-    }
-    return low;
-  };
   double stretch = rest(0);
   std::size_t compared = 0;
   for (int k = 0; k < 5; ++k) {
@@ -161,6 +163,31 @@ TEST_F(ControllerTest, IsAMapWhereNothingTakesTime) {
   }
   EXPECT_EQ(compared, rows.size());
   EXPECT_EQ(compared, 100U);
+}
+
+// A step may end between two measurements; the next one measures as it begins.
+TEST_F(ControllerTest, IntegratesAcrossStepsOfAnyLength) {
+  const Loop loop{.gain = 1e4, .integral_gain = 1e4, .every = 0.1};
+  const std::string quarter = "[[step]]\nkind = \"transient\"\nduration = \"0.25 s\"\ninertia = false\n";
+  const Case one =
+      read(loop, force + quarter + "name = \"transient_a\"\n" + quarter + "name = \"transient_b\"\n");
+  Simulation simulation(one, 1);
+  const std::vector<Row> rows = run(simulation, one);
+  double stretch = rest(0), integral = 0, last = 0, lack = 0;
+  const std::array times{0.0, 0.1, 0.2, 0.25, 0.35, 0.45, 0.5};
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    integral += lack * (times[k] - last);
+    last = times[k], lack = loop.target - stretch;
+    const double voltage = loop.drive + loop.gain * lack + loop.integral_gain * integral;
+    stretch = rest(voltage);
+    int compared = 0;
+    for (const Row& row : rows)
+      if (row.time > times[k] + 1e-6 && row.time < times[k + 1] + 1e-6) {
+        EXPECT_NEAR(row.voltage, voltage, 1e-6 * voltage) << row.time;
+        ++compared;
+      }
+    EXPECT_GT(compared, 0) << times[k];
+  }
 }
 
 TEST_F(ControllerTest, GoesOnBitForBit) {
