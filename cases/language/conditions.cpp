@@ -151,14 +151,11 @@ Condition charges_layer() {
 }
 
 Condition voltages() {
-  return on_case(
-      "a step of kind \"voltage\", or \"transient\" with control = \"voltage\", and an [[electrode]]",
-      [](const Case& one) {
-        return !one.electrodes.empty() && any_step(one, [](const Step& step) {
-          return step.kind == StepKind::voltage ||
-                 (step.kind == StepKind::transient && step.control == Control::voltage);
-        });
-      });
+  return on_case("an [[electrode]], a step of kind \"voltage\", and none with a duration",
+                 [](const Case& one) {
+                   return !one.electrodes.empty() && !is_timed(one) &&
+                          any_step(one, [](const Step& step) { return step.kind == StepKind::voltage; });
+                 });
 }
 
 Condition branches() {

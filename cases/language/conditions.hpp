@@ -11,7 +11,7 @@ namespace when {
 Condition electrodes();          ///< there is an electrode
 Condition charges_film();        ///< one charges the key's own film itself
 Condition charges_layer();       ///< one charges the key's own layer
-Condition voltages();            ///< a step brings a voltage
+Condition voltages();            ///< a step brings a voltage, and none takes time
 Condition branches();            ///< the film has branches
 Condition sheets_matter();       ///< likewise, or a circuit leaks
 Condition without_duration();    ///< the key's own step has none

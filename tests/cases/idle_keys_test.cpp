@@ -104,6 +104,8 @@ TEST_F(IdleKeys, AreToldWhereTheyDoNothingAndOnlyThere) {
        "model = \"3d\"\n" + film + disc + "[gravity]\nfilm = true\n" + weight},
       {"output.margins_up_to", film + balloon + "[output]\nmargins_up_to = 2\n" + inflate,
        film + disc + "[output]\nmargins_up_to = 2\n" + ramp},
+      {"output.margins_up_to", film + disc + "[output]\nmargins_up_to = 2\n" + ramp + "duration = \"1 s\"\n",
+       film + disc + "[output]\nmargins_up_to = 2\n" + ramp},
       {"film.bulk_modulus",
        slab(bulk, "law = \"st-venant-kirchhoff\"\nyoungs_modulus = \"120 kPa\"\npoisson_ratio = 0.4\n"),
        slab(bulk, neo_hookean)},
