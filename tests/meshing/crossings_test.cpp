@@ -70,6 +70,34 @@ TEST(FilmSurface, in_a_plane_passes_through_itself_at_its_edges) {
   EXPECT_FALSE(crossing(mesh, bend(1.2), {"all"}));
 }
 
+// The side of a body that ends at a surface which is kept apart may cross the straight sides of the other
+// one; the next side may not.
+TEST(FilmSurface, may_end_at_what_is_kept_apart) {
+  Mesh mesh;
+  mesh.blocks = {{CellType::triangle3, {}}};
+  const auto square = [&](double x, double y, double size) {
+    const int n = mesh.node_count();
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) mesh.nodes.emplace_back(x + size * j, y + size * i, 0);
+    for (const int node : {n, n + 1, n + 3, n, n + 3, n + 2}) mesh.blocks[0].nodes.push_back(node);
+  };
+  square(0, 0, 1);
+  square(0.25, 1.1, 0.5); // above it, of two squares
+  for (const double x : {0.25, 0.75}) mesh.nodes.emplace_back(x, 2.1, 0);
+  for (const int node : {6, 7, 9, 6, 9, 8}) mesh.blocks[0].nodes.push_back(node);
+  mesh.node_sets = {{"below", {2, 3}}, {"above", {4, 5}}};
+  const auto sunk = [&](double by) {
+    return crossing(mesh,
+                    [&](const Eigen::Vector3d& x) {
+                      return Eigen::Vector3d(x - by * (x[1] > 1) * Eigen::Vector3d::UnitY());
+                    },
+                    {"below", "above"});
+  };
+  EXPECT_FALSE(sunk(0.05));
+  EXPECT_FALSE(sunk(0.3));
+  EXPECT_TRUE(sunk(0.8));
+}
+
 // What touches as drawn, as the lips of a slit do, may do so for ever.
 TEST(FilmSurface, that_touches_as_drawn_is_no_crossing) {
   Mesh mesh = strip();
