@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/parts/part_kinds.hpp"
 
+#include "cases/case/quantity_kind.hpp"
 #include "cases/language/schema.hpp"
 
 #include <fmt/format.h>
@@ -49,6 +50,28 @@ void WrittenPart::report_film(const char* key, const std::string& message) const
                 written         ? fmt::format("found {}: {}", value, message)
                 : value.empty() ? message
                                 : fmt::format("{} by default: {}", value, message));
+}
+
+void WrittenPart::refuse_quantities(bool QuantityKind::*has, const char* kind) const {
+  const Node* list = tree.find("quantity");
+  int number = 0; // of the user's own
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = one.quantities[q];
+    const Node* own = list && q < list->items.size() ? &list->items[q] : nullptr;
+    const Node* word = own ? own->find("kind") : nullptr;
+    const bool is_written = word && word->source.is_written();
+    number += is_written;
+    if (quantity.kind->*has) continue;
+    const std::string have =
+        fmt::format("of films that are membranes{}{}", quantity.kind->of_shells ? " or shells" : "",
+                    quantity.kind->of_solids ? " or solids" : "");
+    if (is_written)
+      reader.report(word->source, fmt::format("quantity[{}].kind", number),
+                    fmt::format("found \"{}\": {}, and this one is a {}{}", quantity.kind->word, have, kind,
+                                quantity.kind->word == "stretch" ? "; ask for \"elongation\"" : ""));
+    else
+      report_film("section", fmt::format("quantity \"{}\" is {}", quantity.name, have));
+  }
 }
 
 const Part* WrittenPart::meshed() const { return part.has_mesh() ? &part : one.unnamed(); }

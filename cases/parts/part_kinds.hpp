@@ -21,6 +21,8 @@ struct WrittenPart {
   void report(const std::string& table, const std::string& message) const;
   /// Blames a key of its [film], where that is not written the film.
   void report_film(const char* key, const std::string& message) const;
+  /// Blames, at their kinds, quantities that film of this kind does not have.
+  void refuse_quantities(bool QuantityKind::*has, const char* kind) const;
   /// The part in whose mesh it is; null: there is none, which is reported elsewhere.
   const Part* meshed() const;
 };

@@ -120,10 +120,7 @@ void check_shell(const WrittenPart& written) {
   if (part.film->tension_field) report("it buckles instead of wrinkling: leave out film.wrinkling");
   if (part.rolled()) report("a rod pulls along itself only");
   if (std::holds_alternative<Patch>(part.geometry)) report("a patch stays flat");
-  const auto of_membranes = std::ranges::find_if(
-      one.quantities, [](const Quantity& quantity) { return !quantity.kind->of_shells; });
-  if (of_membranes != one.quantities.end())
-    report(fmt::format("quantities of kind \"{}\" are of membranes", of_membranes->kind->word));
+  written.refuse_quantities(&QuantityKind::of_shells, "shell");
 }
 
 } // namespace

@@ -120,7 +120,8 @@ void check_solid(const WrittenPart& written) {
   const bool own_mesh = std::holds_alternative<MeshFile>(meshed->geometry) && !of_revolution;
   const auto* slab = std::get_if<Slab>(&meshed->geometry);
   if (!own_mesh && !slab && !std::holds_alternative<HollowSphere>(meshed->geometry))
-    report("section", "a solid is a [slab], a [hollow_sphere], or a mesh of your own");
+    report("section", of_revolution ? "a solid of revolution is a [slab] or a [hollow_sphere]"
+                                    : "a solid is a [slab], a [hollow_sphere], or a mesh of your own");
   if (one.dimension == fem::Dimension::spatial && slab && !slab->width)
     report("section", "a slab in space has a width: slab.width");
   if (film.stacked_along && !fem::moves(one.dimension, *film.stacked_along))
@@ -139,25 +140,7 @@ void check_solid(const WrittenPart& written) {
   if (std::ranges::any_of(one.steps,
                           [](const Step& step) { return step.on_instability == OnInstability::jump; }))
     report("section", "solids do not jump: on_instability = \"stop\" or \"follow\"");
-  const Node* quantities = written.tree.find("quantity");
-  int number = 0; // of the user's own
-  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
-    const Quantity& quantity = one.quantities[q];
-    const Node* own = quantities && q < quantities->items.size() ? &quantities->items[q] : nullptr;
-    const Node* kind = own ? own->find("kind") : nullptr;
-    const bool is_written = kind && kind->source.is_written();
-    number += is_written;
-    if (quantity.kind->of_solids) continue;
-    if (is_written)
-      written.reader.report(
-          kind->source, fmt::format("quantity[{}].kind", number),
-          fmt::format("found \"{}\": of films that are membranes or shells, and this one is a solid{}",
-                      quantity.kind->word,
-                      quantity.kind->word == "stretch" ? "; ask for \"elongation\"" : ""));
-    else
-      report("section",
-             fmt::format("quantity \"{}\" is of films that are membranes or shells", quantity.name));
-  }
+  written.refuse_quantities(&QuantityKind::of_solids, "solid");
   for (std::size_t e = 0; e < one.electrodes.size(); ++e) {
     const Electrode& electrode = one.electrodes[e];
     if (electrode.ground.empty() != film.potential) continue;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace dielast::cases {
 namespace {
@@ -71,7 +72,7 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
                       "solid and a [table], or a [roll] and its one-sided core");
   if (surfaces) check_surfaces_in_contact(reader, *tree.find("contact"), one);
   if (surfaces && one.contact->friction > 0) check_friction(reader, tree, one, "[contact]");
-  if (!one.table) return;
+  if (!one.table || !one.any_film(std::mem_fn(&Film::is_solid))) return;
   if (one.table->friction > 0) return check_friction(reader, tree, one, "[table]");
   const auto slides = [&](std::size_t axis) {
     const auto holds = [&](const auto& what) { return what.fixed[axis]; };
