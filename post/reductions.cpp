@@ -20,9 +20,10 @@ double weight(const fem::BeamSample& sample) { return sample.length; }
 int layer_of(const fem::MembraneSample& sample) { return sample.layer; }
 int layer_of(const fem::BeamSample&) { return 0; }
 
+/// Averages are over the samples of one layer.
 template<class Sample, class Point>
 std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::span<const Field<Point>> fields,
-                                        int cell_count) {
+                                        int cell_count, int layer = 0) {
   const auto cells = static_cast<std::size_t>(cell_count);
   std::vector<CellValues> result;
   std::size_t row = 0; // values of all fields at a point
@@ -34,7 +35,7 @@ std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::sp
   for (const Sample& sample : samples) {
     const Point point(sample);
     const auto cell = static_cast<std::size_t>(sample.cell);
-    const double counts = layer_of(sample) == 0 ? weight(sample) : 0;
+    const double counts = layer_of(sample) == layer ? weight(sample) : 0;
     weights[cell] += counts;
     double* value = values.data();
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -223,12 +224,12 @@ std::optional<Extremum> Extremes::find(std::string_view scalar, Extreme which) c
   return which == Extreme::minimum ? ends.low : ends.high;
 }
 
-std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count) {
+std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count, int layer) {
   return with_scalar(samples, scalar,
                      [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field,
                                                     int component, Part) {
-                       const auto all =
-                           all_cell_values(points, std::span<const Field<Point>>(&field, 1), cell_count);
+                       const auto all = all_cell_values(points, std::span<const Field<Point>>(&field, 1),
+                                                        cell_count, layer);
                        std::vector<double> one(static_cast<std::size_t>(cell_count));
                        for (std::size_t cell = 0; cell < one.size(); ++cell)
                          one[cell] = all[0].average[cell * static_cast<std::size_t>(field.width()) +
@@ -239,14 +240,10 @@ std::vector<double> average(const fem::Samples& samples, std::string_view scalar
 
 std::vector<double> largest_average(const fem::Samples& samples, std::string_view scalar, int cell_count) {
   std::vector<double> largest(static_cast<std::size_t>(cell_count), not_a_number);
-  fem::Samples own;
-  std::size_t left = samples.film.size();
-  for (int layer = 0; left > 0; ++layer, left -= own.film.size()) {
-    own.film.clear();
-    std::ranges::copy_if(samples.film, std::back_inserter(own.film),
-                         [layer](const fem::MembraneSample& sample) { return sample.layer == layer; });
-    for (fem::MembraneSample& sample : own.film) sample.layer = 0;
-    const std::vector<double> averages = average(own, scalar, cell_count);
+  int last = -1;
+  for (const fem::MembraneSample& sample : samples.film) last = std::max(last, sample.layer);
+  for (int layer = 0; layer <= last; ++layer) {
+    const std::vector<double> averages = average(samples, scalar, cell_count, layer);
     for (std::size_t cell = 0; cell < largest.size(); ++cell)
       largest[cell] = std::fmax(largest[cell], averages[cell]);
   }

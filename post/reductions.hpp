@@ -96,8 +96,10 @@ class Extremes {
 double rise_at(const Extremum& extremum, const fem::Samples& samples, const meshing::Mesh& mesh,
                std::span<const int> film_parts, std::string_view scalar);
 
-/// Cell averages of one scalar. Throws std::invalid_argument for an unknown name.
-std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count);
+/// Cell averages of one scalar, of the film over the samples of a layer. Throws std::invalid_argument for an
+/// unknown name.
+std::vector<double> average(const fem::Samples& samples, std::string_view scalar, int cell_count,
+                            int layer = 0);
 /// The largest of those of a shell's layers, of a scalar of the film.
 std::vector<double> largest_average(const fem::Samples& samples, std::string_view scalar, int cell_count);
 

@@ -114,6 +114,7 @@ class BeamBlock final : public ElementBlock {
 
   static Nodal nodal(const Element& element, const State& state);
   static BeamKinematics kinematics(const Point& point, const Nodal& nodal);
+  template<int spins>
   void accumulate_tangent(const Point& point, const BeamKinematics& kinematics, const Vector6& stress,
                           const Nodal& nodal, Eigen::Matrix<double, dofs, dofs>& tangent) const;
 
@@ -121,6 +122,7 @@ class BeamBlock final : public ElementBlock {
   materials::BeamSection section_;
   std::vector<int> numbers_; ///< of the lines, in the mesh's block
   Vector6 stiffness_;
+  bool spins_about_z_ = false; ///< alone: in a plane
 };
 
 template<int Nodes>
@@ -158,6 +160,7 @@ BeamBlock<Nodes>::BeamBlock(const meshing::Mesh& mesh, const meshing::CellBlock&
 
 template<int Nodes>
 void BeamBlock<Nodes>::claim_dofs(DofMap& dof_map, Dimension dimension) {
+  spins_about_z_ = dimension == Dimension::planar;
   for (const Element& element : elements_)
     for (const int n : element.node)
       for (int c = 0; c < DofMap::components; ++c)
@@ -214,12 +217,16 @@ BeamKinematics BeamBlock<Nodes>::kinematics(const Point& point, const Nodal& nod
 
 /// Chain rule y -> (x_a, q_a) -> (x_a, spin_a), lower blocks; the curvature of the rotation group adds
 /// -(g_a.q_a)/4 per node, where g_a is the gradient in q_a. Blocks of derivatives in y that are zero, and
-/// what nodes share, are left out of the products.
+/// what nodes share, are left out of the products, and where only `spins` = 1 about z is asked for, the
+/// others.
 template<int Nodes>
+template<int spins>
 void BeamBlock<Nodes>::accumulate_tangent(const Point& point, const BeamKinematics& kinematics,
                                           const Vector6& stress, const Nodal& nodal,
                                           Eigen::Matrix<double, dofs, dofs>& tangent) const {
-  using Matrix43 = Eigen::Matrix<double, 4, 3>;
+  using OfSpins3 = Eigen::Matrix<double, 3, spins>;
+  using OfSpins4 = Eigen::Matrix<double, 4, spins>;
+  const auto spun = [](int a) { return 6 * a + 6 - spins; };
   const auto d = kinematics.gradient();
   const auto h = kinematics.power_hessian(stress);
   const BeamKinematics::Vector11 g = point.length * kinematics.power_gradient(stress);
@@ -228,14 +235,13 @@ void BeamBlock<Nodes>::accumulate_tangent(const Point& point, const BeamKinemati
   const Eigen::Matrix3d slopes = forces.lazyProduct(d.stretch_slope);
   const Eigen::Vector3d turning = point.length * stiffness_.template tail<3>();
   struct OfNode {
-    Eigen::Matrix3d stretch, turn, moment,
-        force; // moment, force: of spins, in the section's axes and in space
-    Matrix43 G, value, slope;
+    OfSpins3 stretch, turn, moment, force; // moment, force: of spins, in the section's axes and in space
+    OfSpins4 G, value, slope;
   };
   std::array<OfNode, Nodes> nodes;
   for (int a = 0; a < Nodes; ++a) {
     OfNode& n = nodes[a];
-    n.G = spin_gradient(nodal.q[a]);
+    n.G = spin_gradient(nodal.q[a]).template rightCols<spins>();
     n.stretch = point.value[a] * d.stretch_quaternion.lazyProduct(n.G);
     n.turn = (point.value[a] * d.turn_quaternion + point.slope[a] * d.turn_quaternion_slope).lazyProduct(n.G);
     n.moment = turning.asDiagonal() * n.turn;
@@ -248,22 +254,21 @@ void BeamBlock<Nodes>::accumulate_tangent(const Point& point, const BeamKinemati
   }
   for (int a = 0; a < Nodes; ++a) {
     const OfNode& n = nodes[a];
-    const Eigen::Matrix3d stretching =
-        (point.length * stiffness_.template head<3>()).asDiagonal() * n.stretch;
+    const OfSpins3 stretching = (point.length * stiffness_.template head<3>()).asDiagonal() * n.stretch;
     for (int b = 0; b <= a; ++b) {
       const OfNode& other = nodes[b];
       tangent.template block<3, 3>(6 * a, 6 * b) += (point.slope[a] * point.slope[b]) * slopes;
-      if (b < a) tangent.template block<3, 3>(6 * a, 6 * b + 3) += point.slope[a] * other.force;
-      tangent.template block<3, 3>(6 * a + 3, 6 * b) += point.slope[b] * n.force.transpose();
-      const Matrix43 curved = point.value[a] * other.value + point.slope[a] * other.slope;
-      tangent.template block<3, 3>(6 * a + 3, 6 * b + 3) +=
+      if (b < a) tangent.template block<3, spins>(6 * a, spun(b)) += point.slope[a] * other.force;
+      tangent.template block<spins, 3>(spun(a), 6 * b) += point.slope[b] * n.force.transpose();
+      const OfSpins4 curved = point.value[a] * other.value + point.slope[a] * other.slope;
+      tangent.template block<spins, spins>(spun(a), spun(b)) +=
           stretching.transpose().lazyProduct(other.stretch) + n.turn.transpose().lazyProduct(other.moment) +
           n.G.transpose().lazyProduct(curved);
     }
     const double curvature = -0.25 * (point.value[a] * g.segment<4>(BeamKinematics::quaternion) +
                                       point.slope[a] * g.segment<4>(BeamKinematics::quaternion_slope))
                                          .dot(nodal.q[a]);
-    tangent.template block<3, 3>(6 * a + 3, 6 * a + 3).diagonal().array() += curvature;
+    tangent.template block<spins, spins>(spun(a), spun(a)).diagonal().array() += curvature;
   }
 }
 
@@ -295,7 +300,9 @@ Evaluation BeamBlock<Nodes>::evaluate(const State& state, int first, int last, c
                point.slope[a] * g.template segment<4>(BeamKinematics::quaternion_slope));
         }
       }
-      if (scatter.tangent) accumulate_tangent(point, k, stress, n, tangent);
+      if (!scatter.tangent) continue;
+      spins_about_z_ ? accumulate_tangent<1>(point, k, stress, n, tangent)
+                     : accumulate_tangent<3>(point, k, stress, n, tangent);
     }
     if (scatter.residual) scatter.add_residual(e, {residual.data(), dofs});
     if (scatter.tangent) scatter.add_tangent(e, lower_triangle<dofs>(tangent));
