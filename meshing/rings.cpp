@@ -127,13 +127,20 @@ void validate(double inside, double outside, const char* names, int rings, int f
 
 } // namespace
 
+int rings_of_electrode(double radius, double electrode_radius, int rings) {
+  if (electrode_radius == radius) return rings;
+  return std::clamp(static_cast<int>(std::lround(rings * electrode_radius / radius)), 1, rings - 1);
+}
+
+int rings_of_hole(double inner_radius, double outer_radius, int rings) {
+  return std::max(1, static_cast<int>(std::lround(rings * inner_radius / (outer_radius - inner_radius))));
+}
+
 Mesh disc_mesh(double radius, double electrode_radius, int rings, int order, bool curved) {
   const bool covered = electrode_radius == radius;
   validate(covered ? radius / 2 : electrode_radius, radius, "the radii of electrode and disc", rings, 2,
            order);
-  const int inside =
-      covered ? rings
-              : std::clamp(static_cast<int>(std::lround(rings * electrode_radius / radius)), 1, rings - 1);
+  const int inside = rings_of_electrode(radius, electrode_radius, rings);
   std::vector<double> radii;
   for (int i = 0; i < inside; ++i) radii.push_back(electrode_radius * i / inside);
   for (int i = inside; i <= rings; ++i)
@@ -162,7 +169,7 @@ Mesh annulus_mesh(double inner_radius, double outer_radius, int rings, int order
         fmt::format("an annulus from {:.6g} m to {:.6g} m is too narrow for {} rings: use fewer "
                     "rings",
                     inner_radius, outer_radius, rings));
-  const int first = std::max(1, static_cast<int>(std::lround(pattern_start)));
+  const int first = rings_of_hole(inner_radius, outer_radius, rings);
   std::vector<int> circles(curved ? static_cast<std::size_t>(rings) + 1 : 0);
   std::iota(circles.begin(), circles.end(), first);
   Rings pattern(first, graded_steps(inner_radius, outer_radius, rings, grading), order, circles);

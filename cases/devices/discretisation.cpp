@@ -2,6 +2,8 @@
 #include "cases/devices/discretisation.hpp"
 
 #include "cases/case/part_kind.hpp"
+#include "cases/tables/regions.hpp"
+#include "meshing/rings.hpp"
 
 #include <algorithm>
 
@@ -65,7 +67,26 @@ void coarsen_steps(Case& one, int factor) {
   one.solver.time_tolerance = std::min(0.1, one.solver.time_tolerance * factor * factor * factor);
 }
 
+/// Sixths of the sides that the smallest circle has which is an edge of a film; 0: there is none.
+int sides_of_edge(const Part& part) {
+  if (!regions_of(part).empty()) return 0; // triangles of one size fill what is between them
+  if (const auto* annulus = std::get_if<Annulus>(&part.geometry))
+    return meshing::rings_of_hole(annulus->inner_radius, annulus->outer_radius, part.mesh.rings);
+  if (const auto* disc = std::get_if<Disc>(&part.geometry))
+    return meshing::rings_of_electrode(disc->radius, disc->electrode_radius.value_or(disc->radius),
+                                       part.mesh.rings);
+  return 0;
+}
+
 } // namespace
+
+bool divides_edges_alike(const Case& one, const Case& larger) {
+  if (one.dimension == fem::Dimension::axisymmetric) return false;
+  for (std::size_t p = 0; p < one.parts.size(); ++p)
+    if (const int sides = sides_of_edge(larger.parts[p]); sides > 0 && sides == sides_of_edge(one.parts[p]))
+      return true;
+  return false;
+}
 
 bool takes_time(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });

@@ -164,13 +164,15 @@ bool may_be_refined(const Simulation& own) {
          (own.device().bears_compression && !own.device().solid ? most_of_shells : most_triangles);
 }
 
-/// The other discretisations. Where there are bonded corners larger elements tell nothing of what all of them
-/// do not resolve, and the meshes of several parts cannot always be made coarser alike: smaller ones are
-/// compared with, too, as long as these are not too many.
+/// The other discretisations. Where there are bonded corners, or edges of a few sides, larger elements tell
+/// nothing of what all of them do not resolve, and the meshes of several parts cannot always be made coarser
+/// alike: smaller ones are compared with, too, as long as these are not too many.
 std::vector<Discretisation> compared_with(const Case& one, const Simulation& own, bool corners) {
   std::vector<Discretisation> all = other_discretisations(one);
   const bool none_of_parts = all.empty() && one.parts.size() > 1;
-  if ((!corners && !none_of_parts) || (!all.empty() && all.front().size < 1) || !may_be_refined(own))
+  const bool edges = !all.empty() && divides_edges_alike(one, all.front().one);
+  if ((!corners && !edges && !none_of_parts) || (!all.empty() && all.front().size < 1) ||
+      !may_be_refined(own))
     return all;
   std::optional<Discretisation> finer = finer_discretisation(one);
   if (!finer) return all;

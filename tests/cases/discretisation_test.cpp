@@ -3,6 +3,7 @@
 
 #include "cases/readers/reader.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace dielast::cases::discretisation_test {
@@ -24,6 +25,20 @@ TEST(OtherDiscretisations, HalveAndQuarterTheMesh) {
   EXPECT_EQ(other_discretisations(read_case(valid / "disc.toml")).size(), 2u);
   EXPECT_EQ(other_discretisations(read_case(valid / "disc.toml", {"mesh.rings=7"})).size(), 1u);
   EXPECT_TRUE(other_discretisations(read_case(valid / "disc.toml", {"mesh.rings=3"})).empty());
+}
+
+// Six sides are the fewest that an edge may have.
+TEST(OtherDiscretisations, MayDivideEdgesAlike) {
+  const auto alike = [](const char* radius, const char* rings, const char* model) {
+    const Case one = read_case(valid / "disc.toml", {fmt::format("disc.electrode_radius={}", radius),
+                                                     fmt::format("mesh.rings={}", rings), model});
+    return divides_edges_alike(one, other_discretisations(one).front().one);
+  };
+  EXPECT_TRUE(alike("10 mm", "12", "model=planar"));
+  EXPECT_FALSE(alike("10 mm", "40", "model=planar"));
+  EXPECT_FALSE(alike("10 mm", "12", "model=axisymmetric"));
+  const Case hole = read_case(valid / "annulus.toml", {"mesh.rings=4", "annulus.inner_radius=5 mm"});
+  EXPECT_TRUE(divides_edges_alike(hole, other_discretisations(hole).front().one));
 }
 
 // Half of an odd number of elements is more than twice as coarse: the estimate must know by how much.

@@ -16,5 +16,16 @@ TEST(ErrorEstimates, HoldInEightCases) {
   EXPECT_LE(median_ratio(count.values), 10) << "too large to be of use";
 }
 
+// The edges of hole and electrode have six sides with larger elements, too, which do not tell what that does.
+TEST(ErrorEstimates, HoldWhereEdgesHaveFewSides) {
+  for (const EstimatedCase& one : {EstimatedCase{"annulus", {"mesh.rings=6"}},
+                                   EstimatedCase{"disc", {"mesh.rings=4", "disc.electrode_radius=25 mm"}}}) {
+    EstimateCount count;
+    add_estimates(one, count);
+    EXPECT_EQ(share(count.values), 1) << exceptions(count);
+    EXPECT_GE(count.values.size(), 5u);
+  }
+}
+
 } // namespace
 } // namespace dielast::test::error_estimates_test
