@@ -93,6 +93,7 @@ bool takes_time(const Case& one) {
 }
 
 std::optional<Discretisation> finer_discretisation(const Case& one) {
+  if (std::ranges::all_of(one.parts, is_exact)) return std::nullopt;
   Discretisation finer{one, 0.5};
   for (Part& part : finer.one.parts) {
     if (is_exact(part)) continue;

@@ -29,7 +29,7 @@ std::vector<Discretisation> other_discretisations(const Case& one);
 bool divides_edges_alike(const Case& one, const Case& larger);
 
 /// The case with elements half as large, and time steps twice as long; nothing where a mesh has no number of
-/// elements that could be doubled.
+/// elements that could be doubled, or that would change nothing.
 std::optional<Discretisation> finer_discretisation(const Case& one);
 
 } // namespace dielast::cases

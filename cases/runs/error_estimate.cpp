@@ -23,6 +23,7 @@ namespace dielast::cases {
 namespace {
 
 constexpr int most_to_refine = 20000; ///< triangles of a user's own mesh
+constexpr int few_triangles = 300;    ///< whose numbers need not converge yet
 /// Cells that are refined unasked where larger ones tell nothing: triangles of a plane, of shells (which have
 /// five unknowns a node), tetrahedra.
 constexpr int most_triangles = 6000, most_of_shells = 1500, most_tetrahedra = 300;
@@ -164,14 +165,17 @@ bool may_be_refined(const Simulation& own) {
          (own.device().bears_compression && !own.device().solid ? most_of_shells : most_triangles);
 }
 
-/// The other discretisations. Where there are bonded corners, or edges of a few sides, larger elements tell
-/// nothing of what all of them do not resolve, and the meshes of several parts cannot always be made coarser
-/// alike: smaller ones are compared with, too, as long as these are not too many.
+/// The other discretisations. Where there are bonded corners, edges of a few sides, or few elements at all,
+/// larger ones tell nothing of what all of them do not resolve, and the meshes of several parts cannot always
+/// be made coarser alike: smaller ones are compared with, too, as long as these are not too many.
 std::vector<Discretisation> compared_with(const Case& one, const Simulation& own, bool corners) {
   std::vector<Discretisation> all = other_discretisations(one);
   const bool none_of_parts = all.empty() && one.parts.size() > 1;
   const bool edges = !all.empty() && divides_edges_alike(one, all.front().one);
-  if ((!corners && !edges && !none_of_parts) || (!all.empty() && all.front().size < 1) ||
+  const meshing::CellBlock* film = own.device().mesh.film();
+  const bool few =
+      film && meshing::is_triangle(film->type) && film->size() <= few_triangles && !takes_time(one);
+  if ((!corners && !edges && !few && !none_of_parts) || (!all.empty() && all.front().size < 1) ||
       !may_be_refined(own))
     return all;
   std::optional<Discretisation> finer = finer_discretisation(one);
