@@ -173,8 +173,8 @@ std::vector<Discretisation> compared_with(const Case& one, const Simulation& own
   const bool none_of_parts = all.empty() && one.parts.size() > 1;
   const bool edges = !all.empty() && divides_edges_alike(one, all.front().one);
   const meshing::CellBlock* film = own.device().mesh.film();
-  const bool few =
-      film && meshing::is_triangle(film->type) && film->size() <= few_triangles && !takes_time(one);
+  const bool few = !all.empty() && film && meshing::is_triangle(film->type) &&
+                   film->size() <= few_triangles && !takes_time(one);
   if ((!corners && !edges && !few && !none_of_parts) || (!all.empty() && all.front().size < 1) ||
       !may_be_refined(own))
     return all;

@@ -5,6 +5,7 @@
 #include "cases/console/as_warning.hpp"
 #include "cases/console/forecast.hpp"
 #include "cases/console/terminal.hpp"
+#include "cases/devices/discretisation.hpp"
 #include "cases/readers/resolved.hpp"
 #include "cases/runs/results.hpp"
 #include "meshing/quality.hpp"
@@ -176,7 +177,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     return ExitCode::interrupted;
   }
   recorder.write_waiting();
-  if (one.margins_up_to > 1 && outcome.ending == Ending::complete)
+  if (one.margins_up_to > 1 && outcome.ending == Ending::complete && !takes_time(one))
     log.info("margins: up to {:.6g} times the voltages of the end", one.margins_up_to);
   std::vector<Margin> margins = margins_of(one, simulation, recorder.journal(), outcome, settings.threads);
   Estimates estimates{.reason = "left out: output.error_estimate = false"};

@@ -176,16 +176,16 @@ void EnergyBalance::arrive(EnergyPoint point) {
   const Work& work = record_.work;
   // What is known no better than to itself has not been exchanged for certain.
   const double unknown = error() - record_.doubt_of_circuits, taken = stored() - record_.stored_at_start;
-  const auto note = [&](double cut, double& exchanged, double& given) {
+  const auto note = [&](double cut, double& exchanged) {
     for (const double energy :
          {work.electrical, work.mechanical, work.dissipated, work.released - cut, taken + cut})
       if (std::abs(energy) > 2 * unknown) exchanged = std::max(exchanged, std::abs(energy));
-    given = std::max(given, exchanged);
-    for (const double energy : {work.resistance, work.leak})
-      if (energy > 2 * error()) given = std::max(given, energy);
   };
-  note(0, record_.exchanged, record_.given);
-  note(record_.cut, record_.without_cuts, record_.given_without_cuts);
+  note(0, record_.exchanged);
+  note(record_.cut, record_.without_cuts);
+  record_.given = std::max(record_.given, record_.exchanged);
+  for (const double energy : {work.resistance, work.leak})
+    if (energy > 2 * error()) record_.given = std::max(record_.given, energy);
 }
 
 void EnergyBalance::add(EnergyPoint point) {
@@ -251,7 +251,7 @@ void EnergyBalance::judge(double scale, int row, int step) {
   const double of_circuits = record_.doubt_of_circuits;
   for (const bool given : {false, true}) {
     const Resolution now{std::max(0.0, error() - known - (given ? 0 : of_circuits)),
-                         given ? record_.given_without_cuts : record_.without_cuts,
+                         given ? record_.given : record_.without_cuts,
                          given,
                          error(),
                          row,

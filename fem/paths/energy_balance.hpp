@@ -100,6 +100,7 @@ class EnergyBalance {
     double error = 0;     ///< beyond rounding
     double exchanged = 0; ///< largest energy so far that went in or out, was stored or turned into heat, and
                           ///< was known to half of itself at least; without what cuts set free
+                          ///< where that is not `given`
     bool given = false;   ///< of all that sources gave, the heat of resistances and leaks, too, or without it
     double told = 0;      ///< error() then, rounding included
     int row = 0, step = 0; ///< of the result
@@ -123,7 +124,6 @@ class EnergyBalance {
     double given = 0;                ///< `exchanged` with the heat of resistances and leaks, J
     double cut = 0;                  ///< what cuts set free, J
     double without_cuts = 0;         ///< `exchanged` but for that, J
-    double given_without_cuts = 0;   ///< and `given`, J
     double doubt = 0;                ///< sum of differences of rules, J
     double doubt_of_circuits = 0;    ///< likewise, of the heat of resistances and leaks
     double rest = 0;                 ///< left by the balance where nothing can take it, J

@@ -283,9 +283,9 @@ json archive(const fem::EnergyBalance::Record& record) {
                              static_cast<double>(step)});
   return {{"work", post::pack(std::array{w.electrical, w.mechanical, w.dissipated, w.released, w.resistance,
                                          w.leak})},
-          {"account", post::pack(std::array{record.stored_at_start, record.exchanged, record.given,
-                                            record.cut, record.without_cuts, record.given_without_cuts,
-                                            record.doubt, record.doubt_of_circuits, record.rest})},
+          {"account",
+           post::pack(std::array{record.stored_at_start, record.exchanged, record.given, record.cut,
+                                 record.without_cuts, record.doubt, record.doubt_of_circuits, record.rest})},
           {"poor", post::pack(poor)},
           {"points", std::move(points)},
           {"before_jump", pack(record.before_jump)}};
@@ -293,7 +293,7 @@ json archive(const fem::EnergyBalance::Record& record) {
 
 fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes& sizes) {
   try {
-    const std::vector<double> w = unpack(archived.at("work"), 6), account = unpack(archived.at("account"), 9),
+    const std::vector<double> w = unpack(archived.at("work"), 6), account = unpack(archived.at("account"), 8),
                               poor = unpack(archived.at("poor"));
     fem::EnergyBalance::Record record{.work = {w[0], w[1], w[2], w[3], w[4], w[5]},
                                       .stored_at_start = account[0],
@@ -301,10 +301,9 @@ fem::EnergyBalance::Record restore_energy(const json& archived, const StateSizes
                                       .given = account[2],
                                       .cut = account[3],
                                       .without_cuts = account[4],
-                                      .given_without_cuts = account[5],
-                                      .doubt = account[6],
-                                      .doubt_of_circuits = account[7],
-                                      .rest = account[8],
+                                      .doubt = account[5],
+                                      .doubt_of_circuits = account[6],
+                                      .rest = account[7],
                                       .before_jump = vector(archived.at("before_jump"), sizes.ports)};
     if (poor.size() % 6 != 0) mismatch();
     const auto number = [](double count) {
