@@ -31,8 +31,7 @@ double total(const EnergyParts& parts) {
 struct Integral {
   double value = 0;
   double curvature = 0; ///< part of it that the trapezoidal rule does not see
-  double range =
-      0; ///< sum of |change of force| |change of coordinate|: 0 where the trapezoidal rule is exact
+  double range = 0;     ///< sum of |change of force| |change of coordinate|: 0 where that rule is exact
 };
 
 /// From one accepted state to the next.
@@ -204,10 +203,9 @@ void EnergyBalance::stand() {
 }
 
 EnergyBalance::JumpRelease EnergyBalance::add_after_jump(EnergyPoint point) {
-  const EnergyPoint& before = record_.points.back();
   JumpRelease release;
   const auto done = [&](Conjugates EnergyPoint::*pair) {
-    const Conjugates &from = before.*pair, &to = point.*pair;
+    const Conjugates &from = record_.points.back().*pair, &to = point.*pair;
     const Eigen::ArrayXd moved = to.coordinate - from.coordinate;
     release.doubt += ((to.force - from.force).array() * moved).abs().sum() / 2;
     return ((from.force + to.force).array() * moved).sum() / 2;
@@ -362,8 +360,7 @@ EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double le
     for (std::size_t a = 0; a < ports.sheet_points().size(); ++a) {
       const SheetPoint& at = ports.sheet_points()[a];
       const double drop = point.sheet.force[static_cast<Eigen::Index>(a)];
-      const double there = ports.sheet_voltage(state, a);
-      const double current = at.leakage * there;
+      const double there = ports.sheet_voltage(state, a), current = at.leakage * there;
       point.power[EnergyPoint::leak] += current * there;
       point.power[EnergyPoint::leak_through_sheet] += current * drop;
       point.power[EnergyPoint::leak_through_resistance] +=
