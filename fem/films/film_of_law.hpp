@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/films/film_block.hpp"
+#include "fem/films/film_charges.hpp"
 #include "materials/laws/elastic_law.hpp"
 
 #include <concepts>
