@@ -99,8 +99,8 @@ class EnergyBalance {
   struct Resolution {
     double error = 0;     ///< beyond rounding
     double exchanged = 0; ///< largest energy so far that went in or out, was stored or turned into heat, and
-                          ///< was known to half of itself at least; without what cuts set free
-                          ///< where that is not `given`
+                          ///< was known to half of itself at least; without what cuts set free,
+                          ///< unless `given`
     bool given = false;   ///< of all that sources gave, the heat of resistances and leaks, too, or without it
     double told = 0;      ///< error() then, rounding included
     int row = 0, step = 0; ///< of the result
