@@ -2,6 +2,7 @@
 #include "cases/devices/discretisation.hpp"
 
 #include "cases/case/part_kind.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/tables/regions.hpp"
 #include "meshing/rings.hpp"
 
@@ -86,10 +87,6 @@ bool divides_edges_alike(const Case& one, const Case& larger) {
     if (const int sides = sides_of_edge(larger.parts[p]); sides > 0 && sides == sides_of_edge(one.parts[p]))
       return true;
   return false;
-}
-
-bool takes_time(const Case& one) {
-  return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });
 }
 
 std::optional<Discretisation> finer_discretisation(const Case& one) {

@@ -14,9 +14,6 @@ struct Discretisation {
   double size = 1; ///< of its elements and time steps, over those of the case that it was made from
 };
 
-/// Whether time passes in a step.
-bool takes_time(const Case& one);
-
 /// Discretisations that tell, beside the case's own, how much its results depend on elements and time steps:
 /// elements and time steps about twice and four times as large, from the finer to the coarser, as many as
 /// there are. A user's own mesh that is not refined has one with elements half as large and time steps twice

@@ -9,6 +9,10 @@
 
 namespace dielast::cases {
 
+bool takes_time(const Case& one) {
+  return std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); });
+}
+
 bool has_step(const Case& one, std::initializer_list<StepKind> kinds) {
   return std::ranges::any_of(
       one.steps, [&](const Step& step) { return std::ranges::find(kinds, step.kind) != kinds.end(); });
@@ -90,15 +94,11 @@ bool adapts(const Case& one, const Step& step) {
 
 namespace {
 
-bool is_timed(const Case& one) {
-  return any_step(one, [](const Step& step) { return step.duration.has_value(); });
-}
-
 /// Whether dashpots of the film move, or keep others from moving.
 constexpr const char* flow =
     "a step with a duration, of kind \"harmonic\", or with response = \"instantaneous\"";
 bool flows(const Case& one) {
-  return is_timed(one) || is_linearised(one) || any_step(one, [](const Step& step) {
+  return takes_time(one) || is_linearised(one) || any_step(one, [](const Step& step) {
            return !step.duration && !step.is_analysis() && step.response == Response::instantaneous;
          });
 }
@@ -153,7 +153,7 @@ Condition charges_layer() {
 Condition voltages() {
   return on_case("an [[electrode]], a step of kind \"voltage\", and none with a duration",
                  [](const Case& one) {
-                   return !one.electrodes.empty() && !is_timed(one) &&
+                   return !one.electrodes.empty() && !takes_time(one) &&
                           any_step(one, [](const Step& step) { return step.kind == StepKind::voltage; });
                  });
 }
@@ -165,7 +165,7 @@ Condition branches() {
 
 Condition sheets_matter() {
   return on_case("a step with a duration, or a leakage_resistance", [](const Case& one) {
-    return is_timed(one) || std::ranges::any_of(one.circuits, [](const auto& circuit) {
+    return takes_time(one) || std::ranges::any_of(one.circuits, [](const auto& circuit) {
              return circuit.second.leakage_resistance.has_value();
            });
   });
@@ -243,14 +243,14 @@ Condition branches_flow() {
 Condition circuits_matter() {
   return on<Circuit>("a step with a duration or of kind \"harmonic\", or a leakage_resistance",
                      [](const Case& one, const Circuit& circuit) {
-                       return is_timed(one) || is_linearised(one) || circuit.leakage_resistance;
+                       return takes_time(one) || is_linearised(one) || circuit.leakage_resistance;
                      });
 }
 
 Condition limits_matter() {
   return on<Circuit>(
       "a step with a duration, or a leakage_resistance",
-      [](const Case& one, const Circuit& circuit) { return is_timed(one) || circuit.leakage_resistance; });
+      [](const Case& one, const Circuit& circuit) { return takes_time(one) || circuit.leakage_resistance; });
 }
 
 Condition time_steps_matter() {

@@ -52,6 +52,8 @@ Condition plane_strain();    ///< the section is a solid, of a planar model
 
 } // namespace when
 
+/// Whether time passes in a step.
+bool takes_time(const Case& one);
 /// Whether a step is of one of these kinds.
 bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
 

@@ -5,6 +5,7 @@
 #include "cases/console/terminal.hpp"
 #include "cases/devices/bonded_corners.hpp"
 #include "cases/devices/discretisation.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/runs/results.hpp"
 #include "cases/runs/watch.hpp"
 #include "post/engineering.hpp"
@@ -171,12 +172,11 @@ bool may_be_refined(const Simulation& own) {
 std::vector<Discretisation> compared_with(const Case& one, const Simulation& own, bool corners) {
   std::vector<Discretisation> all = other_discretisations(one);
   const bool none_of_parts = all.empty() && one.parts.size() > 1;
-  const bool edges = !all.empty() && divides_edges_alike(one, all.front().one);
   const meshing::CellBlock* film = own.device().mesh.film();
-  const bool few = !all.empty() && film && meshing::is_triangle(film->type) &&
-                   film->size() <= few_triangles && !takes_time(one);
-  if ((!corners && !edges && !few && !none_of_parts) || (!all.empty() && all.front().size < 1) ||
-      !may_be_refined(own))
+  const bool few =
+      film && meshing::is_triangle(film->type) && film->size() <= few_triangles && !takes_time(one);
+  const bool blind = corners || (!all.empty() && (few || divides_edges_alike(one, all.front().one)));
+  if ((!blind && !none_of_parts) || (!all.empty() && all.front().size < 1) || !may_be_refined(own))
     return all;
   std::optional<Discretisation> finer = finer_discretisation(one);
   if (!finer) return all;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/console/terminal.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/runs/phases.hpp"
 #include "cases/runs/results.hpp"
 
@@ -313,7 +314,7 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   const fem::State& state = simulation.state();
   if (one.electrodes.empty() || journal.records.empty() || journal.records.back().largest_voltage() == 0)
     unknown_because = "no voltage is applied at the end";
-  else if (std::ranges::any_of(one.steps, [](const Step& step) { return step.duration.has_value(); }))
+  else if (takes_time(one))
     unknown_because = "time passes: a run tells of its own course of the voltage only";
   else if (const auto found = std::ranges::find_if(state.supply, fem::is_isolated);
            found != state.supply.end())

@@ -5,7 +5,7 @@
 #include "cases/console/as_warning.hpp"
 #include "cases/console/forecast.hpp"
 #include "cases/console/terminal.hpp"
-#include "cases/devices/discretisation.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/readers/resolved.hpp"
 #include "cases/runs/results.hpp"
 #include "meshing/quality.hpp"
