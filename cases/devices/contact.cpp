@@ -362,7 +362,7 @@ void hold_radii(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
   const auto* roll = one.geometry<Roll>();
   if (!roll || roll->core != RollCore::two_sided) return;
   for (const int node : mesh.node_sets.at("film"))
-    if (!dofs.is_carried(node)) dofs.hold(node, 0); // end caps keep their radius
+    if (!dofs.is_tied_node(node)) dofs.hold(node, 0); // end caps keep their radius
 }
 
 void add_contact(const Case& one, const meshing::Mesh& mesh, const std::vector<int>& parts,

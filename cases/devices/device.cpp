@@ -310,8 +310,8 @@ Device build_device(const Case& one) {
                quarter_turns(one), model.dofs);
   if (dimension == fem::Dimension::axisymmetric)
     for (int n = 0; n < mesh.node_count(); ++n)
-      if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent && !model.dofs.is_carried(n))
-        model.dofs.hold(n, 0); // what carries others stays on the axis itself
+      if (mesh.nodes[static_cast<std::size_t>(n)].x() <= 1e-12 * model.extent && !model.dofs.is_tied_node(n))
+        model.dofs.hold(n, 0); // a master stays on the axis itself
   if (one.plate) carry_plate(*one.plate, mesh, model.dofs);
   for (const Part& part : one.parts)
     if (const auto* patch = std::get_if<Patch>(&part.geometry))

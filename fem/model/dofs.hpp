@@ -87,7 +87,7 @@ class DofMap {
   /// Makes the node a part of the rigid body of `master`, which may itself be tied. Throws
   /// std::invalid_argument for a node that is tied already, to itself, or to one of its own.
   void tie(const Tie& tie);
-  bool is_carried(int node) const { return tie_of_[static_cast<std::size_t>(node)] != absent; }
+  bool is_tied_node(int node) const { return tie_of_[static_cast<std::size_t>(node)] != absent; }
   /// Adds a free scalar and returns its place in State::scalar. Its equation's unknown is the scalar over
   /// `unit` (in the scalar's own unit, positive), such that residuals are energies as those of spins are.
   int add_scalar(double unit);
