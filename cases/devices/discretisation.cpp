@@ -7,6 +7,7 @@
 #include "meshing/rings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dielast::cases {
 
@@ -81,23 +82,23 @@ int sides_of_edge(const Part& part) {
 
 } // namespace
 
-bool divides_edges_alike(const Case& one, const Case& larger) {
+bool divides_edges_alike(const Case& one, const Case& other) {
   if (one.dimension == fem::Dimension::axisymmetric) return false;
   for (std::size_t p = 0; p < one.parts.size(); ++p)
-    if (const int sides = sides_of_edge(larger.parts[p]); sides > 0 && sides == sides_of_edge(one.parts[p]))
+    if (const int sides = sides_of_edge(other.parts[p]); sides > 0 && sides == sides_of_edge(one.parts[p]))
       return true;
   return false;
 }
 
-std::optional<Discretisation> finer_discretisation(const Case& one) {
+std::optional<Discretisation> finer_discretisation(const Case& one, int halvings) {
   if (std::ranges::all_of(one.parts, is_exact)) return std::nullopt;
-  Discretisation finer{one, 0.5};
+  Discretisation finer{one, std::ldexp(1.0, -halvings)};
   for (Part& part : finer.one.parts) {
     if (is_exact(part)) continue;
     if (std::holds_alternative<MeshFile>(part.geometry))
-      ++part.mesh.refine;
+      part.mesh.refine += halvings;
     else if (const auto elements = part.traits().elements)
-      part.mesh.*elements *= 2;
+      part.mesh.*elements <<= halvings;
     else
       return std::nullopt;
   }

@@ -21,12 +21,12 @@ struct Discretisation {
 /// that only where no time passes. Empty when a mesh is the coarsest already.
 std::vector<Discretisation> other_discretisations(const Case& one);
 
-/// Whether the edge of a hole or of an electrode has as many sides with larger elements: these do not tell
-/// then what few sides change.
-bool divides_edges_alike(const Case& one, const Case& larger);
+/// Whether the edge of a hole or of an electrode has as many sides with the other's elements: these do not
+/// tell then what few sides change.
+bool divides_edges_alike(const Case& one, const Case& other);
 
-/// The case with elements half as large, and time steps twice as long; nothing where a mesh has no number of
-/// elements that could be doubled, or that would change nothing.
-std::optional<Discretisation> finer_discretisation(const Case& one);
+/// The case with elements that were halved so many times, and time steps twice as long; nothing where a mesh
+/// has no number of elements that could be doubled, or that would change nothing.
+std::optional<Discretisation> finer_discretisation(const Case& one, int halvings = 1);
 
 } // namespace dielast::cases

@@ -98,8 +98,9 @@ Solution solve(const Discretisation& discretisation, bool with_margins, int thre
 }
 
 std::string size_text(double size) {
-  return size < 1 ? "elements half as large"
-                  : fmt::format("elements and time steps {:.3g} times as large", size);
+  if (size < 1)
+    return size == 0.5 ? "elements half as large" : fmt::format("elements 1/{} as large", 1 / size);
+  return fmt::format("elements and time steps {:.3g} times as large", size);
 }
 
 std::string way_text(const Solution& solution) {
@@ -157,13 +158,16 @@ bool is_singular_with_strain(const std::string& field, const BondedCorners& corn
   return std::ranges::find(bounded, field) == bounded.end();
 }
 
-/// Whether elements half as large are not too many to be computed unasked.
-bool may_be_refined(const Simulation& own) {
+/// How many times elements may be halved before they are too many to be computed unasked.
+int most_halvings(const Simulation& own) {
   const meshing::CellBlock* film = own.device().mesh.film();
-  if (!film) return true;
-  if (meshing::is_tetrahedron(film->type)) return film->size() <= most_tetrahedra;
-  return film->size() <=
-         (own.device().bears_compression && !own.device().solid ? most_of_shells : most_triangles);
+  if (!film) return 1;
+  const bool is_solid = meshing::is_tetrahedron(film->type);
+  const bool is_shell = own.device().bears_compression && !own.device().solid;
+  const int most = is_solid ? most_tetrahedra : is_shell ? most_of_shells : most_triangles;
+  int halvings = 0;
+  for (int cells = film->size(); cells <= most; cells *= is_solid ? 8 : 4) ++halvings;
+  return halvings;
 }
 
 /// The other discretisations. Where there are bonded corners, edges of a few sides, or few elements at all,
@@ -176,9 +180,12 @@ std::vector<Discretisation> compared_with(const Case& one, const Simulation& own
   const bool few =
       film && meshing::is_triangle(film->type) && film->size() <= few_triangles && !takes_time(one);
   const bool blind = corners || (!all.empty() && (few || divides_edges_alike(one, all.front().one)));
-  if ((!blind && !none_of_parts) || (!all.empty() && all.front().size < 1) || !may_be_refined(own))
-    return all;
+  const int most = most_halvings(own);
+  if ((!blind && !none_of_parts) || (!all.empty() && all.front().size < 1) || most == 0) return all;
+  int halvings = 1;
   std::optional<Discretisation> finer = finer_discretisation(one);
+  while (finer && halvings < most && divides_edges_alike(one, finer->one))
+    finer = finer_discretisation(one, ++halvings);
   if (!finer) return all;
   if (all.size() > 1) all.resize(1);
   all.insert(all.begin(), *std::move(finer));
@@ -286,6 +293,11 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
   if (discretisations.empty()) {
     estimates.reason = one.parts.size() > 1 ? "the meshes of its parts cannot all be made coarser alike"
                                             : "the mesh is the coarsest already";
+    return estimates;
+  }
+  if (divides_edges_alike(one, discretisations.front().one)) {
+    estimates.reason = "its smallest circle has as few sides with other elements, too; more mesh.rings tell "
+                       "what they change";
     return estimates;
   }
   if (discretisations.front().size < 1 && own_run.device().tension_field) {

@@ -95,7 +95,7 @@ std::string error_paragraph(const Results& results) {
   if (!results.no_errors_because.empty())
     return fmt::format("No estimate of the errors: {}.", results.no_errors_because);
   return "Errors are estimates of what elements and time steps leave: from solutions with both about two and "
-         "four times as large (or elements half as large), by the order of convergence that is seen, with a "
+         "four times as large (or smaller elements), by the order of convergence that is seen, with a "
          "safety factor; for extremes of fields at least what the field changes over one element there.";
 }
 

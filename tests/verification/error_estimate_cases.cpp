@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -23,10 +24,9 @@ namespace {
 constexpr double negligible = 1e-9;       ///< of the case's largest value in that unit: round-off
 constexpr double smallest_printed = 1e-6; ///< of a value
 
-/// Elements and time steps smaller by 4.
-Case reference_of(Case one) {
-  constexpr int factor = 4;
-  if (one.geometry<MeshFile>()) one.parts.front().mesh.refine += 2;
+/// Elements and time steps smaller by a power of two.
+Case reference_of(Case one, int factor) {
+  if (one.geometry<MeshFile>()) one.parts.front().mesh.refine += std::countr_zero(unsigned(factor));
   one.parts.front().mesh.wall_elements *= factor;
   one.parts.front().mesh.rings *= factor;
   for (Step& step : one.steps)
@@ -152,7 +152,7 @@ void add_estimates(const EstimatedCase& from, EstimateCount& count) {
   const Case one = read_case(std::filesystem::path(DIELAST_SOURCE_DIR) /
                                  "tests/verification/error_estimates" / (from.file + ".toml"),
                              from.overrides);
-  const Case finer = reference_of(one);
+  const Case finer = reference_of(one, from.finer);
   const Run own(one), reference(finer);
   for (const Run* run : {&own, &reference})
     if (run->outcome.ending != Ending::complete) {

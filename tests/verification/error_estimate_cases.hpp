@@ -10,9 +10,10 @@ namespace dielast::test {
 struct EstimatedCase {
   std::string file;
   std::vector<std::string> overrides;
+  int finer = 4; ///< by how much elements and time steps of the reference are smaller
 };
 
-/// A quantity with an estimate, and the same on elements and time steps four times smaller.
+/// A quantity with an estimate, and that of the reference.
 struct EstimatedValue {
   std::string label, quantity;
   std::string kind; ///< kind of quantity, as the table of docs/verification.md names it

@@ -16,15 +16,26 @@ TEST(ErrorEstimates, HoldInEightCases) {
   EXPECT_LE(median_ratio(count.values), 10) << "too large to be of use";
 }
 
-// The edges of hole and electrode have six sides with larger elements, too, which do not tell what that does.
+// The edges of hole and electrode have six sides with larger elements, too, which do not tell what that does;
+// those of the last two with elements half as large, too.
 TEST(ErrorEstimates, HoldWhereEdgesHaveFewSides) {
-  for (const EstimatedCase& one : {EstimatedCase{"annulus", {"mesh.rings=6"}},
-                                   EstimatedCase{"disc", {"mesh.rings=4", "disc.electrode_radius=25 mm"}}}) {
+  for (const EstimatedCase& one :
+       {EstimatedCase{"annulus", {"mesh.rings=6"}},
+        EstimatedCase{"disc", {"mesh.rings=4", "disc.electrode_radius=25 mm"}},
+        EstimatedCase{"annulus", {"mesh.rings=4", "annulus.inner_radius=6 mm"}, 8},
+        EstimatedCase{"disc", {"mesh.rings=6", "disc.electrode_radius=9 mm", "drive.voltage=100 V"}, 8}}) {
     EstimateCount count;
     add_estimates(one, count);
     EXPECT_EQ(share(count.values), 1) << exceptions(count);
     EXPECT_GE(count.values.size(), 5u);
   }
+}
+
+// Elements that would divide the edge otherwise would be too many.
+TEST(ErrorEstimates, AreNoneWhereNoMeshTellsWhatFewSidesChange) {
+  EstimateCount count;
+  add_estimates({"disc", {"mesh.rings=40", "disc.electrode_radius=1 mm", "drive.voltage=100 V"}, 1}, count);
+  EXPECT_NE(exceptions(count).find("as few sides with other elements"), std::string::npos);
 }
 
 } // namespace
