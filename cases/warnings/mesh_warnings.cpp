@@ -68,7 +68,7 @@ double drawn_thickness(const Layer& layer) {
   return layer.thickness / (layer.prestretch[0] * layer.prestretch[1]);
 }
 
-/// A sentence for every part whose layers are thicker than what they fill.
+/// A sentence for every part whose layers are not as thick as what they fill.
 std::vector<std::string> layer_warnings(const Case& one) {
   std::vector<std::string> warnings;
   const auto warn = [&](const Part& part, const std::string& message) {
@@ -102,6 +102,12 @@ std::vector<std::string> layer_warnings(const Case& one) {
              fmt::format("the wall of {} layers is {} thick, more than twice the radius of its middle, "
                          "{}: a roll cannot be wound like that",
                          roll->turns, post::engineering(wall, "m"), post::engineering(roll->radius, "m")));
+    }
+    if (const auto* sphere = std::get_if<HollowSphere>(&part.geometry)) {
+      const double wall = sphere->outer_radius - sphere->inner_radius;
+      if (std::abs(part.film->thickness - wall) > 1e-6 * wall)
+        warn(part, fmt::format("{} has no effect here: from the inner to the outer radius it is {}",
+                               post::engineering(part.film->thickness, "m"), post::engineering(wall, "m")));
     }
   }
   return warnings;

@@ -39,6 +39,16 @@ TEST_F(DeviceWarnings, LayersThatDoNotFit) {
   EXPECT_FALSE(warns(slab(1.8, "cover_thickness = \"0.1 mm\"\n"), told));
 }
 
+TEST_F(DeviceWarnings, AWallThatIsNotAsThickAsItsFilm) {
+  const auto sphere = [&](const char* thickness) {
+    return film(fmt::format("thickness = \"{}\"", thickness)) +
+           "[hollow_sphere]\ninner_radius = \"10 mm\"\nouter_radius = \"12 mm\"\n[chamber]\nat = "
+           "\"inner\"\npressure = \"4 kPa\"\n[[step]]\nkind = \"pressure\"\n";
+  };
+  EXPECT_TRUE(warns(sphere("5 mm"), "film.thickness: 5.000 mm has no effect here"));
+  EXPECT_FALSE(warns(sphere("2 mm"), "film.thickness"));
+}
+
 TEST_F(DeviceWarnings, VolumesWithoutTheirUnit) {
   const auto disc = [&](const char* volume) {
     return "model = \"axisymmetric\"\n" + film("thickness = \"1 mm\"\nprestretch = 3") +
