@@ -208,11 +208,12 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
       else if (is_smooth(written.wave) && !adapts(one, step) && dt > period / telling_steps * (1 + 1e-9))
         reader.warn(
             at.source, at.key + ".increments",
-            fmt::format("time steps of {:.6g} s are up to 1/{:.3g} of the period {:.6g} s of {}: peaks and "
-                        "events between them may be missed, by up to {:.2g} % of its amplitude; "
-                        "{:.0f} increments make it {:.2g} %",
-                        dt, period / dt, period, written.key, missed(period / dt), at_least(telling_steps),
-                        missed(telling_steps)));
+            fmt::format(
+                "time steps of {:.6g} s are up to 1/{:.3g} of the period {:.6g} s of {}: peaks, means "
+                "and events between them may be missed, by up to {:.2g} % of its amplitude; "
+                "{:.0f} increments make it {:.2g} %",
+                dt, period / dt, period, written.key, missed(period / dt), at_least(telling_steps),
+                missed(telling_steps)));
     }
   }
 }

@@ -125,6 +125,11 @@ void Simulation::enter(int step) {
   loads_.emplace(now_, device_, steps_, signals_, frame_);
 }
 
+double Simulation::error_of_course(const Quantity& quantity) const {
+  const auto error = measurement_.references.find(quantity.name + " error");
+  return error == measurement_.references.end() ? 0 : error->second;
+}
+
 /// What has moved comes to rest at the beginning of a step without inertia: the step goes on from there.
 /// False where there is no rest; refusal_ says so.
 bool Simulation::come_to_rest(fem::State& state) {

@@ -94,6 +94,8 @@ class Simulation {
   /// Sum of the errors that the time steps may have added to internal variables and motion, relative.
   double time_error() const { return time_error_; }
   const Taken& taken() const { return taken_; }
+  /// What a mean over time may be off for the states that it is made of, in its unit; of others 0.
+  double error_of_course(const Quantity& quantity) const;
   /// Of the quantities, see Measurement.
   const std::vector<post::Peak>& peaks() const { return measurement_.peaks; }
   void set_results(std::vector<double> results) { results_ = std::move(results); }

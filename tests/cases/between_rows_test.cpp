@@ -78,7 +78,7 @@ TEST_F(BetweenRows, EventsAndPeaksAreThoseOfAllTimeSteps) {
 TEST_F(BetweenRows, WavesThatStepsResolvePoorlyAreWarnedOf) {
   const auto warnings = [](const Case& one) {
     return std::ranges::count_if(one.warnings, [](const Diagnostic& warning) {
-      return warning.text().find("peaks and events between them may be missed") != std::string::npos;
+      return warning.text().find("peaks, means and events between them may be missed") != std::string::npos;
     });
   };
   const Case fine = wave("");

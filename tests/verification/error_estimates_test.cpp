@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 // Printed errors against solutions with elements and time steps four times smaller.
 
 namespace dielast::test::error_estimates_test {
@@ -28,6 +30,18 @@ TEST(ErrorEstimates, HoldWhereEdgesHaveFewSides) {
     add_estimates(one, count);
     EXPECT_EQ(share(count.values), 1) << exceptions(count);
     EXPECT_GE(count.values.size(), 5u);
+  }
+}
+
+// All discretisations stop at the corners of the wave, between which the stretch goes with its square.
+TEST(ErrorEstimates, OfAMeanHoldWhatLiesBetweenTheStates) {
+  for (const char* increments : {"step.waves.increments=20", "step.waves.increments=80"}) {
+    EstimateCount count;
+    add_estimates({"waved_patch", {increments}, 16}, count);
+    const auto mean = std::ranges::find(count.values, "mean_stretch", &EstimatedValue::quantity);
+    ASSERT_NE(mean, count.values.end());
+    EXPECT_TRUE(mean->holds()) << exceptions(count);
+    EXPECT_LT(mean->printed, 6 * mean->error());
   }
 }
 
