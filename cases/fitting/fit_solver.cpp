@@ -7,7 +7,7 @@
 namespace dielast::cases {
 namespace {
 
-constexpr double time_tolerance = 2e-4;
+constexpr double time_tolerance = 2e-5;
 
 /// Where the solver has come to.
 struct Attempt {

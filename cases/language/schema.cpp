@@ -224,14 +224,16 @@ const Section& case_schema() {
     root.access = same_object();
     root.keys = {
         text("title", to(&Case::title), "title of the report").optional(),
-        word(
-            "model",
-            {{"planar", "in-plane displacements", fem::Dimension::planar},
-             {"3d", "displacements in space", fem::Dimension::spatial},
-             {"axisymmetric", "a film of revolution about z, by its meridian", fem::Dimension::axisymmetric}},
-            to(&Case::dimension),
-            "how the device can move; with [plate], [chamber] or [balloon] the default is "
-            "\"axisymmetric\"")
+        word("model",
+             {{"planar", "in-plane displacements", fem::Dimension::planar},
+              {"3d", "displacements in space", fem::Dimension::spatial},
+              {"axisymmetric",
+               "what is of revolution about z, by its meridian: it stays round, as do its instabilities and "
+               "modes",
+               fem::Dimension::axisymmetric}},
+             to(&Case::dimension),
+             "how the device can move; with [plate], [chamber] or [balloon] the default is "
+             "\"axisymmetric\"")
             .otherwise("planar"),
         text("case", {}, "of a study file: the case file that it varies").optional().only({"study"}),
     };

@@ -47,28 +47,33 @@ Section step_section() {
   Section section = list_section("step", "what happens, in this order", each(&Case::steps));
   section.selector = "kind";
   section.keys = {
-      word("kind",
-           {{"release",
-             "the prestretched film is cut free and finds its equilibrium; where edges in tension are free "
-             "and no step of this kind is the first, one called \"settle\" comes before it",
-             StepKind::release},
-            {"voltage", "ramps every drive to its voltage", StepKind::voltage},
-            {"charge", "ramps every drive to its charge: the electrodes are isolated", StepKind::charge},
-            {"force", "ramps every load to its force", StepKind::force},
-            {"move", "ramps every moved support to its displacement", StepKind::move},
-            {"weight", "lets gravity act", StepKind::weight},
-            {"pressure", "ramps the chamber to its pressure", StepKind::pressure},
-            {"inflate", "pumps the chamber to its volume", StepKind::inflate},
-            {"transient", "time passes: drives, loads and supports follow their waves", StepKind::transient},
-            {"hold", "time passes: drives, loads and supports stay as they are", StepKind::hold},
-            {"relax",
-             "dashpots and the charges behind circuits flow to the end: drives, loads and supports stay as "
-             "they are, and no time passes",
-             StepKind::relax},
-            {"modes", "small free vibrations about the state, branches relaxed", StepKind::modes},
-            {"harmonic", "response to a small sine of the source, frequency by frequency, branches relaxed",
-             StepKind::harmonic}},
-           to(&Step::kind), "what happens in this step"),
+      word(
+          "kind",
+          {{"release",
+            "the prestretched film is cut free and finds its equilibrium; where edges in tension are free "
+            "and no step of this kind is the first, one called \"settle\" comes before it; where it cannot "
+            "be let go slowly, it jumps to a stable state, also with `on_instability` \"stop\"",
+            StepKind::release},
+           {"voltage", "ramps every drive to its voltage", StepKind::voltage},
+           {"charge", "ramps every drive to its charge: the electrodes are isolated", StepKind::charge},
+           {"force", "ramps every load to its force", StepKind::force},
+           {"move", "ramps every moved support to its displacement", StepKind::move},
+           {"weight", "lets gravity act", StepKind::weight},
+           {"pressure", "ramps the chamber to its pressure", StepKind::pressure},
+           {"inflate", "pumps the chamber to its volume", StepKind::inflate},
+           {"transient", "time passes: drives, loads and supports follow their waves", StepKind::transient},
+           {"hold", "time passes: drives, loads and supports stay as they are", StepKind::hold},
+           {"relax",
+            "dashpots and the charges behind circuits flow to the end: drives, loads and supports stay as "
+            "they are, and no time passes",
+            StepKind::relax},
+           {"modes", "small free vibrations about the state, branches relaxed; of revolution round ones only",
+            StepKind::modes},
+           {"harmonic",
+            "response to a small sine of the source, frequency by frequency, branches relaxed; peaks of what "
+            "nothing damps are as high as their frequency is near",
+            StepKind::harmonic}},
+          to(&Step::kind), "what happens in this step"),
       text("name", to(&Step::name), "its name in results").otherwise_as("kind").distinct(),
       measure("to", "V", to(&Step::to), "voltage that it ramps to, instead of that of [drive]")
           .optional()
