@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <utility>
 
@@ -44,8 +45,8 @@ void normalise(const DofMap& dofs, const State& state, Eigen::VectorXd& directio
 struct LoadPoint {
   double s = 0;
   State state;
-  Mode mode;
-  Eigen::VectorXd slope; ///< of the path
+  std::optional<Mode> mode; ///< absent where many modes are next to one another
+  Eigen::VectorXd slope;    ///< of the path
 };
 
 } // namespace
@@ -173,27 +174,31 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
       part = std::clamp(*low.eigenvalue / (*low.eigenvalue - *high.eigenvalue), 1e-4, 1 - 1e-4);
     const double arc = low.arc + reach * part * width;
     auto at = arc_step(equilibrium, path, base, arc, options);
-    const auto mode = at ? lowest_mode(equilibrium, at->state) : std::nullopt;
-    if (!mode) { // too far: in shorter steps, from nearer by
+    if (!at) { // too far: in shorter steps, from nearer by
       reach /= 2;
       if (nearer) base = *std::exchange(nearer, std::nullopt);
       high.arc -= std::exchange(low.arc, 0);
       continue;
     }
     reach = 1;
-    if (!best || std::abs(mode->eigenvalue) < std::abs(best->mode.eigenvalue))
-      best = CriticalPoint{{}, at->load_factor, at->state, *mode};
-    largest = std::max(largest, std::abs(mode->eigenvalue));
-    closed = std::abs(mode->eigenvalue) <= negligible * largest || width <= smallest_bracket * after.last_arc;
+    closed = width <= smallest_bracket * after.last_arc;
+    std::optional<double> eigenvalue;
+    if (auto mode = lowest_mode(equilibrium, at->state)) {
+      eigenvalue = mode->eigenvalue;
+      largest = std::max(largest, std::abs(*eigenvalue));
+      closed = closed || std::abs(*eigenvalue) <= negligible * largest;
+      if (!best || std::abs(*eigenvalue) < std::abs(best->mode.eigenvalue))
+        best = CriticalPoint{{}, at->load_factor, at->state, *std::move(mode)};
+    }
     if (at->newton.unstable_modes == modes) {
-      low = {arc, mode->eigenvalue};
+      low = {arc, eigenvalue};
       nearer = std::move(at);
     } else {
-      high = {arc, mode->eigenvalue};
+      high = {arc, eigenvalue};
     }
   }
   // A bracket that closes on no zero holds points of two paths.
-  if (!closed || std::abs(best->mode.eigenvalue) > zero * largest) return std::nullopt;
+  if (!closed || !best || std::abs(best->mode.eigenvalue) > zero * largest) return std::nullopt;
   // Whether the load turns tells what it is: modes that vanish close by make the one that is found a mixture.
   const bool turns = before.load_direction * after.load_direction < 0;
   const bool alone = std::abs(after.newton.unstable_modes - modes) == 1;
@@ -212,7 +217,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     path.apply(trial, s);
     if (equilibrium.solve(trial, options).outcome != Outcome::converged) return false;
     auto mode = lowest_mode(equilibrium, trial);
-    if (!mode) return false;
+    if (!mode && !equilibrium.factor(trial)) return false;
     // of the tangent in the state itself, where Newton's method may know that of a step before
     const int unstable = equilibrium.tangent().unstable_modes();
     if (modes >= 0 && unstable > modes) {
@@ -232,18 +237,20 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
       }
     }
     modes = unstable;
-    points.push_back({s, std::move(trial), std::move(*mode), std::move(slope)});
+    points.push_back({s, std::move(trial), std::move(mode), std::move(slope)});
     return true;
   };
-  if (!attempt(state, s_before)) return std::nullopt;
+  if (equilibrium.model().dofs.free_count() == 0 || !attempt(state, s_before)) return std::nullopt;
   Instability kind{};
   double critical_load = s_beyond;
   const auto exponent = [&kind] { return kind == Instability::limit_point ? 2.0 : 1.0; };
-  // Where the eigenvalue will vanish, extrapolated from the last two points.
+  // Where the eigenvalue will vanish, extrapolated from the last two points; NaN where these do not tell.
   const auto extrapolated = [&] {
+    if (points.size() < 2 || !points.back().mode || !points[points.size() - 2].mode)
+      return std::numeric_limits<double>::quiet_NaN();
     const LoadPoint &last = points.back(), &former = points[points.size() - 2];
     const auto remains = [&](const LoadPoint& p) {
-      return std::pow(std::abs(p.mode.eigenvalue), exponent());
+      return std::pow(std::abs(p.mode->eigenvalue), exponent());
     };
     return last.s + remains(last) * (last.s - former.s) / (remains(former) - remains(last));
   };
@@ -251,9 +258,9 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     const LoadPoint& last = points.back();
     double s = (last.s + s_beyond) / 2;
     State start = last.state;
-    if (points.size() > 1) {
+    if (points.size() > 1 && last.mode) {
       const LoadPoint& former = points[points.size() - 2];
-      kind = classify(equilibrium, path, last.state, last.s, last.mode);
+      kind = classify(equilibrium, path, last.state, last.s, *last.mode);
       const double estimate = extrapolated();
       const bool inside = (estimate - last.s) * (s_beyond - estimate) > 0;
       if (inside) {
@@ -271,10 +278,11 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   const LoadPoint& last = points.back();
   if (std::min(std::abs(s_beyond - last.s), std::abs(critical_load - last.s)) > load_tolerance)
     return std::nullopt;
-  kind = classify(equilibrium, path, last.state, last.s, last.mode);
-  CriticalPoint critical{kind, critical_load, last.state, last.mode};
+  if (!last.mode) return std::nullopt;
+  kind = classify(equilibrium, path, last.state, last.s, *last.mode);
+  CriticalPoint critical{kind, critical_load, last.state, *last.mode};
   const bool vanishes = points.size() > 1 ? std::abs(extrapolated() - last.s) < near
-                                          : std::abs(last.mode.eigenvalue) < vanished;
+                                          : std::abs(last.mode->eigenvalue) < vanished;
   if (!vanishes && !another) attempt(State(last.state), s_beyond); // which may find another
   return vanishes || another ? std::optional(std::move(critical)) : std::nullopt;
 }

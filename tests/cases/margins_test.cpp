@@ -294,5 +294,27 @@ TEST_F(Margins, OfTensionThatAWrinklingFilmHasLost) {
               1.5 * lost, 1e-5);
 }
 
+// Evenly stretched film that is charged all over leaves its plane in many short waves next to one another,
+// where its tension along the shorter stretch ends: mu (l1^2 - l3^2) = eps E^2, with E = V / (H l3).
+TEST_F(Margins, AreFoundAmongManyModesNextToOneAnother) {
+  const double l1 = 2, l3 = 1.0 / 6;
+  const double lost = thickness * l3 * std::sqrt(modulus * (l1 * l1 - l3 * l3) / permittivity) / 8e3;
+  double before = 1.02 * lost;
+  for (const int across : {6, 8, 12}) {
+    const auto found = margins(
+        fmt::format("model = \"3d\"\n[film]\nthickness = \"1 mm\"\nprestretch = [2, 3]\n[film.material]\n"
+                    "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[rectangle]\nlength = \"80 "
+                    "mm\"\nwidth = \"50 mm\"\n[mesh]\nacross = {}\n[drive]\nvoltage = \"8 kV\"\n[[step]]\n"
+                    "kind = \"voltage\"\n[output]\nmargins_up_to = 20\n",
+                    across));
+    EXPECT_NEAR(found.at("loss of tension").factor.value_or(0), lost, 1e-7 * lost) << across;
+    const double buckling = found.at("buckling").factor.value_or(0);
+    EXPECT_GT(buckling, lost) << across;
+    EXPECT_LT(buckling, before) << across; // from above, as the waves are resolved
+    before = buckling;
+  }
+  EXPECT_LT(before, 1.005 * lost);
+}
+
 } // namespace
 } // namespace dielast::cases::margins_test
