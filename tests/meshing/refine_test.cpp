@@ -4,11 +4,15 @@
 #include "meshing/honeycomb_mesh.hpp"
 #include "meshing/quality.hpp"
 #include "meshing/rings.hpp"
+#include "meshing/solids/slab.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <set>
+#include <vector>
 
 namespace dielast::meshing::refine_test {
 namespace {
@@ -49,6 +53,42 @@ TEST(Refined, PlacesKeepTheirShape) {
     EXPECT_EQ(finer.node_sets.at("left_apex"), mesh.node_sets.at("left_apex"));
     EXPECT_EQ(finer.cell_sets.at("cell[0,1]").cells.size(), 4 * mesh.cell_sets.at("cell[0,1]").cells.size());
   }
+}
+
+// Given by their nodes alone, places have what they would have as cells; single nodes stay alone.
+TEST(Refined, PlacesOfNodesHaveWhatIsNewInThem) {
+  for (const int order : {1, 2}) {
+    const Mesh mesh = honeycomb_mesh({2.0, {2, 1, 2}, 1}, {order, 2, 1});
+    Mesh of_nodes = mesh;
+    of_nodes.cell_sets.clear();
+    EXPECT_EQ(refined(refined(of_nodes)).node_sets, refined(refined(mesh)).node_sets) << order;
+  }
+}
+
+TEST(Refined, SidesOfSolidsHaveWhatIsNewOnThem) {
+  Mesh mesh = block_mesh({{3, 1, 0, {0, 3}, 0}, 2, 2}, 2, 1);
+  const auto on_side = [](const Mesh& of, int axis, double at) {
+    std::vector<int> nodes;
+    for (int n = 0; n < of.node_count(); ++n)
+      if (std::abs(of.nodes[static_cast<std::size_t>(n)][axis] - at) < 1e-12) nodes.push_back(n);
+    return nodes;
+  };
+  const auto surface = [&](const Mesh& of) {
+    std::set<int> nodes;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double at : {of.bounds().min()[axis], of.bounds().max()[axis]})
+        for (const int node : on_side(of, axis, at)) nodes.insert(node);
+    return std::vector<int>(nodes.begin(), nodes.end());
+  };
+  mesh.node_sets["surface"] = surface(mesh);
+  const Mesh finer = refined(refined(mesh));
+  EXPECT_EQ(finer.node_sets.at("left"), on_side(finer, 0, 0));
+  EXPECT_EQ(finer.node_sets.at("right"), on_side(finer, 0, 3));
+  EXPECT_EQ(finer.node_sets.at("bottom"), on_side(finer, 1, 0));
+  EXPECT_EQ(finer.node_sets.at("top"), on_side(finer, 1, 1));
+  EXPECT_EQ(finer.node_sets.at("back"), on_side(finer, 2, -1));
+  EXPECT_EQ(finer.node_sets.at("front"), on_side(finer, 2, 1));
+  EXPECT_EQ(finer.node_sets.at("surface"), surface(finer));
 }
 
 TEST(Refined, CurvedLinesKeepTheirCurve) {
