@@ -359,6 +359,8 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
           direction_of(quantity), unit_of(quantity, one.quantities) == "Pa" ? smallest_stress(one) : 0);
       if (estimate.error && quantity.kind->of_balance && quantity.kind->of_balance(quantity))
         estimate.error = std::max(*estimate.error, own_run.energy().error());
+      if (estimate.error && quantity.kind->of_run)
+        estimate.error = std::max(*estimate.error, margin_accuracy * std::abs(own.values[q]));
       if (estimate.error) // all discretisations stop at the same corners of waves
         estimate.error = std::max(*estimate.error, own_run.error_of_course(one.quantities[q]));
       if (estimate.error && takes_time(one)) // the steps were chosen to be no better than that
@@ -375,10 +377,12 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
     std::vector<Sampled> sampled;
     for (const Solution& other : others)
       sampled.push_back({other.size, factor_to(margin.limit, other.margins)});
-    if (std::isfinite(sampled.front().value))
+    if (std::isfinite(sampled.front().value)) {
       estimate = estimate_error({1, *margin.factor}, sampled, orders_of({}, one, smooth, bonded), 0);
-    else
+      if (estimate.error) estimate.error = std::max(*estimate.error, margin_accuracy * *margin.factor);
+    } else {
       estimate.remark = fmt::format("not reached with {}: no error estimate", size_text(others.front().size));
+    }
   }
   estimates.events = event_remarks(one, own_run.device(), own, others, estimates.quantities);
   return estimates;

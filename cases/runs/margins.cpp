@@ -245,7 +245,6 @@ using Value = std::function<double(const Passed&)>;
 /// where these are not on that way.
 std::optional<double> root_between(const Passed& before, const Passed& after, const Value& value,
                                    FurtherWay& further) {
-  constexpr double accuracy = 1e-6; // of the factor
   std::uintmax_t states = 50;
   const double at_before = value(before), at_after = value(after), same = 1e-4 * (at_after - at_before);
   const auto is_on_the_way = [&](const Passed& known) {
@@ -261,7 +260,7 @@ std::optional<double> root_between(const Passed& before, const Passed& after, co
         return lost ? 0 : value(*state);
       },
       before.factor, after.factor, at_before, at_after,
-      [](double from, double to) { return to - from <= accuracy * to; }, states);
+      [](double from, double to) { return to - from <= margin_accuracy * to; }, states);
   if (lost || !is_on_the_way(before)) return std::nullopt;
   return (low + high) / 2;
 }

@@ -19,6 +19,8 @@ struct Margin {
   std::optional<double> error;  ///< of the factor: estimated discretisation error
 };
 
+constexpr double margin_accuracy = 1e-6; ///< of the factor, to which it is solved for
+
 /// What the states of a run tell of its limits, and with [output] margins_up_to those beyond its end, which
 /// are solved for here. Voltages rise together, in proportion.
 std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, const Journal& journal,
