@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/refine.hpp"
+#include "meshing/gmsh/refine.hpp"
 
 #include "meshing/honeycomb_mesh.hpp"
 #include "meshing/quality.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/gmsh/gmsh_reader.hpp"
 #include "meshing/gmsh/gmsh_text.hpp"
+#include "meshing/gmsh/refine.hpp"
 #include "meshing/mesh_error.hpp"
 #include "meshing/quality.hpp"
-#include "meshing/refine.hpp"
 #include "meshing/solids/grid.hpp"
 #include "meshing/solids/sides.hpp"
 #include "meshing/solids/slab.hpp"

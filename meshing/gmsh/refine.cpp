@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/refine.hpp"
+#include "meshing/gmsh/refine.hpp"
 
 #include "meshing/middle_nodes.hpp"
+#include "meshing/solids/sides.hpp"
 
 #include <algorithm>
 #include <array>
@@ -104,40 +105,20 @@ void bend(const Mesh& whole, const CellBlock& block, const CellBlock& parts, Mes
         bend_part(c, 8 * c + q, eighths[k]);
 }
 
-/// Nodes of a tetrahedron10 that are those of its sides, as of a triangle6.
-constexpr std::array<std::array<std::size_t, 6>, 4> faces{
-    {{0, 1, 2, 4, 5, 6}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {2, 0, 3, 6, 7, 9}}};
-using Facet = std::array<int, 6>;
-
-/// Triangles, and the sides of tetrahedra on the boundary of all of them, as nodes of a triangle6.
-std::vector<Facet> facets_of(const Mesh& whole) {
-  std::vector<Facet> facets;
-  std::map<std::array<int, 3>, std::pair<Facet, int>> sides;
-  for (const CellBlock& block : whole.blocks)
-    for (int c = 0; c < block.size(); ++c) {
-      const auto cell = block.cell(c);
-      if (is_triangle(block.type)) std::ranges::copy(cell, facets.emplace_back().begin());
-      if (!is_tetrahedron(block.type)) continue;
-      for (const auto& face : faces) {
-        Facet facet;
-        std::ranges::transform(face, facet.begin(), [&](std::size_t n) { return cell[n]; });
-        std::array<int, 3> corners{facet[0], facet[1], facet[2]};
-        std::ranges::sort(corners);
-        ++sides.try_emplace(corners, facet, 0).first->second.second;
-      }
-    }
-  for (const auto& [corners, side] : sides)
-    if (side.second == 1) facets.push_back(side.first);
-  return facets;
-}
-
 using Sides = std::set<std::array<int, 3>>; ///< of cells: two ends, ascending, and the middle
 
-void add_sides(std::span<const int> cell, std::size_t corners, Sides& sides) {
-  for (std::size_t k = 0; k + corners < cell.size(); ++k) {
-    const auto [a, b] = std::minmax(cell[side_ends[k][0]], cell[side_ends[k][1]]);
-    sides.insert({a, b, cell[corners + k]});
-  }
+Sides sides_of(const Mesh& mesh) {
+  Sides sides;
+  for (const CellBlock& block : mesh.blocks)
+    for (int c = 0; c < block.size(); ++c) {
+      const auto cell = block.cell(c);
+      const auto corners = static_cast<std::size_t>(corners_per_cell(block.type));
+      for (std::size_t k = 0; k + corners < cell.size(); ++k) {
+        const auto [a, b] = std::minmax(cell[side_ends[k][0]], cell[side_ends[k][1]]);
+        sides.insert({a, b, cell[corners + k]});
+      }
+    }
+  return sides;
 }
 
 /// What is new in places that are given by their nodes alone: what lies on sides, on triangles and on the
@@ -145,56 +126,49 @@ void add_sides(std::span<const int> cell, std::size_t corners, Sides& sides) {
 class NodePlaces {
  public:
   /// `whole` has all its middle nodes.
-  explicit NodePlaces(const Mesh& whole) : facets_(facets_of(whole)) {
-    for (const CellBlock& block : whole.blocks)
-      for (int c = 0; c < block.size(); ++c)
-        add_sides(block.cell(c), static_cast<std::size_t>(corners_per_cell(block.type)), sides_);
+  explicit NodePlaces(const Mesh& whole) : sides_(sides_of(whole)) {
+    for (const CellBlock& block : whole.blocks) {
+      if (is_triangle(block.type)) {
+        for (int c = 0; c < block.size(); ++c)
+          std::ranges::copy(block.cell(c), triangles_.emplace_back().begin());
+        for (const OuterSide& side : outer_sides(block)) {
+          edge_.insert(side.nodes().begin(), side.nodes().end());
+          edge_middles_.insert(side.middles().begin(), side.middles().end());
+        }
+      } else if (is_tetrahedron(block.type)) {
+        for (const OuterSide& side : outer_sides(block)) triangles_.push_back(side.own);
+      }
+    }
+    for (const auto& triangle : triangles_) middles_.insert(triangle.begin() + 3, triangle.end());
   }
 
   /// Of places without middle nodes: the middles of sides between two of their nodes. A side that cuts a
   /// corner off the boundary has both ends there, and does not lie there.
   void add_middles(std::vector<int>& place) const {
-    std::map<int, int> triangles; // beside each side, by its middle
-    for (const Facet& facet : facets_)
-      for (std::size_t k = 3; k < facet.size(); ++k) ++triangles[facet[k]];
-    std::set<int> boundary;
-    for (const auto& [a, b, middle] : sides_)
-      if (const auto beside = triangles.find(middle); beside != triangles.end() && beside->second == 1)
-        boundary.insert({a, b});
     const std::set<int> given(place.begin(), place.end());
-    for (const auto& [a, b, middle] : sides_) {
-      const auto beside = triangles.find(middle);
-      if (beside == triangles.end() || !given.contains(a) || !given.contains(b)) continue;
-      if (beside->second == 1 || !boundary.contains(a) || !boundary.contains(b)) place.push_back(middle);
-    }
+    for (const auto& [a, b, middle] : sides_)
+      if (middles_.contains(middle) && given.contains(a) && given.contains(b) &&
+          (edge_middles_.contains(middle) || !edge_.contains(a) || !edge_.contains(b)))
+        place.push_back(middle);
   }
 
-  /// Of places with middle nodes; `middles` are the finer mesh's.
-  void add_parts(const std::map<std::pair<int, int>, int>& middles, std::vector<int>& place) const {
+  /// Of places with middle nodes; `new_nodes` lie between two others.
+  void add_parts(const std::map<std::pair<int, int>, int>& new_nodes, std::vector<int>& place) const {
     const std::set<int> given(place.begin(), place.end());
-    const auto add = [&](int a, int b) { place.push_back(middles.at(std::minmax(a, b))); };
+    const auto add = [&](int a, int b) { place.push_back(new_nodes.at(std::minmax(a, b))); };
     for (const auto& [a, b, middle] : sides_)
       if (given.contains(a) && given.contains(b) && given.contains(middle)) add(a, middle), add(middle, b);
-    for (const Facet& facet : facets_)
-      if (std::ranges::all_of(facet, [&](int node) { return given.contains(node); }))
-        for (std::size_t k = 0; k < 3; ++k) add(facet[3 + k], facet[3 + (k + 1) % 3]);
+    for (const auto& triangle : triangles_)
+      if (std::ranges::all_of(triangle, [&](int node) { return given.contains(node); }))
+        for (std::size_t k = 0; k < 3; ++k) add(triangle[3 + k], triangle[3 + (k + 1) % 3]);
   }
 
  private:
-  std::vector<Facet> facets_;
   Sides sides_;
+  std::vector<std::array<int, 6>> triangles_; ///< cells, and the boundary of tetrahedra
+  std::set<int> middles_;                     ///< of their sides
+  std::set<int> edge_, edge_middles_;         ///< of the cells among them
 };
-
-/// Middle nodes by the ends of their sides.
-std::map<std::pair<int, int>, int> middles_of(const Mesh& mesh) {
-  Sides sides;
-  for (const CellBlock& block : mesh.blocks)
-    for (int c = 0; c < block.size(); ++c)
-      add_sides(block.cell(c), static_cast<std::size_t>(corners_per_cell(block.type)), sides);
-  std::map<std::pair<int, int>, int> middles;
-  for (const auto& [a, b, middle] : sides) middles[{a, b}] = middle;
-  return middles;
-}
 
 } // namespace
 
@@ -226,11 +200,13 @@ Mesh refined(Mesh mesh) {
       finer.node_sets, [&](const auto& place) { return !finer.cell_sets.contains(place.first); });
   if (loose) {
     const NodePlaces places(mesh);
-    const auto finer_middles = middles ? middles_of(finer) : std::map<std::pair<int, int>, int>{};
+    std::map<std::pair<int, int>, int> new_nodes;
+    if (middles)
+      for (const auto& [from, to, middle] : sides_of(finer)) new_nodes[{from, to}] = middle;
     for (auto& [place, nodes] : finer.node_sets) {
       if (finer.cell_sets.contains(place)) continue;
       if (middles)
-        places.add_parts(finer_middles, nodes);
+        places.add_parts(new_nodes, nodes);
       else
         places.add_middles(nodes);
       std::ranges::sort(nodes); // a triangle may be one of the boundary of tetrahedra, too
