@@ -84,8 +84,8 @@ void begin_mean(References& references, const Quantity& quantity, double time) {
 /// Integral of what may lie between the straight lines and the course. Of a parabola it is f'' dt^3/12 in
 /// every interval, a sixth of the rise times dt where it sets out level. Taken here is at most a quarter of
 /// the rise times dt, and three times what the lines turn by at the state before tells of f'': beside a
-/// corner half is seen.
-double bulge(References& references, const std::string& name, double slope, double dt) {
+/// corner half is seen. `known`: the time of all intervals before, s.
+double bulge(References& references, const std::string& name, double known, double slope, double dt) {
   const auto most = [](double any_slope, double any_dt) { return std::abs(any_slope) * any_dt * any_dt / 4; };
   double& sum = references[name + " bulge"];
   const auto last = references.find(name + " slope");
@@ -94,7 +94,7 @@ double bulge(References& references, const std::string& name, double slope, doub
   } else {
     const double last_slope = last->second, last_dt = references.at(name + " dt");
     const double turn = std::abs(slope - last_slope) / (last_dt + dt) / 2;
-    if (sum == most(last_slope, last_dt)) // the first, of which nothing else was known
+    if (known == last_dt) // the first, of which nothing else was known
       sum = std::min(sum, turn * last_dt * last_dt * last_dt);
     sum += std::min(turn * dt * dt * dt, most(slope, dt));
   }
@@ -122,9 +122,10 @@ double mean(References& references, const Quantity& quantity, double now, double
   double& last_time = references.at(quantity.name + " last time");
   double& known = references.at(quantity.name + " known"); // s
   if (const double dt = time - last_time; dt > 0 && !std::isnan(last) && !std::isnan(now)) {
+    const double off = bulge(references, quantity.name, known, (now - last) / dt, dt);
     integral += (last + now) / 2 * dt;
     known += dt;
-    references[quantity.name + " error"] = bulge(references, quantity.name, (now - last) / dt, dt) / known;
+    references[quantity.name + " error"] = off / known;
   }
   last = now;
   last_time = time;

@@ -205,6 +205,11 @@ OrderRange orders_of(const QuantityKind& kind, const Case& one, bool smooth, con
   return {1, smooth && !takes_time(one) ? 3.0 : 2.0};
 }
 
+/// An error is no less than what all discretisations have in common.
+void raise(ErrorEstimate& estimate, double in_common) {
+  if (estimate.error) estimate.error = std::max(*estimate.error, in_common);
+}
+
 int direction_of(const Quantity& quantity) {
   if (!quantity.kind->extreme) return 0;
   return quantity.extreme == post::Extreme::maximum ? 1 : -1;
@@ -357,14 +362,12 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
       estimate = estimate_error(
           {1, own.values[q], own.rises[q]}, sampled, orders_of(*one.quantities[q].kind, one, smooth, bonded),
           direction_of(quantity), unit_of(quantity, one.quantities) == "Pa" ? smallest_stress(one) : 0);
-      if (estimate.error && quantity.kind->of_balance && quantity.kind->of_balance(quantity))
-        estimate.error = std::max(*estimate.error, own_run.energy().error());
-      if (estimate.error && quantity.kind->of_run)
-        estimate.error = std::max(*estimate.error, margin_accuracy * std::abs(own.values[q]));
-      if (estimate.error) // all discretisations stop at the same corners of waves
-        estimate.error = std::max(*estimate.error, own_run.error_of_course(one.quantities[q]));
-      if (estimate.error && takes_time(one)) // the steps were chosen to be no better than that
-        estimate.error = std::max(*estimate.error, one.solver.time_tolerance * std::abs(own.values[q]));
+      if (quantity.kind->of_balance && quantity.kind->of_balance(quantity))
+        raise(estimate, own_run.energy().error());
+      if (quantity.kind->of_run) raise(estimate, margin_accuracy * std::abs(own.values[q]));
+      raise(estimate, own_run.error_of_course(one.quantities[q])); // all stop at the same corners of waves
+      if (takes_time(one)) // the steps were chosen to be no better than that
+        raise(estimate, one.solver.time_tolerance * std::abs(own.values[q]));
     }
   }
   for (const Margin& margin : margins) {
@@ -379,7 +382,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
       sampled.push_back({other.size, factor_to(margin.limit, other.margins)});
     if (std::isfinite(sampled.front().value)) {
       estimate = estimate_error({1, *margin.factor}, sampled, orders_of({}, one, smooth, bonded), 0);
-      if (estimate.error) estimate.error = std::max(*estimate.error, margin_accuracy * *margin.factor);
+      raise(estimate, margin_accuracy * *margin.factor);
     } else {
       estimate.remark = fmt::format("not reached with {}: no error estimate", size_text(others.front().size));
     }
