@@ -3,6 +3,7 @@
 
 #include "fem/algebra/dense_algebra.hpp"
 #include "fem/algebra/orientation.hpp"
+#include "fem/model/contact_block.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,9 @@ constexpr double smallest_bracket = 1e-9; ///< over the first
 constexpr double least_reach = 1e-3;      ///< part of the way to a trial
 constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcation
 constexpr int most_trials = 80;
-/// Part of the step beyond a bracket that has closed, in which the eigenvalue must vanish.
-constexpr double near = 1e-2;
+/// Part of the step beyond a bracket that has closed, in which the eigenvalue must vanish. With friction it
+/// leaps wherever a node starts or stops to slide: it must vanish closer by, and have fallen to this part.
+constexpr double near = 1e-2, near_with_friction = 1e-5, fallen = 0.1;
 constexpr double vanished = 1e-5;       ///< eigenvalue of a state from which no path leads on
 constexpr double load_tolerance = 1e-7; ///< of a critical load factor
 constexpr double along_mode = 0.7;      ///< cosine between a mode and the way to the branch
@@ -229,9 +231,10 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     if (!points.empty()) {
       const LoadPoint& last = points.back();
       const Model& model = equilibrium.model();
+      // Friction gives a path a corner wherever a node starts or stops to slide: its slopes tell nothing.
       if (is_turned_over(model.corners, model.drawn, last.state, trial) ||
-          !is_joined(equilibrium, path, {last.state, last.s, last.slope}, {trial, s, slope},
-                     Steadiness::kinked())) {
+          (!has_friction(model) && !is_joined(equilibrium, path, {last.state, last.s, last.slope},
+                                              {trial, s, slope}, Steadiness::kinked()))) {
         another = true;
         return false;
       }
@@ -281,8 +284,13 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   if (!last.mode) return std::nullopt;
   kind = classify(equilibrium, path, last.state, last.s, *last.mode);
   CriticalPoint critical{kind, critical_load, last.state, *last.mode};
-  const bool vanishes = points.size() > 1 ? std::abs(extrapolated() - last.s) < near
-                                          : std::abs(last.mode->eigenvalue) < vanished;
+  const bool slides = has_friction(equilibrium.model());
+  const auto is_close = [&] {
+    const double first = points.front().mode ? std::abs(points.front().mode->eigenvalue) : 0;
+    return std::abs(extrapolated() - last.s) < (slides ? near_with_friction : near) &&
+           (!slides || std::abs(last.mode->eigenvalue) < fallen * first);
+  };
+  const bool vanishes = points.size() > 1 ? is_close() : std::abs(last.mode->eigenvalue) < vanished;
   if (!vanishes && !another) attempt(State(last.state), s_beyond); // which may find another
   return vanishes || another ? std::optional(std::move(critical)) : std::nullopt;
 }
