@@ -13,6 +13,7 @@ namespace dielast::cases {
 namespace {
 
 constexpr double alike = 1e-9; ///< changes that differ by rounding
+constexpr double drop = 1e-5;  ///< between a source and its electrode, that five digits show
 
 } // namespace
 
@@ -35,6 +36,9 @@ std::string load_text(const fem::Model& model, const fem::LoadPath& path, const 
     const bool chamber = model.ports[e].chamber.has_value();
     const char* unit = chamber ? (isolated ? "m^3" : "Pa") : (isolated ? "C" : "V");
     text = post::engineering(to, unit, post::Ratio::plain, 5);
+    if (model.ports[e].circuit && !isolated && std::abs(at.source[e] - to) > drop * std::abs(to))
+      text +=
+          fmt::format(" (its source at {})", post::engineering(at.source[e], unit, post::Ratio::plain, 5));
   }
   if (!text.empty()) return text;
   return s > 0 ? fmt::format("load factor {:.5g}", s) : "the beginning of the step";

@@ -247,6 +247,19 @@ TEST_F(Leak, WhatFlowsWithoutTimeOrInItWarmsTheResistance) {
   }
 }
 
+/// What leaks divides the source's voltage, here by 1.25: a limit point is told for the film (closed form:
+/// H sqrt(mu/eps (4^(-1/3) - 4^(-4/3))) = 21.736 kV) and for the source.
+TEST_F(Leak, LimitPointsTellTheVoltageOfTheSource) {
+  write("film.toml",
+        "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+        "permittivity = \"4e-11 F/m\"\n[patch]\nmode = \"equal-biaxial\"\n[circuit]\n"
+        "resistance = \"1 GOhm\"\nleakage_resistance = \"4 GOhm\"\n[drive]\nvoltage = \"40 kV\"\n");
+  const Case one = read_case(directory / "film.toml");
+  const Outcome outcome = Simulation(one, 1).run({});
+  EXPECT_TRUE(outcome.message.starts_with("limit point near 21.736 kV (its source at 27.170 kV)"))
+      << outcome.message;
+}
+
 // A source that comes down without time takes back what the electrode holds; heat that was made stays.
 TEST_F(Leak, HeatOfAResistanceNeverFalls) {
   struct Then {
