@@ -25,10 +25,11 @@ Probe current(const Probing& probing) {
 }
 
 Probe source_voltage(const Probing& probing) {
-  return [e = probing.electrode()](const Measured& measured) {
+  const std::size_t e = probing.electrode();
+  return [e, behind = probing.device.model.ports[e].circuit.has_value()](const Measured& measured) {
     const fem::State& state = measured.state;
     if (fem::is_isolated(state.supply[e])) return no_value;
-    return state.supply[e] == fem::Supply::circuit ? state.source[e] : state.voltage[e];
+    return behind ? state.source[e] : state.voltage[e];
   };
 }
 

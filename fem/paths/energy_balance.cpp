@@ -56,6 +56,11 @@ class Interval {
       return Conjugates{(point.*pair).force.segment(i, 1), (point.*pair).coordinate.segment(i, 1)};
     });
   }
+  /// Change of the drop from an electrode's source over that of its voltage, at most 1 either way.
+  double drop_over_voltage(Eigen::Index e) const {
+    const double volts = end_.electrical.force[e] - begin_.electrical.force[e];
+    return std::clamp((end_.resistance.force[e] - begin_.resistance.force[e]) / volts, -1.0, 1.0);
+  }
   Integral over(EnergyPoint::Power power) const {
     return over([power](const EnergyPoint& point) {
       return Conjugates{Eigen::VectorXd::Constant(1, point.power[power]),
@@ -130,13 +135,6 @@ void EnergyBalance::account(const EnergyPoint& point, bool is_cut) {
     doubt = std::abs(flow.value - point.flow) * (fine ? one_order : 1) + std::abs(damped.curvature) +
             std::abs(conducted.curvature);
     doubt_of_circuits = std::abs(resisted.curvature) + std::abs(leaked.curvature);
-  } else {
-    // Charge goes back only to a source that has come down to the electrode's voltage: slowly, without heat.
-    for (Eigen::Index e = 0; e < point.resistance.force.size(); ++e) {
-      const Integral resisted = interval.over(&EnergyPoint::resistance, e);
-      record_.work.resistance += std::max(0.0, resisted.value);
-      doubt_of_circuits += std::abs(resisted.curvature);
-    }
   }
   Work& work = record_.work;
   const double rest = change + heat - electrical.value - through_sheet - mechanical.value;
@@ -156,6 +154,18 @@ void EnergyBalance::account(const EnergyPoint& point, bool is_cut) {
     const double taken = std::max(-heat, -rest);
     heat += taken;
     record_.rest += rest + taken;
+  }
+  if (!(interval.duration() > 0)) {
+    // Charge goes back only to a source that has come down to the electrode's voltage: slowly, without heat.
+    // Where a source stays the drop from it loses what the electrode gains, in its share of the rest, too.
+    for (Eigen::Index e = 0; e < point.resistance.force.size(); ++e) {
+      const Integral resisted = interval.over(&EnergyPoint::resistance, e);
+      const double own = interval.over(&EnergyPoint::electrical, e).range;
+      const double share =
+          own > 0 ? electrical_share * own / electrical.range * interval.drop_over_voltage(e) : 0;
+      work.resistance += std::max(0.0, resisted.value + share);
+      doubt_of_circuits += std::abs(resisted.curvature);
+    }
   }
   work.electrical += electrical.value + through_sheet + electrical_share;
   work.mechanical += mechanical.value + mechanical_share;
@@ -279,31 +289,6 @@ EnergyBalance::Resolution EnergyBalance::worst() const {
     if (worst.error == 0 || here.error * worst.exchanged > worst.error * here.exchanged) worst = here;
   }
   return worst;
-}
-
-Holding holding(Equilibrium& equilibrium, const State& state) {
-  Holding held;
-  held.energy = equilibrium.internal_force(state, held.force).energy;
-  if (!state.motion) return held;
-  const Model& model = equilibrium.model();
-  const Motion& motion = *state.motion;
-  Eigen::VectorXd inertial =
-      model.inertia().mass * motion.acceleration_now + model.inertia().resistance(motion.velocity);
-  model.dofs.gather(state, inertial);
-  held.force += inertial;
-  return held;
-}
-
-Eigen::VectorXd reactions(const Model& model, const State& state, const Holding& held) {
-  Eigen::VectorXd dead = state.dead_force; // supports carry those on tied nodes
-  model.dofs.gather(state, dead);
-  Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(dead.size());
-  for (const auto& block : model.blocks) block->add_forces_at_rest(state, model.dofs, at_rest);
-  model.dofs.gather(state, at_rest);
-  const auto supported = Eigen::seqN(model.dofs.free_count(), model.dofs.held_count());
-  Eigen::VectorXd reaction = held.force - dead;
-  reaction(supported) += at_rest(supported);
-  return reaction;
 }
 
 EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length, const Holding& held) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fem/equilibrium/equilibrium.hpp"
+#include "fem/equilibrium/reactions.hpp"
 
 #include <array>
 #include <vector>
@@ -144,19 +144,6 @@ class EnergyBalance {
 
   Record record_;
 };
-
-/// What an accepted state is held by.
-struct Holding {
-  /// What acts from outside, N and N m, per equation: internal forces and those of inertia, damping and drag
-  /// at the state's own time, those on tied nodes moved to their masters. Less the dead forces these are the
-  /// reactions at held equations; where no mass moves, zero at free ones.
-  Eigen::VectorXd force;
-  double energy = 0; ///< of the elements, J
-};
-Holding holding(Equilibrium& equilibrium, const State& state);
-
-/// Of supports on the model at held equations, N and N m.
-Eigen::VectorXd reactions(const Model& model, const State& state, const Holding& held);
 
 /// Collects an energy point at an equilibrium.
 EnergyPoint energy_point(Equilibrium& equilibrium, const State& state, double length, const Holding& held);
