@@ -23,24 +23,15 @@ namespace dielast::cases {
 
 namespace {
 
+constexpr const char* did_not_end = "the run did not reach its end";
 constexpr int most_to_refine = 20000; ///< triangles of a user's own mesh
 constexpr int few_triangles = 300;    ///< whose numbers need not converge yet
 /// Cells that are refined unasked where larger ones tell nothing: triangles of a plane, of shells (which have
 /// five unknowns a node), tetrahedra.
 constexpr int most_triangles = 6000, most_of_shells = 1500, most_tetrahedra = 300;
 
-/// What has become of the case on one discretisation.
-struct Solution {
-  double size = 1;
-  std::vector<double> values;
-  std::vector<double> rises;    ///< of extremes at the end, otherwise 0
-  std::vector<std::string> way; ///< what happened to the equilibrium, in order
-  std::set<std::string> events; ///< kinds of whatever else happened
-  std::vector<Margin> margins;
-  std::string trouble; ///< why there are no values; empty otherwise
-};
-
 void note(Solution& solution, const post::StepRecord& record) {
+  solution.last = record;
   constexpr std::array of_the_way{"limit point", "bifurcation", "jump", "instability"};
   for (const post::Event& event : record.events)
     if (std::ranges::find(of_the_way, event.kind) != of_the_way.end())
@@ -95,25 +86,6 @@ Solution solve(const Discretisation& discretisation, bool with_margins, int thre
     solution.trouble = error.what();
   }
   return solution;
-}
-
-std::string size_text(double size) {
-  if (size < 1)
-    return size == 0.5 ? "elements half as large" : fmt::format("elements 1/{} as large", 1 / size);
-  return fmt::format("elements and time steps {:.3g} times as large", size);
-}
-
-std::string way_text(const Solution& solution) {
-  return solution.way.empty() ? "without critical point" : fmt::format("{}", fmt::join(solution.way, ", "));
-}
-
-/// Why a solution cannot be compared; empty when it can.
-std::string why_not(const Solution& own, const Solution& other) {
-  if (!other.trouble.empty())
-    return fmt::format("with {} the run does not reach its end ({})", size_text(other.size), other.trouble);
-  if (own.way == other.way) return "";
-  return fmt::format("with {} the device takes another way ({}; here {})", size_text(other.size),
-                     way_text(other), way_text(own));
 }
 
 /// Whether electrodes end within a solid whose potential is an unknown: the field there is singular, like
@@ -192,6 +164,14 @@ std::vector<Discretisation> compared_with(const Case& one, const Simulation& own
   return all;
 }
 
+/// Whether elements of second order show it.
+bool is_smooth(const Case& one, const Simulation& own) {
+  const meshing::CellType type = own.device().mesh.film()->type;
+  const bool corners = std::ranges::any_of(one.parts, [](const Part& part) { return part.traits().corners; });
+  return !corners && (type == meshing::CellType::triangle6 || type == meshing::CellType::meridian3 ||
+                      type == meshing::CellType::tetrahedron10);
+}
+
 /// Orders that the elements may have, measured on the cases of docs/verification.md.
 OrderRange orders_of(const QuantityKind& kind, const Case& one, bool smooth, const BondedCorners& corners) {
   if (corners.any) {
@@ -215,86 +195,18 @@ int direction_of(const Quantity& quantity) {
   return quantity.extreme == post::Extreme::maximum ? 1 : -1;
 }
 
-/// A kind of event, and the extreme that crosses a limit when it happens.
-struct Threshold {
-  std::string_view kind, field;
-  post::Extreme extreme;
-  double limit;
-};
-constexpr std::array thresholds{
-    Threshold{"loss of tension", "min_principal_stress", post::Extreme::minimum, 0},
-    Threshold{"breakdown", "breakdown_ratio", post::Extreme::maximum, 1},
-    Threshold{"wall yield", "yield_ratio", post::Extreme::maximum, 1}};
-
-/// Whether the extreme that crosses this limit grows as the mesh is refined.
-bool is_singular_there(const Case& one, const std::string& limit,
-                       const std::vector<ErrorEstimate>& estimates) {
-  for (const Threshold& threshold : thresholds)
-    for (std::size_t q = 0; threshold.kind == limit && q < estimates.size(); ++q) {
-      const Quantity& quantity = one.quantities[q];
-      if (quantity.kind->extreme && quantity.of == threshold.field && quantity.extreme == threshold.extreme &&
-          estimates[q].singular)
-        return true;
-    }
-  return false;
-}
-
-/// Rises over one element within which a singular extreme reaches a limit on a finer mesh.
-constexpr double reach = 4;
-
-/// What the extreme's estimate tells of the event; empty when the event is certain or out of reach.
-std::string threshold_remark(const Quantity& quantity, double value, double rise,
-                             const ErrorEstimate& estimate, double limit, const std::string& unit) {
-  if (estimate.singular && std::abs(value - limit) < reach * rise)
-    return fmt::format("depends on the mesh: {} ({}) grows as the mesh is refined", quantity.name,
-                       post::engineering(value, unit));
-  if (estimate.error && std::abs(value - limit) <= *estimate.error)
-    return fmt::format("depends on the mesh: {} is {} ± {}", quantity.name, post::engineering(value, unit),
-                       post::engineering(*estimate.error, unit, post::Ratio::plain, 2));
-  return "";
-}
-
-std::vector<EventRemark> event_remarks(const Case& one, const Device& device, const Solution& own,
-                                       const std::vector<Solution>& others,
-                                       const std::vector<ErrorEstimate>& estimates) {
-  const double smallest = smallest_stress(one);
-  std::vector<EventRemark> remarks;
-  for (const Threshold& threshold : thresholds)
-    for (std::size_t q = 0; q < one.quantities.size(); ++q) {
-      const Quantity& quantity = one.quantities[q];
-      if (!quantity.kind->extreme || quantity.of != threshold.field ||
-          quantity.extreme != threshold.extreme || !quantity.at.empty() || !std::isfinite(own.values[q]) ||
-          ((device.tension_field || device.bears_compression) && threshold.kind == "loss of tension"))
-        continue;
-      const bool rounding = std::abs(own.values[q]) < smallest && estimates[q].error.value_or(0) < smallest;
-      if (rounding && threshold.kind == "loss of tension") continue; // as across a rod
-      std::string remark = threshold_remark(quantity, own.values[q], own.rises[q], estimates[q],
-                                            threshold.limit, unit_of(quantity, one.quantities));
-      if (remark.empty()) continue;
-      if (!own.events.contains(std::string(threshold.kind))) remark = "not on this mesh, but it " + remark;
-      remarks.push_back({std::string(threshold.kind), std::move(remark)});
-      break;
-    }
-  for (const char* kind : {"loss of tension", "breakdown", "wall yield", "wall contact"}) {
-    if (std::ranges::find(remarks, kind, &EventRemark::kind) != remarks.end()) continue;
-    const bool here = own.events.contains(kind);
-    const auto different =
-        std::ranges::find_if(others, [&](const Solution& s) { return s.events.contains(kind) != here; });
-    if (different != others.end())
-      remarks.push_back({kind, fmt::format("depends on the mesh: {}, {} with {}", here ? "here" : "not here",
-                                           here ? "not" : "but", size_text(different->size))});
-  }
-  return remarks;
-}
-
 } // namespace
 
-Estimates estimate_errors(const Case& one, const Simulation& own_run,
+Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outcome& outcome,
                           std::span<const post::StepRecord> records, const std::vector<Margin>& margins,
                           int threads) {
+  Estimates estimates;
+  if (outcome.ending != Ending::complete && (outcome.kind != "limit point" || takes_time(one))) {
+    estimates.reason = did_not_end;
+    return estimates;
+  }
   const BondedCorners bonded = corners_of(own_run);
   const std::vector<Discretisation> discretisations = compared_with(one, own_run, bonded.any);
-  Estimates estimates;
   if (discretisations.empty()) {
     estimates.reason = one.parts.size() > 1 ? "the meshes of its parts cannot all be made coarser alike"
                                             : "the mesh is the coarsest already";
@@ -317,11 +229,12 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
                                    most_to_refine);
     return estimates;
   }
-  Solution own;
+  Solution own{.trouble = outcome.ending == Ending::complete ? "" : outcome.kind};
   for (const post::StepRecord& record : records) note(own, record);
-  add_results(own, one, own_run, margins);
-  const bool with_margins =
-      std::ranges::any_of(margins, [](const Margin& margin) { return margin.factor.has_value(); });
+  if (own.trouble.empty()) add_results(own, one, own_run, margins);
+  const bool with_margins = own.trouble.empty() && std::ranges::any_of(margins, [](const Margin& margin) {
+                              return margin.factor.has_value();
+                            });
   std::vector<Solution> others;
   for (const Discretisation& discretisation : discretisations) {
     Solution other = solve(discretisation, with_margins, threads);
@@ -333,16 +246,19 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run,
       others.push_back(std::move(other));
     } else {
       if (others.empty()) estimates.reason = reason;
+      if (others.empty() && !own.trouble.empty() && !other.last.step.empty())
+        estimates.events = {{own.trouble, "depends on the mesh: " + reason}};
       break;
     }
   }
   if (!estimates.reason.empty()) return estimates;
 
-  const meshing::CellType type = own_run.device().mesh.film()->type;
-  const bool corners = std::ranges::any_of(one.parts, [](const Part& part) { return part.traits().corners; });
-  const bool smooth =
-      !corners && (type == meshing::CellType::triangle6 || type == meshing::CellType::meridian3 ||
-                   type == meshing::CellType::tetrahedron10);
+  const bool smooth = is_smooth(one, own_run);
+  if (!own.trouble.empty()) {
+    estimates.reason = did_not_end;
+    estimates.events = {remark_on_end(own, others, orders_of({}, one, smooth, bonded))};
+    return estimates;
+  }
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
     ErrorEstimate& estimate = estimates.quantities.emplace_back();

@@ -4,6 +4,7 @@
 #include "cases/fitting/richardson.hpp"
 #include "cases/runs/simulation.hpp"
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,9 +13,9 @@ namespace dielast::cases {
 
 struct Margin;
 
-/// An event of film or walls that depends on the mesh, or that did not happen but may on another.
+/// An event that depends on the mesh, or that did not happen but may on another.
 struct EventRemark {
-  std::string kind; ///< "loss of tension", "breakdown", "wall yield", "wall contact"
+  std::string kind; ///< "loss of tension", "breakdown", "wall yield", "wall contact", "limit point"
   std::string remark;
 };
 
@@ -27,10 +28,44 @@ struct Estimates {
   std::string reason; ///< why no quantity has an estimate; empty otherwise
 };
 
-/// Solves the case once more with each of other_discretisations() and compares. `own` has run to its end,
-/// `records` are of all its states, `margins` its own. A solution that took another way (critical points,
-/// jumps, unstable modes, or an early end) tells nothing.
-Estimates estimate_errors(const Case& one, const Simulation& own, std::span<const post::StepRecord> records,
-                          const std::vector<Margin>& margins, int threads);
+/// What has become of the case on one discretisation.
+struct Solution {
+  double size = 1; ///< of its elements and time steps, over the run's
+  std::vector<double> values;
+  std::vector<double> rises;    ///< of extremes at the end, otherwise 0
+  std::vector<std::string> way; ///< what happened to the equilibrium, in order
+  std::set<std::string> events; ///< kinds of whatever else happened
+  post::StepRecord last;        ///< the record of the last accepted state
+  std::vector<Margin> margins;
+  std::string trouble; ///< why it did not reach its end (Outcome::kind, or what was thrown); empty otherwise
+};
+
+/// "elements half as large".
+std::string size_text(double size);
+
+/// Why a solution tells nothing of another; empty where it does.
+std::string why_not(const Solution& own, const Solution& other);
+
+/// Whether the extreme that crosses this limit grows as the mesh is refined.
+bool is_singular_there(const Case& one, const std::string& limit,
+                       const std::vector<ErrorEstimate>& estimates);
+
+/// Of events of film and walls, from the quantities' estimates and from what happened on other meshes.
+std::vector<EventRemark> event_remarks(const Case& one, const Device& device, const Solution& own,
+                                       const std::vector<Solution>& others,
+                                       const std::vector<ErrorEstimate>& estimates);
+
+/// Of the limit point at which a run without time has ended: the voltage there, where that differs from mesh
+/// to mesh, otherwise the load factor, with its error; or that there is none with `others`. Its error is of
+/// an order between these.
+EventRemark remark_on_end(const Solution& own, const std::vector<Solution>& others, OrderRange orders);
+
+/// Solves the case once more with each of other_discretisations() and compares. `own` has run to its end, or
+/// without time to a limit point, where nothing but that is compared; `outcome` says to which. `records` are
+/// of all its states, `margins` its own. A solution that took another way (critical points, jumps, unstable
+/// modes, or an early end) tells nothing.
+Estimates estimate_errors(const Case& one, const Simulation& own, const Outcome& outcome,
+                          std::span<const post::StepRecord> records, const std::vector<Margin>& margins,
+                          int threads);
 
 } // namespace dielast::cases

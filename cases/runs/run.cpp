@@ -181,13 +181,13 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     log.info("margins: up to {:.6g} times the voltages of the end", one.margins_up_to);
   std::vector<Margin> margins = margins_of(one, simulation, recorder.journal(), outcome, settings.threads);
   Estimates estimates{.reason = "left out: output.error_estimate = false"};
-  if (outcome.ending != Ending::complete)
-    estimates.reason = "the run did not reach its end";
-  else if (one.error_estimate && interrupted())
+  if (one.error_estimate && interrupted())
     estimates.reason = "interrupted";
   else if (one.error_estimate) {
-    log.info("error estimate: the case once more with other elements and time steps");
-    estimates = estimate_errors(one, simulation, recorder.journal().records, margins, settings.threads);
+    if (outcome.ending == Ending::complete || outcome.kind == "limit point")
+      log.info("error estimate: the case once more with other elements and time steps");
+    estimates =
+        estimate_errors(one, simulation, outcome, recorder.journal().records, margins, settings.threads);
   }
   const bool left_out = interrupted() && outcome.ending == Ending::complete;
   if (left_out) recorder.save_checkpoint();

@@ -134,6 +134,26 @@ TEST_F(ExitCodes, ThreeForASurfaceThatBoundsNoVolume) {
   }
 }
 
+/// The limit point at which a run ends is a result, too: other discretisations tell its error, or that they
+/// have none there (a clamped strip that is compressed at its corners).
+TEST_F(ExitCodes, FourAtALimitPointWhoseErrorIsTold) {
+  const auto remark = [&](const std::string& file, const std::string& assignment) {
+    EXPECT_EQ(dielast({"run", file, "-o", "out", "--set", assignment}).exit_code, 4);
+    const nlohmann::json remarks = json_of("out/summary.json")["event_remarks"];
+    EXPECT_EQ(remarks.size(), 1u);
+    EXPECT_EQ(remarks[0]["kind"], "limit point");
+    return remarks[0]["remark"].get<std::string>();
+  };
+  const std::string diaphragm = source_folder / "cases/gallery/diaphragm/case.toml";
+  EXPECT_EQ(remark(diaphragm, "drive.voltage=20 kV"), "depends on the mesh: 11.659 kV ± 12 mV");
+  write("strip.toml",
+        "[film]\nthickness = \"0.5 mm\"\nprestretch = [2, 2]\n[film.material]\nshear_modulus = "
+        "\"50 kPa\"\nrelative_permittivity = 4\n[strip]\nlength = \"40 mm\"\nwidth = \"40 mm\"\n"
+        "[weight]\nmass = \"40 g\"\n[output]\nfields = false\n");
+  EXPECT_EQ(remark("strip.toml", "drive.voltage=6 kV"),
+            "depends on the mesh: with elements and time steps 2 times as large the run reaches its end");
+}
+
 TEST_F(ExitCodes, FourBeyondTheLimitPointAndEveryAcceptedStateIsKept) {
   const Ended ended = dielast({"run", "small.toml", "--set", "drive.voltage=30 kV"});
   EXPECT_EQ(ended.exit_code, 4);

@@ -159,7 +159,7 @@ void add_estimates(const EstimatedCase& from, EstimateCount& count) {
       count.without.push_back(fmt::format("{}: {}", label, run->outcome.message));
       return;
     }
-  const Estimates estimates = estimate_errors(one, own.simulation, own.records, {}, 1);
+  const Estimates estimates = estimate_errors(one, own.simulation, own.outcome, own.records, {}, 1);
   if (!estimates.reason.empty()) count.without.push_back(fmt::format("{}: {}", label, estimates.reason));
   for (std::size_t q = 0; q < estimates.quantities.size(); ++q) {
     const Quantity& quantity = one.quantities[q];

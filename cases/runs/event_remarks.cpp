@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What happened on one discretisation, and whether it does on others.
+#include "cases/runs/error_estimate.hpp"
+#include "cases/runs/results.hpp"
+#include "post/engineering.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dielast::cases {
+
+namespace {
+
+/// A kind of event, and the extreme that crosses a limit when it happens.
+struct Threshold {
+  std::string_view kind, field;
+  post::Extreme extreme;
+  double limit;
+};
+constexpr std::array thresholds{
+    Threshold{"loss of tension", "min_principal_stress", post::Extreme::minimum, 0},
+    Threshold{"breakdown", "breakdown_ratio", post::Extreme::maximum, 1},
+    Threshold{"wall yield", "yield_ratio", post::Extreme::maximum, 1}};
+
+/// Rises over one element within which a singular extreme reaches a limit on a finer mesh.
+constexpr double reach = 4;
+
+/// What the extreme's estimate tells of the event; empty when the event is certain or out of reach.
+std::string threshold_remark(const Quantity& quantity, double value, double rise,
+                             const ErrorEstimate& estimate, double limit, const std::string& unit) {
+  if (estimate.singular && std::abs(value - limit) < reach * rise)
+    return fmt::format("depends on the mesh: {} ({}) grows as the mesh is refined", quantity.name,
+                       post::engineering(value, unit));
+  if (estimate.error && std::abs(value - limit) <= *estimate.error)
+    return fmt::format("depends on the mesh: {} is {} ± {}", quantity.name, post::engineering(value, unit),
+                       post::engineering(*estimate.error, unit, post::Ratio::plain, 2));
+  return "";
+}
+
+std::string way_text(const Solution& solution) {
+  return solution.way.empty() ? "without critical point" : fmt::format("{}", fmt::join(solution.way, ", "));
+}
+
+std::string end_text(const post::StepRecord& record) {
+  const double volts = record.largest_voltage();
+  return volts != 0 ? post::engineering(volts, "V", post::Ratio::plain, 5)
+                    : fmt::format("load factor {:.4g} of step \"{}\"", record.load_factor, record.step);
+}
+
+constexpr double same_voltage = 1e-9; ///< of loads that are no voltages
+
+} // namespace
+
+std::string size_text(double size) {
+  if (size < 1)
+    return size == 0.5 ? "elements half as large" : fmt::format("elements 1/{} as large", 1 / size);
+  return fmt::format("elements and time steps {:.3g} times as large", size);
+}
+
+std::string why_not(const Solution& own, const Solution& other) {
+  if (other.trouble != own.trouble) {
+    const std::string with = "with " + size_text(other.size);
+    if (other.trouble.empty()) return with + " the run reaches its end";
+    if (own.trouble.empty())
+      return fmt::format("{} the run does not reach its end ({})", with, other.trouble);
+    return fmt::format("{} the run ends at {} ({})", with, end_text(other.last), other.trouble);
+  }
+  if (own.way == other.way) return "";
+  return fmt::format("with {} the device takes another way ({}; here {})", size_text(other.size),
+                     way_text(other), way_text(own));
+}
+
+bool is_singular_there(const Case& one, const std::string& limit,
+                       const std::vector<ErrorEstimate>& estimates) {
+  for (const Threshold& threshold : thresholds)
+    for (std::size_t q = 0; threshold.kind == limit && q < estimates.size(); ++q) {
+      const Quantity& quantity = one.quantities[q];
+      if (quantity.kind->extreme && quantity.of == threshold.field && quantity.extreme == threshold.extreme &&
+          estimates[q].singular)
+        return true;
+    }
+  return false;
+}
+
+std::vector<EventRemark> event_remarks(const Case& one, const Device& device, const Solution& own,
+                                       const std::vector<Solution>& others,
+                                       const std::vector<ErrorEstimate>& estimates) {
+  const double smallest = smallest_stress(one);
+  std::vector<EventRemark> remarks;
+  for (const Threshold& threshold : thresholds)
+    for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+      const Quantity& quantity = one.quantities[q];
+      if (!quantity.kind->extreme || quantity.of != threshold.field ||
+          quantity.extreme != threshold.extreme || !quantity.at.empty() || !std::isfinite(own.values[q]) ||
+          ((device.tension_field || device.bears_compression) && threshold.kind == "loss of tension"))
+        continue;
+      const bool rounding = std::abs(own.values[q]) < smallest && estimates[q].error.value_or(0) < smallest;
+      if (rounding && threshold.kind == "loss of tension") continue; // as across a rod
+      std::string remark = threshold_remark(quantity, own.values[q], own.rises[q], estimates[q],
+                                            threshold.limit, unit_of(quantity, one.quantities));
+      if (remark.empty()) continue;
+      if (!own.events.contains(std::string(threshold.kind))) remark = "not on this mesh, but it " + remark;
+      remarks.push_back({std::string(threshold.kind), std::move(remark)});
+      break;
+    }
+  for (const char* kind : {"loss of tension", "breakdown", "wall yield", "wall contact"}) {
+    if (std::ranges::find(remarks, kind, &EventRemark::kind) != remarks.end()) continue;
+    const bool here = own.events.contains(kind);
+    const auto different =
+        std::ranges::find_if(others, [&](const Solution& s) { return s.events.contains(kind) != here; });
+    if (different != others.end())
+      remarks.push_back({kind, fmt::format("depends on the mesh: {}, {} with {}", here ? "here" : "not here",
+                                           here ? "not" : "but", size_text(different->size))});
+  }
+  return remarks;
+}
+
+EventRemark remark_on_end(const Solution& own, const std::vector<Solution>& others, OrderRange orders) {
+  const double volts = own.last.largest_voltage();
+  const bool by_voltage = std::ranges::any_of(others, [&](const Solution& other) {
+    return std::abs(other.last.largest_voltage() - volts) > same_voltage * std::abs(volts);
+  });
+  const auto load = [by_voltage](const Solution& solution) {
+    return Sampled{solution.size, by_voltage ? solution.last.largest_voltage() : solution.last.load_factor};
+  };
+  std::vector<Sampled> sampled;
+  for (const Solution& other : others) sampled.push_back(load(other));
+  const double value = load(own).value;
+  const double error =
+      std::max(*estimate_error(load(own), sampled, orders, 0).error, margin_accuracy * std::abs(value));
+  const std::string unit = by_voltage ? "V" : "1";
+  return {"limit point", fmt::format("depends on the mesh: {}{} ± {}{}", by_voltage ? "" : "load factor ",
+                                     post::engineering(value, unit, post::Ratio::plain, 5),
+                                     post::engineering(error, unit, post::Ratio::plain, 2),
+                                     by_voltage ? "" : fmt::format(" of step \"{}\"", own.last.step))};
+}
+
+} // namespace dielast::cases
