@@ -74,10 +74,13 @@ std::string values_of(const materials::ElasticLaw& law) {
 std::string film_text(const materials::NamedFilm& film) {
   const materials::Dielectric& dielectric = film.material.dielectric;
   std::string text = fmt::format("### {}\n\n- law: {}\n", film.name, values_of(film.material.law));
-  for (const materials::Branch& branch : film.material.branches)
-    text += fmt::format("- branch: {}, relaxation time {}, dashpot `{}`\n", values_of(branch.law),
+  for (const materials::Branch& branch : film.material.branches) {
+    const auto [x, y] = branch.directions;
+    text += fmt::format("- branch: {}, relaxation time {}, dashpot `{}`{}\n", values_of(branch.law),
                         format_measure(branch.viscosity / materials::initial_shear_modulus(branch.law), "s"),
-                        branch.dashpot == materials::Dashpot::log ? "log" : "nominal");
+                        branch.dashpot == materials::Dashpot::log ? "log" : "nominal",
+                        x && y ? "" : fmt::format(", directions `[\"{}\"]`", x ? "x" : "y"));
+  }
   text += fmt::format(
       "- permittivity {}, breakdown field {}, density {}\n", format_measure(dielectric.permittivity, "F/m"),
       format_measure(dielectric.breakdown_field, "V/m"), format_measure(film.material.density, "kg/m^3"));

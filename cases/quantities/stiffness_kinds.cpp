@@ -212,8 +212,9 @@ std::vector<QuantityKind> stiffness_kinds() {
        .idle = without_support,
        .shares = true},
       {.word = "natural frequency",
-       .meaning = "of small vibrations about the state, branches relaxed, those of a device that nothing "
-                  "holds without its rigid motions; none where it is not at rest (rad/s)",
+       .meaning = "of small vibrations about the state, at given voltages or charges as the state is held, "
+                  "branches relaxed, those of a device that nothing holds without its rigid motions; none "
+                  "where it is not at rest (rad/s)",
        .unit = "rad/s",
        .keys = mode_keys,
        .in_words =

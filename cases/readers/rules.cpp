@@ -122,11 +122,12 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
         one.bodies.empty() && !one.gravity.film)
       reader.warn(at.source, at.key, "has no effect here: plate.mass is 0");
     if (step.kind == StepKind::relax && !when::branches().met(one, nullptr) && one.circuits.empty() &&
-        !lets_go(one, s))
-      reader.warn(
-          at.source, at.key,
-          "has no effect here: without a [[film.material.branch]], a viscosity or a [circuit] nothing "
-          "flows");
+        !lets_go(one, s) && std::ranges::none_of(one.electrodes, [](const Electrode& e) {
+          return e.sheet_resistance.has_value();
+        }))
+      reader.warn(at.source, at.key,
+                  "has no effect here: without a [[film.material.branch]], a viscosity, a [circuit] or a "
+                  "sheet_resistance nothing flows");
     if ((step.kind == StepKind::move || step.kind == StepKind::inflate) &&
         step.response == Response::instantaneous &&
         std::ranges::any_of(one.film_materials(),

@@ -64,8 +64,9 @@ Section step_section() {
            {"transient", "time passes: drives, loads and supports follow their waves", StepKind::transient},
            {"hold", "time passes: drives, loads and supports stay as they are", StepKind::hold},
            {"relax",
-            "dashpots and the charges behind circuits flow to the end: drives, loads and supports stay as "
-            "they are, and no time passes",
+            "dashpots and the charges behind circuits and on sheets flow to the end: drives, loads and "
+            "supports stay as they are, and no time passes; how the heat divides among dashpots, sheets and "
+            "resistances is known in time only, by a step \"hold\"",
             StepKind::relax},
            {"modes", "small free vibrations about the state, branches relaxed; of revolution round ones only",
             StepKind::modes},
