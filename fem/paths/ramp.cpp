@@ -48,7 +48,7 @@ class Ramp {
   double next_break() const;
   double next_load_factor() const;
   materials::TimeScheme scheme(double dt) const;
-  State solve(State state, double s);
+  State solve(State state, double s, bool from_last);
   bool less_stable() const;
   LoadPath within(double s) const;
   Eigen::VectorXd slope_of_start(const LoadPath& increment);
@@ -97,7 +97,8 @@ materials::TimeScheme Ramp::scheme(double dt) const {
   return before > 0 ? materials::TimeScheme::bdf2(dt, before) : materials::TimeScheme::backward_euler(dt);
 }
 
-State Ramp::solve(State state, double s) {
+/// From a state, or from the last accepted one, whose tangent does not tell whether the end is stable.
+State Ramp::solve(State state, double s, bool from_last) {
   const bool ends_at_break = std::abs(s - next_break()) < round_off && s < 1;
   const bool before = ends_at_break || (timed() && s >= 1);
   const bool is_free = apply_freely(equilibrium_.model(), state, [&](State& loaded) {
@@ -115,6 +116,9 @@ State Ramp::solve(State state, double s) {
   if (has_friction(equilibrium_.model())) bound_friction(equilibrium_.model(), state, false);
   newton_ = is_free ? equilibrium_.solve(state, options_.newton, observer_.on_iteration)
                     : NewtonResult{.outcome = Outcome::infeasible};
+  if (from_last && newton_.outcome == Outcome::converged && newton_.iterations == 1 &&
+      equilibrium_.precondition(state))
+    newton_.unstable_modes = equilibrium_.tangent().unstable_modes();
   if (less_stable() && equilibrium_.is_neutral(state, progress_.unstable_modes, options_.newton))
     newton_.unstable_modes = progress_.unstable_modes;
   return state;
@@ -319,14 +323,10 @@ bool Ramp::accept(State state, double s) {
 
 /// Tells the observer; false when it wants to stop. What it is told may be stored: `then` is known by it.
 bool Ramp::notify(bool lands, double length, Then then, bool jumped) {
-  const Increment increment{progress_.load_factor,
-                            newton_,
-                            lands,
-                            length,
-                            std::exchange(progress_.turns, then == Then::turns),
-                            jumped,
-                            std::exchange(unstable_before_, -1),
-                            std::exchange(time_error_, 0.0)};
+  const bool turned = std::exchange(progress_.turns, then == Then::turns);
+  const int before = std::exchange(unstable_before_, -1);
+  const double error = std::exchange(time_error_, 0.0);
+  const Increment increment{progress_.load_factor, newton_, lands, length, turned, jumped, before, error};
   return !observer_.on_accept || observer_.on_accept(progress_, increment);
 }
 
@@ -339,19 +339,19 @@ RampResult Ramp::run() {
       return {RampEnd::endless, progress_.load_factor, newton_};
     if (timed() && progress_.at_break) {
       if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
-      if (jumped_) {
-        if (!notify(true, last_part_, Then::turns, true)) return {RampEnd::stopped};
-      }
+      if (jumped_ && !notify(true, last_part_, Then::turns, true)) return {RampEnd::stopped};
     }
     const double s = next_load_factor();
     const double tried = s - progress_.load_factor;
     if (observer_.on_try) observer_.on_try(s);
     State predicted = predict(progress_.points, parameter(s));
     equilibrium_.model().dofs.carry(predicted);
-    if (free_way(equilibrium_.model(), last(), predicted) < 1) predicted = last();
-    State trial = solve(predicted, s);
-    if ((newton_.outcome != Outcome::converged || less_stable()) && progress_.points.size() > 1)
-      trial = solve(last(), s); // the predictor may have led astray
+    const bool from_last =
+        progress_.points.size() == 1 || free_way(equilibrium_.model(), last(), predicted) < 1;
+    if (from_last) predicted = last();
+    State trial = solve(predicted, s, from_last);
+    if ((newton_.outcome != Outcome::converged || less_stable()) && !from_last)
+      trial = solve(last(), s, true); // the predictor may have led astray
     if (newton_.outcome == Outcome::converged && !goes_on(predicted, trial, s) &&
         !(timed() && tried < 2 * smallest_off_path() &&
           is_reached_continuously(equilibrium_, last(), trial, options_)))
