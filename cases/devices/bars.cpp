@@ -14,6 +14,14 @@
 namespace dielast::cases {
 namespace {
 
+constexpr std::array ribbons{"upper_ribbon", "lower_ribbon"};
+
+/// Whether ribbons turn freely at their ends.
+bool are_links(const Part& part) {
+  const auto* rolls = std::get_if<AntagonisticRolls>(&part.geometry);
+  return rolls && rolls->ribbons == RibbonBending::with_hinge;
+}
+
 /// Hinge and ribbons. Ribbons that turn freely at their ends keep a trace of their bending stiffness.
 std::array<materials::BeamSection, 2> leaves(const Part& part) {
   constexpr double trace = 1e-6;
@@ -21,7 +29,7 @@ std::array<materials::BeamSection, 2> leaves(const Part& part) {
     return materials::rectangular_section(leaf.beam.material, leaf.beam.width, leaf.beam.height);
   };
   materials::BeamSection hinge = of(*part.hinge), ribbon = of(*part.ribbon);
-  if (std::get<AntagonisticRolls>(part.geometry).ribbons == RibbonBending::with_hinge) {
+  if (are_links(part)) {
     hinge.EI3 += 2 * ribbon.EI3 * part.hinge->length / part.ribbon->length;
     for (double* stiffness : {&ribbon.EI2, &ribbon.EI3, &ribbon.GJ}) *stiffness *= trace;
     ribbon.rotary2 = ribbon.rotary3 = 0; // what turns against a trace of stiffness would swing slowly
@@ -61,11 +69,24 @@ void for_each_set_of_bars(
     if (std::holds_alternative<AntagonisticRolls>(part.geometry)) {
       const auto [hinge, ribbon] = leaves(part);
       take(p, "hinge", beams_of(hinge));
-      for (const char* place : {"upper_ribbon", "lower_ribbon"}) take(p, place, beams_of(ribbon));
+      for (const char* place : ribbons) take(p, place, beams_of(ribbon));
     }
     if (const PartKind* kind = kind_of(part); kind && kind->bars)
       take(p, part.has_mesh() ? part.called("line") : part.place, kind->bars(part));
   }
+}
+
+/// Puts the end of a ribbon on the tip on a node of its own.
+fem::Tie pinned(const std::string& ribbon, meshing::Mesh& mesh) {
+  const int on_tip = mesh.node_sets.at(ribbon + ".start").front(), own = mesh.node_count();
+  mesh.nodes.emplace_back(mesh.nodes[static_cast<std::size_t>(on_tip)]);
+  const meshing::CellSet& set = mesh.cell_sets.at(ribbon);
+  meshing::CellBlock& lines = mesh.blocks[static_cast<std::size_t>(set.block)];
+  const int per_line = meshing::nodes_per_cell(lines.type);
+  for (const int line : set.cells)
+    std::replace(lines.nodes.begin() + line * per_line, lines.nodes.begin() + (line + 1) * per_line, on_tip,
+                 own);
+  return {own, on_tip, Eigen::Vector3d::Zero(), false};
 }
 
 } // namespace
@@ -103,14 +124,18 @@ std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh) {
         node = entry->second;
       }
   });
+  for (const Part& part : one.parts)
+    if (are_links(part))
+      for (const std::string ribbon : ribbons) links.push_back(pinned(ribbon, mesh));
   return links;
 }
 
 void link_bars(const std::vector<fem::Tie>& links, fem::Dimension dimension, fem::DofMap& dofs) {
   for (const fem::Tie& link : links) {
     for (int c = 0; c < fem::DofMap::components; ++c)
-      if (fem::moves(dimension, c)) dofs.add(link.master, c);
+      if (fem::moves(dimension, c) && (c < 3 || link.turns)) dofs.add(link.master, c);
     dofs.tie(link);
+    if (!link.turns) dofs.hold(link.node, 3);
   }
 }
 

@@ -21,12 +21,13 @@ void add_films(const Case& one, const meshing::Mesh& mesh, const std::vector<int
 /// Adds what else an electrode charges: its stray capacitance, and what of it lies in a strip's clamps.
 void add_capacitors(const Case& one, fem::Model& model);
 
-/// Puts the bars whose axes lie beside the lines of the mesh on nodes of their own. Returns the rigid links
-/// by which the lines' nodes carry them. Throws CaseError as add_bars(), and for beams on film that does not
-/// lie across z, the direction of their height.
+/// Puts the bars whose axes lie beside the lines of the mesh on nodes of their own, and the ends of ribbons
+/// that turn freely on the tip. Returns the rigid links and pins by which the lines' nodes carry them. Throws
+/// CaseError as add_bars(), and for beams on film that does not lie across z, the direction of their height.
 std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh);
 
-/// Lets the nodes that carry them turn, as film alone does not, and ties the bars' nodes to them.
+/// Lets the nodes that carry them turn, as film alone does not, and ties the bars' nodes to them. Nothing but
+/// the first end keeps a pinned ribbon from turning about itself.
 void link_bars(const std::vector<fem::Tie>& links, fem::Dimension dimension, fem::DofMap& dofs);
 
 /// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws CaseError for a place without

@@ -219,8 +219,8 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
   }
   if (discretisations.front().size < 1 && own_run.device().tension_field) {
     estimates.reason =
-        "a finer mesh of film that wrinkles may take far longer than this one; mesh.refine = 1 "
-        "tells what it changes";
+        "a finer mesh of film that wrinkles may take far longer than this one; one by [mesh] tells what it "
+        "changes";
     return estimates;
   }
   if (discretisations.front().size < 1 && own_run.device().mesh.film()->size() > most_to_refine) {

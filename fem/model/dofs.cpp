@@ -71,6 +71,8 @@ void DofMap::tie(const Tie& tie) {
   const auto of = [this](int node) -> int& { return tie_of_[static_cast<std::size_t>(node)]; };
   Tie root = tie;
   if (const int further = of(tie.master); further != absent) {
+    if (!ties_[static_cast<std::size_t>(further)].turns)
+      throw std::invalid_argument("a pinned node carries another");
     root.master = ties_[static_cast<std::size_t>(further)].master;
     root.arm += ties_[static_cast<std::size_t>(further)].arm;
   }
@@ -95,8 +97,8 @@ void DofMap::number() {
   for (const Tie& tie : ties_)
     for (int c = 0; c < components; ++c) {
       int& mark = equation_[static_cast<std::size_t>(tie.node)][static_cast<std::size_t>(c)];
+      if (mark == absent || (c >= 3 && !tie.turns)) continue;
       if (mark == held_mark) throw std::invalid_argument("an unknown of a tied node is held");
-      if (mark == absent) continue;
       add(tie.master, c);
       if (c < 3)
         mark = tied_mark;
@@ -205,16 +207,17 @@ void DofMap::advance(State& state, const Eigen::VectorXd& increment, double scal
 }
 
 void DofMap::carry(State& state) const {
-  for (const auto& [node, master, arm] : ties_) {
+  for (const auto& [node, master, arm, turns] : ties_) {
     const auto m = static_cast<std::size_t>(master), n = static_cast<std::size_t>(node);
     state.displacement[n] = state.displacement[m] + (state.rotation[m] * arm - arm);
+    if (!turns) continue;
     state.rotation[n] = state.rotation[m];
     state.angle[n] = state.angle[m];
   }
 }
 
 void DofMap::gather(const State& state, Eigen::VectorXd& force) const {
-  for (const auto& [node, master, arm] : ties_) {
+  for (const auto& [node, master, arm, turns_along] : ties_) {
     Eigen::Vector3d on_node = Eigen::Vector3d::Zero();
     for (int c = 0; c < 3; ++c)
       if (const int e = equation(node, c); e != absent) on_node[c] = std::exchange(force[e], 0.0);

@@ -31,10 +31,12 @@ constexpr bool moves(Dimension dimension, int component) {
   return false;
 }
 
-/// Node of a rigid body: x_node = x_master + R_master arm, R_node = R_master.
+/// Node of a rigid body: x_node = x_master + R_master arm, R_node = R_master where it `turns` along;
+/// otherwise it is pinned, and turns by itself.
 struct Tie {
   int node = 0, master = 0;
   Eigen::Vector3d arm; ///< m, from the master as drawn
+  bool turns = true;
 };
 
 /// Two axes that a node tilts about, as drawn: orthonormal, their cross product is the director.
@@ -85,7 +87,8 @@ class DofMap {
   /// Gives two displacements one common unknown, as for a square that stays a square.
   void share(int node, int component, int other, int other_component);
   /// Makes the node a part of the rigid body of `master`, which may itself be tied. Throws
-  /// std::invalid_argument for a node that is tied already, to itself, or to one of its own.
+  /// std::invalid_argument for a node that is tied already, to itself, or to one of its own, and to one that
+  /// is pinned.
   void tie(const Tie& tie);
   bool is_tied_node(int node) const { return tie_of_[static_cast<std::size_t>(node)] != absent; }
   /// Adds a free scalar and returns its place in State::scalar. Its equation's unknown is the scalar over

@@ -215,6 +215,29 @@ TEST(Tie, to_a_tied_node_leads_to_its_master) {
   EXPECT_EQ(dofs.count(), 9);
 }
 
+/// A pinned node goes where its master takes it, turns by itself, and carries no other.
+TEST(Tie, pinned_nodes_turn_by_themselves) {
+  DofMap dofs(3);
+  for (int n = 0; n < 3; ++n) claim_body(dofs, n, Dimension::planar);
+  dofs.tie({0, 1, {0, 0, 0}, false});
+  dofs.tie({1, 2, {2, 0, 0}}); // takes 0 along, which stays pinned
+  EXPECT_THROW(dofs.tie({2, 0, {1, 0, 0}}), std::invalid_argument);
+  dofs.number();
+  EXPECT_EQ(dofs.free_count(), 4);
+  EXPECT_NE(dofs.equation(0, 5), dofs.equation(2, 5));
+  EXPECT_EQ(dofs.equation(1, 5), dofs.equation(2, 5));
+  State state;
+  state.displacement.assign(3, Eigen::Vector3d::Zero());
+  state.rotation.assign(3, Eigen::Quaterniond::Identity());
+  state.angle.assign(3, Eigen::Vector3d::Zero());
+  Eigen::VectorXd turn = Eigen::VectorXd::Zero(dofs.count());
+  turn[dofs.equation(2, 5)] = std::numbers::pi / 2;
+  dofs.advance(state, turn, 1);
+  EXPECT_LT((state.displacement[0] - Eigen::Vector3d(-2, 2, 0)).norm(), 1e-15);
+  EXPECT_EQ(state.rotation[0].angularDistance(Eigen::Quaterniond::Identity()), 0);
+  EXPECT_NEAR(state.rotation[1].angularDistance(Eigen::Quaterniond::Identity()), std::numbers::pi / 2, 1e-15);
+}
+
 TEST(Tie, cannot_be_held_or_shared) {
   for (const bool held : {true, false}) {
     DofMap dofs(3);

@@ -17,6 +17,17 @@
 namespace dielast::cases::rolls_test {
 namespace {
 
+/// Of the gallery's rolls with these keys, rad.
+double tip_angle(const std::vector<std::string>& overrides) {
+  const Case one = read_case(
+      std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/antagonistic_rolls/case.toml", overrides);
+  Simulation simulation(one, 1);
+  EXPECT_EQ(simulation.run({}).ending, Ending::complete);
+  for (std::size_t q = 0; q < one.quantities.size(); ++q)
+    if (one.quantities[q].name == "tip_angle") return simulation.results()[q];
+  return NAN;
+}
+
 struct Rolls {
   double voltage = 2000;
   double lower_voltage = 0;
@@ -66,17 +77,11 @@ struct Rolls {
   }
   /// Of the finite elements.
   double solved(const char* ribbons = "links") const {
-    const Case one = read_case(
-        std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/antagonistic_rolls/case.toml",
+    return tip_angle(
         {fmt::format("drive.upper.voltage={} V", voltage), fmt::format("hinge.length={} m", hinge_length),
          fmt::format("hinge.thickness={} m", hinge_thickness),
          fmt::format("film.thickness={} m", film_thickness), fmt::format("film.prestretch={}", prestretch),
          fmt::format("antagonistic_rolls.ribbons='{}'", ribbons)});
-    Simulation simulation(one, 1);
-    EXPECT_EQ(simulation.run({}).ending, Ending::complete);
-    for (std::size_t q = 0; q < one.quantities.size(); ++q)
-      if (one.quantities[q].name == "tip_angle") return simulation.results()[q];
-    return NAN;
   }
 };
 
@@ -93,6 +98,20 @@ TEST(AntagonisticRolls, TurnTheTipAsTheReducedModelSays) {
     const Rolls rolls{.voltage = voltage};
     EXPECT_NEAR(rolls.solved(), rolls.angle(), (voltage < 1000 ? 0.012 : 0.01) * rolls.angle()) << voltage;
   }
+}
+
+/// Thinner and thinner ribbons that are as hard to stretch turn as links: what clamps them reaches as far as
+/// they are thick. Links need no elements for that (they were clamped with a trace of stiffness: 2e-4).
+TEST(AntagonisticRolls, ThinRibbonsTurnAsLinks) {
+  const auto angle = [](double thickness, const char* ribbons, int elements) {
+    return tip_angle({"drive.upper.voltage=2 kV", fmt::format("ribbon.thickness={} um", thickness),
+                      fmt::format("ribbon.material.youngs_modulus={} GPa", 2.675 * 25 / thickness),
+                      fmt::format("antagonistic_rolls.ribbons='{}'", ribbons),
+                      fmt::format("mesh.wall_elements={}", elements)});
+  };
+  const double links = angle(1, "links", 8);
+  EXPECT_NEAR(angle(1, "links", 32), links, 1e-6 * links);
+  EXPECT_NEAR(2 * angle(1, "beams", 200) - angle(2, "beams", 200), links, 2e-4 * links);
 }
 
 /// Where the hinge is far from buckling under the rolls' pull.
