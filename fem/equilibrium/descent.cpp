@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace dielast::fem {
 
@@ -44,6 +45,33 @@ double Equilibrium::film_stiffness() const {
   return *there;
 }
 
+/// Whether film that may be slack moves a free equation, by its own nodes or by what carries them.
+std::vector<char> Equilibrium::moved_by_film() const {
+  const DofMap& dofs = model_.dofs;
+  std::map<int, int> carried; // tied equations and the nodes that carry them
+  for (const Tie& tie : dofs.ties())
+    for (int c = 0; c < 3; ++c) carried[dofs.equation(tie.node, c)] = tie.master;
+  std::vector<char> moved(static_cast<std::size_t>(stiffness_.size()), 0);
+  const auto mark = [&](int equation) {
+    if (dofs.is_free(equation)) moved[static_cast<std::size_t>(equation)] = 1;
+  };
+  for (const auto& block : model_.blocks) {
+    if (!block->may_be_slack()) continue;
+    std::vector<int> equations(static_cast<std::size_t>(block->dofs_per_element()));
+    for (int e = 0; e < block->element_count(); ++e) {
+      block->element_equations(e, dofs, equations);
+      for (const int equation : equations) {
+        mark(equation);
+        const auto carrier = carried.find(equation);
+        if (equation < 0 || carrier == carried.end()) continue;
+        for (int c = 0; c < 3; ++c) mark(dofs.equation(carrier->second, c));
+        for (const int turn : dofs.turns(carrier->second)) mark(turn);
+      }
+    }
+  }
+  return moved;
+}
+
 bool Equilibrium::is_slack(const State& state) const {
   Samples samples;
   for (const auto& block : model_.blocks)
@@ -59,7 +87,12 @@ bool Equilibrium::is_neutral(const State& state, int unstable_modes, const Newto
   const bool wrinkles =
       options.wrinkles && std::ranges::count(film, materials::Tension::slack, &MembraneSample::tension) > 0;
   if (!wrinkles && !is_slack(state)) return false;
-  const Eigen::VectorXd added = (wrinkles ? regularisation : rounding) * stiffness_;
+  const std::vector<char> moved = moved_by_film();
+  Eigen::VectorXd added = Eigen::VectorXd::Zero(stiffness_.size()); // what film does not move is what it is
+  for (Eigen::Index e = 0; e < added.size(); ++e)
+    if (moved[static_cast<std::size_t>(e)])
+      added[e] = (wrinkles ? regularisation : rounding) *
+                 std::min(stiffness_[e], film_stiffness_ / (weight_[e] * weight_[e]));
   return factor(state, nullptr, &added) && tangent_.unstable_modes() <= unstable_modes;
 }
 

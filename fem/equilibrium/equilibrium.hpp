@@ -99,8 +99,9 @@ class Equilibrium {
   /// Whether film that bears nothing but tension carries none, nor a field that balances one: the tangent
   /// tells of rounding there, and no path leads on.
   bool is_slack(const State& state) const;
-  /// Whether all but so many unstable modes of a state are none: of what carries no tension rounding has the
-  /// sign, and film that is slack under a field keeps a trace of its compression.
+  /// Whether all but so many unstable modes of a state are none: of film that carries no tension rounding has
+  /// the sign, and film that is slack under a field keeps a trace of its compression. Modes of what else
+  /// there is are what they are, however soft it is beside the film.
   bool is_neutral(const State& state, int unstable_modes, const NewtonOptions& options);
 
   /// That of the state which the last solve() has converged to; null where its voltages or pressures have
@@ -173,6 +174,7 @@ class Equilibrium {
   bool follow_charges(State& state, Pressure pressure) const;
   bool fill(State& state);
   double film_stiffness() const;
+  std::vector<char> moved_by_film() const;
   State widened(State state, double strain) const;
   double backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings,
                    double balanced_to);

@@ -116,7 +116,7 @@ State Ramp::solve(State state, double s, bool from_last) {
   if (has_friction(equilibrium_.model())) bound_friction(equilibrium_.model(), state, false);
   newton_ = is_free ? equilibrium_.solve(state, options_.newton, observer_.on_iteration)
                     : NewtonResult{.outcome = Outcome::infeasible};
-  if (from_last && newton_.outcome == Outcome::converged && newton_.iterations == 1 &&
+  if (from_last && newton_.outcome == Outcome::converged && newton_.iterations > 0 &&
       equilibrium_.precondition(state))
     newton_.unstable_modes = equilibrium_.tangent().unstable_modes();
   if (less_stable() && equilibrium_.is_neutral(state, progress_.unstable_modes, options_.newton))
