@@ -22,17 +22,20 @@ struct Material {
   double fastest_rate = 0; ///< at which what is asked of that dashpot changes, 1/s
 };
 
+/// How much stiffer than what it is beside the spring is that stands before a viscosity.
+constexpr double stiffness_before_viscosity = 1e4;
+
 /// The dashpot beside the law as one more branch, with a spring that hardly gives: 1e4 times as stiff as the
 /// stiffer of the law and of what the dashpot resists at the fastest rate r, mu and r eta. So in motions with
 /// omega <= r the complex modulus mu + i omega eta is off by less than 1e-4 of itself, and loads that jump
 /// move the film by 1e-4 of where they lead over 1/r, or in the end.
 inline Material with_dashpot(Material material) {
-  constexpr double stiffer = 1e4;
   const double eta = std::exchange(material.viscosity, 0.0);
   if (eta > 0)
-    material.branches.push_back({.law = NeoHookean{stiffer * std::max(initial_shear_modulus(material.law),
-                                                                      material.fastest_rate * eta)},
-                                 .viscosity = eta});
+    material.branches.push_back(
+        {.law = NeoHookean{stiffness_before_viscosity *
+                           std::max(initial_shear_modulus(material.law), material.fastest_rate * eta)},
+         .viscosity = eta});
   return material;
 }
 
