@@ -17,8 +17,7 @@ struct Moment {
 
 /// Something a user must know about an accepted state.
 struct Event {
-  std::string
-      kind; ///< "loss of tension", "breakdown", "wall contact", "wall yield", "limit point", "instability"
+  std::string kind;               ///< such as "loss of tension", "breakdown", "limit point", "branches meet"
   std::string place;              ///< named place, e.g. "cell[2,3]"; empty when it is everywhere
   std::string message;            ///< one sentence with numbers and units
   std::optional<Moment> before{}; ///< where it was on the way to the record that tells of it

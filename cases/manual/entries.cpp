@@ -41,6 +41,10 @@ std::span<const Term> terms() {
       Term{"bifurcation",
            "a state at which another path of equilibria crosses: a mode on which the load does "
            "no work loses its stiffness (buckling, a film that leaves its plane)"},
+      Term{"branches meet",
+           "a bifurcation that the device reaches along the branch, not along the path that it "
+           "left there: nothing is lost, and the path goes on (a bow that opens until it is "
+           "straight)"},
       Term{"critical point", "a limit point or a bifurcation: the tangent is singular, and beyond it a "
                              "device is stable on another path or not at all"},
       Term{"arclength", "how a path is followed past a limit point: each increment goes a given length along "

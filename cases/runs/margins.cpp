@@ -166,7 +166,7 @@ class FurtherWay {
       };
       observer.on_pass = [] { return !interrupted(); };
       observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event&) {
-        if (const auto at = factor_of(critical.state.voltage, end_))
+        if (const auto at = factor_of(critical.state.voltage, end_); at && !critical.beyond)
           located_.push_back({critical.kind == fem::Instability::bifurcation, *at});
       };
       const Outcome outcome = simulation.run(observer);

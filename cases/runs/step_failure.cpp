@@ -17,9 +17,9 @@ namespace {
 /// Eigenvalue of a mode, over the stiffness as drawn, that is one of rounding.
 constexpr double no_stiffness = 1e-10;
 constexpr const char* can_move =
-    "the tangent is singular. Part of the device can move freely: hold it with [[support]], the edge of a "
-    "shell "
-    "or of beams by its turns, too, a [[body]] by its fix; with model = \"3d\" an unstretched film has no "
+    "the tangent is singular. Part of the device can move freely, or the state is a critical one: hold what "
+    "is loose with [[support]], the edge of a shell or of beams by its turns, too, a [[body]] by its fix; "
+    "with model = \"3d\" an unstretched film has no "
     "stiffness normal to itself: stretch it or use model = \"planar\"";
 /// Of what friction may hold, but for what barriers and springs leave of it.
 constexpr double all_of_it = 0.99;

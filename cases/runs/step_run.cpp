@@ -121,8 +121,9 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
     unstable = equilibrium_.tangent().unstable_modes(); // Newton's method may know that of a step before
   const bool lost = loses();
   const bool switches = step_.on_bifurcation == OnBifurcation::switch_branch;
-  const bool leaves =
-      stops() ? unstable > 0 : lost && (switches || step_.on_instability == OnInstability::jump);
+  const bool jumps = step_.on_instability == OnInstability::jump;
+  const bool begins_unstable = jumps && !lost && unstable > 0;
+  const bool leaves = stops() ? unstable > 0 : begins_unstable || (lost && (switches || jumps));
   if (!leaves && (timed() || !lost)) return accept(now.points.back().state, increment, Reached::along_path);
   Trouble trouble{{fem::RampEnd::gave_up, increment.load_factor, increment.newton}, {}, unstable};
   // back to the last stable state
@@ -130,7 +131,7 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
   if (now.points.size() > 1) progress_.ramp.points.pop_back();
   progress_.ramp.load_factor = increment.load_factor - increment.length;
   if (lost) trouble.critical = timed() ? limit_in_time() : locate(increment.load_factor, true);
-  if (leaves && (trouble.critical || stops())) {
+  if (leaves && (trouble.critical || stops() || begins_unstable)) {
     leaving_ = std::move(trouble);
     return false;
   }
@@ -172,9 +173,28 @@ Outcome StepRun::run() {
       const bool another = progress_.ramp.beside || trouble.ramp.failure.outcome == fem::Outcome::converged;
       trouble.critical = locate(trouble.ramp.failed_at, another);
     }
+    if (trouble.critical && trouble.critical->beyond) {
+      if (!pass(std::move(*trouble.critical))) return {Ending::interrupted};
+      continue;
+    }
     if (const auto outcome = leave(trouble)) return *outcome;
   }
   return {};
+}
+
+/// Goes on where a branch has come back to the path that it had left: nothing loses its stability there.
+bool StepRun::pass(fem::CriticalPoint critical) {
+  if (observer_.on_critical)
+    observer_.on_critical(critical, {.kind = "branches meet",
+                                     .message = fmt::format("the path goes on along the stable one, from {}",
+                                                            load_text(critical.load_factor))});
+  fem::RampProgress& ramp = progress_.ramp;
+  const double s = critical.beyond->parameter, length = s - ramp.load_factor;
+  ramp.load_factor = s;
+  ramp.slope.reset();
+  ramp.beside = false;
+  ramp.points = {{0, model().settled(std::move(critical.beyond->state))}};
+  return accept(ramp.points.back().state, {s, {}, true, length}, Reached::along_path);
 }
 
 /// Load control has ended; nothing where the step goes on.

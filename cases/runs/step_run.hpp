@@ -80,6 +80,7 @@ class StepRun {
   std::optional<fem::CriticalPoint> locate(double s, bool another) const;
   std::optional<fem::CriticalPoint> limit_in_time() const;
   void announce(const fem::CriticalPoint& critical, bool ends);
+  bool pass(fem::CriticalPoint critical);
   void accept_critical(const fem::CriticalPoint& critical);
   std::optional<Outcome> leave(const Trouble& trouble);
   std::optional<Outcome> follow();

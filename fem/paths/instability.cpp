@@ -6,6 +6,7 @@
 #include "fem/model/contact_block.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -31,7 +32,10 @@ constexpr int most_trials = 80;
 constexpr double near = 1e-2, near_with_friction = 1e-5, fallen = 0.1;
 constexpr double vanished = 1e-5;       ///< eigenvalue of a state from which no path leads on
 constexpr double load_tolerance = 1e-7; ///< of a critical load factor
-constexpr double along_mode = 0.7;      ///< cosine between a mode and the way to the branch
+/// Of the load factor, where a state is looked for: so little that the jump of an edge that slips shows.
+constexpr std::array just_beyond{1e-5, 1e-4};
+constexpr double nearer = 0.5;     ///< than before a critical point: states beyond that are joined with it
+constexpr double along_mode = 0.7; ///< cosine between a mode and the way to the branch
 /// Part of the way to the extrapolated critical load that the next trial goes.
 constexpr double approach = 0.9;
 
@@ -210,6 +214,43 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
   return best;
 }
 
+namespace {
+
+/// See CriticalPoint::beyond. On a branch the way that is left to the critical state goes with the square
+/// root of the load that is left. `modes`: unstable ones before.
+std::optional<PathPoint> find_beyond(Equilibrium& equilibrium, const LoadPath& path,
+                                     const std::vector<LoadPoint>& points, double critical_load, int modes,
+                                     const NewtonOptions& options) {
+  const auto left = [&](const LoadPoint& point) { return std::sqrt(std::abs(critical_load - point.s)); };
+  const LoadPoint& last = points.back();
+  const auto former = std::find_if(points.rbegin(), points.rend(),
+                                   [&](const LoadPoint& point) { return left(point) > 3 * left(last); });
+  if (former == points.rend()) return std::nullopt;
+  const DofMap& dofs = equilibrium.model().dofs;
+  const auto distance = [&](const State& from, const State& to) {
+    const Eigen::VectorXd way = dofs.increment(from, to);
+    return std::sqrt(way.dot(equilibrium.stiffness().cwiseProduct(way)));
+  };
+  const PathPoint past[] = {{-left(*former), former->state}, {-left(last), last.state}};
+  State critical = extrapolate(past, 0);
+  dofs.carry(critical);
+  const double way = distance(former->state, critical) / left(*former);
+  for (const double further : just_beyond) {
+    State there = critical;
+    const double s = critical_load + std::copysign(further, critical_load - former->s);
+    path.apply(there, s);
+    if (s > 1 || equilibrium.solve(there, options).outcome != Outcome::converged) continue;
+    const auto mode = lowest_mode(equilibrium, there);
+    if (mode && last.mode && mode->eigenvalue > std::abs(last.mode->eigenvalue) &&
+        equilibrium.tangent().unstable_modes() <= modes &&
+        distance(critical, there) < nearer * way * std::sqrt(further))
+      return PathPoint{s, std::move(there)};
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
                                                     const State& state, double s_before, double s_beyond,
                                                     const NewtonOptions& options, bool another) {
@@ -257,12 +298,21 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     };
     return last.s + remains(last) * (last.s - former.s) / (remains(former) - remains(last));
   };
+  /// Towards where the eigenvalue will vanish, through two points, as of a path whose way goes with that
+  /// power of the load that is left.
+  const auto foreseen = [&](const LoadPoint& former, double estimate, double s, double power) {
+    const auto place = [&](double at) { return -std::pow(std::abs(estimate - at), power); };
+    const PathPoint past[] = {{place(former.s), former.state}, {place(points.back().s), points.back().state}};
+    State start = extrapolate(past, place(s));
+    equilibrium.model().dofs.carry(start);
+    return start;
+  };
+  const double end = s_beyond;
   for (int trial = 0; trial < most_trials && std::abs(s_beyond - points.back().s) > load_tolerance; ++trial) {
     const LoadPoint& last = points.back();
     double s = (last.s + s_beyond) / 2;
     State start = last.state;
     if (points.size() > 1 && last.mode) {
-      const LoadPoint& former = points[points.size() - 2];
       kind = classify(equilibrium, path, last.state, last.s, *last.mode);
       const double estimate = extrapolated();
       const bool inside = (estimate - last.s) * (s_beyond - estimate) > 0;
@@ -270,10 +320,21 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
         critical_load = estimate;
         if (std::abs(critical_load - last.s) < load_tolerance) break;
         s = last.s + approach * (critical_load - last.s);
-        const auto place = [&](double at) { return -std::pow(std::abs(critical_load - at), 1 / exponent()); };
-        const PathPoint past[] = {{place(former.s), former.state}, {place(last.s), last.state}};
-        start = extrapolate(past, place(s));
-        equilibrium.model().dofs.carry(start);
+        start = foreseen(points[points.size() - 2], estimate, s, 1 / exponent());
+      } else if (const double further = last.s + approach * (estimate - last.s);
+                 (estimate - s_beyond) * (s_beyond - last.s) > 0 && further <= 1) {
+        // Newton's method has failed before the path ends. On a branch that comes back to the path that it
+        // has left the way goes with the root, the eigenvalue with the load that is left.
+        const bool other = another;
+        const auto as_far = std::find_if(points.rbegin(), points.rend() - 1, [&](const LoadPoint& point) {
+          return std::abs(last.s - point.s) >= std::abs(further - last.s);
+        });
+        if (attempt(foreseen(*as_far, estimate, further, 0.5), further)) {
+          const double there = 2 * estimate - further;
+          s_beyond = critical_load = end > s_before ? std::max(end, there) : std::min(end, there);
+          continue;
+        }
+        another = other;
       }
     }
     if (!attempt(std::move(start), s) && !attempt(points.back().state, s)) s_beyond = critical_load = s;
@@ -283,7 +344,8 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     return std::nullopt;
   if (!last.mode) return std::nullopt;
   kind = classify(equilibrium, path, last.state, last.s, *last.mode);
-  CriticalPoint critical{kind, critical_load, last.state, *last.mode};
+  CriticalPoint critical{kind, critical_load, last.state, *last.mode,
+                         find_beyond(equilibrium, path, points, critical_load, modes, options)};
   const bool slides = has_friction(equilibrium.model());
   const auto is_close = [&] {
     const double first = points.front().mode ? std::abs(points.front().mode->eigenvalue) : 0;

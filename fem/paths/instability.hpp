@@ -37,6 +37,9 @@ struct CriticalPoint {
   double load_factor = 0;
   State state; ///< converged, at or just before the critical load
   Mode mode;   ///< there
+  /// By load control: a state a little beyond, by its load factor, where a branch has come back to the path
+  /// that it had left. The load turns there as at a limit point, but equilibria are as near beyond as before.
+  std::optional<PathPoint> beyond{};
 };
 
 /// Limit point or bifurcation: whether the load works on the mode, |x . dR/ds| over |x| |dR/ds|, norms with D

@@ -96,7 +96,8 @@ bool Descent::step(double damping) {
   equilibrium_.tangent().solve(-current_.force.head(added.size()), du);
   State there = state_;
   model_.dofs.advance(there, du, 1);
-  if (free_way(model_, state_, there) < 1) return false;
+  if (free_way(model_, state_, there) < 1 || is_turned_over(model_.corners, model_.drawn, state_, there))
+    return false; // energies are lower beyond stretches of 0, too
   equilibrium_.balance(there, trial_);
   if (!trial_.feasible || potential(there, trial_) >= energy_) return false;
   energy_ = potential(there, trial_);
