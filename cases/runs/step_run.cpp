@@ -168,10 +168,11 @@ Outcome StepRun::run() {
                           limit)};
     } else if (timed()) {
       trouble.critical = limit_in_time();
-    } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !follows() &&
-               !equilibrium_.is_slack(last())) {
+    } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !equilibrium_.is_slack(last())) {
       const bool another = progress_.ramp.beside || trouble.ramp.failure.outcome == fem::Outcome::converged;
       trouble.critical = locate(trouble.ramp.failed_at, another);
+      if (follows() && trouble.critical && !trouble.critical->beyond)
+        trouble.critical.reset(); // arclength tells
     }
     if (trouble.critical && trouble.critical->beyond) {
       if (!pass(std::move(*trouble.critical))) return {Ending::interrupted};
