@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far limits are from the end of a run, against closed forms of homogeneous film.
 #include "cases/readers/reader.hpp"
-#include "cases/runs/results.hpp"
+#include "tests/cases/margins_at_end.hpp"
 #include "tests/cases/scratch.hpp"
 
 #include <fmt/format.h>
@@ -16,19 +16,7 @@ class Margins : public test::ScratchTest {
   std::map<std::string, Margin> margins(const std::string& text,
                                         const std::vector<std::string>& overrides = {}) {
     write("case.toml", text);
-    const Case one = read_case(directory / "case.toml", overrides);
-    Simulation simulation(one, 1);
-    Journal journal;
-    SimulationObserver observer;
-    observer.on_accept = [&](const Frame& frame) {
-      journal.records.push_back(frame.record);
-      journal.values.push_back(frame.values);
-      return true;
-    };
-    const Outcome outcome = simulation.run(observer);
-    std::map<std::string, Margin> found;
-    for (Margin& margin : margins_of(one, simulation, journal, outcome, 1)) found[margin.limit] = margin;
-    return found;
+    return test::margins_at_end(read_case(directory / "case.toml", overrides));
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is stable, and where a device goes that is not, whatever the increments.
+#include "tests/cases/margins_at_end.hpp"
 #include "tests/cases/path_cases.hpp"
 
 #include <fmt/format.h>
@@ -138,23 +139,10 @@ TEST_F(Stability, ABranchThatComesBackGoesOn) {
                        fmt::format("step.voltage.on_instability={}", way)});
       EXPECT_NEAR(test::values_at_end(one).at("chord"), 0.08, 5e-6) << way << " " << increments;
     }
-  const Case one = gallery_bow({"output.margins_up_to=2"});
-  Simulation simulation(one, 1);
-  Journal journal;
-  SimulationObserver observer;
-  observer.on_accept = [&](const Frame& frame) {
-    journal.records.push_back(frame.record);
-    journal.values.push_back(frame.values);
-    return true;
-  };
-  const Outcome outcome = simulation.run(observer);
-  for (const Margin& margin : margins_of(one, simulation, journal, outcome, 1)) {
-    if (margin.limit == "pull-in") {
-      EXPECT_FALSE(margin.factor.has_value());
-    } else if (margin.limit == "breakdown") { // 2778 V, where the film between the hinges is as drawn
-      EXPECT_NEAR(margin.factor.value_or(0), 2778 / 1800.0, 1e-3);
-    }
-  }
+  const auto margins = test::margins_at_end(gallery_bow({"output.margins_up_to=2"}));
+  EXPECT_FALSE(margins.at("pull-in").factor.has_value());
+  // 2778 V, where the film between the hinges is as drawn
+  EXPECT_NEAR(margins.at("breakdown").factor.value_or(0), 2778 / 1800.0, 1e-3);
 }
 
 } // namespace
