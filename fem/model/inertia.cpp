@@ -125,8 +125,9 @@ Eigen::VectorXd InertialForce::drag_stiffness() const {
 }
 
 Motion InertialForce::arrived() const {
-  // The scheme's accelerations are those of (alpha_f - alpha_m) dt before their times.
-  const double late = scheme_.alpha_f - scheme_.alpha_m;
+  // The scheme's accelerations are those of (alpha_f - alpha_m) dt before their times, each of its own step.
+  const double lag = scheme_.alpha_f - scheme_.alpha_m;
+  const double late = lag / (1 - lag * (1 - start_.step / scheme_.dt));
   return {start_.position + step_,
           velocity_,
           acceleration_,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/held_masses.hpp"
 
+#include "fem/equilibrium/moving_bodies.hpp"
 #include "fem/model/inertia.hpp"
 
 #include <algorithm>
@@ -13,6 +14,9 @@ namespace {
 
 /// The inertia that holds a mass, over the stiffness: how little it gives way as other things move.
 constexpr double stiffer = 1e8;
+
+/// Of a time step, over which what is held is looked at.
+constexpr double parts_of_a_step = 8;
 
 /// Of the free equations, those of tied nodes moved to their masters, kg and kg m^2. What turns a mass on an
 /// arm and leaves it where it is, by moving the node, has none.
@@ -136,7 +140,30 @@ Eigen::VectorXd prescribed_acceleration(const LoadPath& path, const DofMap& dofs
   const Eigen::ArrayXd speed = (4 * p1 - 3 * p0 - p2) / (2 * tau);
   const Eigen::ArrayXd acceleration = (p0 - 2 * p1 + p2) / (tau * tau);
   const Eigen::ArrayXd jerk = speed - velocity.segment(dofs.free_count(), dofs.held_count()).array();
-  return (jerk.abs() <= acceleration.abs() * tau).select(acceleration, 0);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.count());
+  all.segment(dofs.free_count(), dofs.held_count()) =
+      (jerk.abs() <= acceleration.abs() * tau).select(acceleration, 0);
+  carry_accelerations(dofs, state, velocity, all);
+  return all;
+}
+
+std::shared_ptr<const Motion> motion_now(const Model& model, const State& state, const LoadPath& path,
+                                         double s, double ds, double duration) {
+  const DofMap& dofs = model.dofs;
+  Motion motion = *state.motion;
+  if (dofs.held_count() > 0) {
+    State there = state;
+    const auto before = [&](int parts) {
+      path.apply(there, s - ds * parts / parts_of_a_step);
+      return Loads::of(there, dofs).held;
+    };
+    const double tau = ds * duration / parts_of_a_step; // a cubic through four moments
+    const Eigen::VectorXd p0 = Loads::of(state, dofs).held, p1 = before(1), p2 = before(2), p3 = before(3);
+    motion.acceleration_now.segment(dofs.free_count(), dofs.held_count()) =
+        (2 * p0 - 5 * p1 + 4 * p2 - p3) / (tau * tau);
+  }
+  accelerate_bodies(model, state, motion);
+  return std::make_shared<const Motion>(std::move(motion));
 }
 
 GeneralisedAlpha first_step_of_motion(double dt) {

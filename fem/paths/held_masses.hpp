@@ -33,9 +33,17 @@ LoadPath with_masses_held(const Equilibrium& equilibrium, LoadPath path, const S
 
 /// Accelerations with which the held equations set out at s, from the way that `path` leads them on over half
 /// of `ds`, in a step of `duration`; zero where they set out with another velocity than theirs, with a jerk.
+/// Those of tied nodes follow; what is free has none (count() entries).
 Eigen::VectorXd prescribed_acceleration(const LoadPath& path, const DofMap& dofs, const State& state,
                                         const Eigen::VectorXd& velocity, double s, double ds,
                                         double duration);
+
+/// The motion of a state that a step has led to, as long as `ds` of the load factor and up to s, with the
+/// accelerations of its own time: of what is held those that `path` gives it, of bodies that carry masses on
+/// arms what the forces on them do, J^T (M a + C v + r) = 0. The scheme's own lag behind, and go up and down
+/// where time steps change.
+std::shared_ptr<const Motion> motion_now(const Model& model, const State& state, const LoadPath& path,
+                                         double s, double ds, double duration);
 
 /// The time step that a motion sets out with: backward Euler where Motion::acceleration is zero, as in what
 /// is free; what is held goes on with that acceleration.

@@ -231,10 +231,10 @@ bool Ramp::pass_break() {
   if (options_.inertia) {
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs.count());
     Motion motion = state.motion ? *state.motion : Motion{position(state, dofs), rest, rest, rest, rest};
-    motion.acceleration = motion.acceleration_now = motion.unbalanced = rest;
+    motion.acceleration_now = motion.unbalanced = rest;
     motion.step = 0;
     const double s = progress_.load_factor, ds = std::min(largest_, next_break() - s);
-    motion.acceleration.segment(dofs.free_count(), dofs.held_count()) =
+    motion.acceleration =
         prescribed_acceleration(path_, dofs, state, motion.velocity, s, ds, options_.duration);
     state.motion = std::make_shared<const Motion>(std::move(motion));
   }
@@ -380,8 +380,9 @@ RampResult Ramp::run() {
       const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, tiny));
       progress_.increment = std::min(largest_, tried * std::clamp(growth, 0.2, most_growth));
       if (error > options_.time_tolerance && tried > smallest_) continue;
-      const bool flows = flow && flow->now != arrived.history->now;
-      time_error_ = error == 0 && flows ? options_.time_tolerance : error;
+      time_error_ = error == 0 && flow && flow->now != arrived.history->now ? options_.time_tolerance : error;
+      if (options_.inertia)
+        arrived.motion = motion_now(equilibrium_.model(), arrived, path_, s, tried, options_.duration);
       if (flow && options_.outruns(tried)) arrived.history = without_past(*arrived.history);
     }
     if (!accept(std::move(arrived), s)) return {RampEnd::stopped};
