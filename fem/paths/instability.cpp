@@ -344,8 +344,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
     return std::nullopt;
   if (!last.mode) return std::nullopt;
   kind = classify(equilibrium, path, last.state, last.s, *last.mode);
-  CriticalPoint critical{kind, critical_load, last.state, *last.mode,
-                         find_beyond(equilibrium, path, points, critical_load, modes, options)};
+  CriticalPoint critical{kind, critical_load, last.state, *last.mode, {}};
   const bool slides = has_friction(equilibrium.model());
   const auto is_close = [&] {
     const double first = points.front().mode ? std::abs(points.front().mode->eigenvalue) : 0;
@@ -354,7 +353,9 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   };
   const bool vanishes = points.size() > 1 ? is_close() : std::abs(last.mode->eigenvalue) < vanished;
   if (!vanishes && !another) attempt(State(last.state), s_beyond); // which may find another
-  return vanishes || another ? std::optional(std::move(critical)) : std::nullopt;
+  if (!vanishes && !another) return std::nullopt;
+  critical.beyond = find_beyond(equilibrium, path, points, critical_load, modes, options);
+  return critical;
 }
 
 std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, const LoadPath& path,
