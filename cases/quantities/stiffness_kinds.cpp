@@ -129,15 +129,13 @@ double coupling(const Probing& probing, const Measured& measured) {
   return force * probing.quantity.length / drawn;
 }
 
-/// From the lowest, negative ones first: of those nearest to zero, some of which may be above it. NaN where
-/// nothing has a mass, or the state is not at rest.
+/// From the lowest, negative ones first. NaN where nothing has a mass, or the state is not at rest.
 double modal_stiffness(const Probing& probing, const Measured& measured) {
-  constexpr int more = 4;
   if (!at_rest(measured)) return no_value;
   const Quantity& quantity = probing.quantity;
   WithoutPins loose(probing.one, probing.device, measured.equilibrium, measured.state);
   const auto modes = fem::vibration_modes(loose.equilibrium(), loose.state(),
-                                          {.count = quantity.mode + more, .drifts = loose.drifts()});
+                                          {.count = quantity.mode, .drifts = loose.drifts()});
   if (!modes || std::ssize(*modes) < quantity.mode) return no_value;
   return (*modes)[static_cast<std::size_t>(quantity.mode) - 1].stiffness;
 }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int spare_vectors = 6, powers = 4, most_sweeps = 100;
 constexpr double tolerance = 1e-6;        ///< of modes; that of omega^2 is its square
+constexpr double farther = 10;            ///< shifts one after another
 constexpr double omega_round_off = 1e-13; ///< of omega^2, over that of the stiffest unknowns
 
 /// As the state is, but for what moves with a vibration.
@@ -56,10 +57,25 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   const Eigen::Index width = std::min(elastic, wanted + spare_vectors);
 
   double shift = 0;
-  if (options.drifts || !equilibrium.factor(at)) {
-    shift = singular_shift * mass.fastest;
+  const auto factor = [&](double shifted) {
+    shift = shifted;
     at.motion_scheme = mass_times(shift);
-    if (!equilibrium.factor(at)) return std::nullopt;
+    return equilibrium.factor(at);
+  };
+  const auto is_unstable = [&] { return equilibrium.tangent().unstable_modes() > 0; };
+  if (options.drifts || !equilibrium.factor(at) || is_unstable()) {
+    double below = singular_shift * mass.fastest;
+    if (!factor(below)) return std::nullopt;
+    if (is_unstable()) { // what is nearest to zero need not be the lowest: just beyond all that is unstable
+      double beyond = below;
+      while (is_unstable())
+        if (below = beyond; !factor(beyond *= farther)) return std::nullopt;
+      for (int closer = 0; closer < 3; ++closer) {
+        if (!factor(std::sqrt(below * beyond))) return std::nullopt;
+        (is_unstable() ? below : beyond) = shift;
+      }
+      if (!factor(beyond)) return std::nullopt;
+    }
   }
   const auto respond = [&](const Eigen::MatrixXd& X) { // K^-1 M X
     Eigen::MatrixXd Y = M * X;

@@ -24,7 +24,7 @@ struct VibrationMode {
   double frequency() const;
 };
 
-/// The modes whose omega^2 are nearest to zero, ascending, about an equilibrium under any load: prestretched,
+/// The modes of the least omega^2, ascending, about an equilibrium under any load: prestretched,
 /// charged, with its dead forces. Electrodes whose charge is given (chambers whose volume is) keep it, so
 /// that K is bordered (see BorderedTangent); all others, those on circuits too, keep their voltage. Unknowns
 /// without mass follow statically. Motion without stiffness is allowed where it has mass. Nothing where K is

@@ -3,6 +3,7 @@
 
 #include "fem/algebra/dense_algebra.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -30,6 +31,18 @@ Eigen::VectorXd rigid_motion(const Model& model, const State& state, int compone
       if (const int e = equations[c]; dofs.is_free(e)) motion[e] = spin[static_cast<Eigen::Index>(c)];
   }
   return motion;
+}
+
+/// Most that forces which do not balance, as in a state that has nearly come to rest, resist turns with, by
+/// turning along or not: |f| |x| for a turn, and so for each of the motions X, 1/s^2.
+double stiffness_of_imbalance(Equilibrium& equilibrium, State state, const Eigen::MatrixXd& X) {
+  Balance balance;
+  equilibrium.balance(state, balance);
+  const Eigen::VectorXd force = balance.force.head(X.rows()).cwiseAbs();
+  double most = 0;
+  for (const auto& motion : X.colwise())
+    most = std::max(most, motion.cwiseAbs().maxCoeff() * force.dot(motion.cwiseAbs()));
+  return 2 * most / equilibrium.model().extent;
 }
 
 } // namespace
@@ -80,10 +93,11 @@ RigidMotions rigid_motions(Equilibrium& equilibrium, const State& state, const F
   for (int c = 0; c < DofMap::components; ++c)
     candidates.col(c) = rigid_motion(equilibrium.model(), state, c);
   const Eigen::MatrixXd X = orthonormal_to(Eigen::MatrixXd(M.rows(), 0), M, std::move(candidates));
+  const double unseen = none * mass.fastest + stiffness_of_imbalance(equilibrium, state, X);
   Assembler& assembler = equilibrium.assembler();
   assembler.tangent(state);
   const SparseSymmetric& K = assembler.matrix();
-  Eigen::MatrixXd resistance = projected(K, K.values, X) / (none * mass.fastest);
+  Eigen::MatrixXd resistance = projected(K, K.values, X) / unseen;
   if (const auto damping = assembler.damping(state); damped && !damping.empty())
     resistance += projected(K, damping, X) / (none * std::sqrt(mass.fastest));
   const SymmetricEigen resisted = symmetric_eigen(resistance); // ascending

@@ -14,8 +14,9 @@ struct FreeMass {
 FreeMass free_mass(const Equilibrium& equilibrium, const State& state);
 
 /// What of small rigid motions a model resists with its mass alone: of translations along and turns about x,
-/// y and z those that its unknowns admit, and of these those without stiffness; where `damped`, without
-/// dampers, too. Columns per free equation, orthonormal in the mass matrix, 1/sqrt(kg).
+/// y and z those that its unknowns admit, and of these those without stiffness, but for what forces that do
+/// not balance make of one; where `damped`, without dampers, too. Columns per free equation, orthonormal in
+/// the mass matrix, 1/sqrt(kg).
 struct RigidMotions {
   Eigen::MatrixXd motions, momenta; ///< momenta = M motions
 
