@@ -69,7 +69,7 @@ void Descent::take(State state) {
 
 /// Along `direction`, or against it where the energy is lower there; false if neither is feasible.
 bool Descent::push(const Eigen::VectorXd& direction) {
-  const double length = options_.push * model_.extent / direction.cwiseAbs().maxCoeff();
+  const double length = options_.push / equilibrium_.step_size(direction);
   std::optional<State> lower;
   double lowest = 0;
   const double rounded = round_off * (std::abs(current_.energy) + std::abs(dead_work(state_)));
