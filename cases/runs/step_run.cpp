@@ -205,7 +205,7 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   const bool jumps = step_.on_instability == OnInstability::jump || step_.kind == StepKind::release;
   const bool ends = !switches && !jumps && (step_.on_instability == OnInstability::stop || timed());
   if (trouble.critical) announce(*trouble.critical, ends);
-  const fem::ContinuationOptions arcs{.newton = options_.newton};
+  const fem::ContinuationOptions arcs = this->arcs();
   if (switches) {
     for (const double amplitude : branch_amplitudes)
       if (!progress_.followed)
@@ -224,6 +224,13 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   progress_.followed = fem::begin_continuation(equilibrium_, path_, loaded(last(), s), s, 1, arcs);
   if (!progress_.followed) return failure(trouble);
   return std::nullopt;
+}
+
+/// Loads that may change their direction lead back beyond the step's beginning, as those of what snaps from
+/// one stable shape to another; a field has none, it pulls as (-Phi)^2.
+fem::ContinuationOptions StepRun::arcs() const {
+  const bool of_field = step_.kind == StepKind::voltage || step_.kind == StepKind::charge;
+  return {.newton = options_.newton, .lowest = of_field ? 0.0 : -1.0};
 }
 
 std::optional<Outcome> StepRun::follow() {
@@ -245,9 +252,8 @@ std::optional<Outcome> StepRun::follow() {
   watcher.on_cutback = [this](double) {
     if (observer_.on_cutback) observer_.on_cutback(progress_.followed->load_factor, {});
   };
-  const fem::ContinuationOptions arcs{.newton = options_.newton};
   fem::ContinuationProgress progress = before;
-  const fem::ContinuationEnd end = fem::continuation(equilibrium_, path_, arcs, progress, watcher);
+  const fem::ContinuationEnd end = fem::continuation(equilibrium_, path_, arcs(), progress, watcher);
   if (interrupted) return Outcome{Ending::interrupted};
   const double s = progress.load_factor;
   progress_.followed.reset();
@@ -255,14 +261,14 @@ std::optional<Outcome> StepRun::follow() {
     progress_.ramp.load_factor = 1;
     return std::nullopt;
   }
-  return Outcome{
-      Ending::gave_up, "no equilibrium",
-      end == fem::ContinuationEnd::reached_load
-          ? fmt::format("step \"{}\": the path led back to the loads at the step's beginning", step_.name)
-          : fmt::format("step \"{}\": the path was followed through {} states, to {}; there it {}",
-                        step_.name, progress.steps, load_text(s),
-                        end == fem::ContinuationEnd::gave_up ? "could not be followed any further"
-                                                             : "was left: that is the most")};
+  return Outcome{Ending::gave_up, "no equilibrium",
+                 end == fem::ContinuationEnd::reached_load
+                     ? fmt::format("step \"{}\": the path led back to the loads at the step's beginning{}",
+                                   step_.name, s < 0 ? ", and as far beyond them" : "")
+                     : fmt::format("step \"{}\": the path was followed through {} states, to {}; there it {}",
+                                   step_.name, progress.steps, load_text(s),
+                                   end == fem::ContinuationEnd::gave_up ? "could not be followed any further"
+                                                                        : "was left: that is the most")};
 }
 
 /// Where a film cannot be let go slowly, as its frame gives way under dead forces, it is let go at once: it

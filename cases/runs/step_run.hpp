@@ -83,6 +83,7 @@ class StepRun {
   bool pass(fem::CriticalPoint critical);
   void accept_critical(const fem::CriticalPoint& critical);
   std::optional<Outcome> leave(const Trouble& trouble);
+  fem::ContinuationOptions arcs() const;
   std::optional<Outcome> follow();
   /// Loads and a state from which to jump, along a direction in the free equations.
   struct Departure {
