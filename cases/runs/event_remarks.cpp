@@ -15,17 +15,6 @@ namespace dielast::cases {
 
 namespace {
 
-/// A kind of event, and the extreme that crosses a limit when it happens.
-struct Threshold {
-  std::string_view kind, field;
-  post::Extreme extreme;
-  double limit;
-};
-constexpr std::array thresholds{
-    Threshold{"loss of tension", "min_principal_stress", post::Extreme::minimum, 0},
-    Threshold{"breakdown", "breakdown_ratio", post::Extreme::maximum, 1},
-    Threshold{"wall yield", "yield_ratio", post::Extreme::maximum, 1}};
-
 /// Rises over one element within which a singular extreme reaches a limit on a finer mesh.
 constexpr double reach = 4;
 

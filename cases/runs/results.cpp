@@ -54,16 +54,17 @@ std::vector<post::Highlight> highlights(const Case& one, const Results& results,
   return shown;
 }
 
-/// What happened, and whether it depends on the mesh.
-std::string message_of(const post::Event& event, const Results& results) {
-  const auto remark = std::ranges::find(results.event_remarks, event.kind, &EventRemark::kind);
-  return remark == results.event_remarks.end() ? event.message
-                                               : fmt::format("{}; this {}", event.message, remark->remark);
-}
-
+/// Events with whether they depend on the mesh; of critical points that at which the run ends.
 std::vector<post::StepRecord> with_remarks(std::vector<post::StepRecord> records, const Results& results) {
-  for (post::StepRecord& record : records)
-    for (post::Event& event : record.events) event.message = message_of(event, results);
+  for (const auto& [kind, remark] : results.event_remarks) {
+    bool told = false;
+    for (auto record = records.rbegin(); record != records.rend(); ++record)
+      for (auto event = record->events.rbegin(); event != record->events.rend(); ++event) {
+        if (event->kind != kind || (told && is_critical(kind))) continue;
+        event->message += fmt::format("; this {}", remark);
+        told = true;
+      }
+  }
   return records;
 }
 
@@ -236,7 +237,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
   summary["margins"] = margins;
   if (results.time_error > 0) summary["time_error"] = results.time_error;
   json events = json::array();
-  for (const auto& record : journal.records)
+  for (const auto& record : with_remarks(journal.records, results))
     for (const auto& event : record.events)
       events.push_back({{"kind", event.kind},
                         {"step", record.step},
@@ -245,7 +246,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
                         {"time", event.before ? event.before->time : record.time},
                         {"voltages", event.before ? event.before->voltages : record.voltages},
                         {"place", event.place},
-                        {"message", message_of(event, results)}});
+                        {"message", event.message}});
   // The bifurcation at which a run ends as at a limit point is told by the event that located it.
   const auto tells = [&](const post::Event& event) {
     return event.kind == results.outcome.kind ||

@@ -41,15 +41,6 @@ post::WantedScalars wanted(const Measurement& measurement) {
   return post::WantedScalars(std::move(names));
 }
 
-/// Whether a step is about voltages, and the case has none.
-bool lacks_voltage(const Case& one, const Step& step) {
-  const auto charged = [](const auto& drive) { return drive.second.voltage || drive.second.charge; };
-  const auto controlled = [](const Controller& own) { return own.drives.what == Driven::voltage; };
-  return step.kind == StepKind::voltage && !one.electrodes.empty() &&
-         std::ranges::none_of(one.controllers, controlled) && std::ranges::none_of(one.drives, charged) &&
-         std::ranges::none_of(one.steps, [](const Step& other) { return other.to.has_value(); });
-}
-
 } // namespace
 
 Simulation::Simulation(const Case& one, int threads)
@@ -260,14 +251,30 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
   unrecorded_ = increment;
   measured.may_rest = !step.duration;
   measurement_.all(measured);
-  std::vector<post::Event> found = watch_.check(state, measured.extremes, increment.newton.unstable_modes);
-  for (post::Event& event : found) {
+  for (post::Event& event : events(step, measured, increment, reached)) {
     if (std::ranges::count(news_, event.kind, &post::Event::kind) > 0) continue; // one of a kind for a record
-    event.before = {increment.load_factor, state.time, voltages(state)};
-    if (step.duration) event.message += fmt::format(" (at {})", post::engineering(state.time, "s"));
+    if (!event.before) {
+      event.before = {increment.load_factor, state.time, voltages(state)};
+      if (step.duration) event.message += fmt::format(" (at {})", post::engineering(state.time, "s"));
+    }
     news_.push_back(std::move(event));
   }
   return !observer.on_pass || observer.on_pass();
+}
+
+/// What begins at an accepted state, and where on the way to it.
+std::vector<post::Event> Simulation::events(const Step& step, const Measured& measured,
+                                            const fem::Increment& increment, Reached reached, bool ends) {
+  std::vector<post::Event> events =
+      watch_.check(measured.state, measured.extremes, increment.newton.unstable_modes, ends);
+  if (!events.empty() && reached == Reached::along_path && !increment.jumped && !in_step_.followed &&
+      loads_) {
+    const fem::RampProgress& ramp = in_step_.ramp;
+    const fem::LoadPath path = loads_->path(step_, ramp.start);
+    const double to = increment.load_factor;
+    watch_.locate(events, {ramp.points, path, to - increment.length, to, step.duration.has_value()});
+  }
+  return events;
 }
 
 std::vector<double> Simulation::voltages(const fem::State& state) const {
@@ -305,9 +312,8 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, Me
     const double work = unseen_.work(equilibrium_->assembler(), state);
     if (work > 0 && unseen_.kinetic > notable * work) news_.push_back(left_out(unseen_.kinetic / work, step));
   }
-  std::vector<post::Event> events = std::exchange(news_, {});
-  for (post::Event& event : watch_.check(state, measured.extremes, newton.unstable_modes, ends))
-    events.push_back(std::move(event));
+  std::vector<post::Event> news = std::exchange(news_, {});
+  std::ranges::move(events(step, measured, increment, reached, ends), std::back_inserter(news));
   const post::StepRecord record{.index = records_++,
                                 .step = is_drawn ? drawn : step.name,
                                 .load_factor = increment.load_factor,
@@ -316,7 +322,7 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, Me
                                 .iterations = newton.iterations,
                                 .residual = newton.residual,
                                 .unstable_modes = newton.unstable_modes,
-                                .events = std::move(events),
+                                .events = std::move(news),
                                 .jumped = increment.jumped};
   return !observer.on_accept ||
          observer.on_accept({record, measured, values, ends, reached == Reached::to_its_end});
@@ -351,10 +357,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
       if (step.kind == StepKind::release) energy_.cut(loads_->cut(step_, ramp.start, state));
       for (const auto& [load, signal] : signals_) signal->begin(step.duration.value_or(0));
-      if (lacks_voltage(case_, step))
-        news_.push_back(
-            {"no voltage", "",
-             fmt::format("step \"{}\" leaves every electrode at 0 V: give [drive] a voltage", step.name)});
+      if (const auto event = no_voltage(case_, step)) news_.push_back(*event);
       if (step.kind == StepKind::transient && !signals_.empty()) {
         Measured measured(device_, *equilibrium_, ramp.points.back().state, energy_, scalars_);
         if (!sample(step, 0, measured)) return *std::exchange(refusal_, std::nullopt);

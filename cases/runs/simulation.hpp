@@ -115,6 +115,8 @@ class Simulation {
   void account(const fem::State& state, const fem::Increment& increment, Reached reached);
   bool record(const SimulationObserver& observer, const Step& step, Measured& measured,
               const fem::Increment& increment, Reached reached = Reached::along_path);
+  std::vector<post::Event> events(const Step& step, const Measured& measured, const fem::Increment& increment,
+                                  Reached reached, bool ends = false);
   std::vector<double> voltages(const fem::State& state) const;
 
   const Case& case_;

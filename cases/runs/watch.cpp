@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/watch.hpp"
 
+#include "cases/loads/load_text.hpp"
 #include "meshing/solids/crossings.hpp"
 #include "post/engineering.hpp"
 #include "post/reductions.hpp"
 
+#include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 
 namespace dielast::cases {
 
@@ -173,6 +177,68 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
                      "leave it",
                      unstable_modes, unstable_modes == 1 ? "" : "s")});
   return events;
+}
+
+void Watch::locate(std::vector<post::Event>& events, const Passage& passage) const {
+  constexpr std::size_t most = 4;
+  constexpr double accuracy = 1e-9; // of the step
+  const auto points = passage.points.last(std::min(passage.points.size(), most));
+  if (points.size() < 2) return;
+  for (post::Event& event : events) {
+    const auto threshold = std::ranges::find(thresholds, event.kind, &Threshold::kind);
+    if (threshold == thresholds.end() || (device_.tension_field && event.kind == "loss of tension")) continue;
+    const post::WantedScalars wanted({std::string(threshold->field)});
+    std::vector<double> beyond;
+    for (const fem::PathPoint& point : points) {
+      const fem::Samples samples = device_.model.sample(point.state);
+      beyond.push_back(threshold->beyond(
+          post::Extremes(samples, wanted).find(threshold->field, threshold->extreme)->value));
+    }
+    if (!(beyond[beyond.size() - 2] < 0 && beyond.back() > 0)) continue;
+    const auto beyond_at = [&](double s) {
+      const double at = passage.path.parameter(s);
+      double sum = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        double term = beyond[i];
+        for (const fem::PathPoint& other : points)
+          if (&other != &points[i]) term *= (at - other.parameter) / (points[i].parameter - other.parameter);
+        sum += term;
+      }
+      return sum;
+    };
+    std::uintmax_t tries = 100;
+    const double s = boost::math::tools::toms748_solve(
+                         beyond_at, passage.from, passage.to, beyond[beyond.size() - 2], beyond.back(),
+                         [](double low, double high) { return high - low <= accuracy; }, tries)
+                         .second;
+    const double share = (s - passage.from) / (passage.to - passage.from);
+    const fem::State &before = points[points.size() - 2].state, &after = points.back().state;
+    fem::State at = after;
+    passage.path.apply(at, s);
+    at.time = std::lerp(before.time, after.time, share);
+    event.before = {s, at.time, {}};
+    for (std::size_t p = 0; p < at.voltage.size(); ++p) {
+      if (fem::is_isolated(at.supply[p]))
+        at.voltage[p] = std::lerp(before.voltage[p], after.voltage[p], share);
+      if (device_.model.ports[p].is_electrode()) event.before->voltages.push_back(at.voltage[p]);
+    }
+    event.message += fmt::format(" (from about {} on)",
+                                 passage.timed ? post::engineering(at.time, "s")
+                                               : load_text(device_.model, passage.path, at, s, false));
+  }
+}
+
+std::optional<post::Event> no_voltage(const Case& one, const Step& step) {
+  const auto charged = [](const auto& drive) { return drive.second.voltage || drive.second.charge; };
+  const auto controlled = [](const Controller& own) { return own.drives.what == Driven::voltage; };
+  const auto leads = [](const Step& other) { return other.to.has_value(); };
+  if (step.kind != StepKind::voltage || one.electrodes.empty() ||
+      std::ranges::any_of(one.controllers, controlled) || std::ranges::any_of(one.drives, charged) ||
+      std::ranges::any_of(one.steps, leads))
+    return std::nullopt;
+  return post::Event{
+      "no voltage", "",
+      fmt::format("step \"{}\" leaves every electrode at 0 V: give [drive] a voltage", step.name)};
 }
 
 post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, std::span<const Step> steps,

@@ -4,6 +4,7 @@
 #include "cases/devices/device.hpp"
 #include "fem/contact/wall_contact.hpp"
 #include "fem/paths/energy_balance.hpp"
+#include "fem/paths/load_path.hpp"
 #include "post/reductions.hpp"
 #include "post/step_record.hpp"
 
@@ -12,11 +13,37 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace dielast::cases {
 
 /// Below this a stress is round-off, Pa: 1e-8 of the stiffest film's shear modulus, at least 1e-3.
 double smallest_stress(const Case& one);
+
+/// A kind of event that begins when an extreme passes a limit.
+struct Threshold {
+  std::string_view kind, field;
+  post::Extreme extreme;
+  double limit;
+  /// How far a value is beyond the limit, negative before it, as it grows with what drives a device, Phi^2.
+  double beyond(double value) const {
+    if (extreme == post::Extreme::minimum) return limit - value;
+    return (field == "breakdown_ratio" ? value * value : value) - limit; // which is 1
+  }
+};
+inline constexpr std::array thresholds{
+    Threshold{"loss of tension", "min_principal_stress", post::Extreme::minimum, 0},
+    Threshold{"breakdown", "breakdown_ratio", post::Extreme::maximum, 1},
+    Threshold{"wall yield", "yield_ratio", post::Extreme::maximum, 1}};
+
+/// The way to an accepted state from the one before, in one step under load control.
+struct Passage {
+  std::span<const fem::PathPoint> points; ///< accepted states of one smooth way, these two the last
+  const fem::LoadPath& path;
+  double from, to; ///< load factors of the two
+  bool timed;
+};
 
 /// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
 /// that touch, film that passes through itself, fins that turn far, leaks that steady voltages leave out,
@@ -34,6 +61,10 @@ class Watch {
   std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes,
                                  bool ends = false);
 
+  /// Tells of those events that begin at a threshold where it was passed on the way to their state: on the
+  /// polynomial through what up to four states are beyond it.
+  void locate(std::vector<post::Event>& events, const Passage& passage) const;
+
   /// Kinds of the conditions that hold now; stored with a checkpoint.
   std::set<std::string> active;
 
@@ -50,6 +81,8 @@ class Watch {
   std::vector<std::string> kept_apart_; ///< surfaces between which there is contact
 };
 
+/// A step is about voltages, and the case has none.
+std::optional<post::Event> no_voltage(const Case& one, const Step& step);
 /// The energy balance is not known well enough in one of the `steps`; `sudden`: what a support was asked for
 /// that masses cannot do.
 post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, std::span<const Step> steps,
