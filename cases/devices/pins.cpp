@@ -2,6 +2,7 @@
 #include "cases/devices/pins.hpp"
 
 #include "cases/case/holding.hpp"
+#include "fem/algebra/dense_algebra.hpp"
 #include "fem/linear/rest.hpp"
 #include "fem/linear/rigid_motions.hpp"
 #include "fem/paths/renumbering.hpp"
@@ -62,6 +63,84 @@ std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dime
     pins.push_back(turned);
   }
   return pins;
+}
+
+namespace {
+
+/// Where a film lies: its centroid, and the normal that was along `axis`.
+struct Lie {
+  Eigen::Vector3d drawn, now, normal;
+};
+
+std::optional<Lie> lie_of(const meshing::Mesh& mesh, const fem::State& state, int axis) {
+  const meshing::CellBlock& film = *mesh.film();
+  Eigen::MatrixXd drawn(3, film.size()), now(3, film.size());
+  Eigen::VectorXd area(film.size());
+  for (int cell = 0; cell < film.size(); ++cell) {
+    const auto nodes = film.cell(cell);
+    const auto at = [&](std::size_t corner) { return mesh.nodes[static_cast<std::size_t>(nodes[corner])]; };
+    area[cell] = nodes.size() < 3 ? 0 : (at(1) - at(0)).cross(at(2) - at(0)).norm();
+    drawn.col(cell).setZero();
+    now.col(cell).setZero();
+    for (const int node : nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      drawn.col(cell) += mesh.nodes[n] / static_cast<double>(nodes.size());
+      now.col(cell) += (mesh.nodes[n] + state.displacement[n]) / static_cast<double>(nodes.size());
+    }
+  }
+  if (!(area.sum() > 0)) return std::nullopt;
+  Lie lie{drawn * area / area.sum(), now * area / area.sum(), {}};
+  const fem::SingularValues svd = fem::singular_values((now.colwise() - lie.now) * area.asDiagonal() *
+                                                       (drawn.colwise() - lie.drawn).transpose());
+  Eigen::Vector3d sides(1, 1, (svd.U * svd.V.transpose()).determinant() < 0 ? -1 : 1); // no mirror image
+  lie.normal = svd.U * sides.asDiagonal() * svd.V.transpose() * Eigen::Vector3d::Unit(axis);
+  return lie;
+}
+
+/// The turn in the plane of axes l and w that brings the component w of d to `wanted`, by the least angle.
+Eigen::Matrix3d turn_in_plane(const Eigen::Vector3d& d, int l, int w, double wanted) {
+  const double now = std::atan2(d[w], d[l]);
+  const double ahead = std::asin(std::clamp(wanted / std::hypot(d[l], d[w]), -1.0, 1.0));
+  const double by = std::abs(now) <= std::numbers::pi / 2
+                        ? ahead - now
+                        : std::remainder(std::numbers::pi - ahead - now, 2 * std::numbers::pi);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn(l, l) = turn(w, w) = std::cos(by);
+  turn(w, l) = std::sin(by);
+  turn(l, w) = -std::sin(by);
+  return turn;
+}
+
+} // namespace
+
+std::optional<fem::State> upright(const Device& device, const fem::State& state) {
+  constexpr double flat = 1e-9;
+  if (device.pins.size() != 6 || state.motion || !state.dead_force.isZero(0)) return std::nullopt;
+  const std::vector<Eigen::Vector3d>& drawn = device.mesh.nodes;
+  const int across = device.pins[5].axis, wide = device.pins[2].axis, long_way = 3 - across - wide;
+  const auto lie = lie_of(device.mesh, state, across);
+  if (!lie) return std::nullopt;
+  const Eigen::Vector3d up = Eigen::Vector3d::Unit(across);
+  if ((lie->normal - up).norm() < flat &&
+      std::abs((lie->now - lie->drawn)[across]) < flat * device.model.extent)
+    return std::nullopt;
+  const auto first = static_cast<std::size_t>(device.pins[0].node),
+             far = static_cast<std::size_t>(device.pins[2].node);
+  const auto place = [&](std::size_t n) -> Eigen::Vector3d { return drawn[n] + state.displacement[n]; };
+  const Eigen::Matrix3d raised = Eigen::Quaterniond::FromTwoVectors(lie->normal, up).toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      turn_in_plane(raised * (place(far) - place(first)), long_way, wide, (drawn[far] - drawn[first])[wide]) *
+      raised;
+  Eigen::Vector3d origin = drawn[first];
+  origin[across] = lie->drawn[across] - (turn * (lie->now - place(first)))[across];
+  const Eigen::Quaterniond by(turn);
+  fem::State told = state;
+  for (std::size_t n = 0; n < drawn.size(); ++n) {
+    told.displacement[n] = turn * (place(n) - place(first)) + origin - drawn[n];
+    told.rotation[n] = by * state.rotation[n];
+    told.angle[n] = fem::angle_near(told.rotation[n], state.angle[n]);
+  }
+  return told;
 }
 
 int quarter_turns(const Case& one) {

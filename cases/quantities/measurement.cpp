@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/quantities/measurement.hpp"
 
+#include "cases/devices/pins.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +13,9 @@ namespace dielast::cases {
 Measured::Measured(const Device& device, fem::Equilibrium& solver, const fem::State& at,
                    const fem::EnergyBalance& balance, const post::WantedScalars& scalars,
                    const fem::Holding* held)
-    : equilibrium(solver), state(at), samples(device.model.sample(at)), extremes(samples, scalars),
-      charges(device.model.charges(at, false)), energy(balance), held_(held) {}
+    : equilibrium(solver), upright_(upright(device, at)), state(upright_ ? *upright_ : at),
+      samples(device.model.sample(state)), extremes(samples, scalars),
+      charges(device.model.charges(state, false)), energy(balance), held_(held) {}
 
 const Eigen::VectorXd& Measured::reaction() const {
   if (reaction_.size() == 0)

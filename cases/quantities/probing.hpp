@@ -13,7 +13,7 @@
 
 namespace dielast::cases {
 
-/// A state, with what is needed to measure it.
+/// A state, with what is needed to measure it; that of a pinned body upright().
 struct Measured {
   /// `scalars`: of which the extremes are wanted. `held`: what holds the state, where that is known. Both
   /// must outlive this.
@@ -27,6 +27,10 @@ struct Measured {
   fem::Equilibrium& equilibrium;
   bool may_rest = true; ///< asked for stiffness and vibrations, where it is at rest; not on the way in time
 
+ private:
+  std::optional<fem::State> upright_;
+
+ public:
   const fem::State& state;
   fem::Samples samples;
   post::Extremes extremes; ///< of the scalars that are wanted

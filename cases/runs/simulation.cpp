@@ -2,6 +2,7 @@
 #include "cases/runs/simulation.hpp"
 
 #include "cases/case/sudden_motion.hpp"
+#include "cases/devices/pins.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/quantities/film_values.hpp"
 #include "cases/runs/phases.hpp"
@@ -338,7 +339,9 @@ Outcome Simulation::run(const SimulationObserver& observer) {
     if (step.is_analysis()) {
       if (!observer.on_analysis) continue;
       try {
-        observer.on_analysis(analyse(case_, device_, *equilibrium_, state(), step), state());
+        const std::optional<fem::State> lying = upright(device_, state());
+        const fem::State& at = lying ? *lying : state();
+        observer.on_analysis(analyse(case_, device_, *equilibrium_, at, step), at);
       } catch (const AnalysisError& error) {
         return {Ending::gave_up, "no vibration", fmt::format("step \"{}\": {}", step.name, error.what())};
       }
