@@ -273,7 +273,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
   const double spring = viscous ? 1 / materials::stiffness_before_viscosity : 0;
   if (!own.trouble.empty()) {
     estimates.reason = did_not_end;
-    estimates.events = {remark_on_end(own, others, orders_of({}, one, smooth, bonded))};
+    estimates.events = {remark_on_end(one, own, others, orders_of({}, one, smooth, bonded))};
     return estimates;
   }
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {

@@ -58,7 +58,8 @@ std::vector<EventRemark> event_remarks(const Case& one, const Device& device, co
 /// Of the limit point at which a run without time has ended: the voltage there, where that differs from mesh
 /// to mesh, otherwise the load factor, with its error; or that there is none with `others`. Its error is of
 /// an order between these.
-EventRemark remark_on_end(const Solution& own, const std::vector<Solution>& others, OrderRange orders);
+EventRemark remark_on_end(const Case& one, const Solution& own, const std::vector<Solution>& others,
+                          OrderRange orders);
 
 /// Solves the case once more with each of other_discretisations() and compares. `own` has run to its end, or
 /// without time to a limit point, where nothing but that is compared; `outcome` says to which. `records` are

@@ -108,11 +108,18 @@ std::vector<EventRemark> event_remarks(const Case& one, const Device& device, co
   return remarks;
 }
 
-EventRemark remark_on_end(const Solution& own, const std::vector<Solution>& others, OrderRange orders) {
+EventRemark remark_on_end(const Case& one, const Solution& own, const std::vector<Solution>& others,
+                          OrderRange orders) {
   const double volts = own.last.largest_voltage();
-  const bool by_voltage = std::ranges::any_of(others, [&](const Solution& other) {
-    return std::abs(other.last.largest_voltage() - volts) > same_voltage * std::abs(volts);
-  });
+  const auto step = std::ranges::find(one.steps, own.last.step, &Step::name);
+  const bool charged =
+      std::ranges::any_of(one.drives, [](const auto& d) { return d.second.charge.has_value(); });
+  const bool led = step == one.steps.end() || step->kind == StepKind::voltage || // else the voltage follows
+                   (step->kind == StepKind::transient && !charged);
+  const bool by_voltage =
+      led && std::ranges::any_of(others, [&](const Solution& other) {
+        return std::abs(other.last.largest_voltage() - volts) > same_voltage * std::abs(volts);
+      });
   const auto load = [by_voltage](const Solution& solution) {
     return Sampled{solution.size, by_voltage ? solution.last.largest_voltage() : solution.last.load_factor};
   };
