@@ -43,6 +43,7 @@ struct Film {
   double thickness = 0;               ///< undeformed H, m
   std::array<double, 2> prestretch{}; ///< lambda_p along x and y
   bool tension_field = false;         ///< it wrinkles where it would be compressed, and carries tension only
+  double wrinkled = 1e-5;             ///< MembraneSection::wrinkled; other discretisations change it
   FilmSection section{};
   std::vector<Layer> further_layers{}; ///< of a shell
   double offset =

@@ -69,6 +69,13 @@ void coarsen_steps(Case& one, int factor) {
   one.solver.time_tolerance = std::min(0.1, one.solver.time_tolerance * factor * factor * factor);
 }
 
+/// Larger by a factor to its fourth power: what keeps wrinkled film regular is an error like those of a mesh,
+/// and is told with them.
+void stiffen_wrinkles(Case& one, int factor) {
+  for (Part& part : one.parts)
+    if (part.film) part.film->wrinkled *= std::pow(factor, 4);
+}
+
 /// Sixths of the sides that the smallest circle has which is an edge of a film; 0: there is none.
 int sides_of_edge(const Part& part) {
   if (!regions_of(part).empty()) return 0; // triangles of one size fill what is between them
@@ -117,6 +124,7 @@ std::vector<Discretisation> other_discretisations(const Case& one) {
   if (exact && !takes_time(one)) {
     Discretisation& fewer = others.emplace_back(Discretisation{one, fewer_increments});
     coarsen_steps(fewer.one, 1);
+    stiffen_wrinkles(fewer.one, 2);
     return others;
   }
   double coarsest_mesh = 1;
@@ -126,6 +134,7 @@ std::vector<Discretisation> other_discretisations(const Case& one) {
     if (elements < coarsest_mesh || (elements == 1 && !exact)) break;
     coarsest_mesh = elements;
     coarsen_steps(coarser.one, factor);
+    stiffen_wrinkles(coarser.one, factor);
     coarser.size = elements > 1 ? elements : factor;
     others.push_back(std::move(coarser));
   }

@@ -17,7 +17,8 @@ fem::MembraneSection section_of(const Part& part) {
           .thickness = part.film->thickness,
           .layers = part.layers(),
           .prestretch = part.film->prestretch,
-          .tension_field = part.film->tension_field};
+          .tension_field = part.film->tension_field,
+          .wrinkled = part.film->wrinkled};
 }
 
 /// Adds the film with a section under its electrodes; with another one that is not sampled beside it.

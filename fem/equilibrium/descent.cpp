@@ -82,7 +82,7 @@ bool Equilibrium::is_slack(const State& state) const {
 }
 
 bool Equilibrium::is_neutral(const State& state, int unstable_modes, const NewtonOptions& options) {
-  constexpr double rounding = 1e-10, regularisation = 1e-4; // over the stiffness as drawn; see FilmResponse
+  constexpr double rounding = 1e-10, several = 10; // over the stiffness as drawn, and what keeps it regular
   const auto film = model_.sample(state).film;
   const bool wrinkles =
       options.wrinkles && std::ranges::count(film, materials::Tension::slack, &MembraneSample::tension) > 0;
@@ -91,7 +91,7 @@ bool Equilibrium::is_neutral(const State& state, int unstable_modes, const Newto
   Eigen::VectorXd added = Eigen::VectorXd::Zero(stiffness_.size()); // what film does not move is what it is
   for (Eigen::Index e = 0; e < added.size(); ++e)
     if (moved[static_cast<std::size_t>(e)])
-      added[e] = (wrinkles ? regularisation : rounding) *
+      added[e] = (wrinkles ? several * model_.wrinkled : rounding) *
                  std::min(stiffness_[e], film_stiffness_ / (weight_[e] * weight_[e]));
   return factor(state, nullptr, &added) && tangent_.unstable_modes() <= unstable_modes;
 }

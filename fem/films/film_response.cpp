@@ -66,8 +66,7 @@ materials::TensionField FilmResponse::resolve(const State& state, int point, con
   if (!tension_field_) return {tension_of(taut), taut, at};
   materials::TensionField field = materials::relax(
       [&](const C& wider) { return with_branches(state, point, wider, this->simple(wider, k)); }, at, taut);
-  if (wrinkles(field))
-    field.potential = sum(scaled(field.potential, 1 - regularisation), scaled(taut, regularisation));
+  if (wrinkles(field)) field.potential = sum(scaled(field.potential, 1 - wrinkled_), scaled(taut, wrinkled_));
   return field;
 }
 
@@ -80,14 +79,14 @@ FilmResponse::ChargeDensity FilmResponse::charge_density(const materials::Tensio
   const ChargeDensity natural = of(field.natural);
   if (!wrinkles(field)) return natural;
   const ChargeDensity taut = of(at);
-  return {(1 - regularisation) * natural.value + regularisation * taut.value,
-          (1 - regularisation) * (field.carry * natural.slope) + regularisation * taut.slope};
+  return {(1 - wrinkled_) * natural.value + wrinkled_ * taut.value,
+          (1 - wrinkled_) * (field.carry * natural.slope) + wrinkled_ * taut.slope};
 }
 
 EnergyParts FilmResponse::energies(const State& state, int point, const materials::TensionField& field,
                                    const C& at) const {
   EnergyParts parts;
-  const double share = wrinkles(field) ? regularisation : 0;
+  const double share = wrinkles(field) ? wrinkled_ : 0;
   if (share > 0) parts.regularised = share * simple(at, 0.0).value;
   parts.elastic = (1 - share) * simple(field.natural, 0.0).value + parts.regularised;
   for (int b = 0; b < branches(); ++b) {

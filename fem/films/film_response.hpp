@@ -22,7 +22,8 @@ class FilmResponse {
   using Potential = materials::MembranePotential<double>;
 
   explicit FilmResponse(const MembraneSection& section)
-      : material_(materials::with_dashpot(section.material)), tension_field_(section.tension_field) {}
+      : material_(materials::with_dashpot(section.material)), tension_field_(section.tension_field),
+        wrinkled_(section.wrinkled) {}
 
   /// True when Psi depends on C and k alone, through the law and the field: several points may then be
   /// computed at once by simple().
@@ -81,8 +82,6 @@ class FilmResponse {
                std::vector<double>& all) const;
 
  private:
-  /// What is left of the taut film's potential where it wrinkles, to keep the tangent regular.
-  static constexpr double regularisation = 1e-5;
   static constexpr int per_branch = static_cast<int>(std::tuple_size_v<materials::Internal>);
 
   int branches() const { return static_cast<int>(material_.branches.size()); }
@@ -99,6 +98,7 @@ class FilmResponse {
 
   materials::Material material_;
   bool tension_field_;
+  double wrinkled_; ///< see MembraneSection
   int first_ = 0;
   mutable std::vector<double> kept_; ///< kept_size() per point
 };
