@@ -5,12 +5,14 @@
 #include "meshing/gmsh/gmsh_text.hpp"
 #include "meshing/middle_nodes.hpp"
 #include "tests/cases/case_test.hpp"
+#include "tests/cases/values_at_end.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -303,6 +305,25 @@ TEST_F(CurvedShells, flat_facets_are_told) {
   EXPECT_FALSE(told());
   draw(surface(6, 4, quarter, true));
   EXPECT_TRUE(told());
+}
+
+/// The gallery's hinged roof, half as thick and `scale` times as large, under stresses as they are: its load
+/// changes its direction on the way from one stable shape to the other.
+double deflection_of_thin_roof(double scale, const std::string& on_instability) {
+  return test::values_at_end(
+             read_case(std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/shells/roof.toml",
+                       {fmt::format("mesh.unit={} mm", scale),
+                        fmt::format("film.thickness={} mm", 6.35 * scale),
+                        fmt::format("load[1].force=[0, 0, {}]", -812.625 * scale * scale),
+                        "step.force.on_instability=" + on_instability}))
+      .at("deflection");
+}
+
+TEST_F(CurvedShells, a_thin_roof_is_followed_to_where_it_jumps_whatever_its_size) {
+  const double jumped = deflection_of_thin_roof(1, "jump");
+  EXPECT_LT(jumped, -35e-3);
+  EXPECT_NEAR(deflection_of_thin_roof(1, "follow"), jumped, 1e-6 * std::abs(jumped));
+  EXPECT_NEAR(deflection_of_thin_roof(0.01, "jump"), 0.01 * jumped, 1e-8 * std::abs(jumped));
 }
 
 } // namespace
