@@ -64,7 +64,7 @@ void coarsen_steps(Case& one, int factor) {
   for (Step& step : one.steps) {
     const int divisor = step.duration ? factor : fewer_increments;
     step.increments = (step.increments + divisor - 1) / divisor;
-    step.record.reset();
+    if (step.record) step.record = std::min(*step.duration, factor * *step.record); // steps end there, too
   }
   one.solver.time_tolerance = std::min(0.1, one.solver.time_tolerance * factor * factor * factor);
 }

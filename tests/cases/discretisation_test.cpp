@@ -72,10 +72,24 @@ TEST(OtherDiscretisations, LengthenTimeSteps) {
     if (!patch.steps[s].duration) continue;
     EXPECT_EQ(others[0].one.steps[s].increments, (patch.steps[s].increments + 1) / 2);
     EXPECT_EQ(others[1].one.steps[s].increments, (patch.steps[s].increments + 3) / 4);
-    EXPECT_FALSE(others[0].one.steps[s].record);
   }
   EXPECT_DOUBLE_EQ(others[0].one.solver.time_tolerance, 8 * patch.solver.time_tolerance);
   EXPECT_DOUBLE_EQ(others[1].one.solver.time_tolerance, 64 * patch.solver.time_tolerance);
+}
+
+// Rows shorten the time steps that end at them, in all discretisations alike.
+TEST(OtherDiscretisations, HaveRowsAsFarApartAsTheirTimeSteps) {
+  Case patch = read_case(valid / "patch.toml");
+  const auto timed =
+      std::ranges::find_if(patch.steps, [](const Step& step) { return step.duration.has_value(); });
+  ASSERT_NE(timed, patch.steps.end());
+  timed->record = 0.3 * *timed->duration;
+  const auto others = other_discretisations(patch);
+  const auto of = [&](const Discretisation& other) {
+    return *other.one.steps[static_cast<std::size_t>(timed - patch.steps.begin())].record / *timed->duration;
+  };
+  EXPECT_DOUBLE_EQ(of(others.at(0)), 0.6);
+  EXPECT_DOUBLE_EQ(of(others.at(1)), 1);
 }
 
 TEST(OtherDiscretisations, OfAStillPatchHaveFewerIncrements) {
