@@ -364,7 +364,8 @@ void SectionReader::report_unknown(const Section& section, const Node& table, co
     std::string advice;
     if (diagnostics_.size() < most_diagnostics) { // a walk through the table, for errors that are told
       const auto names = section.names_for(selected);
-      advice = home_of(name);
+      advice = called_here(name, names);
+      if (advice.empty()) advice = home_of(name);
       if (advice.empty()) advice = did_you_mean(name, names);
       constexpr std::size_t few = 12; // so that they are told although the key is another section's
       if (advice.empty() || (names.size() <= few && advice.find("belongs in") != std::string::npos))

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <tuple>
 
@@ -66,6 +67,41 @@ std::string Diagnostic::text() const {
 CaseError::CaseError(std::vector<Diagnostic> diagnostics, std::size_t more)
     : std::runtime_error(lines_of(first_in_file(diagnostics), left_out(diagnostics, more))),
       diagnostics_(first_in_file(diagnostics)), more_(left_out(diagnostics, more)) {}
+
+std::string called_here(std::string_view word, const std::vector<std::string>& names) {
+  struct Word {
+    std::string_view elsewhere, here;
+  };
+  static constexpr std::array words{Word{"offset", "mean"},
+                                    Word{"bias", "mean"},
+                                    Word{"omega", "frequency"},
+                                    Word{"E", "youngs_modulus"},
+                                    Word{"young_modulus", "youngs_modulus"},
+                                    Word{"nu", "poisson_ratio"},
+                                    Word{"mu", "shear_modulus"},
+                                    Word{"G", "shear_modulus"},
+                                    Word{"C1", "c1"},
+                                    Word{"C10", "c1"},
+                                    Word{"C01", "c2"},
+                                    Word{"C20", "c2"},
+                                    Word{"C30", "c3"},
+                                    Word{"Jm", "stretch_limit"},
+                                    Word{"J_m", "stretch_limit"},
+                                    Word{"J_lim", "stretch_limit"},
+                                    Word{"jlim", "stretch_limit"},
+                                    Word{"tau", "relaxation_time"},
+                                    Word{"eps_r", "relative_permittivity"},
+                                    Word{"epsilon_r", "relative_permittivity"},
+                                    Word{"dielectric_constant", "relative_permittivity"},
+                                    Word{"epsilon", "permittivity"},
+                                    Word{"rho", "density"},
+                                    Word{"steps", "increments"},
+                                    Word{"n_steps", "increments"}};
+  for (const auto& [elsewhere, here] : words)
+    if (elsewhere == word && std::ranges::find(names, here) != names.end())
+      return fmt::format("; here it is \"{}\"", here);
+  return "";
+}
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
   constexpr std::size_t longest_word = 100; // nobody mistypes that much; keeps the distance cheap

@@ -77,6 +77,10 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// `; here it is "x"` with that of the names by which goes here what textbooks and other programs call
+/// `word`, or "" when there is none.
+std::string called_here(std::string_view word, const std::vector<std::string>& names);
+
 /// `; did you mean "x"?` with the name closest to `word`, or "" when none is close.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
