@@ -44,11 +44,13 @@ Eigen::Vector3d turning(const DofMap& dofs, const State& state, int master,
   const Eigen::Vector3d of_master = rate_of(dofs, master, velocity);
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
-  for (const Tie* tie : ties) {
-    const Eigen::Vector3d arm = arm_of(state, *tie);
-    inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
-    momentum += arm.cross(rate_of(dofs, tie->node, velocity) - of_master);
-  }
+  for (const Tie* tie : ties)
+    for (int c = 0; c < 3; ++c)
+      if (const int e = dofs.equation(tie->node, c); e != DofMap::absent) {
+        const Eigen::Vector3d lever = arm_of(state, *tie).cross(Eigen::Vector3d::Unit(c));
+        inertia += lever * lever.transpose();
+        momentum += lever * (velocity[e] - of_master[c]);
+      }
   const SymmetricEigen axes = symmetric_eigen(inertia);
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k)

@@ -127,24 +127,40 @@ bool follow(Equilibrium& equilibrium, const State& before, State& state) {
   return false;
 }
 
-Eigen::VectorXd prescribed_acceleration(const LoadPath& path, const DofMap& dofs, const State& state,
-                                        const Eigen::VectorXd& velocity, double s, double ds,
-                                        double duration) {
+std::shared_ptr<const Motion> motion_setting_out(const Model& model, const State& state, const LoadPath& path,
+                                                 double s, double ds, double duration) {
+  const DofMap& dofs = model.dofs;
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs.count());
+  Motion motion = state.motion ? *state.motion : Motion{position(state, dofs), rest, rest, rest, rest};
+  motion.acceleration = motion.acceleration_now = motion.unbalanced = rest;
+  motion.step = 0;
   State there = state;
   const auto held_at = [&](double at) {
     path.apply(there, at);
     return Eigen::ArrayXd(Loads::of(there, dofs).held.array());
   };
+  const auto held = Eigen::seqN(dofs.free_count(), dofs.held_count());
   const double tau = ds * duration / 4; // a parabola through three moments
   const Eigen::ArrayXd p0 = held_at(s), p1 = held_at(s + ds / 4), p2 = held_at(s + ds / 2);
   const Eigen::ArrayXd speed = (4 * p1 - 3 * p0 - p2) / (2 * tau);
   const Eigen::ArrayXd acceleration = (p0 - 2 * p1 + p2) / (tau * tau);
-  const Eigen::ArrayXd jerk = speed - velocity.segment(dofs.free_count(), dofs.held_count()).array();
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.count());
-  all.segment(dofs.free_count(), dofs.held_count()) =
-      (jerk.abs() <= acceleration.abs() * tau).select(acceleration, 0);
-  carry_accelerations(dofs, state, velocity, all);
-  return all;
+  const Eigen::ArrayXd jerk = speed - motion.velocity(held).array();
+  motion.acceleration(held) = (jerk.abs() <= acceleration.abs() * tau).select(acceleration, 0);
+  carry_accelerations(dofs, state, motion.velocity, motion.acceleration);
+  return std::make_shared<const Motion>(std::move(motion));
+}
+
+std::shared_ptr<const Motion> motion_behind_jump(Equilibrium& equilibrium, const State& state) {
+  const Model& model = equilibrium.model();
+  Motion motion = *state.motion;
+  Eigen::VectorXd dead = state.dead_force;
+  model.dofs.gather(state, dead);
+  equilibrium.internal_force(state, motion.unbalanced);
+  motion.unbalanced -= dead;
+  motion.acceleration_now = motion.acceleration;
+  accelerate_bodies(model, state, motion);
+  motion.unbalanced.setZero();
+  return std::make_shared<const Motion>(std::move(motion));
 }
 
 std::shared_ptr<const Motion> motion_now(const Model& model, const State& state, const LoadPath& path,

@@ -31,12 +31,14 @@ LoadPath with_masses_held(const Equilibrium& equilibrium, LoadPath path, const S
 
 // What is held moves as the loads want it: its masses know their accelerations from the beginning.
 
-/// Accelerations with which the held equations set out at s, from the way that `path` leads them on over half
-/// of `ds`, in a step of `duration`; zero where they set out with another velocity than theirs, with a jerk.
-/// Those of tied nodes follow; what is free has none (count() entries).
-Eigen::VectorXd prescribed_acceleration(const LoadPath& path, const DofMap& dofs, const State& state,
-                                        const Eigen::VectorXd& velocity, double s, double ds,
-                                        double duration);
+/// The motion with which a state sets out at s, at a break, in a step of `duration`: what is free without
+/// acceleration, what is held with that of the way that `path` leads it on over half of `ds`, or none where
+/// it sets out with another velocity than its own, with a jerk; tied nodes as their masters.
+std::shared_ptr<const Motion> motion_setting_out(const Model& model, const State& state, const LoadPath& path,
+                                                 double s, double ds, double duration);
+
+/// That motion where loads have jumped, with the accelerations of what is held and of bodies there.
+std::shared_ptr<const Motion> motion_behind_jump(Equilibrium& equilibrium, const State& state);
 
 /// The motion of a state that a step has led to, as long as `ds` of the load factor and up to s, with the
 /// accelerations of its own time: of what is held those that `path` gives it, of bodies that carry masses on

@@ -229,14 +229,8 @@ bool Ramp::pass_break() {
   if (state.history && state.history->step > 0) state.history = without_past(*state.history);
   const DofMap& dofs = equilibrium_.model().dofs;
   if (options_.inertia) {
-    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs.count());
-    Motion motion = state.motion ? *state.motion : Motion{position(state, dofs), rest, rest, rest, rest};
-    motion.acceleration_now = motion.unbalanced = rest;
-    motion.step = 0;
     const double s = progress_.load_factor, ds = std::min(largest_, next_break() - s);
-    motion.acceleration =
-        prescribed_acceleration(path_, dofs, state, motion.velocity, s, ds, options_.duration);
-    state.motion = std::make_shared<const Motion>(std::move(motion));
+    state.motion = motion_setting_out(equilibrium_.model(), state, path_, s, ds, options_.duration);
   }
   if (options_.first_time_step > 0)
     progress_.increment =
@@ -339,6 +333,8 @@ RampResult Ramp::run() {
       return {RampEnd::endless, progress_.load_factor, newton_};
     if (timed() && progress_.at_break) {
       if (!pass_break()) return {RampEnd::gave_up, progress_.load_factor, newton_};
+      if (jumped_ && options_.inertia)
+        progress_.points.back().state.motion = motion_behind_jump(equilibrium_, last());
       if (jumped_ && !notify(true, last_part_, Then::turns, true)) return {RampEnd::stopped};
     }
     const double s = next_load_factor();
