@@ -272,8 +272,7 @@ std::vector<post::Event> Simulation::events(const Step& step, const Measured& me
       loads_) {
     const fem::RampProgress& ramp = in_step_.ramp;
     const fem::LoadPath path = loads_->path(step_, ramp.start);
-    const double to = increment.load_factor;
-    watch_.locate(events, {ramp.points, path, to - increment.length, to, step.duration.has_value()});
+    watch_.locate(events, {ramp.points, path, increment.load_factor, step.duration.has_value()});
   }
   return events;
 }

@@ -26,10 +26,9 @@ struct Threshold {
   std::string_view kind, field;
   post::Extreme extreme;
   double limit;
-  /// How far a value is beyond the limit, negative before it, as it grows with what drives a device, Phi^2.
+  /// How far a value is beyond the limit, negative before it.
   double beyond(double value) const {
-    if (extreme == post::Extreme::minimum) return limit - value;
-    return (field == "breakdown_ratio" ? value * value : value) - limit; // which is 1
+    return extreme == post::Extreme::minimum ? limit - value : value - limit;
   }
 };
 inline constexpr std::array thresholds{
@@ -41,7 +40,7 @@ inline constexpr std::array thresholds{
 struct Passage {
   std::span<const fem::PathPoint> points; ///< accepted states of one smooth way, these two the last
   const fem::LoadPath& path;
-  double from, to; ///< load factors of the two
+  double to; ///< load factor of the last
   bool timed;
 };
 
@@ -69,6 +68,7 @@ class Watch {
   std::set<std::string> active;
 
  private:
+  void tell(post::Event& event, const Passage& passage, double s, double share) const;
   std::string cell_of(int line, int other) const;
   std::string place_of_triangle(int triangle) const;
   std::string place_of_line(int line) const;

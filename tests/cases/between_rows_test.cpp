@@ -88,15 +88,17 @@ TEST_F(BetweenRows, EventsAndPeaksAreThoseOfAllTimeSteps) {
   }
 }
 
-// Not at the state that tells of it, up to 3 kV farther.
+// Not at the state that tells of it, up to 3 kV farther, whether time passes or not.
 TEST_F(BetweenRows, BreakdownIsLocatedBetweenIncrements) {
-  for (const auto& [increments, accuracy] : {std::pair{3, 1e-2}, {12, 1e-5}}) {
-    const Course found = course(read(fmt::format(
-        "{}[drive]\nvoltage = \"8 kV\"\n[[step]]\nkind = \"voltage\"\nincrements = {}\n", film, increments)));
-    ASSERT_EQ(found.breakdowns.size(), 1u);
-    EXPECT_NEAR(found.breakdowns[0].voltage / breakdown_voltage(), 1, accuracy) << increments;
-    EXPECT_NEAR(found.breakdowns[0].voltage, 8e3 * found.breakdowns[0].load_factor, 1e-6);
-  }
+  for (const char* duration : {"", "duration = \"1 s\"\n"})
+    for (const auto& [increments, accuracy] : {std::pair{3, 1e-2}, {12, 1e-5}}) {
+      const Course found = course(
+          read(fmt::format("{}[drive]\nvoltage = \"8 kV\"\n[[step]]\nkind = \"voltage\"\nincrements = {}\n{}",
+                           film, increments, duration)));
+      ASSERT_EQ(found.breakdowns.size(), 1u);
+      EXPECT_NEAR(found.breakdowns[0].voltage / breakdown_voltage(), 1, accuracy) << increments << duration;
+      EXPECT_NEAR(found.breakdowns[0].voltage, 8e3 * found.breakdowns[0].load_factor, 1e-6);
+    }
 }
 
 // Nothing makes steps shorter where nothing flows: what a sine does between them nobody sees.
