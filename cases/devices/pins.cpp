@@ -67,9 +67,11 @@ std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dime
 
 namespace {
 
-/// Where a film lies: its centroid, and the normal that was along `axis`.
+/// Where a film lies: its centroid, and how it has turned.
 struct Lie {
-  Eigen::Vector3d drawn, now, normal;
+  Eigen::Vector3d drawn, now;
+  Eigen::Matrix3d turn;
+  double height = 0; ///< of the drawn film along `axis`, m
 };
 
 std::optional<Lie> lie_of(const meshing::Mesh& mesh, const fem::State& state, int axis) {
@@ -89,11 +91,14 @@ std::optional<Lie> lie_of(const meshing::Mesh& mesh, const fem::State& state, in
     }
   }
   if (!(area.sum() > 0)) return std::nullopt;
-  Lie lie{drawn * area / area.sum(), now * area / area.sum(), {}};
+  Lie lie{drawn * area / area.sum(),
+          now * area / area.sum(),
+          {},
+          drawn.row(axis).maxCoeff() - drawn.row(axis).minCoeff()};
   const fem::SingularValues svd = fem::singular_values((now.colwise() - lie.now) * area.asDiagonal() *
                                                        (drawn.colwise() - lie.drawn).transpose());
   Eigen::Vector3d sides(1, 1, (svd.U * svd.V.transpose()).determinant() < 0 ? -1 : 1); // no mirror image
-  lie.normal = svd.U * sides.asDiagonal() * svd.V.transpose() * Eigen::Vector3d::Unit(axis);
+  lie.turn = svd.U * sides.asDiagonal() * svd.V.transpose();
   return lie;
 }
 
@@ -115,22 +120,24 @@ Eigen::Matrix3d turn_in_plane(const Eigen::Vector3d& d, int l, int w, double wan
 
 std::optional<fem::State> upright(const Device& device, const fem::State& state) {
   constexpr double flat = 1e-9;
-  if (device.pins.size() != 6 || state.motion || !state.dead_force.isZero(0)) return std::nullopt;
+  if (device.pins.size() != 6 || state.motion) return std::nullopt;
+  const fem::DofMap& dofs = device.model.dofs;
   const std::vector<Eigen::Vector3d>& drawn = device.mesh.nodes;
   const int across = device.pins[5].axis, wide = device.pins[2].axis, long_way = 3 - across - wide;
   const auto lie = lie_of(device.mesh, state, across);
   if (!lie) return std::nullopt;
-  const Eigen::Vector3d up = Eigen::Vector3d::Unit(across);
-  if ((lie->normal - up).norm() < flat &&
-      std::abs((lie->now - lie->drawn)[across]) < flat * device.model.extent)
+  const Eigen::Vector3d up = Eigen::Vector3d::Unit(across), normal = lie->turn * up;
+  if ((normal - up).norm() < flat && std::abs((lie->now - lie->drawn)[across]) < flat * device.model.extent)
     return std::nullopt;
   const auto first = static_cast<std::size_t>(device.pins[0].node),
              far = static_cast<std::size_t>(device.pins[2].node);
   const auto place = [&](std::size_t n) -> Eigen::Vector3d { return drawn[n] + state.displacement[n]; };
-  const Eigen::Matrix3d raised = Eigen::Quaterniond::FromTwoVectors(lie->normal, up).toRotationMatrix();
-  const Eigen::Matrix3d turn =
-      turn_in_plane(raised * (place(far) - place(first)), long_way, wide, (drawn[far] - drawn[first])[wide]) *
-      raised;
+  const Eigen::Matrix3d raised = Eigen::Quaterniond::FromTwoVectors(normal, up).toRotationMatrix();
+  Eigen::Matrix3d turn = lie->turn.transpose();
+  if (lie->height < flat * device.model.extent) // the pins are in its plane
+    turn = turn_in_plane(raised * (place(far) - place(first)), long_way, wide,
+                         (drawn[far] - drawn[first])[wide]) *
+           raised;
   Eigen::Vector3d origin = drawn[first];
   origin[across] = lie->drawn[across] - (turn * (lie->now - place(first)))[across];
   const Eigen::Quaterniond by(turn);
@@ -139,6 +146,16 @@ std::optional<fem::State> upright(const Device& device, const fem::State& state)
     told.displacement[n] = turn * (place(n) - place(first)) + origin - drawn[n];
     told.rotation[n] = by * state.rotation[n];
     told.angle[n] = fem::angle_near(told.rotation[n], state.angle[n]);
+    for (const int from : {0, 3}) { // dead forces and moments turn along
+      Eigen::Vector3d acts = Eigen::Vector3d::Zero();
+      for (int c = 0; c < 3; ++c)
+        if (const int e = dofs.equation(static_cast<int>(n), from + c); e != fem::DofMap::absent)
+          acts[c] = state.dead_force[e];
+      acts = turn * acts;
+      for (int c = 0; c < 3; ++c)
+        if (const int e = dofs.equation(static_cast<int>(n), from + c); e != fem::DofMap::absent)
+          told.dead_force[e] = acts[c];
+    }
   }
   return told;
 }

@@ -19,8 +19,9 @@ std::vector<Pin> pin(std::span<const Eigen::Vector3d> nodes, fem::Dimension dime
 
 /// A state of a pinned body in space, turned and moved so that it lies as it was drawn: its film's normal, in
 /// the mean of least squares over its area, is the axis along which three nodes are pinned, its middle along
-/// that axis where it was; across the axis the pins hold what they do. Nothing where it lies so: where the
-/// film has not left its plane, or under dead forces, which tell directions.
+/// that axis where it was; in the plane the pins hold what they do, but of a film that is drawn oblique,
+/// which turns back as a whole. Dead forces turn along: it stays in equilibrium. Nothing where it lies so
+/// already.
 std::optional<fem::State> upright(const Device& device, const fem::State& state);
 
 /// By which all parts of the case with meshes of their own are turned; 0 where they are not by one and the

@@ -69,7 +69,9 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   require_rest(simulation.equilibrium(), simulation.state());
   const Quantity& output = *response_quantity(one, one.linearise->output);
   const std::vector<std::size_t> driven = driven_ports(one, one.linearise->driven);
-  const fem::State at_rest = operating_point(simulation.device(), simulation.state(), driven);
+  const std::optional<fem::State> lying = upright(simulation.device(), simulation.state());
+  const fem::State at_rest =
+      operating_point(simulation.device(), lying ? *lying : simulation.state(), driven);
   require_rest(simulation.equilibrium(), at_rest);
   WithoutPins loose(one, simulation.device(), simulation.equilibrium(), at_rest);
   const Device& device = loose.device();

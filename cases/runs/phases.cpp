@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/runs/phases.hpp"
 
+#include "cases/devices/pins.hpp"
 #include "cases/runs/simulation.hpp"
 #include "cases/text/diagnostics.hpp"
 #include "fem/paths/renumbering.hpp"
@@ -93,6 +94,7 @@ void Simulation::change_supports(fem::State& state) {
   const fem::DofMap before = device_.model.dofs;
   Eigen::VectorXd reaction = fem::reactions(device_.model, state, held_);
   if (holding_.pins) reaction.setZero(); // it is rounding
+  if (auto lying = upright(device_, state); lying && case_.loads.empty()) state = *std::move(lying);
   enter(step_);
   const fem::Renumbering renumbered(before, device_.model.dofs);
   const Eigen::VectorXd let_go = renumbered.let_go(reaction);

@@ -43,6 +43,24 @@ TEST_F(LatticesInSpace, are_measured_upright) {
   EXPECT_NEAR(ran.last("apart"), released, 1e-7 * released);
 }
 
+// Loads that balance, however small, and masses that move freely begin where the device lies.
+TEST_F(LatticesInSpace, go_on_lying_as_they_do) {
+  const std::string load = "[[load]]\nplace = \"corner_top\"\nforce = [0, \"1 uN\", 0]\n"
+                           "[[load]]\nplace = \"corner_bottom\"\nforce = [0, \"-1 uN\", 0]\n";
+  const std::string walls = "wall_height = \"3 mm\"\nwall_print = \"one face\"\n",
+                    release = "[[step]]\nkind = \"release\"\n";
+  const double free = run(lattice(release, walls)).last("released_length_y");
+  for (const std::string& rest :
+       {load + "[[step]]\nkind = \"force\"\n",
+        std::string("[[step]]\nkind = \"hold\"\ninertia = true\nduration = \"1 ms\"\nincrements = 1\n")}) {
+    const Ran ran = run(lattice(release + rest +
+                                    "[[quantity]]\nname = \"now\"\nkind = \"distance\"\n"
+                                    "between = [\"corner_top\", \"corner_bottom\"]\nalong = \"y\"\n",
+                                walls));
+    EXPECT_NEAR(ran.last("now"), free, 1e-4 * free) << rest;
+  }
+}
+
 // What the branches still do is small, but no stiffness of a turn: frequencies of what has relaxed.
 TEST_F(LatticesInSpace, that_are_nearly_at_rest_do_not_vibrate_as_a_whole) {
   const std::string branches = "[[film.material.branch]]\nshear_modulus = \"26 kPa\"\nrelaxation_time = "
