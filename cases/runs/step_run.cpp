@@ -259,7 +259,7 @@ std::optional<Outcome> StepRun::follow() {
   progress_.followed.reset();
   if (end == fem::ContinuationEnd::reached_load && s >= 1) {
     progress_.ramp.load_factor = 1;
-    return std::nullopt;
+    return end_of_branch(progress.newton.unstable_modes);
   }
   return Outcome{Ending::gave_up, "no equilibrium",
                  end == fem::ContinuationEnd::reached_load
@@ -269,6 +269,21 @@ std::optional<Outcome> StepRun::follow() {
                                    step_.name, progress.steps, load_text(s),
                                    end == fem::ContinuationEnd::gave_up ? "could not be followed any further"
                                                                         : "was left: that is the most")};
+}
+
+/// A branch that was switched to may be unstable where the step ends: where modes lie next to one another
+/// others lose their stability with that of the branch.
+std::optional<Outcome> StepRun::end_of_branch(int unstable_modes) {
+  if (step_.on_bifurcation != OnBifurcation::switch_branch || step_.on_instability == OnInstability::follow ||
+      unstable_modes == 0 || equilibrium_.is_neutral(loaded(last(), 1), 0, options_.newton))
+    return std::nullopt;
+  if (step_.on_instability == OnInstability::jump)
+    return jump({{fem::RampEnd::gave_up, 1}, {}, unstable_modes});
+  return Outcome{
+      Ending::gave_up, "instability",
+      fmt::format("step \"{}\": the branch that it was switched to is unstable at its end ({} unstable "
+                  "mode{}): a device would leave it; on_instability = \"jump\" leads to where",
+                  step_.name, unstable_modes, unstable_modes == 1 ? "" : "s")};
 }
 
 /// Where a film cannot be let go slowly, as its frame gives way under dead forces, it is let go at once: it

@@ -85,6 +85,7 @@ class StepRun {
   std::optional<Outcome> leave(const Trouble& trouble);
   fem::ContinuationOptions arcs() const;
   std::optional<Outcome> follow();
+  std::optional<Outcome> end_of_branch(int unstable_modes);
   /// Loads and a state from which to jump, along a direction in the free equations.
   struct Departure {
     double load_factor;
