@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
+#include <optional>
+#include <set>
 #include <vector>
 
 namespace dielast::fem {
@@ -76,35 +77,21 @@ void carry_group(const DofMap& dofs, const State& state, int master, const std::
 
 /// A body that carries its own mass.
 struct MovingBody {
-  std::vector<int> equations; ///< of its master and of what is tied to it
-  Eigen::MatrixXd mass;       ///< between them
+  std::vector<int> equations; ///< of its master and of what is tied to it, ascending
   Eigen::MatrixXd ways;       ///< how they move with those of the master that are free, a column each
+  Eigen::MatrixXd mass;       ///< between the ways
 };
 
 std::vector<int> equations_of(const DofMap& dofs, int master, const std::vector<const Tie*>& ties) {
-  std::vector<int> equations;
-  const auto add = [&](int node) {
-    for (int c = 0; c < 3; ++c) equations.push_back(dofs.equation(node, c));
+  std::set<int> equations;
+  const auto add = [&](int e) {
+    if (e != DofMap::absent) equations.insert(e);
   };
-  add(master);
-  std::ranges::copy(dofs.turns(master), std::back_inserter(equations));
-  for (const Tie* tie : ties) add(tie->node);
-  std::erase(equations, DofMap::absent);
-  return equations;
-}
-
-/// Nothing where it shares too much of its mass with its surroundings.
-Eigen::MatrixXd mass_of(const std::vector<int>& equations, const Eigen::SparseMatrix<double>& mass) {
-  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(std::ssize(equations), std::ssize(equations));
-  double beyond = 0;
-  for (Eigen::Index column = 0; column < own.cols(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator at(mass, equations[static_cast<std::size_t>(column)]); at;
-         ++at)
-      if (const auto row = std::ranges::find(equations, at.row()); row != equations.end())
-        own(row - equations.begin(), column) = at.value();
-      else
-        beyond += std::abs(at.value());
-  return own.trace() > 0 && beyond <= shared * own.trace() ? own : Eigen::MatrixXd();
+  for (int c = 0; c < 3; ++c) add(dofs.equation(master, c));
+  for (const int e : dofs.turns(master)) add(e);
+  for (const Tie* tie : ties)
+    for (int c = 0; c < 3; ++c) add(dofs.equation(tie->node, c));
+  return {equations.begin(), equations.end()};
 }
 
 /// `rates`: zero for all unknowns, and so again behind it.
@@ -112,7 +99,7 @@ Eigen::MatrixXd ways_of(const DofMap& dofs, const State& state, int master,
                         const std::vector<const Tie*>& ties, const std::vector<int>& equations,
                         Eigen::VectorXd& rates) {
   std::vector<Eigen::VectorXd> columns;
-  std::vector<int> own = equations_of(dofs, master, {});
+  const std::vector<int> own = equations_of(dofs, master, {});
   for (const int e : own)
     if (dofs.is_free(e)) {
       rates[e] = 1;
@@ -120,10 +107,31 @@ Eigen::MatrixXd ways_of(const DofMap& dofs, const State& state, int master,
       columns.emplace_back(rates(equations));
       rates[e] = 0;
     }
-  rates(equations).setZero();
+  for (const int e : equations) rates[e] = 0;
   Eigen::MatrixXd ways(std::ssize(equations), std::ssize(columns));
   for (std::size_t k = 0; k < columns.size(); ++k) ways.col(static_cast<Eigen::Index>(k)) = columns[k];
   return ways;
+}
+
+/// Nothing where the body shares too much of its mass with its surroundings.
+std::optional<Eigen::MatrixXd> mass_of(const std::vector<int>& equations, const Eigen::MatrixXd& ways,
+                                       const Eigen::SparseMatrix<double>& mass) {
+  Eigen::MatrixXd momenta = Eigen::MatrixXd::Zero(ways.rows(), ways.cols());
+  double own = 0, beyond = 0;
+  for (Eigen::Index i = 0; i < ways.rows(); ++i) {
+    const int e = equations[static_cast<std::size_t>(i)];
+    for (Eigen::SparseMatrix<double>::InnerIterator at(mass, e); at; ++at) {
+      const auto row = std::ranges::lower_bound(equations, static_cast<int>(at.row()));
+      if (row == equations.end() || *row != at.row()) {
+        beyond += std::abs(at.value());
+        continue;
+      }
+      momenta.row(row - equations.begin()) += at.value() * ways.row(i);
+      if (at.row() == e) own += at.value();
+    }
+  }
+  if (!(own > 0) || beyond > shared * own) return std::nullopt;
+  return Eigen::MatrixXd(ways.transpose() * momenta);
 }
 
 /// The x with A x = b of the least size, A positive semidefinite.
@@ -151,20 +159,20 @@ void accelerate_bodies(const Model& model, const State& state, Motion& motion) {
   std::vector<MovingBody> bodies;
   for (const auto& [master, ties] : groups_of(dofs)) {
     std::vector<int> equations = equations_of(dofs, master, ties);
-    Eigen::MatrixXd mass = mass_of(equations, inertia.mass);
-    if (mass.size() == 0) continue;
     Eigen::MatrixXd ways = ways_of(dofs, state, master, ties, equations, rates);
+    auto mass = mass_of(equations, ways, inertia.mass);
+    if (!mass) continue;
     for (const int e : equations_of(dofs, master, {}))
       if (dofs.is_free(e)) acceleration[e] = 0;
     carry_group(dofs, state, master, ties, turning(dofs, state, master, ties, motion.velocity), acceleration);
-    bodies.push_back({std::move(equations), std::move(mass), std::move(ways)});
+    bodies.push_back({std::move(equations), std::move(ways), *std::move(mass)});
   }
   if (bodies.empty()) return;
   const Eigen::VectorXd force =
       inertia.mass * acceleration + inertia.resistance(motion.velocity) + motion.unbalanced;
   for (const MovingBody& body : bodies)
-    acceleration(body.equations) -= body.ways * least_solution(body.ways.transpose() * body.mass * body.ways,
-                                                               body.ways.transpose() * force(body.equations));
+    acceleration(body.equations) -=
+        body.ways * least_solution(body.mass, body.ways.transpose() * force(body.equations));
 }
 
 } // namespace dielast::fem
