@@ -205,12 +205,11 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   const bool jumps = step_.on_instability == OnInstability::jump || step_.kind == StepKind::release;
   const bool ends = !switches && !jumps && (step_.on_instability == OnInstability::stop || timed());
   if (trouble.critical) announce(*trouble.critical, ends);
-  const fem::ContinuationOptions arcs = this->arcs();
   if (switches) {
     for (const double amplitude : branch_amplitudes)
       if (!progress_.followed)
         progress_.followed =
-            fem::switch_branch(equilibrium_, path_, *trouble.critical, amplitude * model().extent, arcs);
+            fem::switch_branch(equilibrium_, path_, *trouble.critical, amplitude * model().extent, arcs());
     if (progress_.followed) return std::nullopt;
     accept_critical(*trouble.critical);
     return failure(trouble);
@@ -221,7 +220,7 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
     return failure(trouble);
   }
   const double s = progress_.ramp.load_factor;
-  progress_.followed = fem::begin_continuation(equilibrium_, path_, loaded(last(), s), s, 1, arcs);
+  progress_.followed = fem::begin_continuation(equilibrium_, path_, loaded(last(), s), s, 1, arcs());
   if (!progress_.followed) return failure(trouble);
   return std::nullopt;
 }
@@ -282,7 +281,7 @@ std::optional<Outcome> StepRun::end_of_branch(int unstable_modes) {
   return Outcome{
       Ending::gave_up, "instability",
       fmt::format("step \"{}\": the branch that it was switched to is unstable at its end ({} unstable "
-                  "mode{}): a device would leave it; on_instability = \"jump\" leads to where",
+                  "mode{}): a device would leave it; on_instability = \"jump\" leads to where it would go",
                   step_.name, unstable_modes, unstable_modes == 1 ? "" : "s")};
 }
 
