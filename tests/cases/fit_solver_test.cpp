@@ -53,8 +53,8 @@ TEST(FitSolver, WithoutNoiseTheParametersComeBack) {
   const FitOutcome fit = solve_fit(task_from(film(30e3, 90, 10e3, 2), exact_tests()));
   EXPECT_EQ(fit.ending, FitEnding::converged);
   for (std::size_t i = 0; i < true_values.size(); ++i)
-    EXPECT_NEAR(fit.parameters[i].value / true_values[i], 1, 2e-3) << i; // the tolerance of time steps
-  EXPECT_LT(fit.deviation, 2e-4);
+    EXPECT_NEAR(fit.parameters[i].value / true_values[i], 1, 2e-5) << i; // the tolerance of time steps
+  EXPECT_LT(fit.deviation, 1e-6);
 }
 
 // A stretch that is held. From where these branches start the misfit leads down to a single one between them.
