@@ -154,9 +154,10 @@ Section material_section() {
                              .otherwise("960 kg/m^3")
                              .only_with(when::masses_matter()));
   section.keys.push_back(
-      measure("viscosity", "Pa s",
-              to_part<Owner>([](auto& film) -> auto& { return film.material.viscosity; }),
-              "of a dashpot beside the law (Kelvin & Voigt), per rate of the strain's deviator")
+      measure(
+          "viscosity", "Pa s", to_part<Owner>([](auto& film) -> auto& { return film.material.viscosity; }),
+          "of a dashpot beside the law (Kelvin & Voigt), as of a Newtonian liquid: its stress is twice that "
+          "times the deviator of the rate of strain, 3 times the rate where film is pulled one way")
           .at_least(0)
           .otherwise("0 Pa.s")
           .only_with(when::film_flows()));

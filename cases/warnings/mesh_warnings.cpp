@@ -272,16 +272,23 @@ std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh
 
 std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh& mesh,
                                             std::span<const int> parts) {
-  constexpr double thin = 5; // times its thickness a film is wide at least
+  constexpr double thin = 5;    // times its thickness a film is wide at least
+  constexpr double slender = 3; // times its width a wall is long at least
+  std::vector<std::string> warnings;
+  if (const auto* lattice = one.geometry<Honeycomb>();
+      lattice && lattice->wall_length < slender * lattice->wall.width)
+    warnings.push_back(one.warning_at(
+        "honeycomb.wall_width", fmt::format("walls are {} wide and {} long: they are beams, of slender walls",
+                                            post::engineering(lattice->wall.width, "m"),
+                                            post::engineering(lattice->wall_length, "m"))));
   const meshing::CellBlock& cells = *mesh.film();
   const bool meridian = meshing::is_meridian(cells.type);
-  if (!meridian && !meshing::is_triangle(cells.type)) return {};
+  if (!meridian && !meshing::is_triangle(cells.type)) return warnings;
   std::vector<Eigen::AlignedBox3d> bounds(one.parts.size());
   for (int c = 0; c < cells.size(); ++c)
     for (const int node : cells.cell(c))
       bounds[static_cast<std::size_t>(parts[static_cast<std::size_t>(c)])].extend(
           mesh.nodes[static_cast<std::size_t>(node)]);
-  std::vector<std::string> warnings;
   for (std::size_t p = 0; p < one.parts.size(); ++p) {
     const std::optional<Film>& film = one.parts[p].film;
     if (!film || film->is_solid() || bounds[p].isEmpty() ||
@@ -292,6 +299,8 @@ std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh
     const double width = meridian ? size[0] : size[1];
     double thickness = drawn_thickness(*film);
     for (const Layer& layer : film->further_layers) thickness += drawn_thickness(layer);
+    if (const auto* strip = std::get_if<Strip>(&one.parts[p].geometry))
+      thickness = strip->layers * thickness + 2 * strip->cover_thickness;
     if (width < thin * thickness)
       warnings.push_back(fmt::format(
           "{}film.thickness: the film is {} thick and {} wide; membranes and shells are "

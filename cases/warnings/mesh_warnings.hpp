@@ -20,7 +20,8 @@ std::vector<std::string> mesh_warnings(const Case& one, const meshing::Mesh& mes
 std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh& mesh,
                                             std::span<const int> parts);
 
-/// A sentence for every part whose film is thick for its width: membranes and shells are of thin films.
+/// A sentence for every part whose film is thick for its width (membranes and shells are of thin films), and
+/// for walls that are wide for their length.
 std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh& mesh,
                                             std::span<const int> parts);
 

@@ -72,6 +72,23 @@ TEST_F(DeviceWarnings, FilmOfWhichPartsTakeAll) {
   EXPECT_FALSE(warns(disc("electrode"), "other parts take all of this film"));
 }
 
+TEST_F(DeviceWarnings, WallsAndStacksThatAreThickForWhatTheyAre) {
+  const auto lattice = [&](const char* width) {
+    return film("thickness = \"1 mm\"\nprestretch = [4, 2.5]") +
+           fmt::format("[honeycomb]\nangle = \"150 deg\"\ncolumns = [1, 2, 1]\nwall_length = \"8 mm\"\n"
+                       "wall_width = \"{}\"\nwall_height = \"2 mm\"\nwall_material = \"TPU 78 MPa\"\n",
+                       width);
+  };
+  EXPECT_TRUE(warns(lattice("3 mm"), "honeycomb.wall_width: walls are 3.000 mm wide and 8.000 mm long"));
+  EXPECT_FALSE(warns(lattice("2.6 mm"), "wall_width"));
+  const auto strip = [&](int layers) {
+    return film("thickness = \"0.5 mm\"") +
+           fmt::format("[strip]\nlength = \"60 mm\"\nwidth = \"10 mm\"\nlayers = {}\n", layers);
+  };
+  EXPECT_TRUE(warns(strip(5), "the film is 2.500 mm thick and 10.00 mm wide"));
+  EXPECT_FALSE(warns(strip(3), "thick and"));
+}
+
 TEST_F(DeviceWarnings, RollsThatCannotBeWound) {
   const auto roll = [&](int turns) {
     return film("thickness = \"1 mm\"\nprestretch = 2") +
