@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <numbers>
 
 namespace dielast::cases {
 
@@ -201,6 +202,28 @@ void raise(ErrorEstimate& estimate, double in_common) {
   if (estimate.error) estimate.error = std::max(*estimate.error, in_common);
 }
 
+/// What a barrier changes, as half of its thickness tells with the largest elements of all: like its
+/// thickness, or its square root, as of what slides or peels off. 0 of every quantity where there is no
+/// contact, or half of the thickness finds no end.
+std::vector<double> changes_by_barrier(const Case& one, const Solution& own,
+                                       const std::vector<Discretisation>& discretisations,
+                                       const std::vector<Solution>& others, int threads) {
+  constexpr double all_over_half = 2 + std::numbers::sqrt2; // 1 / (1 - 0.5^0.5)
+  std::vector<double> changes(own.values.size(), 0.0);
+  if (!one.contact) return changes;
+  Discretisation thinner{one};
+  const Solution* thick = &own;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (others[i].size > thinner.size) thinner = discretisations[i], thick = &others[i];
+  thinner.one.contact->thickness /= 2;
+  const Solution thin = solve(thinner, false, threads);
+  if (!thin.trouble.empty()) return changes;
+  for (std::size_t q = 0; q < changes.size(); ++q)
+    changes[q] =
+        all_over_half * std::abs(on_its_side(thin.values[q], own, thick->values[q]) - thick->values[q]);
+  return changes;
+}
+
 int direction_of(const Quantity& quantity) {
   if (!quantity.kind->extreme) return 0;
   return quantity.extreme == post::Extreme::maximum ? 1 : -1;
@@ -276,6 +299,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
     estimates.events = {remark_on_end(one, own, others, orders_of({}, one, smooth, bonded))};
     return estimates;
   }
+  const std::vector<double> of_barrier = changes_by_barrier(one, own, discretisations, others, threads);
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
     ErrorEstimate& estimate = estimates.quantities.emplace_back();
@@ -302,6 +326,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
       raise(estimate, own_run.error_of_course(one.quantities[q])); // all stop at the same corners of waves
       if (takes_time(one)) // the steps were chosen to be no better than that
         raise(estimate, std::max(one.solver.time_tolerance, spring) * std::abs(own.values[q]));
+      if (estimate.error) *estimate.error += of_barrier[q];
     }
   }
   for (const Margin& margin : margins) {

@@ -319,8 +319,10 @@ Section contact_section() {
   section.presence = Section::Presence::optional;
   section.access = present(&Case::contact);
   section.keys = {
-      measure("thickness", "m", to(&Contact::thickness),
-              "gap between faces at which the barrier sets in; it is never closed")
+      measure(
+          "thickness", "m", to(&Contact::thickness),
+          "gap between faces at which the barrier sets in; it is never closed. The errors of results have "
+          "in them what it changes, as half of it tells")
           .above(0)
           .at_most(0.1),
       text("between", to(&Contact::between),

@@ -24,11 +24,13 @@ namespace {
 constexpr double negligible = 1e-9;       ///< of the case's largest value in that unit: round-off
 constexpr double smallest_printed = 1e-6; ///< of a value
 
-/// Elements and time steps smaller by a power of two.
+/// Elements and time steps smaller by a power of two, and the barrier of contact by its square.
 Case reference_of(Case one, int factor) {
   if (one.geometry<MeshFile>()) one.parts.front().mesh.refine += std::countr_zero(unsigned(factor));
   one.parts.front().mesh.wall_elements *= factor;
   one.parts.front().mesh.rings *= factor;
+  one.parts.front().mesh.across *= factor;
+  if (one.contact) one.contact->thickness /= factor * factor;
   for (Step& step : one.steps)
     if (step.duration) step.increments *= factor;
   one.solver.time_tolerance /= std::pow(factor, 3);
@@ -123,6 +125,8 @@ std::vector<EstimatedCase> estimated_cases() {
       {"balloon", {"mesh.rings=40", "mesh.order=1", "film.prestretch=1.05"}},
       {"weighted_in_time", {}},
       {"weighted_in_time", {"mesh.order=1", "step.transient.increments=50", "drive.voltage.to=3 kV"}},
+      {"slab_on_table", {}},
+      {"slab_on_table", {"contact.thickness=50 um", "table.friction=0.1"}},
       {"creeping_disc", {}},
       {"creeping_disc",
        {"model=axisymmetric", "mesh.order=1", "mesh.rings=16", "solver.time_tolerance=1e-4"}},

@@ -45,6 +45,15 @@ TEST(ErrorEstimates, OfAMeanHoldWhatLiesBetweenTheStates) {
   }
 }
 
+// All discretisations have the same barrier.
+TEST(ErrorEstimates, HoldWhatTheBarrierOfContactChanges) {
+  EstimateCount count;
+  add_estimates({"slab_on_table", {}, 2}, count);
+  EXPECT_GE(count.values.size(), 10u);
+  EXPECT_GE(share(count.values), 0.95) << exceptions(count);
+  EXPECT_LE(median_ratio(count.values), 10) << "too large to be of use";
+}
+
 // Elements that would divide the edge otherwise would be too many.
 TEST(ErrorEstimates, AreNoneWhereNoMeshTellsWhatFewSidesChange) {
   EstimateCount count;
