@@ -92,7 +92,13 @@ MembranePotential<double> branch_potential(const Branch& branch, const InPlaneC<
                                            const Internal& before) {
   return std::visit(
       [&](const auto& law) -> MembranePotential<double> {
-        if (scheme.is_frozen()) return membrane_potential(law, C, metric(branch.dashpot, now));
+        if (scheme.is_frozen()) {
+          MembranePotential<double> psi = membrane_potential(law, C, metric(branch.dashpot, now));
+          // At rest a stiff spring, as before a viscosity, would have the rounding of its stiffness as stress.
+          if (branch.dashpot == Dashpot::log && now == Internal{C.C11, C.C22, C.C12})
+            psi.value = 0, psi.first = {};
+          return psi;
+        }
         if (branch.dashpot == Dashpot::nominal) {
           const NominalFlow flow = nominal_flow(branch, scheme, now, before);
           return condensed(law, flow, C, settle(law, flow, C));
