@@ -94,7 +94,8 @@ MembranePotential<double> branch_potential(const Branch& branch, const InPlaneC<
       [&](const auto& law) -> MembranePotential<double> {
         if (scheme.is_frozen()) {
           MembranePotential<double> psi = membrane_potential(law, C, metric(branch.dashpot, now));
-          // At rest a stiff spring, as before a viscosity, would have the rounding of its stiffness as stress.
+          // At rest a stiff spring, as before a viscosity, would have the rounding of its stiffness as
+          // stress.
           if (branch.dashpot == Dashpot::log && now == Internal{C.C11, C.C22, C.C12})
             psi.value = 0, psi.first = {};
           return psi;
