@@ -249,11 +249,42 @@ std::vector<StepLoads::Break> StepLoads::breaks(const Step& step) const {
   return breaks;
 }
 
+void StepLoads::limit_sources(fem::LoadPath& path, const fem::Loads& from, const fem::Loads& to) const {
+  constexpr double rounding = 1e-9; // of the voltage: an electrode that is not yet where it comes to in time
+  for (std::size_t e = 0; e < case_.electrodes.size(); ++e) {
+    const auto& circuit = device_.model.ports[e].circuit;
+    if (!circuit) continue;
+    const double a = from.source[e] * circuit->steady_share(), b = to.source[e] * circuit->steady_share();
+    const double most = circuit->current_limit / circuit->steady_leakage();
+    const double largest = std::max(std::abs(a), std::abs(b));
+    const auto is_steady = [&](const fem::Loads& loads) {
+      return std::abs(loads.voltage[e] - circuit->steady_voltage(loads.source[e])) <= rounding * largest;
+    };
+    if (largest <= most || !is_steady(from) || !is_steady(to)) continue;
+    for (const double limit : {-most, most})
+      if (const double s = (limit - a) / (b - a); s > same_break && s < 1 - same_break)
+        path.breaks.push_back(s);
+    path.parameter = [](double s) { return s; }; // voltages stand still
+    path.apply = [apply = std::move(path.apply), e, circuit](fem::State& state, double s) {
+      apply(state, s);
+      if (state.supply[e] == fem::Supply::voltage)
+        state.voltage[e] = circuit->steady_voltage(state.source[e]);
+    };
+  }
+  std::ranges::sort(path.breaks);
+  const auto twice =
+      std::ranges::unique(path.breaks, [](double one, double next) { return next - one <= same_break; });
+  path.breaks.erase(twice.begin(), twice.end());
+}
+
 fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
   const Step& step = steps_[static_cast<std::size_t>(number)];
-  if (step.kind != StepKind::transient)
-    return fem::linear_path(device_.model.dofs, start, at(number, start, just_before_start),
-                            &device_.model.ports);
+  if (step.kind != StepKind::transient) {
+    const fem::Loads end = at(number, start, just_before_start);
+    fem::LoadPath ramp = fem::linear_path(device_.model.dofs, start, end, &device_.model.ports);
+    limit_sources(ramp, start, end);
+    return ramp;
+  }
   fem::LoadPath path;
   const double duration = *step.duration;
   const std::vector<Break> all = breaks(step);

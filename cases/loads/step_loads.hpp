@@ -43,6 +43,8 @@ class StepLoads {
   Eigen::VectorXd dead_force(int step, Instant t) const;
   void move(const Step& step, Eigen::VectorXd& held, Instant t) const;
   fem::Loads at(int step, const fem::Loads& start, Instant t) const;
+  /// Has electrodes stand still on the way of a ramp while as much leaks as their sources give.
+  void limit_sources(fem::LoadPath& path, const fem::Loads& from, const fem::Loads& to) const;
   /// What is left of `let_go`: ramps lead to nothing.
   double left(const Step& step, Instant t) const;
   /// Kinks of waves that are as good as one, s.

@@ -2,8 +2,9 @@
 #include "tests/cases/film_cases.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-// What a step leaves to the one that follows it.
+// What a step does on its way, and what it leaves to the one that follows it.
 
 namespace dielast::cases::step_order_test {
 namespace {
@@ -16,6 +17,23 @@ annulus = { inner_radius = "12.7 mm", outer_radius = "68.58 mm" }
 mesh = { rings = 8 }
 film = { thickness = "1 mm", prestretch = 2, material = { shear_modulus = "40 kPa", permittivity = "4e-11 F/m" } }
 )";
+
+/// Without time the film has 10/11 of the source's voltage, up to what leaks at the limit; all of the way
+/// there was scaled.
+TEST_F(StepOrder, WithoutTimeALimitedSourceLeavesTheFilmWhereAsMuchLeaks) {
+  const Ran ran =
+      run(branched_patch +
+          "[circuit]\nresistance = \"20 GOhm\"\nleakage_resistance = \"200 GOhm\"\n"
+          "current_limit = \"0.01 uA\"\n[[step]]\nkind = \"voltage\"\nto = \"3.3 kV\"\n"
+          "increments = 3\n[[step]]\nname = \"back\"\nkind = \"voltage\"\nto = \"-3.3 kV\"\nincrements = 6\n"
+          "[[quantity]]\nname = \"U\"\nkind = \"source voltage\"\nof = \"film\"\n");
+  const std::vector<double>& sources = ran.values.at("U");
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    EXPECT_NEAR(ran.voltages[i][0], std::clamp(sources[i] / 1.1, -2e3, 2e3), 1e-3) << sources[i];
+  for (const double wanted : {1100, 2200, 3300, -1100, -3300})
+    EXPECT_TRUE(std::ranges::any_of(sources, [=](double U) { return std::abs(U - wanted) < 1e-6; }))
+        << wanted;
+}
 
 TEST_F(StepOrder, NoStepHasTheNameOfTheOneThatCutsTheFilmFree) {
   const auto named = [&](const char* name) {
