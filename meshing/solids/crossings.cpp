@@ -73,16 +73,12 @@ void FilmSurface::add_triangle(int cell, std::span<const int> nodes) {
 }
 
 bool FilmSurface::may_cross(const Piece& one, const Piece& other) const {
-  const auto is_kept = [this](int node) { return node < 0 || kept_apart_[static_cast<std::size_t>(node)]; };
+  const auto is_kept = [this](int node) { return node >= 0 && kept_apart_[static_cast<std::size_t>(node)]; };
   for (const int node : one.nodes)
     if (node >= 0 && std::ranges::count(other.nodes, node) > 0) return false;
   // What ends at such a surface lies beside its curved sides, not beside the straight ones between nodes.
-  const auto ends_there = [&](const Piece& piece) {
-    return std::ranges::any_of(piece.nodes, [&](int node) { return node >= 0 && is_kept(node); });
-  };
-  if ((std::ranges::all_of(one.nodes, is_kept) && ends_there(other)) ||
-      (std::ranges::all_of(other.nodes, is_kept) && ends_there(one)))
-    return false;
+  const auto ends_there = [&](const Piece& piece) { return std::ranges::any_of(piece.nodes, is_kept); };
+  if (ends_there(one) && ends_there(other)) return false;
   const int a = parts_[static_cast<std::size_t>(one.cell)], b = parts_[static_cast<std::size_t>(other.cell)];
   const Eigen::AlignedBox3d &of_one = boxes_[static_cast<std::size_t>(a)],
                             &of_other = boxes_[static_cast<std::size_t>(b)];

@@ -96,6 +96,18 @@ TEST(FilmSurface, may_end_at_what_is_kept_apart) {
   EXPECT_FALSE(sunk(0.05));
   EXPECT_FALSE(sunk(0.3));
   EXPECT_TRUE(sunk(0.8));
+  // Two sides that both end there: as of solids cut by a plane of symmetry, in the plane.
+  const auto slid = [&](double low) {
+    return crossing(mesh,
+                    [&](const Eigen::Vector3d& x) {
+                      if (x[1] <= 1) return x;
+                      if (x[1] < 1.5) return Eigen::Vector3d(x[0] < 0.5 ? 1.05 : 1.6, low, 0);
+                      return Eigen::Vector3d(x[0] < 0.5 ? 0.5 : 1.6, low + x[1] - 1.1, 0);
+                    },
+                    {"below", "above"});
+  };
+  EXPECT_FALSE(slid(0.9));
+  EXPECT_TRUE(slid(0.1));
 }
 
 // What touches as drawn, as the lips of a slit do, may do so for ever.
