@@ -47,28 +47,27 @@ class ControlSignal : public Signal {
     const double lack = controller_.target - measurement.value(quantity_, measured);
     if (!std::isfinite(lack))
       return fmt::format("quantity \"{}\", which a controller measures, has no value", controller_.quantity);
-    const double integral = integral_ + lack_ * (samples_ > 0 ? controller_.every : since_);
-    const double share = controller_.integral_gain * integral;
+    integral_ += rate_ * (samples_ > 0 ? controller_.every : since_);
     const double base = said_ ? said_->at(t) : 0;
-    const double wanted = base + controller_.gain * lack + share;
+    const double wanted = base + controller_.gain * lack + controller_.integral_gain * integral_;
     before_ = std::exchange(held_, std::clamp(wanted, controller_.lowest, controller_.highest));
     // At a limit the integral stays, unless it leads away from there.
-    const double more = controller_.integral_gain * (integral - integral_);
-    if (!(wanted > controller_.highest && more > 0) && !(wanted < controller_.lowest && more < 0))
-      integral_ = integral;
-    lack_ = lack;
+    const double push = controller_.integral_gain * lack;
+    const bool pushes_on =
+        (wanted > controller_.highest && push > 0) || (wanted < controller_.lowest && push < 0);
+    rate_ = pushes_on ? 0 : lack;
     ++samples_;
     return "";
   }
 
   std::vector<double> memory() const override {
-    return {static_cast<double>(samples_), duration_, close_, held_, before_, integral_, lack_, since_};
+    return {static_cast<double>(samples_), duration_, close_, held_, before_, integral_, rate_, since_};
   }
   void recall(const std::vector<double>& memory) override {
     samples_ = static_cast<int>(memory.at(0));
     duration_ = memory.at(1), close_ = memory.at(2);
     held_ = memory.at(3), before_ = memory.at(4);
-    integral_ = memory.at(5), lack_ = memory.at(6), since_ = memory.at(7);
+    integral_ = memory.at(5), rate_ = memory.at(6), since_ = memory.at(7);
   }
 
  private:
@@ -80,7 +79,7 @@ class ControlSignal : public Signal {
   double close_ = 0;             ///< times as close as this are one, s
   double held_ = 0, before_ = 0; ///< since the last measurement, and until then
   double integral_ = 0;          ///< of what the quantity lacks, s times its unit
-  double lack_ = 0;              ///< at the last measurement
+  double rate_ = 0;              ///< of the integral, from the last measurement on
   double since_ = 0;             ///< from that to the beginning of this step, s
 };
 

@@ -84,7 +84,7 @@ const std::string half_second = "[[step]]\nkind = \"transient\"\nduration = \"0.
 /// The same loop by Runge and Kutta's method of fourth order.
 std::vector<double> stretches_of(const Loop& loop, double start, double duration, double between) {
   const double section = size * thickness; // W0 H
-  double stretch = start, speed = 0, voltage = 0, integral = 0, lack_before = 0;
+  double stretch = start, speed = 0, voltage = 0, integral = 0;
   const int parts = 400; // of the time between two values
   const int per_sample = static_cast<int>(std::lround(loop.every / between));
   std::vector<double> values;
@@ -94,11 +94,10 @@ std::vector<double> stretches_of(const Loop& loop, double start, double duration
   };
   for (int k = 0; k * between < duration - 1e-9; ++k) {
     if (k % per_sample == 0) {
-      const double lack = loop.target - stretch, next = k > 0 ? integral + lack_before * loop.every : 0;
-      const double wanted = loop.drive + loop.gain * lack + loop.integral_gain * next;
+      const double lack = loop.target - stretch;
+      const double wanted = loop.drive + loop.gain * lack + loop.integral_gain * integral;
       voltage = std::clamp(wanted, 0.0, loop.highest);
-      if (!(wanted > loop.highest && next > integral) && !(wanted < 0 && next < integral)) integral = next;
-      lack_before = lack;
+      if (!(wanted > loop.highest && lack > 0) && !(wanted < 0 && lack < 0)) integral += lack * loop.every;
     }
     for (int i = 0; i < parts; ++i) {
       const double h = between / parts;
@@ -163,6 +162,33 @@ TEST_F(ControllerTest, IsAMapWhereNothingTakesTime) {
   }
   EXPECT_EQ(compared, rows.size());
   EXPECT_EQ(compared, 100U);
+}
+
+// What is measured is given: the integral goes on until a sample is cut at the limit, and stays there (the
+// last sample before the limit was left out of it, so that the source fell back to 860 V from 1015 V).
+TEST_F(ControllerTest, AtALimitTheIntegralStays) {
+  write("loop.toml", "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"50 kPa\"\n"
+                     "relative_permittivity = 4\n[patch]\nlength = \"20 mm\"\nstretch_x = { wave = \"ramp\", "
+                     "from = 1, to = 1.04, duration = \"2 s\" }\n[[controller]]\nelectrode = \"film\"\n"
+                     "quantity = \"stretch_x\"\ntarget = 1.05\ngain = 2000\nintegral_gain = 40000\nevery = "
+                     "\"0.5 s\"\nhighest = \"1015 V\"\n[[step]]\nkind = \"transient\"\nduration = \"6 s\"\n"
+                     "increments = 120\n");
+  const Case one = read_case(directory / "loop.toml");
+  Simulation simulation(one, 1);
+  const std::vector<Row> rows = run(simulation, one);
+  double integral = 0;
+  std::size_t compared = 0;
+  for (int k = 0; k < 12; ++k) {
+    const double lack = 1.05 - std::min(1 + 0.02 * 0.5 * k, 1.04);
+    const double wanted = 2000 * lack + 40000 * integral;
+    if (wanted <= 1015) integral += 0.5 * lack;
+    for (const Row& row : rows)
+      if (row.time > 0.5 * k + 1e-6 && row.time < 0.5 * (k + 1) + 1e-6) {
+        EXPECT_NEAR(row.voltage, std::min(wanted, 1015.0), 1e-9) << row.time;
+        ++compared;
+      }
+  }
+  EXPECT_GE(compared, 120U);
 }
 
 // A step may end between two measurements; the next one measures as it begins.
