@@ -24,7 +24,7 @@ namespace {
 
 /// Part of what a jump releases by which that depends on where it sets out: near a critical load that is
 /// known to 1e-7.
-constexpr double from_where = 4e-6;
+constexpr double from_where = 1e-5;
 constexpr const char* did_not_end = "the run did not reach its end";
 constexpr int most_to_refine = 20000; ///< triangles of a user's own mesh
 constexpr int few_triangles = 300;    ///< whose numbers need not converge yet
