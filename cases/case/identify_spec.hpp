@@ -27,6 +27,7 @@ struct DeviceTest {
   bool predict = false;              ///< kept out of the fit
   double weight = 1;
   std::string against;                        ///< column of the history, or "frequency"
+  std::vector<std::string> bare;              ///< columns without a unit, with that in which they are taken
   std::vector<double> x;                      ///< SI, of a frequency Hz
   std::vector<std::complex<double>> measured; ///< SI; of a quantity real
 

@@ -54,7 +54,8 @@ void take_better_blas_kernels(const cases::Case& one, const Arguments& arguments
 }
 
 ExitCode run(const Arguments& arguments) {
-  const cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
+  cases::Case one = cases::read_case(arguments.case_file, arguments.overrides);
+  if (auto idle = cases::study_of_one_run(arguments.case_file)) one.warnings.push_back(*std::move(idle));
   take_better_blas_kernels(one, arguments);
   return run_case(one, {arguments.output("-results"), arguments.threads, arguments.resume, arguments.quiet});
 }

@@ -8,6 +8,7 @@
 #include "post/pictures/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -84,9 +85,10 @@ std::vector<std::string> identify_warnings(const Identification& asked, const Id
   for (std::size_t i = 0; i < outcome.unknowns.size(); ++i) {
     const std::string& key = asked.unknowns[i].key;
     if (outcome.unknowns[i].at_bound)
-      all.push_back(fmt::format("{} is at its bound: the tests do not tell it, or would have it beyond what "
-                                "the key or the range of unknowns allows",
-                                key));
+      all.push_back(
+          fmt::format("{} is at its bound: the tests do not tell it, or would have it beyond what "
+                      "the key or the range of unknowns allows, or where the case still reaches its end",
+                      key));
     else if (!outcome.unknowns[i].determined())
       all.push_back(
           fmt::format("{} is not identifiable: the fitted tests tell only its combination with others", key));
@@ -96,6 +98,12 @@ std::vector<std::string> identify_warnings(const Identification& asked, const Id
         all.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
                                   asked.unknowns[j].key, key, r));
   }
+  for (const DeviceTest& test : asked.tests)
+    if (!test.bare.empty())
+      all.push_back(
+          fmt::format("{}: columns without a unit are taken in SI: {}; write the unit behind the name, as "
+                      "in \"voltage[kV]\"",
+                      test.name(), fmt::join(test.bare, ", ")));
   for (std::size_t t = 0; t < outcome.errors.size(); ++t)
     if (outcome.errors[t] > poor_fit)
       all.push_back(fmt::format("{}: the model misses what was measured by {:.0f} % (rms): columns, their "

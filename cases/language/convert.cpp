@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 namespace dielast::cases {
 namespace {
@@ -114,7 +117,8 @@ Scalar convert_measure(const Key& key, const Node& node, std::string_view unit) 
     const Measure measure = parse_measure(node.text, unit);
     // a number in quotes without a unit can only be meant for a pure number: factor_to_si has refused the
     // rest
-    require_range(key, node, measure.value, measure.unit, false);
+    const bool bare = measure.unit.empty() && !unit.empty();
+    require_range(key, node, measure.value, bare ? std::string(dimension(unit).shown) : measure.unit, bare);
     return {measure.value, ""};
   } catch (const UnitError& error) {
     const std::string meant =
@@ -193,6 +197,27 @@ std::string wave_text(const Key& key, const Waveform& wave) {
 }
 
 } // namespace
+
+std::string doubt_of_unit(const Key& key, const Node& node) {
+  struct Doubt {
+    std::string_view unit;
+    double below, from; ///< magnitudes that are doubted, but for 0
+    const char* meant;
+  };
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  static constexpr std::array doubts{Doubt{"V", 100, never, "kV"}, Doubt{"Pa", 100, never, "kPa"},
+                                     Doubt{"kg", 0, 1, "g"}, Doubt{"kg/m^3", 100, never, "g/cm^3"}};
+  if (node.is(Node::Kind::list))
+    for (const Node& item : node.items)
+      if (const std::string doubt = doubt_of_unit(key, item); !doubt.empty()) return doubt;
+  if ((!node.is(Node::Kind::integer) && !node.is(Node::Kind::number)) || node.number == 0) return "";
+  const auto found = std::ranges::find(doubts, key.unit, &Doubt::unit);
+  const double size = std::abs(node.number);
+  if (found == doubts.end() || !is_measure(key) || (size >= found->below && size < found->from)) return "";
+  return fmt::format(
+      "{0:g} without a unit is {0:g} {1}: write \"{0:g} {1}\", or \"{0:g} {2}\" if that is meant",
+      node.number, found->unit, found->meant);
+}
 
 Value convert(const Key& key, const Node& node, std::string_view unit, const WaveReader& read_wave) {
   Value value;

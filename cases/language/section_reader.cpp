@@ -183,6 +183,8 @@ void SectionReader::set(const Key& key, const Node& node, const Node& table, voi
         convert(key, node, *unit, [&](const Node& inner) { return read_wave(key, inner, path); });
     key.binding.set(object, value);
     keys_[path] = node.source;
+    if (const std::string doubt = doubt_of_unit(key, node); !doubt.empty() && node.source.is_written())
+      warn(node.source, path, doubt);
     const std::string named = table.find(key.name) ? path : path + " (default)";
     for (const Scalar& scalar : value)
       if (key.refers != Reference::none) mentions_[key.refers].push_back({scalar.text, named, node.source});

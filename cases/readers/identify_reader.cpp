@@ -50,6 +50,7 @@ class Columns {
     const bool known = si_unit == "1" ? unit.empty() || ratio
                        : unit.empty() ? name != "phase" && name != "time"
                                       : !ratio && factor_to_si(csv_, column, si_unit).has_value();
+    if (known && unit.empty() && si_unit != "1") bare_.push_back(fmt::format("{} ({})", name, si_unit));
     if (known) return si_column(csv_, column, si_unit);
     const Source header{csv_.file, csv_.header_line, 1};
     const auto [usual, other] = name == "time" ? std::pair{"s", "min"} : std::pair{"deg", "rad"};
@@ -66,11 +67,14 @@ class Columns {
                                         : "; without a unit the numbers are in " + std::string(si_unit))});
     return {};
   }
+  /// Names of those that have been read without a unit, with that in which they are taken.
+  const std::vector<std::string>& bare() const { return bare_; }
 
  private:
   const CsvTable& csv_;
   const Written& test_;
   std::vector<Diagnostic>& wrong_;
+  mutable std::vector<std::string> bare_;
 };
 
 FrequencyTable read_response(MeasuredResponse response, const CsvTable& csv, const Columns& columns,
@@ -290,11 +294,15 @@ Identification read_identification(const std::filesystem::path& path) {
     const Case changed = interpret(with, asked.base);
     load(test.file, path.parent_path(), {tests.items[t], test_path}, wrong,
          [&](const CsvTable& csv, const Columns& columns) {
-           if (!test.is_response()) return read_quantity(test, csv, columns, changed, wrong);
-           FrequencyTable table = read_response(test.response, csv, columns, wrong);
-           test.against = "frequency";
-           test.x = std::move(table.hertz);
-           test.measured = std::move(table.value);
+           if (!test.is_response()) {
+             read_quantity(test, csv, columns, changed, wrong);
+           } else {
+             FrequencyTable table = read_response(test.response, csv, columns, wrong);
+             test.against = "frequency";
+             test.x = std::move(table.hertz);
+             test.measured = std::move(table.value);
+           }
+           test.bare = columns.bare();
          });
   }
   if (wrong.empty() && reader.diagnostics().empty() && asked.fitted_numbers() <= asked.unknowns.size())

@@ -206,4 +206,14 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   return study;
 }
 
+std::optional<Diagnostic> study_of_one_run(const std::filesystem::path& path) {
+  const Node tree = read_tree(path);
+  const Node* section = tree.find("study");
+  if (!section) return std::nullopt;
+  return Diagnostic{
+      section->key_source, "study",
+      fmt::format("has no effect here: its points are run by `dielast study {}`", path.string()),
+      Severity::warning};
+}
+
 } // namespace dielast::cases

@@ -149,6 +149,8 @@ Node parse_tree(std::string_view toml, const FileName& file) {
     if (message.find("invalid utf-8") != std::string::npos) message += "; save the file as UTF-8";
     if (message.find("could not determine value type") != std::string::npos)
       message += "; a text stands in quotes: \"text\"";
+    if (message.find("unescaped control characters") != std::string::npos)
+      message += "; does a text end without its quotation mark?";
     if (message.find("end-of-file") != std::string::npos) message += "; is the file complete?";
     throw CaseError({{source_of(error.source(), file), "", message}});
   }

@@ -3,6 +3,7 @@
 
 #include "cases/case/film_cells.hpp"
 #include "cases/case/quantity_kind.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/text/diagnostics.hpp"
 #include "meshing/normals.hpp"
 #include "meshing/quality.hpp"
@@ -200,12 +201,36 @@ std::string side_text(const Film& film, const meshing::Mesh& mesh, const meshing
                      x.x(), x.y(), x.z(), normal.x(), normal.y(), normal.z());
 }
 
+/// A sentence for every support or load of a place that has no node of the film: what gmsh writes lacks the
+/// triangles of surfaces without a physical name.
+std::vector<std::string> warnings_of_missing_film(const Case& one, const meshing::Mesh& mesh) {
+  std::vector<std::string> warnings;
+  if (!one.any_geometry<MeshFile>() || std::ranges::any_of(one.parts, has_bars)) return warnings;
+  const std::set<int> film(mesh.film()->nodes.begin(), mesh.film()->nodes.end());
+  const auto check = [&](const char* section, const auto& objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      if (std::ranges::count(one.bodies, objects[i].place, &Body::name) > 0) continue;
+      const std::vector<int>& nodes = mesh.node_sets.at(objects[i].place);
+      if (std::ranges::any_of(nodes, [&](int node) { return film.contains(node); })) continue;
+      warnings.push_back(one.warning_at(
+          fmt::format("{}[{}].place", section, i + 1),
+          fmt::format(
+              "none of the {} nodes of \"{}\" is one of the film, so that nothing acts on it: give the "
+              "surfaces beside it a physical name in the drawing, too",
+              nodes.size(), objects[i].place)));
+    }
+  };
+  check("support", one.supports);
+  check("load", one.loads);
+  return warnings;
+}
+
 } // namespace
 
 std::vector<std::string> mesh_file_warnings(const Case& one, const meshing::Mesh& mesh,
                                             std::span<const int> parts) {
   constexpr double largest = 1; // m, of the templates' dimensions
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = warnings_of_missing_film(one, mesh);
   for (std::size_t p = 0; p < one.parts.size(); ++p) {
     if (!one.parts[p].film || std::ranges::count(parts, static_cast<int>(p)) > 0) continue;
     const std::string key = one.parts[p].key_prefix() + "film.thickness";

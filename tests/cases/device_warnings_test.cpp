@@ -72,6 +72,41 @@ TEST_F(DeviceWarnings, FilmOfWhichPartsTakeAll) {
   EXPECT_FALSE(warns(disc("electrode"), "other parts take all of this film"));
 }
 
+TEST_F(DeviceWarnings, NumbersThatWereMeantInAnotherUnit) {
+  const auto doubts = [&](const char* volts, const char* modulus) {
+    const Case one = read(fmt::format("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = {}\n"
+                                      "relative_permittivity = 3\n[patch]\n[drive]\nvoltage = {}\n",
+                                      modulus, volts));
+    return std::ranges::count_if(one.warnings, [](const Diagnostic& told) {
+      return told.message.find("without a unit is") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(doubts("3", "4e4"), 1);
+  EXPECT_EQ(
+      doubts("{ wave = \"ramp\", to = 3, duration = 1 }\n[[step]]\nkind = \"transient\"\nduration = 1", "40"),
+      2);
+  EXPECT_EQ(doubts("\"3 V\"", "\"40 Pa\""), 0);
+  EXPECT_EQ(doubts("0", "4e4"), 0);
+  EXPECT_EQ(doubts("300", "4e4"), 0);
+}
+
+TEST_F(DeviceWarnings, PlacesBesideSurfacesWithoutAName) {
+  write("square.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"frame\"\n1 2 \"side\"\n2 3 "
+        "\"film\"\n$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 10 0 0\n3 10 10 0\n4 0 10 0\n5 20 0 0\n6 20 10 "
+        "0\n$EndNodes\n$Elements\n4\n1 2 2 3 1 1 2 3\n2 2 2 3 1 1 3 4\n3 1 2 1 1 5 6\n4 1 2 2 2 4 "
+        "1\n$EndElements\n");
+  const auto held_at = [&](const char* place) {
+    return film("thickness = \"0.1 mm\"") +
+           fmt::format("[mesh]\nfile = \"square.msh\"\nunit = \"1 mm\"\n[[support]]\nplace = \"{}\"\nfix = "
+                       "[\"x\", \"y\"]\n",
+                       place);
+  };
+  const std::string told = "support[1].place: none of the 2 nodes of \"frame\" is one of the film";
+  EXPECT_TRUE(warns(held_at("frame"), told));
+  EXPECT_FALSE(warns(held_at("side"), "none of the"));
+}
+
 TEST_F(DeviceWarnings, WallsAndStacksThatAreThickForWhatTheyAre) {
   const auto lattice = [&](const char* width) {
     return film("thickness = \"1 mm\"\nprestretch = [4, 2.5]") +

@@ -74,6 +74,10 @@ TEST_F(Identify, FindsWhatWasPutIn) {
   write_test("\"film.material.shear_modulus\", \"film.material.viscosity\"", tests);
   write("v.csv", "voltage[V],stroke[mm]\n200,1\n400,1\n600,1\n800,1\n1000,1\n");
   Identification asked = read_identification(directory / "identify.toml");
+  EXPECT_TRUE(asked.tests[0].bare.empty());
+  write("v.csv", "voltage,stroke[mm]\n200,1\n400,1\n600,1\n800,1\n1000,1\n");
+  const Identification bare = read_identification(directory / "identify.toml");
+  EXPECT_EQ(bare.tests[0].bare, std::vector<std::string>{"voltage (V)"});
   EXPECT_EQ(asked.unknowns[0].start, 300);
   EXPECT_EQ(asked.unknowns[0].unit, "kPa");
   const DeviceModel device(asked);

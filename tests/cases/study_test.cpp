@@ -24,6 +24,13 @@ TEST(Study, OfACaseBesideIt) {
   EXPECT_EQ(study.plots[0].group, "film.prestretch");
 }
 
+TEST(Study, IsToldOfWhereItsCaseIsRunAlone) {
+  EXPECT_FALSE(study_of_one_run(valid / "honeycomb.toml"));
+  const auto told = study_of_one_run(valid / "study.toml");
+  ASSERT_TRUE(told);
+  EXPECT_NE(told->text().find("warning: study: has no effect here"), std::string::npos) << told->text();
+}
+
 TEST(Study, PairsParametersAndDerivedKeys) {
   const Study study = read_study(valid / "study_of_pairs.toml");
   ASSERT_EQ(study.axes.size(), 4u);
