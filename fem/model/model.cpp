@@ -67,13 +67,14 @@ void Model::balance_fields(State& state) const {
 
 bool Model::fill(State& state, const Eigen::VectorXd& direction) const {
   constexpr double exact = 1e-14, good = 1e-11; // of the volume
+  constexpr double rounding = 1e-8;             // of the least volume: positions are known to a rounding
   constexpr int most_steps = 30;
   const std::size_t port = *ports.closed_chamber(state);
   const double wanted = ports.given_charge(state, port);
-  const double scale = std::max(std::abs(wanted), least_volume());
+  const double admitted = std::max(good * std::abs(wanted), rounding * least_volume());
   const auto gap = [&](const State& at) { return wanted - charges(at, false).charge[port]; };
   double missing = gap(state);
-  if (std::abs(missing) <= good * scale) return true;
+  if (std::abs(missing) <= admitted) return true;
   if (direction.isZero(0)) return false;
   // secants, from the slope here
   Eigen::VectorXd coupling = charges(state, true).coupling[port];
@@ -91,9 +92,10 @@ bool Model::fill(State& state, const Eigen::VectorXd& direction) const {
       state = std::move(there);
       missing = left;
     }
-    if (std::abs(missing) <= exact * scale || (!closer && std::abs(missing) <= good * scale)) return true;
+    if (std::abs(missing) <= exact * std::abs(wanted) || (!closer && std::abs(missing) <= admitted))
+      return true;
   }
-  return std::abs(missing) <= good * scale;
+  return std::abs(missing) <= admitted;
 }
 
 Charges Model::surplus(const State& state, bool with_coupling) const {

@@ -45,6 +45,42 @@ TEST_F(Paths, a_balloon_stops_at_its_greatest_pressure) {
   }
 }
 
+// The drawn state, flat: its volume is known to a rounding of the positions, not of itself.
+TEST_F(Paths, a_disc_is_pumped_back_to_nothing) {
+  for (const int increments : {20, 60, 200}) {
+    const Run ran = run(fmt::format(R"toml(model = "axisymmetric"
+[film]
+thickness = "1 mm"
+prestretch = 1.2
+[film.material]
+law = "gent"
+stretch_limit = 150
+shear_modulus = "40 kPa"
+permittivity = "4e-11 F/m"
+[disc]
+radius = "20 mm"
+[mesh]
+rings = 16
+[chamber]
+bulk_modulus = "100 kPa"
+[[step]]
+kind = "inflate"
+to = "300 ml"
+increments = 60
+[[step]]
+name = "down"
+kind = "inflate"
+to = "0 ml"
+increments = {}
+)toml",
+                                    increments),
+                        "pressure");
+    EXPECT_EQ(ran.outcome.ending, Ending::complete) << ran.outcome.message;
+    EXPECT_NEAR(ran.rows.back().value, 0, 1e-6);
+    EXPECT_TRUE(ran.events.empty());
+  }
+}
+
 // The tangent that Newton's last step was taken with told of an unstable mode that the state itself has not.
 TEST_F(Paths, a_filled_balloon_ends_at_its_bifurcation_whatever_the_increments) {
   std::vector<double> ends;
