@@ -9,6 +9,7 @@
 #include "cases/runs/results.hpp"
 #include "cases/runs/watch.hpp"
 #include "post/engineering.hpp"
+#include "post/fields.hpp"
 
 #include <fmt/format.h>
 
@@ -224,6 +225,49 @@ std::vector<double> changes_by_barrier(const Case& one, const Solution& own,
   return changes;
 }
 
+/// Whether most of a shell's elements are longer than the layer along its edges in which bending gives way to
+/// tension, sqrt(D/N) = h sqrt(mu/(3 sigma)): larger elements do not know then what it does.
+bool hides_edge_layer(const Case& one, const Simulation& run) {
+  constexpr double resolved = 4; // layers long an element may be
+  const meshing::Mesh& mesh = run.device().mesh;
+  const meshing::CellBlock& film = *mesh.film();
+  if (!meshing::is_triangle(film.type) || run.device().solid) return false;
+  int hidden = 0, all = 0;
+  for (const fem::MembraneSample& sample : run.device().model.sample(run.state()).film) {
+    const Part& part =
+        one.parts[static_cast<std::size_t>(run.device().film_parts[static_cast<std::size_t>(sample.cell)])];
+    if (part.film->section != FilmSection::shell) continue;
+    const post::FilmPoint point(sample);
+    const auto corner = [&, cell = film.cell(sample.cell)](std::size_t k) {
+      return mesh.nodes[static_cast<std::size_t>(cell[k])];
+    };
+    const double size = (corner(1) - corner(0)).norm(), stress = point.principal_stress()[1];
+    const double modulus = materials::initial_shear_modulus(part.film->material.law);
+    hidden += stress > 0 && size > resolved * point.thickness * std::sqrt(modulus / (3 * stress));
+    ++all;
+  }
+  return 2 * hidden > all;
+}
+
+/// All that bending does to single films whose elements hide the layer along their edges; 0 of others, and
+/// where the membrane is no device of its own.
+std::vector<double> changes_by_bending(const Case& one, const Simulation& run, const Solution& own,
+                                       int threads) {
+  constexpr double cautious = 1.25;
+  std::vector<double> changes(own.values.size(), 0.0);
+  const auto layered = [](const Film& film) { return !film.further_layers.empty() || film.offset != 0; };
+  if (one.any_film(layered) || !hides_edge_layer(one, run)) return changes;
+  Discretisation membrane{one};
+  for (Part& part : membrane.one.parts)
+    if (part.film && part.film->section == FilmSection::shell) part.film->section = FilmSection::membrane;
+  for (Support& support : membrane.one.supports) std::fill_n(support.fixed.begin() + 3, 3, false);
+  const Solution flexible = solve(membrane, false, threads);
+  if (!flexible.trouble.empty()) return changes;
+  for (std::size_t q = 0; q < changes.size(); ++q)
+    changes[q] = cautious * std::abs(on_its_side(flexible.values[q], own, own.values[q]) - own.values[q]);
+  return changes;
+}
+
 int direction_of(const Quantity& quantity) {
   if (!quantity.kind->extreme) return 0;
   return quantity.extreme == post::Extreme::maximum ? 1 : -1;
@@ -300,6 +344,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
     return estimates;
   }
   const std::vector<double> of_barrier = changes_by_barrier(one, own, discretisations, others, threads);
+  const std::vector<double> of_bending = changes_by_bending(one, own_run, own, threads);
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
     ErrorEstimate& estimate = estimates.quantities.emplace_back();
@@ -326,6 +371,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
       raise(estimate, own_run.error_of_course(one.quantities[q])); // all stop at the same corners of waves
       if (takes_time(one)) // the steps were chosen to be no better than that
         raise(estimate, std::max(one.solver.time_tolerance, spring) * std::abs(own.values[q]));
+      raise(estimate, of_bending[q]);
       if (estimate.error) *estimate.error += of_barrier[q];
     }
   }

@@ -125,6 +125,8 @@ std::vector<EstimatedCase> estimated_cases() {
       {"balloon", {"mesh.rings=40", "mesh.order=1", "film.prestretch=1.05"}},
       {"weighted_in_time", {}},
       {"weighted_in_time", {"mesh.order=1", "step.transient.increments=50", "drive.voltage.to=3 kV"}},
+      {"shell_disc", {}},
+      {"shell_disc", {"film.prestretch=2", "film.thickness=0.02 mm", "mesh.rings=12"}},
       {"slab_on_table", {}},
       {"slab_on_table", {"contact.thickness=50 um", "table.friction=0.1"}},
       {"creeping_disc", {}},

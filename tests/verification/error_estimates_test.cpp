@@ -45,6 +45,15 @@ TEST(ErrorEstimates, OfAMeanHoldWhatLiesBetweenTheStates) {
   }
 }
 
+// No element resolves the layer along the rim, whose bending lowers the film by 3e-4.
+TEST(ErrorEstimates, HoldWhatTheEdgeLayerOfAShellChanges) {
+  EstimateCount count;
+  add_estimates({"shell_disc", {}, 4}, count);
+  EXPECT_GE(count.values.size(), 3u);
+  EXPECT_EQ(share(count.values), 1) << exceptions(count);
+  EXPECT_LE(median_ratio(count.values), 10) << "too large to be of use";
+}
+
 // All discretisations have the same barrier.
 TEST(ErrorEstimates, HoldWhatTheBarrierOfContactChanges) {
   EstimateCount count;
