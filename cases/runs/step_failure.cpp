@@ -125,6 +125,7 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
             fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
                         "of another branch beyond it.{}",
                         load_text(last(), reached), more)};
+  if (!timed() && fem::moves_freely(equilibrium_, loaded(last(), reached))) return singular();
   const char* slides =
       fem::friction_in_use(model(), last()) < all_of_it
           ? "A"

@@ -99,6 +99,40 @@ fix = ["x", "y", "z")toml" +
   EXPECT_EQ(ended(", \"turn_y\"", hold).ending, Ending::complete);
 }
 
+// One that swings so far that Newton's method finds it no longer stops on its way, and is told of alike.
+TEST_F(Unheld, AShellThatSwingsTooFarIsToldToBeLoose) {
+  const Outcome outcome = run(R"toml(
+model = "3d"
+[film]
+thickness = "0.1 mm"
+section = "shell"
+[film.material]
+shear_modulus = "100 kPa"
+relative_permittivity = 3
+[[film.layer]]
+name = "passive"
+thickness = "0.05 mm"
+material = { shear_modulus = "400 kPa", relative_permittivity = 3 }
+[rectangle]
+length = "30 mm"
+width = "6 mm"
+[mesh]
+across = 6
+[[electrode]]
+name = "e"
+place = "film"
+[[support]]
+place = "left"
+fix = ["x", "y", "z"]
+[drive]
+voltage = "400 V"
+)toml",
+                              "capacitance")
+                              .outcome;
+  EXPECT_EQ(outcome.ending, Ending::gave_up);
+  EXPECT_NE(outcome.message.find("can move freely"), std::string::npos) << outcome.message;
+}
+
 // Lines with nodes of their own, drawn a second time: what is said of "frame" is not said of the film.
 TEST_F(Unheld, LinesThatAreNotJoinedToTheFilmAreTold) {
   const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"frame\"\n2 2 "
