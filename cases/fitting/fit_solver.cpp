@@ -109,7 +109,7 @@ void add_statistics(const Misfit& misfit, const std::vector<Coordinate>& coordin
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     if (ends[i] || coordinates[i].at_bound(q[static_cast<Eigen::Index>(i)]))
       J.col(static_cast<Eigen::Index>(i)).setZero();
-  const FitStatistics statistics = fit_statistics(J, r);
+  const FitStatistics statistics = fit_statistics(J, r, time_tolerance);
   outcome.deviation = statistics.deviation;
   outcome.correlation = statistics.correlation;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {

@@ -5,12 +5,13 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace dielast::cases {
 
-FitStatistics fit_statistics(const Eigen::MatrixXd& J, const Eigen::VectorXd& r) {
+FitStatistics fit_statistics(const Eigen::MatrixXd& J, const Eigen::VectorXd& r, double model_error) {
   constexpr double singular = 1e-7; // of unit columns; differences are good to 1e-9
   constexpr double takes_part = 1e-3;
   const Eigen::Index k = J.cols();
@@ -34,9 +35,10 @@ FitStatistics fit_statistics(const Eigen::MatrixXd& J, const Eigen::VectorXd& r)
   const double freedom = static_cast<double>(r.size() - active);
   const double t = boost::math::quantile(boost::math::students_t(freedom), 0.975);
   FitStatistics result{std::sqrt(r.squaredNorm() / freedom), Eigen::VectorXd(k), Eigen::MatrixXd(k, k)};
+  const double error = std::max(result.deviation, model_error);
   for (Eigen::Index i = 0; i < k; ++i) {
-    result.half_widths[i] = known[i] ? t * result.deviation * std::sqrt(inverse(i, i)) / size[i]
-                                     : std::numeric_limits<double>::infinity();
+    result.half_widths[i] =
+        known[i] ? t * error * std::sqrt(inverse(i, i)) / size[i] : std::numeric_limits<double>::infinity();
     for (Eigen::Index j = 0; j < k; ++j)
       result.correlation(i, j) = known[i] && known[j]
                                      ? inverse(i, j) / std::sqrt(inverse(i, i) * inverse(j, j))

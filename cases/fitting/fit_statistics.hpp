@@ -16,7 +16,8 @@ struct FitStatistics {
   Eigen::MatrixXd correlation;
 };
 
-/// n > k. Columns of zero (coordinates that are held) count as not identifiable but not in k.
-FitStatistics fit_statistics(const Eigen::MatrixXd& J, const Eigen::VectorXd& r);
+/// n > k. Columns of zero (coordinates that are held) count as not identifiable but not in k. `model_error`:
+/// of each residual, that of how it is computed: intervals are no narrower than with s = model_error.
+FitStatistics fit_statistics(const Eigen::MatrixXd& J, const Eigen::VectorXd& r, double model_error = 0);
 
 } // namespace dielast::cases

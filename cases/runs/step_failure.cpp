@@ -84,7 +84,8 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
                         step_.name, load_text(reached), load_text(trouble.ramp.failed_at),
                         options_.newton.wrinkles
                             ? "Stretch it a little"
-                            : "Let it wrinkle (wrinkling = \"tension field\") or stretch it a little")};
+                            : "Let it wrinkle (wrinkling = \"tension field\") or stretch it a little, or let "
+                              "solver.smallest_increment be smaller")};
   const auto go_on = ways_on.empty() ? "" : "; or let the step go on with on_instability = " + ways_on;
   const std::string more =
       " Lower what drives it, or stiffen the device or stretch the film more, to stay below it" + go_on;

@@ -181,12 +181,16 @@ bool is_heavy(const Node& body) try {
   return false; // reported where it is read
 }
 
-/// A film of revolution is what a plate, a chamber or a balloon asks for.
+/// A film of revolution is what a balloon asks for, and a plate or a chamber where the geometry can be one.
 void add_model(Node& tree) {
   const Source source{tree.source.file, 0, 0};
+  const auto any = [&](std::initializer_list<const char*> names) {
+    return std::ranges::any_of(names, [&](const char* name) { return tree.find(name) != nullptr; });
+  };
   if (!tree.find("model") && tree.find("pivot")) tree.add("model", text_node("3d", source));
-  if (!tree.find("model") && (tree.find("plate") || tree.find("chamber") || tree.find("balloon") ||
-                              tree.find("roll") || tree.find("hollow_sphere")))
+  const bool is_flat = any({"strip", "rectangle", "honeycomb", "patch"});
+  if (!tree.find("model") &&
+      (any({"balloon", "roll", "hollow_sphere"}) || (!is_flat && any({"plate", "chamber"}))))
     tree.add("model", text_node("axisymmetric", source));
 }
 

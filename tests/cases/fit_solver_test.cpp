@@ -288,6 +288,9 @@ TEST(FitStatistics, AStraightLine) {
   EXPECT_NEAR(line.half_widths[1], 4.302653 * std::sqrt(0.35 / 5), 1e-6);
   EXPECT_NEAR(line.half_widths[0], 4.302653 * std::sqrt(0.35 * (0.25 + 1.5 * 1.5 / 5)), 1e-6);
   EXPECT_NEAR(line.correlation(0, 1), -1.5 / std::sqrt(1.25 + 1.5 * 1.5), 1e-12);
+  const FitStatistics coarse = fit_statistics(J, r, 2);
+  EXPECT_EQ(coarse.deviation, line.deviation);
+  EXPECT_NEAR(coarse.half_widths[1], 4.302653 * 2 / std::sqrt(5), 1e-6);
 }
 
 TEST(FitStatistics, OnlyTheSumOfTwoIsKnown) {
