@@ -213,14 +213,22 @@ void Watch::locate(std::vector<post::Event>& events, const Passage& passage) con
     const auto threshold = std::ranges::find(thresholds, event.kind, &Threshold::kind);
     if (threshold == thresholds.end() || (device_.tension_field && event.kind == "loss of tension")) continue;
     const post::WantedScalars wanted({std::string(threshold->field)});
+    const auto beyond_in = [&](const fem::State& state) {
+      const fem::Samples samples = device_.model.sample(state);
+      return threshold->beyond(
+          post::Extremes(samples, wanted).find(threshold->field, threshold->extreme)->value);
+    };
     std::vector<double> beyond;
-    for (const fem::PathPoint& point : points) {
-      const fem::Samples samples = device_.model.sample(point.state);
-      beyond.push_back(threshold->beyond(
-          post::Extremes(samples, wanted).find(threshold->field, threshold->extreme)->value));
-    }
+    for (const fem::PathPoint& point : points) beyond.push_back(beyond_in(point.state));
     if (!(beyond[beyond.size() - 2] < 0 && beyond.back() > 0)) continue;
+    const bool remembers = points.back().state.history != nullptr;
     const auto beyond_at = [&](double at) {
+      if (!remembers) { // of the shape there: what is largest may be elsewhere than in these states
+        fem::State there = fem::extrapolate(points, passage.timed ? at : passage.path.parameter(at));
+        passage.path.apply(there, at);
+        device_.model.balance_fields(there);
+        return beyond_in(there);
+      }
       double sum = 0;
       for (std::size_t i = 0; i < s.size(); ++i) {
         double term = beyond[i];

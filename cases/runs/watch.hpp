@@ -61,7 +61,7 @@ class Watch {
                                  bool ends = false);
 
   /// Tells of those events that begin at a threshold where it was passed on the way to their state: on the
-  /// polynomial through what up to four states are beyond it.
+  /// polynomial through up to four states, or, where material remembers, through what they are beyond it.
   void locate(std::vector<post::Event>& events, const Passage& passage) const;
 
   /// Kinds of the conditions that hold now; stored with a checkpoint.
