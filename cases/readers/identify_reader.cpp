@@ -172,8 +172,19 @@ void read_settings(SectionReader& reader, const Node& table, const std::string& 
   }
 }
 
+/// "; did you mean ...?", where the case has one key that ends in the last name of `key`; otherwise "".
+std::string key_of_that_name(const std::string& key, const Case& one) {
+  const std::string ending = "." + key.substr(key.rfind('.') + 1);
+  std::vector<std::string> found;
+  for (const auto& [known, source] : one.keys)
+    if (known.ends_with(ending)) found.push_back(known);
+  return found.size() == 1 ? did_you_mean(found.front(), found) : "";
+}
+
 /// The unknowns with their start values: the case's, or those of identify.start.
-void find_unknowns(SectionReader& reader, const Node& section, Node base, Identification& asked) {
+void find_unknowns(SectionReader& reader, const Node& section, Node base, const Case& one,
+                   Identification& asked) {
+
   const Node* start = section.find("start");
   for (std::size_t i = 0; start && start->is(Node::Kind::table) && i < start->items.size(); ++i) {
     if (std::ranges::count(asked.keys, start->keys[i]) == 0)
@@ -193,7 +204,8 @@ void find_unknowns(SectionReader& reader, const Node& section, Node base, Identi
     try {
       const auto value = written_measure(text_of(value_at(base, asked.keys[i])));
       if (!value)
-        report("the case has no such key with a number; write its start value there, or in identify.start");
+        report("the case has no such key with a number; write its start value there, or in identify.start" +
+               key_of_that_name(asked.keys[i], one));
       else if (value->number == 0)
         report("the case starts it at 0; write a start value other than 0");
       else
@@ -282,7 +294,7 @@ Identification read_identification(const std::filesystem::path& path) {
     reader.report(section.source, "identify.test",
                   "missing; add an [[identify.test]] with the file of a table");
   if (!reader.diagnostics().empty()) throw CaseError(reader.diagnostics());
-  find_unknowns(reader, section, base, asked);
+  find_unknowns(reader, section, base, one, asked);
   check_tests(reader, section, one, asked);
   std::vector<Diagnostic> wrong;
   for (std::size_t t = 0; t < asked.tests.size() && reader.diagnostics().empty(); ++t) {

@@ -97,8 +97,9 @@ void check_names(SectionReader& reader, const Node& section, const Study& study,
   }
 }
 
-/// A target needs one key whose values are numbers of one unit.
-void check_targets(SectionReader& reader, const Node& section, const Study& study, const Case& base) {
+/// A target needs one key whose values are numbers of one unit, where the axes are without errors.
+void check_targets(SectionReader& reader, const Node& section, const Study& study, const Case& base,
+                   bool knows_axes) {
   std::vector<std::string> quantities;
   for (const Quantity& quantity : base.quantities) quantities.push_back(quantity.name);
   const Node* targets = section.find("target");
@@ -107,6 +108,7 @@ void check_targets(SectionReader& reader, const Node& section, const Study& stud
     const std::string path = fmt::format("study.target[{}]", i + 1);
     if (const Node* name = item.find("quantity"); name && name->is(Node::Kind::text))
       require_one_of(reader, item.source, path + ".quantity", name->text, quantities);
+    if (!knows_axes) continue;
     if (study.axes.size() != 1 || study.axes[0].values.size() < 2 ||
         !std::ranges::all_of(study.axes[0].values,
                              [](const auto& v) { return written_measure(v).has_value(); }))
@@ -194,10 +196,12 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   }
   base_case = interpret(base, study.base); // its own errors come first: nothing can be varied without it
   reader.read_table(*case_schema().find_section("study"), *section, &study, "study");
+  const std::size_t errors_before = reader.diagnostics().size();
   read_axes(reader, *section, base, study);
+  const bool knows_axes = reader.diagnostics().size() == errors_before;
   check_settings(reader, *section, study, overrides);
   check_names(reader, *section, study, base_case);
-  check_targets(reader, *section, study, base_case);
+  check_targets(reader, *section, study, base_case, knows_axes);
   complete_collection(study, base_case);
   for (const Quantity& quantity : base_case.quantities)
     if (quantity.kind->relative) study.relative.insert(quantity.name);

@@ -164,7 +164,7 @@ std::vector<Discretisation> compared_with(const Case& one, const Simulation& own
   const meshing::CellBlock* film = own.device().mesh.film();
   const bool few =
       film && meshing::is_triangle(film->type) && film->size() <= few_triangles && !takes_time(one);
-  const bool blind = corners || (!all.empty() && (few || divides_edges_alike(one, all.front().one)));
+  const bool blind = corners || few || (!all.empty() && divides_edges_alike(one, all.front().one));
   const int most = most_halvings(own);
   if ((!blind && !none_of_parts) || (!all.empty() && all.front().size < 1) || most == 0) return all;
   int halvings = 1;

@@ -130,6 +130,29 @@ std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& 
   return warnings;
 }
 
+std::vector<std::string> warnings_of_held_quantities(const Case& one, const meshing::Mesh& mesh,
+                                                     const fem::DofMap& dofs) {
+  const HeldPlaces held(one, mesh, dofs);
+  std::vector<std::string> warnings;
+  int number = 0;
+  for (const Quantity& quantity : one.quantities) {
+    if (quantity.standard) continue;
+    ++number;
+    if (quantity.kind->word != "displacement" || !mesh.node_sets.contains(quantity.of)) continue;
+    bool rests = true;
+    for (int axis = 0; axis < 3; ++axis)
+      if (!quantity.along || axis == std::min(*quantity.along, 2))
+        rests = rests && held.rests(quantity.of, axis);
+    if (rests)
+      warnings.push_back(
+          one.warning_at(fmt::format("quantity[{}].of", number),
+                         fmt::format("all nodes of \"{}\" are held{}: \"{}\" is always 0", quantity.of,
+                                     quantity.along ? fmt::format(" along {}", "xyzz"[*quantity.along]) : "",
+                                     quantity.name)));
+  }
+  return warnings;
+}
+
 std::vector<std::string> load_warnings(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs) {
   const auto lets_go = [&](int node, int c) {
     return std::ranges::any_of(one.supports, [&](const Support& support) {

@@ -31,6 +31,11 @@ std::vector<std::string> weight_warnings(const Case& one);
 std::vector<std::string> idle_attachments(const Case& one, const meshing::Mesh& mesh,
                                           const fem::DofMap& dofs);
 
+/// A sentence for every displacement that the user asks for and that is always 0, as nothing moves its place
+/// in any step. `dofs` as above.
+std::vector<std::string> warnings_of_held_quantities(const Case& one, const meshing::Mesh& mesh,
+                                                     const fem::DofMap& dofs);
+
 /// A sentence for every incompressible solid that is held in all of its nodes: nothing tells its pressures.
 /// `parts`: of the film's cells, numbers in Case::parts. `dofs` as above.
 std::vector<std::string> pressure_warnings(const Case& one, const meshing::Mesh& mesh,

@@ -83,7 +83,8 @@ void Ports::weigh_sheets(const Eigen::VectorXd& capacitances) {
         connected = connected || sheet_points_[a].at_terminal;
       }
     if (!connected)
-      throw std::invalid_argument("the terminal of electrode \"" + port.name + "\" is no corner of its film");
+      throw std::invalid_argument("the terminal of electrode \"" + port.name +
+                                  "\" touches no element of the film that it covers");
     for (std::size_t a = 0; a < sheet_points_.size(); ++a)
       if (SheetPoint& point = sheet_points_[a]; point.electrode == static_cast<int>(e)) {
         const double capacitance = capacitances[static_cast<Eigen::Index>(a)];

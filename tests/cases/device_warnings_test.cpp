@@ -107,6 +107,18 @@ TEST_F(DeviceWarnings, PlacesBesideSurfacesWithoutAName) {
   EXPECT_FALSE(warns(held_at("side"), "none of the"));
 }
 
+TEST_F(DeviceWarnings, DisplacementsOfWhatIsHeld) {
+  const auto strip = [&](const char* of, const char* along) {
+    return "model = \"3d\"\n" + film("thickness = \"0.1 mm\"\nsection = \"shell\"") +
+           fmt::format("[rectangle]\nlength = \"30 mm\"\nwidth = \"6 mm\"\n[mesh]\nacross = 1\n[[quantity]]\n"
+                       "name = \"tip\"\nkind = \"displacement\"\nof = \"{}\"\nalong = \"{}\"\n[[support]]\n"
+                       "place = \"left\"\nfix = [\"x\", \"y\", \"z\", \"turn_y\"]\n",
+                       of, along);
+  };
+  EXPECT_TRUE(warns(strip("left", "z"), "quantity[1].of: all nodes of \"left\" are held along z"));
+  EXPECT_FALSE(warns(strip("right", "z"), "is always 0"));
+}
+
 TEST_F(DeviceWarnings, WallsAndStacksThatAreThickForWhatTheyAre) {
   const auto lattice = [&](const char* width) {
     return film("thickness = \"1 mm\"\nprestretch = [4, 2.5]") +

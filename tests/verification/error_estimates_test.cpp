@@ -54,6 +54,15 @@ TEST(ErrorEstimates, HoldWhatTheEdgeLayerOfAShellChanges) {
   EXPECT_LE(median_ratio(count.values), 10) << "too large to be of use";
 }
 
+// Elements half as large are compared with where there are none that are larger.
+TEST(ErrorEstimates, HoldOnTheCoarsestMeshOfAShell) {
+  EstimateCount count;
+  add_estimates({"unimorph", {}, 4}, count);
+  EXPECT_GE(count.values.size(), 5u);
+  EXPECT_GE(share(count.values), 0.9) << exceptions(count);
+  EXPECT_LE(median_ratio(count.values), 10) << "too large to be of use";
+}
+
 // All discretisations have the same barrier.
 TEST(ErrorEstimates, HoldWhatTheBarrierOfContactChanges) {
   EstimateCount count;
