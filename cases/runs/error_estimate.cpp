@@ -203,9 +203,8 @@ void raise(ErrorEstimate& estimate, double in_common) {
   if (estimate.error) estimate.error = std::max(*estimate.error, in_common);
 }
 
-/// What a barrier changes, as half of its thickness tells with the largest elements of all: like its
-/// thickness, or its square root, as of what slides or peels off. 0 of every quantity where there is no
-/// contact, or half of the thickness finds no end.
+/// What a barrier changes, as half of its thickness tells with the largest elements: like its thickness, or
+/// the root of that, as of what slides or peels off. 0 without contact, or where that half finds no end.
 std::vector<double> changes_by_barrier(const Case& one, const Solution& own,
                                        const std::vector<Discretisation>& discretisations,
                                        const std::vector<Solution>& others, int threads) {
@@ -238,8 +237,8 @@ bool hides_edge_layer(const Case& one, const Simulation& run) {
         one.parts[static_cast<std::size_t>(run.device().film_parts[static_cast<std::size_t>(sample.cell)])];
     if (part.film->section != FilmSection::shell) continue;
     const post::FilmPoint point(sample);
-    const auto corner = [&, cell = film.cell(sample.cell)](std::size_t k) {
-      return mesh.nodes[static_cast<std::size_t>(cell[k])];
+    const auto corner = [&](std::size_t k) {
+      return mesh.nodes[static_cast<std::size_t>(film.cell(sample.cell)[k])];
     };
     const double size = (corner(1) - corner(0)).norm(), stress = point.principal_stress()[1];
     const double modulus = materials::initial_shear_modulus(part.film->material.law);
@@ -345,6 +344,8 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
   }
   const std::vector<double> of_barrier = changes_by_barrier(one, own, discretisations, others, threads);
   const std::vector<double> of_bending = changes_by_bending(one, own_run, own, threads);
+  if (interrupted()) estimates.reason = "interrupted";
+  if (!estimates.reason.empty()) return estimates;
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
     ErrorEstimate& estimate = estimates.quantities.emplace_back();
