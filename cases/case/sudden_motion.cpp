@@ -98,4 +98,11 @@ std::string sudden_motion(const Case& one, std::span<const Step> steps) {
   return "";
 }
 
+std::string sudden_motion_so_far(const Case& one, std::span<const Step> steps, int step) {
+  std::string sudden;
+  for (std::size_t s = static_cast<std::size_t>(step) + 1; s > 0 && sudden.empty(); --s)
+    sudden = sudden_motion(one, steps.first(s));
+  return sudden;
+}
+
 } // namespace dielast::cases

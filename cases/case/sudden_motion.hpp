@@ -22,7 +22,9 @@ std::optional<SuddenJump> sudden_jump(const Support& support, std::size_t axis, 
 
 /// What the last of these steps, where it is a transient with inertia, asks of a support that masses cannot
 /// do: to have another speed at once, as a sine has that sets out from rest. The shorter the time steps are,
-/// the larger are the forces there, and the works that they do are not known any better. Empty: nothing.
+/// the larger are the forces there; what they do is the work of an impulse. Empty: nothing.
 std::string sudden_motion(const Case& one, std::span<const Step> steps);
+/// That of the last of the steps up to number `step` which has one.
+std::string sudden_motion_so_far(const Case& one, std::span<const Step> steps, int step);
 
 } // namespace dielast::cases

@@ -8,6 +8,7 @@
 #include "cases/runs/phases.hpp"
 #include "cases/warnings/load_warnings.hpp"
 #include "fem/linear/rest.hpp"
+#include "fem/paths/held_masses.hpp"
 #include "fem/paths/homotopy.hpp"
 #include "fem/paths/renumbering.hpp"
 #include "post/engineering.hpp"
@@ -181,6 +182,9 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
   fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length, held_);
   if (!energy_.empty()) {
     point.flow = fem::flow_heat(*equilibrium_, before, energy_before, state, held_.energy);
+    if (increment.turns) point.impulses = fem::work_of_impulses(device_.model, before, state);
+    if (point.impulses != 0 && watch_.active.insert("sudden motion").second)
+      news_.push_back(struck(sudden_motion_so_far(case_, steps_, step_)));
     fem::follow_spins(device_.model.dofs, before, state, energy_.record().points.back().mechanical.coordinate,
                       point.mechanical.coordinate);
   }
@@ -299,13 +303,8 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, Me
   }
   const fem::NewtonResult& newton = increment.newton;
   energy_.judge(equilibrium_->energy_scale(), records_, step_);
-  if (const auto energy = energy_.worst(); ends && energy.is_poor()) {
-    std::string sudden; // in this step, or before
-    const std::span<const Step> steps(steps_);
-    for (std::size_t s = static_cast<std::size_t>(step_) + 1; s > 0 && sudden.empty(); --s)
-      sudden = sudden_motion(case_, steps.first(s));
-    news_.push_back(poor_energy(energy, steps, sudden));
-  }
+  if (const auto energy = energy_.worst(); ends && energy.is_poor())
+    news_.push_back(poor_energy(energy, steps_, sudden_motion_so_far(case_, steps_, step_)));
   constexpr double negligible = 1e-12; // of the energy that was exchanged: what equilibria are known to
   if (ends && unseen_.kinetic > negligible * energy_.record().exchanged) {
     constexpr double notable = 0.02; // the square of a frequency over the lowest natural one

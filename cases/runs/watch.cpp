@@ -282,6 +282,15 @@ std::optional<post::Event> no_voltage(const Case& one, const Step& step) {
       fmt::format("step \"{}\" leaves every electrode at 0 V: give [drive] a voltage", step.name)};
 }
 
+post::Event struck(const std::string& sudden) {
+  return {
+      "sudden motion", "",
+      (sudden.empty() ? "a support changes its speed at once" : sudden) +
+          ": masses are struck there, with a force that is the larger the shorter the time steps are; its "
+          "work is accounted for. Let its wave set out smoothly where that force matters, as a \"unipolar "
+          "sine\" does, or a sine of phase = \"90 deg\" behind a step of kind \"move\""};
+}
+
 post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, std::span<const Step> steps,
                         const std::string& sudden) {
   const Step& step = steps[std::min(static_cast<std::size_t>(energy.step), steps.size() - 1)];

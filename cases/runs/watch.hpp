@@ -87,6 +87,8 @@ std::optional<post::Event> no_voltage(const Case& one, const Step& step);
 /// that masses cannot do.
 post::Event poor_energy(const fem::EnergyBalance::Resolution& energy, std::span<const Step> steps,
                         const std::string& sudden);
+/// A support has struck masses; `sudden`: as above.
+post::Event struck(const std::string& sudden);
 /// Inertia was left out of a motion whose kinetic energy would be `ratio` times the work that it takes.
 post::Event left_out(double ratio, const Step& step);
 /// What a jump set free, of which a step that cuts the device free says nothing. `unseen`: the step leaves

@@ -112,7 +112,8 @@ double EnergyBalance::given_at_jump(const EnergyPoint& point) const {
 void EnergyBalance::account(const EnergyPoint& point, bool is_cut) {
   const Interval interval(record_.points, point);
   const Integral electrical = interval.over(&EnergyPoint::electrical);
-  const Integral mechanical = interval.over(&EnergyPoint::mechanical);
+  Integral mechanical = interval.over(&EnergyPoint::mechanical);
+  mechanical.value += point.impulses;
   const double change = total(point.energy) - stored();
   double heat = point.friction - record_.points.back().friction, through_sheet = given_at_jump(point),
          doubt = 0, doubt_of_circuits = 0;

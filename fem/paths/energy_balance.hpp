@@ -32,6 +32,7 @@ struct EnergyPoint {
   /// point that is added, not kept.
   Eigen::VectorXd at_source;
   double flow = 0;     ///< heat of the dashpots since the point before, see flow_heat(), J
+  double impulses = 0; ///< work of supports that struck what they hold since the point before, J
   double friction = 0; ///< heat of sliders since the beginning, J
   EnergyParts energy;
 };

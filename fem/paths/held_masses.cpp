@@ -182,6 +182,30 @@ std::shared_ptr<const Motion> motion_now(const Model& model, const State& state,
   return std::make_shared<const Motion>(std::move(motion));
 }
 
+double work_of_impulses(const Model& model, const State& before, const State& after) {
+  constexpr double sudden = 2; // times what accelerations of both ends do in the step
+  if (!after.motion || !(after.motion->step > 0)) return 0;
+  const DofMap& dofs = model.dofs;
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs.count());
+  const Motion at_rest{rest, rest, rest, rest, rest};
+  const Motion &from = before.motion ? *before.motion : at_rest, &to = *after.motion;
+  const auto held = Eigen::seqN(dofs.free_count(), dofs.held_count());
+  Eigen::VectorXd change = to.velocity - from.velocity;
+  const Eigen::ArrayXd smooth =
+      to.step * (from.acceleration_now(held).array().abs() + to.acceleration_now(held).array().abs());
+  const Eigen::ArrayXd rounding =
+      1e-9 * (from.velocity(held).array().abs() + to.velocity(held).array().abs());
+  if ((change(held).array().abs() <= sudden * smooth + rounding).all()) return 0;
+  Eigen::VectorXd impulse = model.inertia().mass * change;
+  Eigen::VectorXd struck = Eigen::VectorXd::Zero(change.size()); // what is free has all of it in one step
+  struck.head(dofs.free_count()) = to.acceleration_now.head(dofs.free_count());
+  struck = model.inertia().mass * struck;
+  dofs.gather(after, impulse);
+  dofs.gather(after, struck);
+  return impulse(held).dot(from.velocity(held) + to.velocity(held)) / 2 -
+         to.step * struck(held).dot(to.velocity(held)) / 2;
+}
+
 GeneralisedAlpha first_step_of_motion(double dt) {
   GeneralisedAlpha scheme = GeneralisedAlpha::backward_euler(dt);
   scheme.start = 1 / (2 * scheme.beta) - 1;

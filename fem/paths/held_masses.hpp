@@ -47,6 +47,11 @@ std::shared_ptr<const Motion> motion_behind_jump(Equilibrium& equilibrium, const
 std::shared_ptr<const Motion> motion_now(const Model& model, const State& state, const LoadPath& path,
                                          double s, double ds, double duration);
 
+/// What the supports' impulses do, J, where what they hold sets out with another velocity than its own in the
+/// step from `before` to `after`: sum of J (v0 + v1)/2 over the held equations, J = [M (v1 - v0)], less the
+/// part of it that the forces at `after` already have, as of film that is struck with it; 0 elsewhere.
+double work_of_impulses(const Model& model, const State& before, const State& after);
+
 /// The time step that a motion sets out with: backward Euler where Motion::acceleration is zero, as in what
 /// is free; what is held goes on with that acceleration.
 GeneralisedAlpha first_step_of_motion(double dt);
