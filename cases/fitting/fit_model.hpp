@@ -17,9 +17,10 @@ struct StretchHistory {
 
 /// Nominal stress at every row, Pa, of a point of film (materials/material_point.hpp), which goes in `steps`
 /// equal steps of time between two rows, and in twice as many: BDF2, or backward Euler where a step is more
-/// than twice the one before, extrapolated to third order. A dashpot beside the law adds what it resists at the row's rate: where the rows follow a curve
-/// that of the curve, at a corner that before it; in a uniaxial test the branches must leave the width
-/// isotropic, which nominal dashpots do not. Not finite from where the law cannot be on.
+/// than twice the one before, extrapolated to third order. A dashpot beside the law adds what it resists at
+/// the row's rate: where the rows follow a curve that of the curve, at a corner that before it; in a uniaxial
+/// test the branches must leave the width isotropic, which nominal dashpots do not. Not finite from where the
+/// law cannot be on.
 std::vector<double> nominal_stress(const materials::Material& material, const StretchHistory& history,
                                    int steps);
 

@@ -22,8 +22,8 @@ using WaveReader = std::function<Waveform(const Node& table)>;
 /// check. Throws Mismatch.
 Value convert(const Key& key, const Node& node, std::string_view unit, const WaveReader& read_wave = {});
 
-/// What to tell of a number without a unit that is far from what devices have in SI, as if another were meant:
-/// "3 without a unit is 3 V". "": nothing.
+/// What to tell of a number without a unit that is far from what devices have in SI, as if another were
+/// meant: "3 without a unit is 3 V". "": nothing.
 std::string doubt_of_unit(const Key& key, const Node& node);
 
 /// Throws Mismatch where a wave has values that the key does not allow.
