@@ -168,13 +168,23 @@ std::shared_ptr<const Motion> motion_now(const Model& model, const State& state,
   const DofMap& dofs = model.dofs;
   Motion motion = *state.motion;
   if (dofs.held_count() > 0) {
+    // A cubic through four moments, not as close together as positions are rounded: behind a break ahead of
+    // it.
+    constexpr double closest = 1e-7; // in load factors
+    double part = std::max(ds / parts_of_a_step, closest);
+    const auto breaks_within = [&](double from, double to) {
+      return std::ranges::any_of(path.breaks, [=](double at) { return at > from && at < to; });
+    };
+    const double back = s - 3 * part, ahead = s + 3 * part;
+    if (back < 0 || breaks_within(back, s - ds / 2))
+      part = ahead > 1 || breaks_within(s - ds / 2, ahead) ? ds / parts_of_a_step : -part;
     State there = state;
-    const auto before = [&](int parts) {
-      path.apply(there, s - ds * parts / parts_of_a_step);
+    const auto beside = [&](int parts) {
+      path.apply(there, s - part * parts);
       return Loads::of(there, dofs).held;
     };
-    const double tau = ds * duration / parts_of_a_step; // a cubic through four moments
-    const Eigen::VectorXd p0 = Loads::of(state, dofs).held, p1 = before(1), p2 = before(2), p3 = before(3);
+    const double tau = part * duration;
+    const Eigen::VectorXd p0 = Loads::of(state, dofs).held, p1 = beside(1), p2 = beside(2), p3 = beside(3);
     motion.acceleration_now.segment(dofs.free_count(), dofs.held_count()) =
         (2 * p0 - 5 * p1 + 4 * p2 - p3) / (tau * tau);
   }
