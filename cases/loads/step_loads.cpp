@@ -272,9 +272,8 @@ void StepLoads::limit_sources(fem::LoadPath& path, const fem::Loads& from, const
     };
   }
   std::ranges::sort(path.breaks);
-  const auto twice =
-      std::ranges::unique(path.breaks, [](double one, double next) { return next - one <= same_break; });
-  path.breaks.erase(twice.begin(), twice.end());
+  const auto is_same = [](double one, double next) { return next - one <= same_break; };
+  path.breaks.erase(std::unique(path.breaks.begin(), path.breaks.end(), is_same), path.breaks.end());
 }
 
 fem::LoadPath StepLoads::path(int number, const fem::Loads& start) const {
