@@ -362,10 +362,11 @@ Device build_device(const Case& one) {
   std::ranges::move(pressure_warnings(one, device.mesh, parts, device.model.dofs),
                     std::back_inserter(warnings));
   std::ranges::move(idle_attachments(one, device.mesh, device.model.dofs), std::back_inserter(warnings));
-  std::ranges::move(warnings_of_held_quantities(one, device.mesh, device.model.dofs),
-                    std::back_inserter(warnings));
-  if (!free_body)
+  if (!free_body) {
     std::ranges::move(load_warnings(one, device.mesh, device.model.dofs), std::back_inserter(warnings));
+    std::ranges::move(warnings_of_held_quantities(one, device.mesh, device.model.dofs),
+                      std::back_inserter(warnings));
+  }
   device.film_parts = std::move(parts);
   device.films = films;
   device.tension_field = one.any_film([](const Film& f) { return f.tension_field; });

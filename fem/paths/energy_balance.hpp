@@ -58,7 +58,8 @@ struct Work {
 /// balance then leaves belongs to the works whose forces and coordinates both change, in proportion to the
 /// products of these changes; so that works of quasi-static increments in which one load changes are changes
 /// of a potential, whatever the size of the increment. Where no such work is done the rest is heat. With
-/// inertia the rest stays: it is the error of the time scheme.
+/// inertia the rest stays: it is the error of the time scheme. Where supports strike masses the force has no
+/// value of its own: the work of the impulse is added (work_of_impulses()).
 ///
 /// Dashpots turn into heat the power of their flow rules, a sum of squares. Where its integral is not close
 /// to what the energy loses at fixed shape, between the dashpots' states at both ends of an increment, the

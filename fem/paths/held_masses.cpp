@@ -173,7 +173,8 @@ std::shared_ptr<const Motion> motion_now(const Model& model, const State& state,
     constexpr double closest = 1e-7; // in load factors
     double part = std::max(ds / parts_of_a_step, closest);
     const auto breaks_within = [&](double from, double to) {
-      return std::ranges::any_of(path.breaks, [=](double at) { return at > from && at < to; });
+      const auto next = std::ranges::upper_bound(path.breaks, from);
+      return next != path.breaks.end() && *next < to;
     };
     const double back = s - 3 * part, ahead = s + 3 * part;
     if (back < 0 || breaks_within(back, s - ds / 2))

@@ -117,6 +117,13 @@ TEST_F(DeviceWarnings, DisplacementsOfWhatIsHeld) {
   };
   EXPECT_TRUE(warns(strip("left", "z"), "quantity[1].of: all nodes of \"left\" are held along z"));
   EXPECT_FALSE(warns(strip("right", "z"), "is always 0"));
+  const std::string pinned =
+      "model = \"3d\"\n" + film("thickness = \"1 mm\"\nprestretch = [4, 2.5]") +
+      "[honeycomb]\nangle = \"150 deg\"\ncolumns = [1, 2, 1]\nwall_length = \"8 mm\"\n"
+      "wall_width = \"0.8 mm\"\nwall_height = \"2 mm\"\nwall_material = \"TPU 78 MPa\"\n"
+      "[[quantity]]\nname = \"l\"\nkind = \"displacement\"\nof = \"left_apex\"\nalong = "
+      "\"z\"\n";
+  EXPECT_FALSE(warns(pinned, "is always 0")); // it is told upright, wherever its pins are
 }
 
 TEST_F(DeviceWarnings, WallsAndStacksThatAreThickForWhatTheyAre) {
