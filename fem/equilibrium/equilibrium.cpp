@@ -253,12 +253,19 @@ State Equilibrium::widened(State state, double strain) const {
   return state;
 }
 
-/// Gives a closed chamber its volume; false where it cannot have it.
+/// Gives a closed chamber its volume, at the pressure that film and filling come to by their slopes; false
+/// where it cannot have it.
 bool Equilibrium::fill(State& state) {
   const auto chamber = model_.ports.closed_chamber(state);
   if (!chamber || model_.fill(state, Eigen::VectorXd::Zero(model_.dofs.free_count()))) return true;
-  if (!factor(state) && !factor(widened(state, first_widening))) return false;
-  return model_.fill(state, tangent_.response(*chamber));
+  if ((is_slack(state) || !factor(state)) && !factor(widened(state, first_widening))) return false;
+  const Eigen::VectorXd response = tangent_.response(*chamber);
+  Charges surplus = model_.surplus(state, true);
+  model_.dofs.gather(state, surplus.coupling[*chamber]);
+  const double compliance =
+      surplus.capacitance[*chamber] + surplus.coupling[*chamber].head(response.size()).dot(response);
+  if (compliance > 0) state.voltage[*chamber] -= surplus.charge[*chamber] / compliance;
+  return model_.fill(state, response);
 }
 
 NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& options,

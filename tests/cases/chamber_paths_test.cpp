@@ -14,9 +14,8 @@
 namespace dielast::cases::chamber_paths_test {
 namespace {
 
-/// A balloon of a Gent material, pumped past its greatest pressure: 1454.17 Pa at stretch 1.445 (closed
-/// form).
-std::string gent_balloon(const std::string& wrinkling, int rings, int increments) {
+/// A balloon of a Gent material; `chamber`: sections of its chamber and steps.
+std::string gent_balloon(const std::string& wrinkling, int rings, const std::string& chamber) {
   return fmt::format(R"toml([film]
 thickness = "0.5 mm"
 {}[film.material]
@@ -28,13 +27,20 @@ permittivity = "4e-11 F/m"
 radius = "20 mm"
 [mesh]
 rings = {}
-[chamber]
+{})toml",
+                     wrinkling, rings, chamber);
+}
+
+/// Pumped past its greatest pressure: 1454.17 Pa at stretch 1.445 (closed form).
+std::string gent_balloon(const std::string& wrinkling, int rings, int increments) {
+  return gent_balloon(wrinkling, rings,
+                      fmt::format(R"toml([chamber]
 pressure = "1.6 kPa"
 [[step]]
 kind = "pressure"
 increments = {}
 )toml",
-                     wrinkling, rings, increments);
+                                  increments));
 }
 
 TEST_F(Paths, a_balloon_stops_at_its_greatest_pressure) {
@@ -188,6 +194,21 @@ TEST_F(Paths, a_balloon_that_starts_slack_stops_at_its_greatest_pressure) {
     EXPECT_EQ(stopped.outcome.kind, "limit point") << increments;
     EXPECT_NEAR(stopped.rows.back().value, 1454.28, 0.1) << increments; // on eight rings
   }
+}
+
+// Hardly any of what is pumped in widens film that carries no tension, as long as the gas gives way.
+TEST_F(Paths, a_balloon_is_filled_with_gas_from_its_drawn_state) {
+  for (const auto& [modulus, volume] : {std::pair{"100 Pa", 5.8399e-5}, std::pair{"3 kPa", 5.55483e-4}})
+    for (const int increments : {1, 20, 200}) {
+      const std::string chamber = fmt::format("[chamber]\nbulk_modulus = \"{}\"\n", modulus);
+      const std::string step = fmt::format("[[step]]\nkind = \"inflate\"\nto = \"800 ml\"\n"
+                                           "on_instability = \"jump\"\nincrements = {}\n",
+                                           increments);
+      const Run filled = run(gent_balloon("", 64, chamber + step), "volume");
+      EXPECT_EQ(filled.outcome.ending, Ending::complete) << filled.outcome.message;
+      EXPECT_TRUE(filled.events.empty()) << modulus << " " << increments;
+      EXPECT_NEAR(filled.rows.back().value, volume, 1e-4 * volume); // closed form
+    }
 }
 
 /// A prestretched disc under which a liquid is shut in, and which is then driven.
