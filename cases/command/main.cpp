@@ -16,7 +16,7 @@
 #include "cases/runs/linearise.hpp"
 #include "cases/runs/phases.hpp"
 #include "cases/runs/recorder.hpp"
-#include "cases/runs/run.hpp"
+#include "cases/results/run.hpp"
 #include "cases/studies/study.hpp"
 #include "fem/equilibrium/tangent_check.hpp"
 #include "fem/machine/blas_kernels.hpp"

@@ -4,7 +4,7 @@
 #include "cases/console/terminal.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/readers/resolved.hpp"
-#include "cases/runs/run.hpp"
+#include "cases/results/run.hpp"
 #include "cases/studies/study_targets.hpp"
 #include "meshing/mesh_error.hpp"
 #include "post/files/results_folder.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/runs/results.hpp"
+#include "cases/results/results.hpp"
 #include "cases/runs/simulation.hpp"
 #include "tests/cases/case_test.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "cases/case/quantities.hpp"
 #include "cases/readers/reader.hpp"
-#include "cases/runs/error_estimate.hpp"
-#include "cases/runs/results.hpp"
+#include "cases/results/error_estimate.hpp"
+#include "cases/results/results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

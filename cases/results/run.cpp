@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/run.hpp"
+#include "cases/results/run.hpp"
 
 #include "cases/case/quantities.hpp"
 #include "cases/console/as_warning.hpp"
@@ -7,7 +7,7 @@
 #include "cases/console/terminal.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/readers/resolved.hpp"
-#include "cases/runs/results.hpp"
+#include "cases/results/results.hpp"
 #include "meshing/quality.hpp"
 #include "post/files/report_files.hpp"
 #include "post/files/results_folder.hpp"

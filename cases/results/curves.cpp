@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/curves.hpp"
+#include "cases/results/curves.hpp"
 
 #include "cases/case/quantities.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/results.hpp"
+#include "cases/results/results.hpp"
 #include "post/pictures/picture.hpp"
 #include "post/pictures/plot.hpp"
 #include "post/pictures/profile.hpp"

@@ -2,16 +2,13 @@
 #pragma once
 
 #include "cases/fitting/richardson.hpp"
-#include "cases/runs/simulation.hpp"
+#include "cases/results/solution.hpp"
 
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace dielast::cases {
-
-struct Margin;
 
 /// An event that depends on the mesh, or that did not happen but may on another.
 struct EventRemark {
@@ -27,24 +24,6 @@ struct Estimates {
   std::vector<EventRemark> events;
   std::string reason; ///< why no quantity has an estimate; empty otherwise
 };
-
-/// What has become of the case on one discretisation.
-struct Solution {
-  double size = 1; ///< of its elements and time steps, over the run's
-  std::vector<double> values;
-  std::vector<double> rises;    ///< of extremes at the end, otherwise 0
-  std::vector<std::string> way; ///< what happened to the equilibrium, in order
-  std::set<std::string> events; ///< kinds of whatever else happened
-  post::StepRecord last;        ///< the record of the last accepted state
-  std::vector<Margin> margins;
-  std::string trouble; ///< why it did not reach its end (Outcome::kind, or what was thrown); empty otherwise
-};
-
-/// "elements half as large".
-std::string size_text(double size);
-
-/// Why a solution tells nothing of another; empty where it does.
-std::string why_not(const Solution& own, const Solution& other);
 
 /// Whether the extreme that crosses this limit grows as the mesh is refined.
 bool is_singular_there(const Case& one, const std::string& limit,

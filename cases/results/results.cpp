@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/results.hpp"
+#include "cases/results/results.hpp"
 
 #include "cases/analyses/analysis_report.hpp"
 #include "cases/case/quantities.hpp"
 #include "cases/readers/resolved.hpp"
-#include "cases/runs/curves.hpp"
+#include "cases/results/curves.hpp"
 #include "meshing/quality.hpp"
 
 #include <fmt/format.h>
@@ -343,12 +343,6 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
   report.sections.push_back({"Case, with every default", {post::Listing{resolved_text(one)}}});
   if (!log.empty()) report.sections.push_back({"Log", {post::Listing{log}}});
   return report;
-}
-
-double factor_to(const std::string& limit, const std::vector<Margin>& margins) {
-  constexpr double no_factor = std::numeric_limits<double>::quiet_NaN();
-  const auto margin = std::ranges::find(margins, limit, &Margin::limit);
-  return margin != margins.end() ? margin->factor.value_or(no_factor) : no_factor;
 }
 
 } // namespace dielast::cases

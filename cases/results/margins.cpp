@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/results/margins.hpp"
+
 #include "cases/console/terminal.hpp"
 #include "cases/language/conditions.hpp"
-#include "cases/runs/phases.hpp"
-#include "cases/runs/results.hpp"
+#include "cases/results/further_way.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
@@ -17,23 +18,7 @@
 namespace dielast::cases {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// A state on the way of all voltages from zero, in proportion.
-struct Passed {
-  double factor = 0; ///< its voltages over those at the end of the run
-  double breakdown = unknown, least_stress = unknown, yield = unknown;
-  double slack = unknown;       ///< of film that may wrinkle: its tension_state
-  bool on_the_way_back = false; ///< to no voltage, from the end of the run
-  int record = -1;              ///< of the run; -1: none
-};
-
-/// A critical point that was located on such a way.
-struct Critical {
-  bool branches_off; ///< a bifurcation, otherwise a limit point
-  double factor = 0;
-  const char* kind() const { return branches_off ? "bifurcation" : "limit point"; }
-};
+constexpr double unknown = Passed::unknown;
 
 /// The value of a standard or written quantity of that kind; NaN where the case has none.
 double extreme_of(const Case& one, const std::vector<double>& values, const char* field,
@@ -44,16 +29,6 @@ double extreme_of(const Case& one, const std::vector<double>& values, const char
       return values[q];
   }
   return unknown;
-}
-
-/// The factor of a state's voltages; nothing where they are not in proportion to those at the end.
-std::optional<double> factor_of(const std::vector<double>& voltages, const post::StepRecord& end) {
-  const double largest = end.largest_voltage();
-  const auto lead = static_cast<std::size_t>(std::ranges::find(end.voltages, largest) - end.voltages.begin());
-  const double factor = voltages[lead] / largest;
-  for (std::size_t e = 0; e < end.voltages.size(); ++e)
-    if (std::abs(voltages[e] - factor * end.voltages[e]) > 1e-6 * std::abs(largest)) return std::nullopt;
-  return factor;
 }
 
 /// Whether voltages, and nothing else, have led to a state.
@@ -106,132 +81,6 @@ std::vector<Critical> critical_points(const Case& one, const Journal& journal) {
   std::ranges::reverse(all);
   return all;
 }
-
-/// Where the voltages of the end of a run can be changed in proportion, everything else staying as it is.
-struct Place {
-  double factor = 1;
-  SimulationProgress progress;
-};
-
-/// Takes the device from its state at the end of a run, or from a place that was reached from there, to other
-/// factors on its voltages.
-class FurtherWay {
- public:
-  FurtherWay(const Case& one, const Simulation& own, const post::StepRecord& end, int threads)
-      : one_(one), further_(one), steps_(own.steps()), end_(end), threads_(threads) {
-    begin(own.progress(), 1);
-  }
-  FurtherWay(const FurtherWay&) = delete; // what it simulates is of its own case
-
-  /// Begins at a state of the run before its end, which is gone to once more: no way leads back to it, as
-  /// over a jump. False where it is not reached.
-  bool begin_at(const Passed& state) {
-    if (state.record < 0) return false;
-    Simulation simulation(one_, threads_);
-    SimulationObserver observer;
-    bool reached = false;
-    observer.on_accept = [&](const Frame& frame) {
-      reached = frame.record.index >= state.record;
-      return !reached && !interrupted();
-    };
-    observer.on_pass = [] { return !interrupted(); };
-    simulation.run(observer);
-    if (!reached) return false;
-    begin(simulation.progress(), state.factor);
-    return true;
-  }
-
-  /// The states up to those with `factor` times the voltages of the end; `stopped` says why it ends earlier.
-  std::vector<Passed> to(double factor, std::string& stopped) {
-    located_.clear();
-    constexpr int increments_per_voltage = 20;
-    const Place& from =
-        *std::ranges::min_element(places_, {}, [&](const Place& p) { return std::abs(p.factor - factor); });
-    std::vector<double> voltages = end_.voltages;
-    for (double& voltage : voltages) voltage *= factor;
-    std::vector<Passed> way;
-    try {
-      if (!simulation_) {
-        simulation_.emplace(further_, threads_);
-        simulation_->enter(from.progress.step);
-      }
-      Simulation& simulation = *simulation_;
-      simulation.resume(from.progress);
-      simulation.lead_to(voltages, std::max(1, static_cast<int>(std::ceil(increments_per_voltage *
-                                                                          std::abs(factor - from.factor)))));
-      SimulationObserver observer;
-      observer.on_accept = [&](const Frame& frame) {
-        way.push_back(state_of(frame));
-        return !interrupted();
-      };
-      observer.on_pass = [] { return !interrupted(); };
-      observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event&) {
-        if (const auto at = factor_of(critical.state.voltage, end_); at && !critical.beyond)
-          located_.push_back({critical.kind == fem::Instability::bifurcation, *at});
-      };
-      const Outcome outcome = simulation.run(observer);
-      if (outcome.ending == Ending::gave_up) stopped = outcome.kind;
-      if (outcome.ending == Ending::interrupted) stopped = "interrupted";
-      if (outcome.ending == Ending::complete && !way.empty() && stopped.empty()) {
-        SimulationProgress progress = simulation.progress();
-        progress.step = places_.front().progress.step; // the same step leads on
-        places_.push_back({way.back().factor, std::move(progress)});
-      }
-    } catch (const std::exception& error) {
-      stopped = error.what();
-    }
-    return way;
-  }
-
-  const std::vector<Critical>& located() const { return located_; } ///< on the last way
-
-  /// That state alone; nothing where it is not reached.
-  std::optional<Passed> at(double factor) {
-    std::string stopped;
-    std::vector<Passed> way = to(factor, stopped);
-    if (way.empty() || !stopped.empty() || std::abs(way.back().factor - factor) > 1e-9) return std::nullopt;
-    return way.back();
-  }
-
- private:
-  Passed state_of(const Frame& frame) const {
-    const auto value = [&](const char* field, post::Extreme which) {
-      const auto found = frame.measured.extremes.find(field, which);
-      return found ? found->value : unknown;
-    };
-    return {.factor = factor_of(frame.record.voltages, end_).value_or(unknown),
-            .breakdown = value("breakdown_ratio", post::Extreme::maximum),
-            .least_stress = value("min_principal_stress", post::Extreme::minimum),
-            .yield = value("yield_ratio", post::Extreme::maximum),
-            .slack = value("tension_state", post::Extreme::maximum)};
-  }
-
-  void begin(SimulationProgress progress, double factor) {
-    further_.steps = steps_;
-    progress.step = std::min(progress.step, static_cast<int>(steps_.size()) - 1);
-    const std::vector<char> holding = holding_in(one_, steps_, progress.step).supports;
-    for (std::size_t i = 0; i < holding.size(); ++i) // goes on holding
-      further_.supports[i].until = holding[i] ? "" : one_.supports[i].until;
-    further_.steps.resize(static_cast<std::size_t>(progress.step) + 1);
-    progress.in_step.followed.reset();
-    progress.in_step.ramp.load_factor = 1; // the way goes on from its state, wherever the step has ended
-    Step step{.kind = StepKind::voltage, .name = "margins"};
-    for (const Step& before : further_.steps)
-      if (!before.is_analysis()) step.response = before.response;
-    further_.steps.push_back(step);
-    places_ = {{factor, std::move(progress)}};
-    simulation_.reset();
-  }
-
-  const Case& one_;
-  Case further_;
-  std::vector<Step> steps_; ///< of the run
-  const post::StepRecord& end_;
-  int threads_;
-  std::vector<Place> places_; ///< that where it begins first
-  std::vector<Critical> located_;
-  std::optional<Simulation> simulation_; ///< of further_, for all that is solved from these places
-};
 
 /// Whether limits that states tell are behind it.
 bool is_beyond(const Passed& passed, bool wrinkles, double smallest) {
@@ -302,6 +151,11 @@ std::string unknown_limit(const Case& one, const Simulation& run, const std::str
   return "";
 }
 
+void add_remark(Margin& margin, const char* remark) {
+  if (!margin.remark.empty()) margin.remark += ", ";
+  margin.remark += remark;
+}
+
 } // namespace
 
 std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, const Journal& journal,
@@ -361,10 +215,9 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
             fmt::format("not reached up to {:.6g} times the voltage of the end{}", up_to,
                         stopped.empty() ? "" : fmt::format(", where the path ends ({})", stopped));
       if (limit == "buckling" && one.dimension != fem::Dimension::spatial)
-        margin.remark += std::string(margin.remark.empty() ? "" : ", ") +
-                         (one.dimension == fem::Dimension::planar
-                              ? "in its plane: a planar model does not leave it"
-                              : "of revolution: its model does not leave that symmetry");
+        add_remark(margin, one.dimension == fem::Dimension::planar
+                               ? "in its plane: a planar model does not leave it"
+                               : "of revolution: its model does not leave that symmetry");
     } else {
       margin.remark = "not known: " + why_not;
     }
@@ -394,6 +247,12 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   add("buckling", [&] { return critical(true); });
   add("wall yield", [&] { return where([](const Passed& p) { return p.yield - 1; }); });
   return margins;
+}
+
+double factor_to(const std::string& limit, const std::vector<Margin>& margins) {
+  constexpr double no_factor = std::numeric_limits<double>::quiet_NaN();
+  const auto margin = std::ranges::find(margins, limit, &Margin::limit);
+  return margin != margins.end() ? margin->factor.value_or(no_factor) : no_factor;
 }
 
 } // namespace dielast::cases

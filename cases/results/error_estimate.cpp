@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cases/runs/error_estimate.hpp"
+#include "cases/results/error_estimate.hpp"
 
 #include "cases/case/quantities.hpp"
 #include "cases/console/terminal.hpp"
 #include "cases/devices/bonded_corners.hpp"
-#include "cases/devices/discretisation.hpp"
 #include "cases/language/conditions.hpp"
-#include "cases/runs/results.hpp"
+#include "cases/results/common_errors.hpp"
 #include "cases/runs/watch.hpp"
-#include "post/engineering.hpp"
-#include "post/fields.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
-#include <numbers>
 
 namespace dielast::cases {
 
@@ -32,74 +27,6 @@ constexpr int few_triangles = 300;    ///< whose numbers need not converge yet
 /// Cells that are refined unasked where larger ones tell nothing: triangles of a plane, of shells (which have
 /// five unknowns a node), tetrahedra.
 constexpr int most_triangles = 6000, most_of_shells = 1500, most_tetrahedra = 300;
-
-void note(Solution& solution, const post::StepRecord& record) {
-  solution.last = record;
-  constexpr std::array of_the_way{"limit point", "bifurcation", "jump", "instability"};
-  for (const post::Event& event : record.events)
-    if (std::ranges::find(of_the_way, event.kind) != of_the_way.end())
-      solution.way.push_back(fmt::format("{} in step \"{}\"", event.kind, record.step));
-    else
-      solution.events.insert(event.kind);
-}
-
-/// A device that leaves a symmetric path may do so to either side, on another mesh to the other one: of
-/// values that tell the sides apart that of `own`.
-double on_its_side(double value, const Solution& own, double own_value) {
-  constexpr double mirrored = 0.25;
-  const bool leaves = std::ranges::any_of(own.way, [](const std::string& what) {
-    return what.starts_with("jump") || what.starts_with("bifurcation");
-  });
-  return leaves && std::abs(value + own_value) < mirrored * std::abs(own_value) ? -value : value;
-}
-
-/// The quantity, or the one whose course it follows.
-const Quantity& measured(const Quantity& quantity, const std::vector<Quantity>& all) {
-  return quantity.kind->so_far ? *std::ranges::find(all, quantity.of, &Quantity::name) : quantity;
-}
-
-void add_results(Solution& solution, const Case& one, const Simulation& simulation,
-                 std::vector<Margin> margins) {
-  solution.values = simulation.results();
-  solution.margins = std::move(margins);
-  const Device& device = simulation.device();
-  const fem::Samples samples = device.model.sample(simulation.state());
-  const post::Extremes extremes(samples);
-  for (const Quantity& each : one.quantities) {
-    const Quantity& quantity = measured(each, one.quantities);
-    const auto extremum = quantity.kind->extreme && each.at.empty()
-                              ? extremes.find(quantity.of, quantity.extreme)
-                              : std::nullopt;
-    solution.rises.push_back(
-        extremum ? post::rise_at(*extremum, samples, device.mesh, device.film_parts, quantity.of) : 0);
-  }
-}
-
-Solution solve(const Discretisation& discretisation, bool with_margins, int threads) {
-  Solution solution{.size = discretisation.size};
-  try {
-    Simulation simulation(discretisation.one, threads);
-    Journal journal;
-    SimulationObserver observer;
-    observer.on_accept = [&](const Frame& frame) {
-      note(solution, frame.record);
-      journal.records.push_back(frame.record);
-      journal.values.push_back(frame.values);
-      return !interrupted();
-    };
-    observer.on_pass = [] { return !interrupted(); };
-    const Outcome outcome = simulation.run(observer);
-    if (outcome.ending == Ending::complete)
-      add_results(solution, discretisation.one, simulation,
-                  with_margins ? margins_of(discretisation.one, simulation, journal, outcome, threads)
-                               : std::vector<Margin>{});
-    else
-      solution.trouble = outcome.kind;
-  } catch (const std::exception& error) { // no mesh, a place that it lacks, no memory: the run itself is done
-    solution.trouble = error.what();
-  }
-  return solution;
-}
 
 /// Whether electrodes end within a solid whose potential is an unknown: the field there is singular, like
 /// 1/sqrt(r), and so are the stresses.
@@ -203,73 +130,29 @@ void raise(ErrorEstimate& estimate, double in_common) {
   if (estimate.error) estimate.error = std::max(*estimate.error, in_common);
 }
 
-/// What a barrier changes, as half of its thickness tells with the largest elements: like its thickness, or
-/// the root of that, as of what slides or peels off. 0 without contact, or where that half finds no end.
-std::vector<double> changes_by_barrier(const Case& one, const Solution& own,
-                                       const std::vector<Discretisation>& discretisations,
-                                       const std::vector<Solution>& others, int threads) {
-  constexpr double all_over_half = 2 + std::numbers::sqrt2; // 1 / (1 - 0.5^0.5)
-  std::vector<double> changes(own.values.size(), 0.0);
-  if (!one.contact) return changes;
-  Discretisation thinner{one};
-  const Solution* thick = &own;
-  for (std::size_t i = 0; i < others.size(); ++i)
-    if (others[i].size > thinner.size) thinner = discretisations[i], thick = &others[i];
-  thinner.one.contact->thickness /= 2;
-  const Solution thin = solve(thinner, false, threads);
-  if (!thin.trouble.empty()) return changes;
-  for (std::size_t q = 0; q < changes.size(); ++q)
-    changes[q] =
-        all_over_half * std::abs(on_its_side(thin.values[q], own, thick->values[q]) - thick->values[q]);
-  return changes;
-}
-
-/// Whether most of a shell's elements are longer than the layer along its edges in which bending gives way to
-/// tension, sqrt(D/N) = h sqrt(mu/(3 sigma)): larger elements do not know then what it does.
-bool hides_edge_layer(const Case& one, const Simulation& run) {
-  constexpr double resolved = 4; // layers long an element may be
-  const meshing::Mesh& mesh = run.device().mesh;
-  const meshing::CellBlock& film = *mesh.film();
-  if (!meshing::is_triangle(film.type) || run.device().solid) return false;
-  int hidden = 0, all = 0;
-  for (const fem::MembraneSample& sample : run.device().model.sample(run.state()).film) {
-    const Part& part =
-        one.parts[static_cast<std::size_t>(run.device().film_parts[static_cast<std::size_t>(sample.cell)])];
-    if (part.film->section != FilmSection::shell) continue;
-    const post::FilmPoint point(sample);
-    const auto corner = [&](std::size_t k) {
-      return mesh.nodes[static_cast<std::size_t>(film.cell(sample.cell)[k])];
-    };
-    const double size = (corner(1) - corner(0)).norm(), stress = point.principal_stress()[1];
-    const double modulus = materials::initial_shear_modulus(part.film->material.law);
-    hidden += stress > 0 && size > resolved * point.thickness * std::sqrt(modulus / (3 * stress));
-    ++all;
-  }
-  return 2 * hidden > all;
-}
-
-/// All that bending does to single films whose elements hide the layer along their edges; 0 of others, and
-/// where the membrane is no device of its own.
-std::vector<double> changes_by_bending(const Case& one, const Simulation& run, const Solution& own,
-                                       int threads) {
-  constexpr double cautious = 1.25;
-  std::vector<double> changes(own.values.size(), 0.0);
-  const auto layered = [](const Film& film) { return !film.further_layers.empty() || film.offset != 0; };
-  if (one.any_film(layered) || !hides_edge_layer(one, run)) return changes;
-  Discretisation membrane{one};
-  for (Part& part : membrane.one.parts)
-    if (part.film && part.film->section == FilmSection::shell) part.film->section = FilmSection::membrane;
-  for (Support& support : membrane.one.supports) std::fill_n(support.fixed.begin() + 3, 3, false);
-  const Solution flexible = solve(membrane, false, threads);
-  if (!flexible.trouble.empty()) return changes;
-  for (std::size_t q = 0; q < changes.size(); ++q)
-    changes[q] = cautious * std::abs(on_its_side(flexible.values[q], own, own.values[q]) - own.values[q]);
-  return changes;
-}
-
 int direction_of(const Quantity& quantity) {
   if (!quantity.kind->extreme) return 0;
   return quantity.extreme == post::Extreme::maximum ? 1 : -1;
+}
+
+/// Why the case is not compared with other discretisations; empty where it is.
+std::string why_not_compared(const Case& one, const Device& device,
+                             const std::vector<Discretisation>& discretisations) {
+  if (discretisations.empty())
+    return one.parts.size() > 1 ? "the meshes of its parts cannot all be made coarser alike"
+                                : "the mesh is the coarsest already";
+  if (divides_edges_alike(one, discretisations.front().one))
+    return "its smallest circle has as few sides with other elements, too; more mesh.rings tell what they "
+           "change";
+  const bool refined = discretisations.front().size < 1;
+  if (refined && device.tension_field)
+    return "a finer mesh of film that wrinkles may take far longer than this one; one by [mesh] tells what "
+           "it changes";
+  if (refined && device.mesh.film()->size() > most_to_refine)
+    return fmt::format("the mesh has more than {} triangles, which are not refined unasked; mesh.refine = 1 "
+                       "tells what it changes",
+                       most_to_refine);
+  return "";
 }
 
 } // namespace
@@ -284,31 +167,9 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
   }
   const BondedCorners bonded = corners_of(own_run);
   const std::vector<Discretisation> discretisations = compared_with(one, own_run, bonded.any);
-  if (discretisations.empty()) {
-    estimates.reason = one.parts.size() > 1 ? "the meshes of its parts cannot all be made coarser alike"
-                                            : "the mesh is the coarsest already";
-    return estimates;
-  }
-  if (divides_edges_alike(one, discretisations.front().one)) {
-    estimates.reason = "its smallest circle has as few sides with other elements, too; more mesh.rings tell "
-                       "what they change";
-    return estimates;
-  }
-  if (discretisations.front().size < 1 && own_run.device().tension_field) {
-    estimates.reason =
-        "a finer mesh of film that wrinkles may take far longer than this one; one by [mesh] tells what it "
-        "changes";
-    return estimates;
-  }
-  if (discretisations.front().size < 1 && own_run.device().mesh.film()->size() > most_to_refine) {
-    estimates.reason = fmt::format("the mesh has more than {} triangles, which are not refined unasked; "
-                                   "mesh.refine = 1 tells what it changes",
-                                   most_to_refine);
-    return estimates;
-  }
-  Solution own{.trouble = outcome.ending == Ending::complete ? "" : outcome.kind};
-  for (const post::StepRecord& record : records) note(own, record);
-  if (own.trouble.empty()) add_results(own, one, own_run, margins);
+  estimates.reason = why_not_compared(one, own_run.device(), discretisations);
+  if (!estimates.reason.empty()) return estimates;
+  const Solution own = solution_of(one, own_run, outcome, records, margins);
   const bool with_margins = own.trouble.empty() && std::ranges::any_of(margins, [](const Margin& margin) {
                               return margin.factor.has_value();
                             });

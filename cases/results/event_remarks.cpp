@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What happened on one discretisation, and whether it does on others.
-#include "cases/runs/error_estimate.hpp"
-#include "cases/runs/results.hpp"
+#include "cases/results/error_estimate.hpp"
 #include "post/engineering.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -30,38 +28,9 @@ std::string threshold_remark(const Quantity& quantity, double value, double rise
   return "";
 }
 
-std::string way_text(const Solution& solution) {
-  return solution.way.empty() ? "without critical point" : fmt::format("{}", fmt::join(solution.way, ", "));
-}
-
-std::string end_text(const post::StepRecord& record) {
-  const double volts = record.largest_voltage();
-  return volts != 0 ? post::engineering(volts, "V", post::Ratio::plain, 5)
-                    : fmt::format("load factor {:.4g} of step \"{}\"", record.load_factor, record.step);
-}
-
 constexpr double same_voltage = 1e-9; ///< of loads that are no voltages
 
 } // namespace
-
-std::string size_text(double size) {
-  if (size < 1)
-    return size == 0.5 ? "elements half as large" : fmt::format("elements 1/{} as large", 1 / size);
-  return fmt::format("elements and time steps {:.3g} times as large", size);
-}
-
-std::string why_not(const Solution& own, const Solution& other) {
-  if (other.trouble != own.trouble) {
-    const std::string with = "with " + size_text(other.size);
-    if (other.trouble.empty()) return with + " the run reaches its end";
-    if (own.trouble.empty())
-      return fmt::format("{} the run does not reach its end ({})", with, other.trouble);
-    return fmt::format("{} the run ends at {} ({})", with, end_text(other.last), other.trouble);
-  }
-  if (own.way == other.way) return "";
-  return fmt::format("with {} the device takes another way ({}; here {})", size_text(other.size),
-                     way_text(other), way_text(own));
-}
 
 bool is_singular_there(const Case& one, const std::string& limit,
                        const std::vector<ErrorEstimate>& estimates) {
