@@ -19,6 +19,8 @@ double weight(const fem::MembraneSample& sample) { return sample.volume; }
 double weight(const fem::BeamSample& sample) { return sample.length; }
 int layer_of(const fem::MembraneSample& sample) { return sample.layer; }
 int layer_of(const fem::BeamSample&) { return 0; }
+int electrode_of(const fem::MembraneSample& sample) { return sample.electrode; }
+int electrode_of(const fem::BeamSample&) { return -1; }
 
 /// Averages are over the samples of one layer.
 template<class Sample, class Point>
@@ -107,11 +109,6 @@ std::vector<char> neighbourhood(const meshing::CellBlock& block, int cell) {
   return near;
 }
 
-bool same_kind(const fem::MembraneSample& a, const fem::MembraneSample& b) {
-  return a.electrode == b.electrode && a.layer == b.layer;
-}
-bool same_kind(const fem::BeamSample&, const fem::BeamSample&) { return true; }
-
 } // namespace
 
 double rise_at(const Extremum& extremum, const fem::Samples& samples, const meshing::Mesh& mesh,
@@ -124,13 +121,11 @@ double rise_at(const Extremum& extremum, const fem::Samples& samples, const mesh
   return with_scalar(samples, scalar,
                      [&]<class Sample, class Point>(std::span<const Sample> points, const Field<Point>& field,
                                                     int component, Part) {
-                       const auto own = std::ranges::find_if(points, [&](const Sample& sample) {
-                         return sample.cell == extremum.cell && layer_of(sample) == extremum.layer;
-                       });
                        std::array<double, widest_field> values;
                        double rise = 0;
                        for (const Sample& sample : points) {
-                         if (!near[static_cast<std::size_t>(sample.cell)] || !same_kind(sample, *own))
+                         if (!near[static_cast<std::size_t>(sample.cell)] ||
+                             layer_of(sample) != extremum.layer || electrode_of(sample) != extremum.electrode)
                            continue;
                          field.evaluate(Point(sample), values.data());
                          rise = std::max(
@@ -195,8 +190,11 @@ Extremes::Extremes(const fem::Samples& samples, const WantedScalars& wanted)
       evaluated = row.field;
       auto& [low, high] = ends_[row.number];
       const double value = values[row.component];
-      if (!low || value < low->value) low = Extremum{value, sample.cell, part, layer_of(sample)};
-      if (!high || value > high->value) high = Extremum{value, sample.cell, part, layer_of(sample)};
+      const auto here = [&] {
+        return Extremum{value, sample.cell, part, layer_of(sample), electrode_of(sample)};
+      };
+      if (!low || value < low->value) low = here();
+      if (!high || value > high->value) high = here();
     }
   };
   if (!wanted.film_.empty())

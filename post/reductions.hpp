@@ -49,7 +49,8 @@ struct Extremum {
   double value = 0;
   int cell = 0;
   Part part{};
-  int layer = 0; ///< of a shell's film, see MembraneSample
+  int layer = 0;      ///< of a shell's film, see MembraneSample
+  int electrode = -1; ///< that covers the point, see MembraneSample
 };
 
 /// Scalars of which the extremes are wanted.

@@ -21,7 +21,7 @@ fem::MembraneSection section_of(const Part& part) {
           .wrinkled = part.film->wrinkled};
 }
 
-/// Adds the film with a section under its electrodes; with another one that is not sampled beside it.
+/// Adds the film with a section under its electrodes; with another one beside it, in the same cells.
 void add(const Case& one, const meshing::Mesh& mesh, const PartFilm& film,
          const fem::MembraneSection& section, const std::optional<fem::MembraneSection>& passive,
          fem::Model& model) {
@@ -81,7 +81,6 @@ void add_rods(const Case& one, const meshing::Mesh& mesh, std::span<const PartFi
     if (widths.passive > 0) {
       beside = strip;
       beside->width = widths.passive;
-      beside->sampled = false;
     }
     add(one, mesh, film, strip, beside, model);
   }

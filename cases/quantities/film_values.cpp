@@ -2,7 +2,6 @@
 #include "cases/quantities/film_values.hpp"
 
 #include "fem/algebra/dense_algebra.hpp"
-#include "fem/films/film_points.hpp"
 #include "fem/films/meridian.hpp"
 #include "fem/films/triangle.hpp"
 #include "fem/solids/tetrahedron.hpp"
@@ -115,6 +114,22 @@ std::vector<Points> points_of_cells(const meshing::CellBlock& film, const fem::S
   return points;
 }
 
+Eigen::VectorXd volumes_of(const Points& points, const fem::Samples& samples) {
+  Eigen::VectorXd volumes(points.count);
+  for (int p = 0; p < points.count; ++p)
+    volumes[p] = samples.film[static_cast<std::size_t>(points.first + p)].volume;
+  return volumes;
+}
+
+/// Weights of an element's points at local coordinates, a row for each. Those of a rod are of film side by
+/// side, under its electrode and beside it, all along the rod.
+Eigen::MatrixXd weights_at(CellType type, const Points& points, const fem::Samples& samples,
+                           const Eigen::MatrixXd& local) {
+  if (type != CellType::rod2) return continued(type, points.count, local);
+  const Eigen::VectorXd volumes = volumes_of(points, samples);
+  return (volumes / volumes.sum()).transpose().replicate(local.rows(), 1);
+}
+
 /// Whether local coordinates are in the element, or as good as in it.
 bool is_inside(CellType type, const Eigen::VectorXd& local) {
   if (local_dimension(type) == 1) return std::abs(local[0]) <= 1 + close_by;
@@ -126,18 +141,19 @@ bool is_inside(CellType type, const Eigen::VectorXd& local) {
 std::vector<FilmReading> readings_at(const std::string& place, const meshing::Mesh& mesh,
                                      const fem::Samples& samples) {
   const meshing::CellBlock& film = *mesh.film();
-  const std::vector<Points> points = points_of_cells(film, samples);
+  const std::vector<Points> all = points_of_cells(film, samples);
   std::vector<FilmReading> readings;
   std::map<int, Eigen::MatrixXd> to_nodes; // by number of points
   const auto& nodes = mesh.node_sets.at(place);
   for (int cell = 0; cell < film.size(); ++cell) {
     const auto own = film.cell(cell);
-    const auto [first, count] = points[static_cast<std::size_t>(cell)];
+    const Points& points = all[static_cast<std::size_t>(cell)];
     for (std::size_t a = 0; a < own.size(); ++a) {
       if (!std::binary_search(nodes.begin(), nodes.end(), own[a])) continue;
-      Eigen::MatrixXd& weights = to_nodes[count];
-      if (weights.size() == 0) weights = continued(film.type, count, local_nodes(film.type));
-      readings.push_back({cell, first, mesh.nodes[static_cast<std::size_t>(own[a])],
+      Eigen::MatrixXd& weights = to_nodes[points.count];
+      if (weights.size() == 0 || film.type == CellType::rod2)
+        weights = weights_at(film.type, points, samples, local_nodes(film.type));
+      readings.push_back({cell, points.first, mesh.nodes[static_cast<std::size_t>(own[a])],
                           weights.row(static_cast<Eigen::Index>(a)).transpose()});
     }
   }
@@ -196,12 +212,12 @@ Eigen::Matrix3d turn_to(const Eigen::Vector3d& point, const meshing::Mesh& mesh)
 std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,
                                      const fem::Samples& samples) {
   const meshing::CellBlock& film = *mesh.film();
-  const std::vector<Points> points = points_of_cells(film, samples);
+  const std::vector<Points> all = points_of_cells(film, samples);
   std::vector<FilmReading> readings;
   for (const ElementPoint& at : elements_at(point, mesh)) {
-    const auto [first, count] = points[static_cast<std::size_t>(at.cell)];
-    readings.push_back(
-        {at.cell, first, point, continued(film.type, count, at.local.transpose()).transpose()});
+    const Points& points = all[static_cast<std::size_t>(at.cell)];
+    readings.push_back({at.cell, points.first, point,
+                        weights_at(film.type, points, samples, at.local.transpose()).transpose()});
   }
   return readings;
 }
@@ -211,14 +227,12 @@ std::vector<FilmReading> readings_in(const std::string& place, const meshing::Me
   const meshing::CellBlock& film = *mesh.film();
   const std::vector<int>* cells = mesh.cells_of(place, &film);
   if (!cells) return {};
-  const std::vector<Points> points = points_of_cells(film, samples);
+  const std::vector<Points> all = points_of_cells(film, samples);
   std::vector<FilmReading> readings;
   for (const int cell : *cells) {
-    const auto [first, count] = points[static_cast<std::size_t>(cell)];
-    Eigen::VectorXd volume(count);
-    for (int p = 0; p < count; ++p) volume[p] = samples.film[static_cast<std::size_t>(first + p)].volume;
-    readings.push_back(
-        {cell, first, mesh.nodes[static_cast<std::size_t>(film.cell(cell)[0])], std::move(volume)});
+    const Points& points = all[static_cast<std::size_t>(cell)];
+    readings.push_back({cell, points.first, mesh.nodes[static_cast<std::size_t>(film.cell(cell)[0])],
+                        volumes_of(points, samples)});
   }
   return readings;
 }
@@ -262,10 +276,7 @@ std::set<int> film_parts_at(const std::string& place, const Case& one, const Dev
 
 fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state) {
   fem::Samples points;
-  if (const auto* membrane = dynamic_cast<const fem::FilmPoints*>(&film))
-    membrane->sample_points(state, points);
-  else
-    film.sample(state, points);
+  film.sample(state, points);
   return points;
 }
 

@@ -60,7 +60,7 @@ std::vector<char> film_at(const std::string& place, const Case& one, const Devic
 /// Numbers, in Case::parts, of those whose film that is.
 std::set<int> film_parts_at(const std::string& place, const Case& one, const Device& device);
 
-/// The points of a block of film, also where it speaks for nobody in the model's samples.
+/// The points of a block of film.
 fem::Samples points_of(const fem::ElementBlock& film, const fem::State& state);
 
 /// Elements of a block of film, by their numbers in it.

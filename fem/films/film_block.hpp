@@ -2,7 +2,6 @@
 #pragma once
 
 #include "fem/films/film_kinematics.hpp"
-#include "fem/films/film_points.hpp"
 #include "fem/films/film_response.hpp"
 #include "fem/films/film_sheets.hpp"
 #include "fem/model/element_block.hpp"
@@ -19,7 +18,7 @@ namespace dielast::fem {
 /// that is a sheet by the voltages of its corners: k = eps sum_a N_a (V_a/H)^2 with N_a linear (see
 /// SheetPoint). A point's volume is that of the film, of a full turn where it is a film of revolution.
 template<class Kinematics>
-class FilmBlock : public FilmPoints {
+class FilmBlock : public ElementBlock {
  public:
   FilmBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells, const MembraneSection& section,
             std::vector<int> electrodes, int integration_points, std::vector<int> numbers);
@@ -30,7 +29,7 @@ class FilmBlock : public FilmPoints {
   bool may_be_slack() const override { return true; }
   void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
-  void sample_points(const State& state, Samples& samples) const override;
+  void sample(const State& state, Samples& samples) const override;
   void add_mass(int element, std::span<double> packed) const override;
   void add_charges(const State& state, const DofMap* dof_map, Charges& charges) const override;
   void place_sheets(SheetMap& sheets) override {
@@ -110,7 +109,7 @@ template<class Kinematics>
 FilmBlock<Kinematics>::FilmBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                                  const MembraneSection& section, std::vector<int> electrodes,
                                  int integration_points, std::vector<int> numbers)
-    : FilmPoints(section.sampled), film_(section), section_(section), count_(cells.size()),
+    : film_(section), section_(section), count_(cells.size()),
       points_(integration_points), nodes_(cells.nodes), electrodes_(std::move(electrodes)),
       numbers_(std::move(numbers)), reference_(mesh.nodes), rule_(Kinematics::rule(integration_points)) {
   const int packs = (count_ + lanes - 1) / lanes;
@@ -307,7 +306,7 @@ void FilmBlock<Kinematics>::add_relaxation(const State& state, const RateWeight&
 }
 
 template<class Kinematics>
-void FilmBlock<Kinematics>::sample_points(const State& state, Samples& samples) const {
+void FilmBlock<Kinematics>::sample(const State& state, Samples& samples) const {
   samples.film.reserve(samples.film.size() + static_cast<std::size_t>(count_ * points_));
   for_each_point(state, [&](const Visit& at) {
     const materials::TensionField field = film_.resolve(state, at.point, at.C, at.k);

@@ -19,7 +19,6 @@ struct MembraneSection {
   std::array<double, 2> prestretch{1.0, 1.0}; ///< lambda_p along x and y of the drawing; of a rod along it
   bool tension_field = false;                 ///< wrinkles carry no compression (materials/tension_field.hpp)
   double wrinkled = 1e-5; ///< share of the taut film's potential left where it wrinkles: a regular tangent
-  bool sampled = true;    ///< false: another section speaks for its cells
   double width = 0;       ///< of a rod: unstretched, all layers side by side, m
 
   /// Thickness of the whole section over that of the layers. Covers deform and wrinkle with these: energy and

@@ -66,8 +66,28 @@ name = "force"
 kind = "force"
 of = "end"
 along = "x"
+[[quantity]]
+name = "mean_stress"
+kind = "value"
+of = "cauchy_stress.xx"
+place = "film"
+[[quantity]]
+name = "stress_at_end"
+kind = "value"
+of = "cauchy_stress.xx"
+place = "end"
+[[quantity]]
+name = "largest_stress"
+kind = "extreme"
+of = "max_principal_stress"
+extreme = "maximum"
 )toml"));
   EXPECT_NEAR(held.at("force"), force_of(1.05, 1200), 1e-10 * force_of(1.05, 1200));
+  const double mean = 1.05 * held.at("force") / section; // of film under the electrode and beside it
+  EXPECT_NEAR(held.at("mean_stress"), mean, 1e-10 * mean);
+  EXPECT_NEAR(held.at("stress_at_end"), mean, 1e-10 * mean);
+  const double uncharged = 1.05 * force_of(1.05, 0) / section;
+  EXPECT_NEAR(held.at("largest_stress"), uncharged, 1e-10 * uncharged);
   EXPECT_NEAR(held.at("max_field"), 1200 / 0.1e-3 * std::sqrt(1.05), 1e-3);
   const double capacitance = permittivity * electrode / 0.1e-3 * 1.05;
   EXPECT_NEAR(held.at("capacitance"), capacitance, 1e-10 * capacitance);
