@@ -25,7 +25,7 @@ std::string load_text(const fem::Model& model, const fem::LoadPath& path, const 
   else
     path.apply(begin, 0);
   std::string text;
-  double largest = 0;
+  double largest = alike;
   for (std::size_t e = 0; e < at.voltage.size(); ++e) {
     const bool isolated = fem::is_isolated(at.supply[e]);
     const double from = isolated ? begin.charge[e] : begin.voltage[e];

@@ -276,7 +276,9 @@ std::vector<post::Event> Simulation::events(const Step& step, const Measured& me
       loads_) {
     const fem::RampProgress& ramp = in_step_.ramp;
     const fem::LoadPath path = loads_->path(step_, ramp.start);
-    watch_.locate(events, {ramp.points, path, increment.load_factor, step.duration.has_value()});
+    const fem::NewtonOptions newton = loads_->options(step_).newton;
+    watch_.locate(events,
+                  {ramp.points, path, increment.load_factor, step.duration.has_value(), newton, threads_});
   }
   return events;
 }

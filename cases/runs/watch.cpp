@@ -6,14 +6,12 @@
 #include "post/engineering.hpp"
 #include "post/reductions.hpp"
 
-#include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 namespace dielast::cases {
 
@@ -179,93 +177,25 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
   return events;
 }
 
-namespace {
-
-/// The load factor up to `to` at which a path has that parameter, in which it is monotonic.
-double load_factor_at(const fem::LoadPath& path, double parameter, double to) {
-  const auto beyond = [&](double s) { return path.parameter(s) - parameter; };
-  const double first = beyond(0), last = beyond(to);
-  if (!(first * last < 0)) return std::abs(first) < std::abs(last) ? 0 : to;
-  std::uintmax_t tries = 100;
-  return boost::math::tools::toms748_solve(
-             beyond, 0.0, to, first, last, [](double low, double high) { return high - low <= 1e-14; }, tries)
-      .second;
-}
-
-} // namespace
-
 void Watch::locate(std::vector<post::Event>& events, const Passage& passage) const {
-  constexpr std::size_t most = 4;
-  constexpr double accuracy = 1e-9; // of the step
-  auto points = passage.points.last(std::min(passage.points.size(), most));
-  const auto turns_over = [](const fem::PathPoint& one, const fem::PathPoint& other) {
-    for (std::size_t p = 0; p < one.state.voltage.size(); ++p)
-      if (one.state.voltage[p] * other.state.voltage[p] < 0) return true;
-    return false;
-  };
-  // What a field does to magnitudes has a corner where its voltage changes its sign.
-  while (points.size() >= 2 && turns_over(points.front(), points.back())) points = points.subspan(1);
-  if (points.size() < 2) return;
-  std::vector<double> s;
-  for (const fem::PathPoint& point : points)
-    s.push_back(passage.timed ? point.parameter : load_factor_at(passage.path, point.parameter, passage.to));
+  Crossings crossings(device_, passage);
   for (post::Event& event : events) {
     const auto threshold = std::ranges::find(thresholds, event.kind, &Threshold::kind);
     if (threshold == thresholds.end() || (device_.tension_field && event.kind == "loss of tension")) continue;
-    const post::WantedScalars wanted({std::string(threshold->field)});
-    const auto beyond_in = [&](const fem::State& state) {
-      const fem::Samples samples = device_.model.sample(state);
-      return threshold->beyond(
-          post::Extremes(samples, wanted).find(threshold->field, threshold->extreme)->value);
-    };
-    std::vector<double> beyond;
-    for (const fem::PathPoint& point : points) beyond.push_back(beyond_in(point.state));
-    if (!(beyond[beyond.size() - 2] < 0 && beyond.back() > 0)) continue;
-    const bool remembers = points.back().state.history != nullptr;
-    const auto beyond_at = [&](double at) {
-      if (!remembers) { // of the shape there: what is largest may be elsewhere than in these states
-        fem::State there = fem::extrapolate(points, passage.timed ? at : passage.path.parameter(at));
-        passage.path.apply(there, at);
-        device_.model.balance_fields(there);
-        return beyond_in(there);
-      }
-      double sum = 0;
-      for (std::size_t i = 0; i < s.size(); ++i) {
-        double term = beyond[i];
-        for (std::size_t j = 0; j < s.size(); ++j)
-          if (j != i) term *= (at - s[j]) / (s[i] - s[j]);
-        sum += term;
-      }
-      return sum;
-    };
-    std::uintmax_t tries = 100;
-    const double from = s[s.size() - 2], to = s.back();
-    const double found = boost::math::tools::toms748_solve(
-                             beyond_at, from, to, beyond[beyond.size() - 2], beyond.back(),
-                             [](double low, double high) { return high - low <= accuracy; }, tries)
-                             .second;
-    tell(event, passage, found, (found - from) / (to - from));
+    if (const auto place = crossings.find(*threshold)) tell(event, passage, *place);
   }
 }
 
-/// Where an event began: at load factor s, of the way from the state before to that which tells of it a
-/// share.
-void Watch::tell(post::Event& event, const Passage& passage, double s, double share) const {
-  const fem::State &before = passage.points[passage.points.size() - 2].state,
-                   &after = passage.points.back().state;
-  fem::State at = after;
-  passage.path.apply(at, s);
-  at.time = std::lerp(before.time, after.time, share);
-  event.before = {s, at.time, {}};
-  for (std::size_t p = 0; p < at.voltage.size(); ++p) {
-    if (at.supply[p] != fem::Supply::voltage)
-      at.voltage[p] = std::lerp(before.voltage[p], after.voltage[p], share);
+/// Where an event began.
+void Watch::tell(post::Event& event, const Passage& passage, const Crossings::Place& place) const {
+  const fem::State& at = place.state;
+  event.before = {place.load_factor, at.time, {}};
+  for (std::size_t p = 0; p < at.voltage.size(); ++p)
     if (device_.model.ports[p].is_electrode()) event.before->voltages.push_back(at.voltage[p]);
-  }
   const std::string where = passage.timed ? post::engineering(at.time, "s")
                             : event.before->voltages.size() > 1
-                                ? fmt::format("load factor {:.5g}", s)
-                                : load_text(device_.model, passage.path, at, s, false);
+                                ? fmt::format("load factor {:.5g}", place.load_factor)
+                                : load_text(device_.model, passage.path, at, place.load_factor, false);
   event.message += fmt::format(" (from about {} on)", where);
 }
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cases/devices/device.hpp"
+#include "cases/runs/crossings.hpp"
 #include "fem/contact/wall_contact.hpp"
 #include "fem/paths/energy_balance.hpp"
-#include "fem/paths/load_path.hpp"
-#include "post/reductions.hpp"
 #include "post/step_record.hpp"
 
 #include <array>
@@ -20,29 +18,6 @@ namespace dielast::cases {
 
 /// Below this a stress is round-off, Pa: 1e-8 of the stiffest film's shear modulus, at least 1e-3.
 double smallest_stress(const Case& one);
-
-/// A kind of event that begins when an extreme passes a limit.
-struct Threshold {
-  std::string_view kind, field;
-  post::Extreme extreme;
-  double limit;
-  /// How far a value is beyond the limit, negative before it.
-  double beyond(double value) const {
-    return extreme == post::Extreme::minimum ? limit - value : value - limit;
-  }
-};
-inline constexpr std::array thresholds{
-    Threshold{"loss of tension", "min_principal_stress", post::Extreme::minimum, 0},
-    Threshold{"breakdown", "breakdown_ratio", post::Extreme::maximum, 1},
-    Threshold{"wall yield", "yield_ratio", post::Extreme::maximum, 1}};
-
-/// The way to an accepted state from the one before, in one step under load control.
-struct Passage {
-  std::span<const fem::PathPoint> points; ///< accepted states of one smooth way, these two the last
-  const fem::LoadPath& path;
-  double to; ///< load factor of the last
-  bool timed;
-};
 
 /// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
 /// that touch, film that passes through itself, fins that turn far, leaks that steady voltages leave out,
@@ -60,15 +35,14 @@ class Watch {
   std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes,
                                  bool ends = false);
 
-  /// Tells of those events that begin at a threshold where it was passed on the way to their state: on the
-  /// polynomial through up to four states, or, where material remembers, through what they are beyond it.
+  /// Tells of those events that begin at a threshold where it was passed on the way to their state.
   void locate(std::vector<post::Event>& events, const Passage& passage) const;
 
   /// Kinds of the conditions that hold now; stored with a checkpoint.
   std::set<std::string> active;
 
  private:
-  void tell(post::Event& event, const Passage& passage, double s, double share) const;
+  void tell(post::Event& event, const Passage& passage, const Crossings::Place& place) const;
   std::string cell_of(int line, int other) const;
   std::string place_of_triangle(int triangle) const;
   std::string place_of_line(int line) const;

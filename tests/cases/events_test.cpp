@@ -141,6 +141,50 @@ TEST_F(Events, ThoseBetweenTwoRowsAreToldWithTheirOwnTime) {
   EXPECT_EQ(event["record"], 2);                       // behind the drawn state and the jump
 }
 
+// Film charged to 500 V and let go by its source is compressed by the root of 5 MV/m over 6 MV/m, which moves
+// its edges by 2 mm at a stretch of 0.8.
+TEST_F(Events, ThoseOfIsolatedFilmAreToldAtItsOwnVoltage) {
+  const double stretch = std::sqrt(5.0 / 6), share = (1 - stretch) / 0.2;
+  const auto move = [](const std::string& by, const std::string& step) {
+    return "[[support]]\nplace = \"right\"\ndisplacement = { x = " + by +
+           " }\n[[support]]\nplace = \"top\"\ndisplacement = { y = " + by +
+           " }\n[[step]]\nkind = \"voltage\"\n" +
+           "to = \"500 V\"\n[[step]]\nname = \"move\"\ncontrol = \"charge\"\nincrements = 3\n" + step;
+  };
+  for (const std::string& moved : {move("\"-2 mm\"", "kind = \"move\"\n"),
+                                   move("{ wave = \"ramp\", to = \"-2 mm\", duration = \"1 s\" }",
+                                        "kind = \"transient\"\nduration = \"1 s\"\n")}) {
+    write(
+        "isolated.toml",
+        "[film]\nthickness = \"0.1 mm\"\n[film.material]\nshear_modulus = \"100 kPa\"\nrelative_permittivity "
+        "= 4\nbreakdown_field = \"6 MV/m\"\n[patch]\nmode = \"equal-biaxial\"\nlength = \"10 mm\"\n"
+        "[output]\nerror_estimate = false\nfields = false\n" +
+            moved);
+    const Ended ended = dielast({"run", "isolated.toml", "-o", "out", "-q"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const auto event = of_kind(json_of("out/summary.json")["events"], "breakdown");
+    ASSERT_TRUE(event);
+    EXPECT_NEAR((*event)["load_factor"], share, 1e-6);
+    EXPECT_NEAR((*event)["voltages"].at(0), 500 * std::pow(stretch, -4), 1e-2);
+  }
+}
+
+// In a single increment, and still at the voltages of their margins, which are solved for.
+TEST_F(Events, ThoseBetweenTwoStatesAreWhereTheirMarginsAre) {
+  write("disc.toml",
+        "[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+        "relative_permittivity = 4.7\nbreakdown_field = \"35 MV/m\"\n[disc]\nradius = \"40 mm\"\n"
+        "electrode_radius = \"20 mm\"\n[mesh]\nrings = 8\n[drive]\nvoltage = \"9 kV\"\n[[step]]\n"
+        "kind = \"voltage\"\nincrements = 1\n[output]\nerror_estimate = false\nfields = false\n");
+  EXPECT_EQ(dielast({"run", "disc.toml", "-o", "out", "-q"}).exit_code, 0);
+  const nlohmann::json summary = json_of("out/summary.json");
+  const auto event = of_kind(summary["events"], "breakdown");
+  ASSERT_TRUE(event) << summary["events"].dump(1);
+  EXPECT_LT((*event)["load_factor"], 0.95);
+  EXPECT_NEAR((*event)["load_factor"].get<double>(), summary["margins"]["breakdown"]["factor"].get<double>(),
+              2e-6);
+}
+
 TEST_F(Events, NoneAtTheUsualVoltage) { EXPECT_EQ(events({}), nlohmann::json::array()); }
 
 TEST_F(Events, NoStressAcrossARodIsNoTensionThatDependsOnTheMesh) {
