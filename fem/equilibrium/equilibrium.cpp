@@ -51,6 +51,9 @@ constexpr double farthest_step = 1e4; ///< over the extent; no part of a farther
 constexpr double first_widening = 0.02, most_widening = 0.5; ///< strains that give a film tension
 constexpr int most_voltage_corrections = 30;
 constexpr double charge_tolerance = 1e-13; ///< of the voltage
+/// Of the voltage where corrections stagnate: charges of many elements that are alike are all rounded to the
+/// same side.
+constexpr double charge_rounding_of_many = 1e-10, stagnating = 0.5;
 /// Of the charge: a hardly compressible filling turns it into much more of the pressure than
 /// charge_tolerance.
 constexpr double charge_rounding = 1e-15;
@@ -127,6 +130,7 @@ bool Equilibrium::follow_charges(State& state, Pressure pressure) const {
   bool any = false;
   for (std::size_t e = 0; e < state.supply.size(); ++e) any = any || follows(e);
   if (!any) return true;
+  std::vector<double> last(state.supply.size(), std::numeric_limits<double>::infinity());
   for (int correction = 0; correction <= most_voltage_corrections; ++correction) {
     const Charges surplus = model_.surplus(state, false);
     bool balanced = true;
@@ -135,7 +139,10 @@ bool Equilibrium::follow_charges(State& state, Pressure pressure) const {
       const double change = -surplus.charge[e] / surplus.capacitance[e];
       state.voltage[e] += change;
       if (!std::isfinite(state.voltage[e])) return false;
-      balanced = balanced && (std::abs(change) <= charge_tolerance * std::abs(state.voltage[e]) ||
+      const double rounding = std::abs(change) > stagnating * std::exchange(last[e], std::abs(change))
+                                  ? charge_rounding_of_many
+                                  : charge_tolerance;
+      balanced = balanced && (std::abs(change) <= rounding * std::abs(state.voltage[e]) ||
                               std::abs(surplus.charge[e]) <= charge_rounding * std::abs(state.charge[e]));
     }
     if (balanced) return true;

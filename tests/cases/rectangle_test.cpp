@@ -5,6 +5,7 @@
 #include "cases/runs/simulation.hpp"
 #include "tests/cases/scratch.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,12 +17,13 @@ constexpr double mu = 40e3, permittivity = 4 * 8.8541878128e-12, thickness = 1e-
 
 class RectangleTest : public test::ScratchTest {
  protected:
-  Case read(const std::string& rectangle, const std::string& rest) const {
+  Case read(const std::string& rectangle, const std::string& rest,
+            const std::vector<std::string>& overrides = {}) const {
     write("rectangle.toml",
           "[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = \"40 "
           "kPa\"\nrelative_permittivity = 4\n[rectangle]\n" +
               rectangle + rest);
-    return read_case(directory / "rectangle.toml");
+    return read_case(directory / "rectangle.toml", overrides);
   }
   static double last(const Case& one, const Simulation& simulation, const std::string& name) {
     const auto found = std::ranges::find(one.quantities, name, &Quantity::name);
@@ -98,13 +100,27 @@ TEST_F(RectangleTest, TwoStretchesAsOfTwoPiecesInARow) {
 // A film in a frame that is all electrode has nowhere to go.
 TEST_F(RectangleTest, AllElectrodeStays) {
   for (const std::string model : {"planar", "3d"}) {
-    const Case one = read("length = \"20 mm\"\n", "[drive]\nvoltage = \"2 kV\"\n[mesh]\nacross = 4\n");
+    const Case one =
+        read("length = \"20 mm\"\n", "[drive]\nvoltage = \"2 kV\"\n[mesh]\nacross = 4\n", {"model=" + model});
     Simulation simulation(one, 1);
     ASSERT_EQ(simulation.run({}).ending, Ending::complete) << model;
     EXPECT_NEAR(last(one, simulation, "areal_strain"), 0, 1e-12);
     const double h = thickness / (prestretch * prestretch);
     EXPECT_NEAR(last(one, simulation, "capacitance"), permittivity * 4e-4 / h,
                 1e-9 * permittivity * 4e-4 / h);
+  }
+}
+
+// Charges of thousands of elements that are alike are all rounded to the same side.
+TEST_F(RectangleTest, AllElectrodeTakesAnyCharge) {
+  const double capacitance = permittivity * 4e-4 / (thickness / (prestretch * prestretch));
+  for (const double charge : {5.5727874816597936e-08, 2.5500060900863998e-8, 2.55e-8, 4.4e-12}) {
+    const Case one = read("length = \"40 mm\"\nwidth = \"10 mm\"\n",
+                          fmt::format("[drive]\ncharge = {}\n[[step]]\nkind = \"charge\"\n", charge));
+    Simulation simulation(one, 1);
+    const Outcome outcome = simulation.run({});
+    ASSERT_EQ(outcome.ending, Ending::complete) << charge << " " << outcome.message;
+    EXPECT_NEAR(simulation.state().voltage[0], charge / capacitance, 1e-9 * charge / capacitance);
   }
 }
 
