@@ -246,6 +246,11 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
   add("pull-in", [&] { return critical(false); });
   add("buckling", [&] { return critical(true); });
   add("wall yield", [&] { return where([](const Passed& p) { return p.yield - 1; }); });
+  const double lost = simulation.device().tension_field ? unknown : factor_to("loss of tension", margins);
+  for (Margin& margin : margins)
+    if (margin.factor > lost && (margin.limit == "pull-in" || margin.limit == "buckling"))
+      add_remark(margin, "behind the loss of tension: compressed film gives way in waves as short as its "
+                         "elements, so it depends on the mesh");
   return margins;
 }
 
