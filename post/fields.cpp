@@ -131,9 +131,10 @@ const std::vector<FilmField> film_table{
     {"green_lagrange_strain",
      "1",
      {"XX", "YY", "ZZ", "XY", "YZ", "XZ"},
-     "Green-Lagrange strain from the unstretched film: X and Y in its plane (of revolution along the "
-     "meridian "
-     "and around), Z through the thickness; of a solid along x, y and z as drawn, of revolution along the "
+     "Green-Lagrange strain from the unstretched film: X and Y those of the film as drawn (of revolution "
+     "along "
+     "the meridian and around), Z through the thickness; of a solid along x, y and z as drawn, of revolution "
+     "along the "
      "radius, the hoop and the axis",
      [](const FilmPoint& p, double* v) { symmetric_components((p.C - Eigen::Matrix3d::Identity()) / 2, v); }},
     {"cauchy_stress",

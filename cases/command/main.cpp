@@ -13,10 +13,10 @@
 #include "cases/readers/identify_reader.hpp"
 #include "cases/readers/reader.hpp"
 #include "cases/readers/study_reader.hpp"
+#include "cases/results/run.hpp"
 #include "cases/runs/linearise.hpp"
 #include "cases/runs/phases.hpp"
 #include "cases/runs/recorder.hpp"
-#include "cases/results/run.hpp"
 #include "cases/studies/study.hpp"
 #include "fem/equilibrium/tangent_check.hpp"
 #include "fem/machine/blas_kernels.hpp"
@@ -222,14 +222,19 @@ int main(int argc, char** argv) {
   const std::map<std::string, ExitCode (*)(const Arguments&)> functions{
       {"run", run}, {"check", check}, {"mesh", mesh},     {"study", study}, {"linearise", linearise},
       {"fit", fit}, {"info", info},   {"schema", schema}, {"man", man},     {"completion", completion}};
+  std::vector<std::string> words{argv + 1, argv + argc};
+  if (!words.empty() && words.front() == "help") { // dielast help run: dielast run --help
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // the last word first
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) { // --help, --version
       app.exit(error);
       return static_cast<int>(finish_output(ExitCode::ok));
     }
-    cases::say(stderr, "{}\n", cases::explanation(app, error, {argv + 1, argv + argc}));
+    cases::say(stderr, "{}\n", cases::explanation(app, error, words));
     return static_cast<int>(ExitCode::usage_or_file);
   }
   const std::string name = app.get_subcommands().front()->get_name();

@@ -122,9 +122,9 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
         one.bodies.empty() && !one.gravity.film)
       reader.warn(at.source, at.key, "has no effect here: plate.mass is 0");
     if (step.kind == StepKind::relax && !when::branches().met(one, nullptr) && one.circuits.empty() &&
-        !lets_go(one, s) && std::ranges::none_of(one.electrodes, [](const Electrode& e) {
-          return e.sheet_resistance.has_value();
-        }))
+        !lets_go(one, s) && step.on_instability == OnInstability::stop &&
+        std::ranges::none_of(one.electrodes,
+                             [](const Electrode& e) { return e.sheet_resistance.has_value(); }))
       reader.warn(at.source, at.key,
                   "has no effect here: without a [[film.material.branch]], a viscosity, a [circuit] or a "
                   "sheet_resistance nothing flows");

@@ -19,6 +19,8 @@ TEST_F(Topics, HelpAndVersion) {
   EXPECT_TRUE(version.out.starts_with("dielast 0.")) << version.out;
   for (const char* command : {"run", "check", "mesh", "study", "info", "schema"})
     EXPECT_EQ(dielast({command, "--help"}).exit_code, 0) << command;
+  EXPECT_EQ(dielast({"help"}).out, help.out);
+  EXPECT_EQ(dielast({"help", "run"}).out, dielast({"run", "--help"}).out);
 }
 
 TEST_F(Topics, InfoExplainsWhatACaseMaySay) {
