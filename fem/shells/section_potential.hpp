@@ -7,17 +7,26 @@ namespace dielast::fem {
 
 /// Strains of a shell at a point, w.r.t. its unstretched film: the metric a of the drawn surface, or of the
 /// layers' face beside it (FaceStrain), and the change of curvature b_ij = sym(x,i . d,j) less that of the
-/// drawing, 1/m; components 11, 22, 12. The layers keep their volume, so that what was at Z is at
-/// Z/sqrt(det a) along the director:
-///   C(Z) = a + 2 Z b / sqrt(det a),
-/// terms of (Z b)^2 left out.
+/// drawing, 1/m; components 11, 22, 12. The layers keep their volume, so that what was at Z is at a height z
+/// along the director with dz/dZ = 1/sqrt(det C), C = a + 2 z b + z^2 b a^-1 b. With l = 1/sqrt(det a), H =
+/// tr(a^-1 b)/2 and, as b a^-1 b = 2 H b - (det b/det a) a,
+///   z(Z) = l Z - H (l Z)^2,
+///   C(Z) = a + 2 Z l b - Z^2 q a,   q = det b/(det a)^2,
+/// terms of (Z b)^3 left out: in the same shell drawn at another height bending is as stiff.
 struct ShellStrain {
   materials::InPlaneC<Lanes> a, b;
 
   Lanes thinning() const { return 1.0 / materials::sqrt(a.det()); }
-  materials::InPlaneC<Lanes> at(const Lanes& thinning, double Z) const {
-    const Lanes z = 2.0 * Z * thinning;
-    return {a.C11 + z * b.C11, a.C22 + z * b.C22, a.C12 + z * b.C12};
+  /// q, 1/m^2.
+  Lanes twice_curved() const { return b.det() / (a.det() * a.det()); }
+  /// H, 1/m.
+  Lanes mean_curvature() const {
+    return (a.C22 * b.C11 + a.C11 * b.C22 - 2.0 * a.C12 * b.C12) / (2.0 * a.det());
+  }
+  /// C(Z) with l and q.
+  materials::InPlaneC<Lanes> at(const Lanes& l, const Lanes& q, double Z) const {
+    const Lanes z = 2.0 * Z * l, once = 1.0 - Z * Z * q;
+    return {once * a.C11 + z * b.C11, once * a.C22 + z * b.C22, once * a.C12 + z * b.C12};
   }
 };
 
@@ -29,16 +38,11 @@ class SectionPotential {
 
   /// Adds a point at Z that stands for `weight` (m of the thickness).
   void add(double Z, const Lanes& weight, const materials::MembranePotential<Lanes>& psi) {
-    const Lanes once = weight * Z, twice = once * Z;
     value_ += weight * psi.value;
-    for (std::size_t i = 0; i < 3; ++i) {
-      N_[i] += weight * psi.first[i];
-      M_[i] += once * psi.first[i];
-    }
-    for (std::size_t p = 0; p < 6; ++p) {
-      D0_[p] += weight * psi.second[p];
-      D1_[p] += once * psi.second[p];
-      D2_[p] += twice * psi.second[p];
+    Lanes moment = weight;
+    for (std::size_t k = 0; k < 5; ++k, moment *= Z) {
+      for (std::size_t i = 0; k < 3 && i < 3; ++i) N_[k][i] += moment * psi.first[i];
+      for (std::size_t p = 0; p < 6; ++p) D_[k][p] += moment * psi.second[p];
     }
   }
 
@@ -59,36 +63,62 @@ class SectionPotential {
   }
   template<bool with_second>
   Derivatives derivatives() const {
+    // By a, by B = 2 s b and by q of C(Z) = a + Z B - Z^2 q a, and these by a and b.
     const auto& [a, b] = strain_;
-    const Lanes s = strain_.thinning(), per_det = 1.0 / a.det();
-    const Lanes f1[3] = {a.C22, a.C11, -2.0 * a.C12}, kappa[3] = {b.C11, b.C22, b.C12};
-    Lanes s1[3]; // d s/d a
-    for (int i = 0; i < 3; ++i) s1[i] = -0.5 * s * per_det * f1[i];
-    const Lanes bent = M_[0] * kappa[0] + M_[1] * kappa[1] + M_[2] * kappa[2];
+    const Lanes s = strain_.thinning(), q = strain_.twice_curved(), per_det = 1.0 / a.det();
+    const Lanes f1[3] = {a.C22, a.C11, -2.0 * a.C12}, e1[3] = {b.C22, b.C11, -2.0 * b.C12}; // of det a, det b
+    const Lanes metric[3] = {a.C11, a.C22, a.C12}, kappa[3] = {b.C11, b.C22, b.C12};
+    const Lanes(&M)[3] = N_[1];
+    Lanes s1[3], qa[3], qb[3];
+    for (int i = 0; i < 3; ++i) {
+      s1[i] = -0.5 * s * per_det * f1[i];
+      qa[i] = -2.0 * q * per_det * f1[i];
+      qb[i] = per_det * per_det * e1[i];
+    }
+    const Lanes bent = M[0] * kappa[0] + M[1] * kappa[1] + M[2] * kappa[2];
+    const Lanes by_q = -(N_[2][0] * metric[0] + N_[2][1] * metric[1] + N_[2][2] * metric[2]);
     Derivatives d = squares_;
     for (int i = 0; i < 3; ++i) {
-      d.a[i] = N_[i] + 2.0 * bent * s1[i];
-      d.b[i] = 2.0 * s * M_[i];
+      d.a[i] = N_[0][i] - q * N_[2][i] + 2.0 * bent * s1[i] + by_q * qa[i];
+      d.b[i] = 2.0 * s * M[i] + by_q * qb[i];
     }
     if constexpr (with_second) {
       constexpr int place[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-      Lanes D1b[3], D2b[3];
+      Lanes aa[3][3], aB[3][3], aBb[3], BBb[3], qB[3], qga[3], qgb[3];
       for (int i = 0; i < 3; ++i) {
-        D1b[i] = D2b[i] = Lanes{};
+        aBb[i] = BBb[i] = qB[i] = Lanes{};
+        qga[i] = -N_[2][i];
         for (int j = 0; j < 3; ++j) {
-          D1b[i] += D1_[place[i][j]] * kappa[j];
-          D2b[i] += D2_[place[i][j]] * kappa[j];
+          const int p = place[i][j];
+          aa[i][j] = D_[0][p] - q * (2.0 * D_[2][p] - q * D_[4][p]);
+          aB[i][j] = D_[1][p] - q * D_[3][p];
+          aBb[i] += aB[i][j] * kappa[j];
+          BBb[i] += D_[2][p] * kappa[j];
+          qga[i] -= (D_[2][p] - q * D_[4][p]) * metric[j];
+          qB[i] -= D_[3][p] * metric[j];
         }
       }
-      const Lanes bDb = D2b[0] * kappa[0] + D2b[1] * kappa[1] + D2b[2] * kappa[2];
+      Lanes bBBb{}, qBb{}, qq{};
+      for (int i = 0; i < 3; ++i) {
+        bBBb += BBb[i] * kappa[i];
+        qBb += qB[i] * kappa[i];
+        for (int j = 0; j < 3; ++j) qq += metric[i] * D_[4][place[i][j]] * metric[j];
+      }
+      for (int i = 0; i < 3; ++i) {
+        qga[i] += 2.0 * qBb * s1[i] + 0.5 * qq * qa[i]; // half of the square on either side of a sum
+        qgb[i] = 2.0 * s * qB[i] + 0.5 * qq * qb[i];
+      }
       constexpr double f2[3][3] = {{0, 1, 0}, {1, 0, 0}, {0, 0, -2}};
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
           const Lanes s2 = 3.0 * s1[i] * s1[j] / s - 0.5 * s * per_det * f2[i][j];
-          d.aa[i][j] += D0_[place[i][j]] + 2.0 * (D1b[i] * s1[j] + s1[i] * D1b[j]) +
-                        4.0 * bDb * s1[i] * s1[j] + 2.0 * bent * s2;
-          d.ab[i][j] += 2.0 * s1[i] * M_[j] + 2.0 * s * (D1_[place[i][j]] + 2.0 * s1[i] * D2b[j]);
-          d.bb[i][j] += 4.0 * s * s * D2_[place[i][j]];
+          const Lanes qaa = 2.0 * q * per_det * (3.0 * per_det * f1[i] * f1[j] - f2[i][j]),
+                      qab = -2.0 * per_det * f1[i] * qb[j], qbb = per_det * per_det * f2[i][j];
+          d.aa[i][j] += aa[i][j] + 2.0 * (aBb[i] * s1[j] + s1[i] * aBb[j]) + 4.0 * bBBb * s1[i] * s1[j] +
+                        2.0 * bent * s2 + qga[i] * qa[j] + qa[i] * qga[j] + by_q * qaa;
+          d.ab[i][j] += 2.0 * s1[i] * M[j] + 2.0 * s * (aB[i][j] + 2.0 * s1[i] * BBb[j]) + qga[i] * qb[j] +
+                        qa[i] * qgb[j] + by_q * qab;
+          d.bb[i][j] += 4.0 * s * s * D_[2][place[i][j]] + qgb[i] * qb[j] + qb[i] * qgb[j] + by_q * qbb;
         }
     }
     return d;
@@ -96,8 +126,8 @@ class SectionPotential {
 
  private:
   ShellStrain strain_;
-  Lanes value_{}, N_[3] = {}, M_[3] = {};
-  Lanes D0_[6] = {}, D1_[6] = {}, D2_[6] = {};
+  Lanes value_{};
+  Lanes N_[3][3] = {}, D_[5][6] = {}; ///< first and second derivatives in C times powers of Z
   Derivatives squares_{};
 };
 

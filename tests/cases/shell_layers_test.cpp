@@ -266,5 +266,30 @@ along = "z"
   EXPECT_TRUE(std::isnan(both.rows.back().value)) << both.rows.back().value;
 }
 
+// A moment bends a strip with free sides either way by the same angle, at whatever height its shell is drawn:
+// to the second order in its curvature times its thickness, here 0.05.
+TEST_F(Paths, a_strip_with_free_sides_bends_alike_wherever_it_is_drawn) {
+  const auto angle = [this](const char* offset, const char* moment) {
+    const Run bent = run(
+        strip(fmt::format("thickness = \"0.5 mm\"\noffset = \"{}\"\n[film.material]\n{}", offset, silicone),
+              "",
+              fmt::format("[[body]]\nname = \"tip\"\nplaces = [\"right\"]\n[[load]]\nplace = "
+                          "\"tip\"\nmoment = [\"0 N m\", \"{} mN m\", \"0 N m\"]\n[[step]]\n"
+                          "kind = \"force\"\n[[quantity]]\nname = \"angle\"\nkind = \"angle\"\n"
+                          "of = \"tip\"\nalong = \"y\"\n",
+                          moment),
+              true),
+        "angle");
+    EXPECT_EQ(bent.outcome.ending, Ending::complete) << bent.outcome.message;
+    return bent.rows.back().value;
+  };
+  const double bent = angle("0 mm", "6e-4");
+  EXPECT_GT(bent, 0.8);
+  for (const char* offset : {"0.25 mm", "-0.25 mm"}) {
+    EXPECT_NEAR(angle(offset, "6e-4"), bent, 3e-3 * bent) << offset;
+    EXPECT_NEAR(angle(offset, "-6e-4"), -bent, 3e-3 * bent) << offset;
+  }
+}
+
 } // namespace
 } // namespace dielast::cases::shell_layers_test

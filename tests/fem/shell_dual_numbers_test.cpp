@@ -140,15 +140,21 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
           }
       }
     for (std::size_t i = 0; i < 2; ++i) energy += 0.5 * shear_modulus[i] * dA * gamma[i] * gamma[i];
-    double bottom = section.offset - height / 2;
-    if (const double face = bottom > 0 ? bottom : std::min(bottom + height, 0.0); face != 0) {
-      const double gap = face / prestretch.prod();
+    const auto inverse_metric = [&a] {
       const Unknowns det = a[0][0] * a[1][1] - a[0][1] * a[0][1];
-      const Metric inverse{{{a[1][1] / det, -a[0][1] / det}, {-a[0][1] / det, a[0][0] / det}}};
-      Metric square; // of the curvature
+      return Metric{{{a[1][1] / det, -a[0][1] / det}, {-a[0][1] / det, a[0][0] / det}}};
+    };
+    const auto square_of_curvature = [&](const Metric& inverse) {
+      Metric square;
       for (std::size_t i = 0; i < 8; ++i)
         for (std::size_t l = 0; l < 2; ++l)
           square[i / 4][l] += b[i / 4][i / 2 % 2] * inverse[i / 2 % 2][i % 2] * b[i % 2][l];
+      return square;
+    };
+    double bottom = section.offset - height / 2;
+    if (const double face = bottom > 0 ? bottom : std::min(bottom + height, 0.0); face != 0) {
+      const double gap = face / prestretch.prod();
+      const Metric square = square_of_curvature(inverse_metric());
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t l = 0; l < 2; ++l) {
           a[i][l] += 2 * gap * b[i][l] + gap * gap * square[i][l];
@@ -157,6 +163,9 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
       bottom -= face;
     }
     const Unknowns thinning = 1.0 / sqrt(a[0][0] * a[1][1] - a[0][1] * a[0][1]);
+    const Metric inverse = inverse_metric(), square = square_of_curvature(inverse);
+    const Unknowns twice_mean =
+        inverse[0][0] * b[0][0] + inverse[1][1] * b[1][1] + 2.0 * inverse[0][1] * b[0][1];
     for (std::size_t l = 0; l < section.layers.size(); ++l) {
       const materials::Material& material = section.layers[l].material;
       const double H = depth(section.layers[l]), own = section.layers[l].thickness;
@@ -167,7 +176,8 @@ materials::Dual<36> element_energy(const meshing::Mesh& mesh, const ShellSection
         const double Z = bottom + H / 2 * (1 + place);
         const auto C = [&](std::size_t i, std::size_t j) {
           return extra(section.layers[l], i) * extra(section.layers[l], j) *
-                 (a[i][j] + 2 * Z * thinning * b[i][j]);
+                 (a[i][j] + 2 * Z * thinning * b[i][j] +
+                  Z * Z * thinning * thinning * (square[i][j] - twice_mean * b[i][j]));
         };
         const materials::InPlaneC<Unknowns> all{C(0, 0), C(1, 1), C(0, 1)};
         energy += weight * H * dA *
