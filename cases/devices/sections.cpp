@@ -161,11 +161,38 @@ struct DrawnWall {
     from = farthest(at(own.front()));
     to = farthest(from);
   }
+  double length() const { return (to - from).norm(); }
   double distance(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d along = to - from;
     return (x - from - std::clamp((x - from).dot(along) / along.squaredNorm(), 0.0, 1.0) * along).norm();
   }
 };
+
+/// The place on a wall's axis whose section holds a point under it: beside the point, but near a joint. There
+/// the faces of two walls meet at a corner, a length m from the joint along either wall, and must move alike:
+/// the corner goes with the joint, and what lies within 3 m of it with sections of all of that length.
+Eigen::Vector3d holding_section(const DrawnWall& wall, const Eigen::Vector3d& x,
+                                const std::vector<DrawnWall>& walls) {
+  constexpr double spread = 3;
+  const bool first = (x - wall.from).norm() < (x - wall.to).norm();
+  const Eigen::Vector3d &joint = first ? wall.from : wall.to, &other = first ? wall.to : wall.from;
+  const Eigen::Vector3d along = (other - joint).normalized();
+  double station = (x - joint).dot(along);
+  const Eigen::Vector3d beside = x - joint - station * along;
+  const double close = 1e-6 * wall.length();
+  for (const DrawnWall& next : walls) {
+    const bool starts = (next.from - joint).norm() < close, ends = (next.to - joint).norm() < close;
+    const Eigen::Vector3d away = (starts ? next.to - next.from : next.from - next.to).normalized();
+    if (&next == &wall || !(starts || ends) || beside.dot(away) <= 0) continue;
+    const double corner =
+        beside.norm() * (1 + along.dot(away)) / along.cross(away).norm(); // d / tan(angle / 2)
+    const double last = std::min(spread * corner, wall.length() / 2);
+    if (station < last)
+      station = corner < last ? std::max(0.0, (station - corner) * last / (last - corner)) : 0;
+    break;
+  }
+  return joint + station * along;
+}
 
 } // namespace
 
@@ -173,7 +200,6 @@ void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& 
   for (const Part& part : one.parts) {
     const auto* lattice = std::get_if<Honeycomb>(&part.geometry);
     if (!lattice || lattice->wall_bond != WallBond::width) continue;
-    const double tolerance = 1e-6 * lattice->wall_length;
     const auto at = [&](int node) -> const Eigen::Vector3d& {
       return mesh.nodes[static_cast<std::size_t>(node)];
     };
@@ -183,20 +209,11 @@ void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& 
     const auto& of_walls = mesh.node_sets.at(part.called("walls"));
     for (const int node : mesh.node_sets.at(part.called("under_walls"))) {
       if (std::ranges::binary_search(of_walls, node)) continue;
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const DrawnWall& wall : walls) nearest = std::min(nearest, wall.distance(at(node)));
-      std::vector<int> masters; // of all walls that are that near: between two of them their joint
-      for (const DrawnWall& wall : walls) {
-        if (wall.distance(at(node)) > nearest + tolerance) continue;
-        std::vector<int> common;
-        if (masters.empty())
-          common = *wall.nodes;
-        else
-          std::ranges::set_intersection(masters, *wall.nodes, std::back_inserter(common));
-        masters = std::move(common);
-      }
+      const auto wall =
+          std::ranges::min_element(walls, {}, [&](const DrawnWall& w) { return w.distance(at(node)); });
+      const Eigen::Vector3d section = holding_section(*wall, at(node), walls);
       const int master =
-          *std::ranges::min_element(masters, {}, [&](int m) { return (at(m) - at(node)).norm(); });
+          *std::ranges::min_element(*wall->nodes, {}, [&](int m) { return (at(m) - section).norm(); });
       dofs.tie({node, master, at(node) - at(master)});
     }
   }

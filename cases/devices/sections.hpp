@@ -72,8 +72,8 @@ void tie_mass_nodes(const std::vector<MassOfShells>& shells, const meshing::Mesh
 /// The bar along each line of the mesh.
 Bars bars(const Case& one, const meshing::Mesh& mesh);
 
-/// Ties the nodes of film under walls that hold it over their width to the wall's nodes opposite to them,
-/// near a joint to the joint's: they move with the wall's sections.
+/// Ties the nodes of film under walls that hold it over their width to the wall's nodes opposite to them:
+/// they move with the wall's sections. Near a joint these are spread, so that corners of faces move with it.
 void clamp_under_walls(const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs);
 
 /// Throws CaseError where film that is not drawn in a plane of constant z is no shell, or is prestretched.

@@ -183,6 +183,33 @@ TEST_F(Regions, FilmUnderAWallMovesWithItsSections) {
   for (const int node : under) EXPECT_NE(tied.contains(node), std::ranges::binary_search(walls, node));
 }
 
+// The faces of two walls meet at a corner that must move with both of them, or film would be compressed there
+// by more the smaller its elements are.
+TEST_F(Regions, FilmBetweenWideWallsConvergesInTheirCorners) {
+  std::vector<double> least;
+  for (const int elements : {16, 32})
+    least.push_back(values(fmt::format(R"toml([film]
+thickness = "1 mm"
+prestretch = [3, 3.5]
+material = {{ law = "neo-hookean", shear_modulus = "45 kPa", permittivity = "4e-11 F/m" }}
+[honeycomb]
+angle = "85 deg"
+columns = [1]
+wall_length = "8 mm"
+wall_width = "1.2 mm"
+wall_height = "1.5 mm"
+wall_material = {{ youngs_modulus = "78 MPa", poisson_ratio = 0.36 }}
+wall_bond = "width"
+[mesh]
+wall_elements = {}
+[[step]]
+kind = "release"
+)toml",
+                                       elements))
+                        .at("min_principal_stress"));
+  EXPECT_NEAR(least[1], least[0], 0.1 * least[0]);
+}
+
 TEST_F(Regions, ElectrodesKeepTheirGapToTheWalls) {
   const auto capacitance = [&](const std::vector<std::string>& overrides) {
     const Case one = read(test::small_honeycomb, overrides);
