@@ -7,8 +7,8 @@ namespace dielast::fem {
 
 struct JumpOptions {
   NewtonOptions newton;
-  double push = 1e-3; ///< first displacement along the mode, over the model's extent
-  int most_steps = 500;
+  double push = 1e-3;    ///< first displacement along the mode, over the model's extent
+  int most_steps = 3000; ///< soft modes of thin shells take a thousand
   double farthest = 100; ///< displacement over the model's extent at which it is given up
 };
 

@@ -291,5 +291,27 @@ TEST_F(Paths, a_strip_with_free_sides_bends_alike_wherever_it_is_drawn) {
   }
 }
 
+// Cut free, it curls along its length, and then it twists: down a long and shallow valley of the energy.
+TEST_F(Paths, a_curling_strip_jumps_to_where_it_is_twisted) {
+  const auto layer = [](const char* side, double thickness, double modulus, double prestretch) {
+    return fmt::format(
+        "[[film.layer]]\nside = \"{}\"\nthickness = \"{} um\"\nprestretch = {}\n[film.layer.material]\n"
+        "shear_modulus = \"{} kPa\"\nrelative_permittivity = 3\n",
+        side, thickness, prestretch, modulus);
+  };
+  const Run cut =
+      run("model = \"3d\"\n[film]\nsection = \"shell\"\nthickness = \"60 um\"\n[film.material]\n"
+          "shear_modulus = \"500 kPa\"\nrelative_permittivity = 3\n" +
+              layer("above", 31.2, 300, 1.02) + layer("below", 40, 200, 1) +
+              "[rectangle]\nlength = \"20 mm\"\nwidth = \"6 mm\"\n[mesh]\nacross = 2\n[[support]]\n"
+              "place = \"left\"\nfix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n[[step]]\n"
+              "kind = \"release\"\non_instability = \"jump\"\n[output]\nerror_estimate = false\n" +
+              tip("z"),
+          "tip");
+  EXPECT_EQ(cut.outcome.ending, Ending::complete) << cut.outcome.message;
+  EXPECT_EQ(cut.rows.back().unstable_modes, 0);
+  EXPECT_TRUE(std::ranges::any_of(cut.events, [](const post::Event& e) { return e.kind == "jump"; }));
+}
+
 } // namespace
 } // namespace dielast::cases::shell_layers_test
