@@ -140,7 +140,7 @@ std::optional<Crossings::Place> Crossings::find(const Threshold& threshold) {
     fem::State there = state_at(course, found);
     if (equilibrium_->solve(there, passage_.newton).outcome != fem::Outcome::converged) break;
     const double how_far = beyond_in(there, device_, threshold);
-    if (how_far == 0) break;
+    if (!(std::abs(how_far) > 0)) break; // 0, or not a number
     course.add({parameter_at(found), std::move(there)}, found, how_far);
     found = root_of(course);
   }
