@@ -4,6 +4,7 @@
 #include "cases/case/part_kind.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/tables/regions.hpp"
+#include "meshing/regions/region_mesh.hpp"
 #include "meshing/rings.hpp"
 
 #include <algorithm>
@@ -76,9 +77,11 @@ void stiffen_wrinkles(Case& one, int factor) {
     if (part.film) part.film->wrinkled *= std::pow(factor, 4);
 }
 
-/// Sixths of the sides that the smallest circle has which is an edge of a film; 0: there is none.
+/// Sides that the smallest circle has which is an edge of a film, or sixths of these; 0: there is none.
 int sides_of_edge(const Part& part) {
-  if (!regions_of(part).empty()) return 0; // triangles of one size fill what is between them
+  if (const auto regions = regions_of(part); !regions.empty())
+    return meshing::fewest_sides(*round_film(part), regions, part.mesh.rings,
+                                 std::max(1.0, part.mesh.grading));
   if (const auto* annulus = std::get_if<Annulus>(&part.geometry))
     return meshing::rings_of_hole(annulus->inner_radius, annulus->outer_radius, part.mesh.rings);
   if (const auto* disc = std::get_if<Disc>(&part.geometry))

@@ -109,9 +109,9 @@ template<class Kinematics>
 FilmBlock<Kinematics>::FilmBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cells,
                                  const MembraneSection& section, std::vector<int> electrodes,
                                  int integration_points, std::vector<int> numbers)
-    : film_(section), section_(section), count_(cells.size()),
-      points_(integration_points), nodes_(cells.nodes), electrodes_(std::move(electrodes)),
-      numbers_(std::move(numbers)), reference_(mesh.nodes), rule_(Kinematics::rule(integration_points)) {
+    : film_(section), section_(section), count_(cells.size()), points_(integration_points),
+      nodes_(cells.nodes), electrodes_(std::move(electrodes)), numbers_(std::move(numbers)),
+      reference_(mesh.nodes), rule_(Kinematics::rule(integration_points)) {
   const int packs = (count_ + lanes - 1) / lanes;
   for (int e = count_; e < packs * lanes; ++e) {
     for (int a = 0; a < Nodes; ++a) nodes_.push_back(node(count_ - 1, a));

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -63,6 +64,15 @@ class Outlines {
       (pieces_[static_cast<std::size_t>(side.piece)].of_film ? graph.outline : graph.inner)
           .push_back(side.ends);
     return graph;
+  }
+
+  /// Angle of the widest side of an arc, rad.
+  double widest_side() const {
+    double widest = 0;
+    for (const Divided& side : sides_)
+      if (const Edge& edge = pieces_[static_cast<std::size_t>(side.piece)].edge; edge.turn != 0)
+        widest = std::max(widest, (side.to - side.from) * edge.length() / edge.from.norm());
+    return widest;
   }
 
   /// Radii of the arcs that sides lie on.
@@ -252,6 +262,11 @@ void bend(Mesh& mesh, const std::map<std::pair<int, int>, double>& radii) {
 }
 
 } // namespace
+
+int fewest_sides(const RoundFilm& film, std::span<const Region> regions, int rings, double grading) {
+  const Size size(film, rings, grading);
+  return static_cast<int>(std::lround(2 * std::numbers::pi / Outlines(film, regions, size).widest_side()));
+}
 
 Mesh region_mesh(const RoundFilm& film, std::span<const Region> regions, int rings, double grading,
                  int order) {

@@ -19,4 +19,7 @@ namespace dielast::meshing {
 Mesh region_mesh(const RoundFilm& film, std::span<const Region> regions, int rings, double grading,
                  int order);
 
+/// Sides that a whole circle would have of the arc that this mesh divides into the fewest.
+int fewest_sides(const RoundFilm& film, std::span<const Region> regions, int rings, double grading);
+
 } // namespace dielast::meshing

@@ -39,6 +39,13 @@ TEST(OtherDiscretisations, MayDivideEdgesAlike) {
   EXPECT_FALSE(alike("10 mm", "12", "model=axisymmetric"));
   const Case hole = read_case(valid / "annulus.toml", {"mesh.rings=4", "annulus.inner_radius=5 mm"});
   EXPECT_TRUE(divides_edges_alike(hole, other_discretisations(hole).front().one));
+  for (const auto& [radius, is_alike] :
+       {std::pair{"3 mm", true}, std::pair{"15 mm", false}}) { // twelve of a region
+    const Case drawn = read_case(
+        valid / "disc.toml", {"disc.electrode_radius=", "mesh.rings=12", "disc.radius=25 mm",
+                              fmt::format("region=[{{name='c', kind='ring', outer_radius='{}'}}]", radius)});
+    EXPECT_EQ(divides_edges_alike(drawn, other_discretisations(drawn).front().one), is_alike) << radius;
+  }
 }
 
 // Half of an odd number of elements is more than twice as coarse: the estimate must know by how much.
