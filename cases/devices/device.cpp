@@ -130,21 +130,30 @@ void check_body_names(const Case& one, const std::vector<std::string>& places) {
 }
 
 void hold(const Support& support, const Case& one, const meshing::Mesh& mesh, fem::DofMap& dofs) {
+  const auto fail = [&one](const char* key, const std::string& message) {
+    throw CaseError({{{one.source.string()}, key, message}});
+  };
   bool turns = false, clamps = false;
   for (int c = 0; c < fem::DofMap::components; ++c) {
     const bool fixed = support.fixed[static_cast<std::size_t>(c)];
     clamps = clamps || (fixed && c > 2);
     for (const int node : mesh.node_sets.at(support.place)) {
       turns = turns || (c > 2 && dofs.equation(node, c) != fem::DofMap::absent);
+      if (fixed && c < 3 && dofs.is_tied_node(node)) {
+        const Eigen::Vector3d at = 1e3 * mesh.nodes[static_cast<std::size_t>(node)];
+        fail("support.place",
+             fmt::format(
+                 "\"{}\" has the node drawn at ({:.4g}, {:.4g}, {:.4g}) mm, which a [[body]], or a wall over "
+                 "its width, carries: hold that instead, or a place that ends before it",
+                 support.place, at.x(), at.y(), at.z()));
+      }
       if (fixed) dofs.hold(node, c);
     }
   }
   if (clamps && !turns)
-    throw CaseError(
-        {{{one.source.string()},
-          "support.fix",
-          fmt::format("nothing turns at \"{}\": membranes have no rotations, walls and shells have",
-                      support.place)}});
+    fail("support.fix",
+         fmt::format("nothing turns at \"{}\": membranes have no rotations, walls and shells have",
+                     support.place));
 }
 
 /// What acts on single rotations needs all three of a shell's nodes, in every step alike.

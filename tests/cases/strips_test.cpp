@@ -292,5 +292,19 @@ TEST_F(Strips, AStackOfShellsPullsLikeTheMembrane) {
     EXPECT_NEAR(shell.at(name), membrane.at(name), 0.01 * std::abs(membrane.at(name))) << name;
 }
 
+// The bar at the lower end carries the last node of the side.
+TEST_F(Strips, SidesThatAreHeldAreToldOfTheNodeThatTheBarCarries) {
+  const Case one = read(stack + "[[support]]\nplace = \"left\"\nfix = [\"x\"]\n");
+  try {
+    build_device(one);
+    ADD_FAILURE() << "nothing is told";
+  } catch (const CaseError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("\"left\" has the node drawn at (-6.5, -12, 0) mm, which a [[body]]"),
+        std::string::npos)
+        << error.what();
+  }
+}
+
 } // namespace
 } // namespace dielast::cases::strips_test
