@@ -157,7 +157,8 @@ Section material_section() {
       measure(
           "viscosity", "Pa s", to_part<Owner>([](auto& film) -> auto& { return film.material.viscosity; }),
           "of a dashpot beside the law (Kelvin & Voigt), as of a Newtonian liquid: its stress is twice that "
-          "times the deviator of the rate of strain, 3 times the rate where film is pulled one way")
+          "times the deviator of the rate of strain, 3 times the rate where film is pulled one way; of "
+          "solids with a bulk_modulus per volume as drawn (Kirchhoff stress)")
           .at_least(0)
           .otherwise("0 Pa.s")
           .only_with(when::film_flows()));
