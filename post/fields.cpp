@@ -132,10 +132,8 @@ const std::vector<FilmField> film_table{
      "1",
      {"XX", "YY", "ZZ", "XY", "YZ", "XZ"},
      "Green-Lagrange strain from the unstretched film: X and Y those of the film as drawn (of revolution "
-     "along "
-     "the meridian and around), Z through the thickness; of a solid along x, y and z as drawn, of revolution "
-     "along the "
-     "radius, the hoop and the axis",
+     "along the meridian and around), Z through the thickness; of a solid along x, y and z as drawn, of "
+     "revolution along the radius, the hoop and the axis",
      [](const FilmPoint& p, double* v) { symmetric_components((p.C - Eigen::Matrix3d::Identity()) / 2, v); }},
     {"cauchy_stress",
      "Pa",

@@ -255,9 +255,8 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
 }
 
 double factor_to(const std::string& limit, const std::vector<Margin>& margins) {
-  constexpr double no_factor = std::numeric_limits<double>::quiet_NaN();
   const auto margin = std::ranges::find(margins, limit, &Margin::limit);
-  return margin != margins.end() ? margin->factor.value_or(no_factor) : no_factor;
+  return margin != margins.end() ? margin->factor.value_or(unknown) : unknown;
 }
 
 } // namespace dielast::cases

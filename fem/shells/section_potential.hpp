@@ -9,24 +9,23 @@ namespace dielast::fem {
 /// layers' face beside it (FaceStrain), and the change of curvature b_ij = sym(x,i . d,j) less that of the
 /// drawing, 1/m; components 11, 22, 12. The layers keep their volume, so that what was at Z is at a height z
 /// along the director with dz/dZ = 1/sqrt(det C), C = a + 2 z b + z^2 b a^-1 b. With l = 1/sqrt(det a), H =
-/// tr(a^-1 b)/2 and, as b a^-1 b = 2 H b - (det b/det a) a,
-///   z(Z) = l Z - H (l Z)^2,
-///   C(Z) = a + 2 Z l b - Z^2 q a,   q = det b/(det a)^2,
+/// tr(a^-1 b)/2, K = det b/det a and, as b a^-1 b = 2 H b - K a,
+///   z(Z) = l Z - H (l Z)^2,   C(Z) = a + 2 l Z b - (l Z)^2 K a,
 /// terms of (Z b)^3 left out: in the same shell drawn at another height bending is as stiff.
 struct ShellStrain {
   materials::InPlaneC<Lanes> a, b;
 
   Lanes thinning() const { return 1.0 / materials::sqrt(a.det()); }
-  /// q, 1/m^2.
-  Lanes twice_curved() const { return b.det() / (a.det() * a.det()); }
+  /// K, 1/m^2.
+  Lanes gaussian_curvature() const { return b.det() / a.det(); }
   /// H, 1/m.
   Lanes mean_curvature() const {
     return (a.C22 * b.C11 + a.C11 * b.C22 - 2.0 * a.C12 * b.C12) / (2.0 * a.det());
   }
-  /// C(Z) with l and q.
-  materials::InPlaneC<Lanes> at(const Lanes& l, const Lanes& q, double Z) const {
-    const Lanes z = 2.0 * Z * l, once = 1.0 - Z * Z * q;
-    return {once * a.C11 + z * b.C11, once * a.C22 + z * b.C22, once * a.C12 + z * b.C12};
+  /// C with K at l Z.
+  materials::InPlaneC<Lanes> at(const Lanes& height, const Lanes& K) const {
+    const Lanes once = 1.0 - height * height * K, twice = 2.0 * height;
+    return {once * a.C11 + twice * b.C11, once * a.C22 + twice * b.C22, once * a.C12 + twice * b.C12};
   }
 };
 
@@ -63,9 +62,9 @@ class SectionPotential {
   }
   template<bool with_second>
   Derivatives derivatives() const {
-    // By a, by B = 2 s b and by q of C(Z) = a + Z B - Z^2 q a, and these by a and b.
+    // By a, by B = 2 s b and by q = s^2 K of C(Z) = a + Z B - Z^2 q a, s = l, and these by a and b.
     const auto& [a, b] = strain_;
-    const Lanes s = strain_.thinning(), q = strain_.twice_curved(), per_det = 1.0 / a.det();
+    const Lanes s = strain_.thinning(), per_det = 1.0 / a.det(), q = strain_.gaussian_curvature() * per_det;
     const Lanes f1[3] = {a.C22, a.C11, -2.0 * a.C12}, e1[3] = {b.C22, b.C11, -2.0 * b.C12}; // of det a, det b
     const Lanes metric[3] = {a.C11, a.C22, a.C12}, kappa[3] = {b.C11, b.C22, b.C12};
     const Lanes(&M)[3] = N_[1];

@@ -183,27 +183,26 @@ template<class Visitor>
 void ShellBlock::across(const State& state, const Layer& layer, int pack, int p, const ShellStrain& strain,
                         const Visitor& visit) const {
   const Lanes k = electric_modulus(state, layer, pack), thinning = strain.thinning(),
-              twice_curved = strain.twice_curved(), mean_curvature = strain.mean_curvature();
+              gaussian = strain.gaussian_curvature(), mean = strain.mean_curvature();
   std::array<double, depths> Z;
   std::array<materials::InPlaneC<Lanes>, depths> C;
-  std::array<Lanes, depths> field;
-  Lanes mean{};
+  std::array<Lanes, depths> field, height;
+  Lanes mean_field{};
   for (std::size_t q = 0; q < depths; ++q) {
     Z[q] = layer.middle + depth_rule[q].place * layer.depth / 2 - face_;
-    C[q] = layer.own(strain.at(thinning, twice_curved, Z[q]));
+    height[q] = Z[q] * thinning;
+    C[q] = layer.own(strain.at(height[q], gaussian));
     field[q] = Lanes{} + 1.0;
     if (layer.charged) field[q] /= layer.film.capacitance_ratio_value(C[q]);
-    mean += depth_rule[q].weight * field[q];
+    mean_field += depth_rule[q].weight * field[q];
   }
   for (std::size_t q = 0; q < depths; ++q) {
     std::array<int, lanes> numbers;
     for (int l = 0; l < lanes; ++l)
       numbers[static_cast<std::size_t>(l)] = ((pack * lanes + l) * points + p) * depths + static_cast<int>(q);
-    if (layer.charged) field[q] /= mean;
-    const Lanes height = Z[q] * thinning;
-    visit(Place{layer, Z[q], depth_rule[q].weight * layer.depth,
-                gap_ + height * (1.0 - mean_curvature * height), numbers, C[q], field[q],
-                k * field[q] * field[q]});
+    if (layer.charged) field[q] /= mean_field;
+    visit(Place{layer, Z[q], depth_rule[q].weight * layer.depth, gap_ + height[q] * (1.0 - mean * height[q]),
+                numbers, C[q], field[q], k * field[q] * field[q]});
   }
 }
 
