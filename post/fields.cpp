@@ -138,7 +138,8 @@ const std::vector<FilmField> film_table{
     {"cauchy_stress",
      "Pa",
      {"xx", "yy", "zz", "xy", "yz", "xz"},
-     "true stress in space, elastic and electrostatic; of a stack with covers the mean over its section; of "
+     "true stress in space, elastic and electrostatic; of a stack with covers, and of a rod under its "
+     "electrode and beside it, the mean over its section; of "
      "revolution in the half plane y = 0, y around, of films in ParaView turned with them",
      [](const FilmPoint& p, double* v) { symmetric_components(p.cauchy(), v); },
      std::nullopt,
@@ -178,7 +179,8 @@ const std::vector<FilmField> film_table{
     {"electric_field",
      "V/m",
      {},
-     "true electric field: voltage over the deformed thickness",
+     "true electric field: voltage over the deformed thickness; of a rod the mean over its section, under "
+     "its electrode and beside it (its largest value is that under it)",
      [](const FilmPoint& p, double* v) { *v = p.electric_field; },
      Extreme::maximum},
     {"breakdown_ratio",
