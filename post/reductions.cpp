@@ -33,7 +33,7 @@ std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::sp
     row += static_cast<std::size_t>(field.width());
     result.push_back({{}, std::vector<double>(field.worst ? cells : 0, not_a_number)});
   }
-  std::vector<double> values(row), weights(cells), sums(cells * row);
+  std::vector<double> values(row), weights(cells), sums(cells * row), zero(cells * fields.size());
   for (const Sample& sample : samples) {
     const Point point(sample);
     const auto cell = static_cast<std::size_t>(sample.cell);
@@ -46,6 +46,7 @@ std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::sp
         double& known = result[i].worst[cell];
         known = *fields[i].worst == Extreme::minimum ? std::fmin(known, *value) : std::fmax(known, *value);
       }
+      if (fields[i].of_electrodes && *value == 0) zero[cell * fields.size() + i] += counts;
       value += fields[i].width();
     }
     double* const sum = &sums[cell * row];
@@ -56,9 +57,12 @@ std::vector<CellValues> all_cell_values(std::span<const Sample> samples, std::sp
     const auto width = static_cast<std::size_t>(fields[i].width());
     std::vector<double>& average = result[i].average;
     average.reserve(cells * width);
-    for (std::size_t cell = 0; cell < cells; ++cell)
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const double beside = zero[cell * fields.size() + i];
+      const double looked_at = beside < weights[cell] ? weights[cell] - beside : weights[cell];
       for (std::size_t c = first; c < first + width; ++c)
-        average.push_back(weights[cell] > 0 ? sums[cell * row + c] / weights[cell] : not_a_number);
+        average.push_back(looked_at > 0 ? sums[cell * row + c] / looked_at : not_a_number);
+    }
     first += width;
   }
   return result;

@@ -15,7 +15,8 @@ namespace dielast::post {
 
 /// A field in the cells; NaN in a cell without integration points.
 struct CellValues {
-  /// Weighted by undeformed volume (film) or length (walls): the components of cell 0, then of cell 1, ...
+  /// Weighted by undeformed volume (film) or length (walls): the components of cell 0, then of cell 1, ...;
+  /// fields of electrodes over what lies under an electrode, in cells where anything does.
   /// Of a shell with several layers that of the film itself.
   std::vector<double> average;
   /// At the cell's integration points, of all layers; empty for a field without a worst end.

@@ -37,6 +37,17 @@ TEST(Reductions, AverageIsWeightedByVolumeAndLength) {
   EXPECT_DOUBLE_EQ(average(samples, "bending_moment.3", 3)[2], 6);
 }
 
+// A rod's cell is its section, of which an electrode covers a part.
+TEST(Reductions, AveragesOfElectrodesFieldsAreThoseUnderThem) {
+  fem::Samples samples = two_points_in_cell_one();
+  samples.film[0].voltage = 0;
+  EXPECT_DOUBLE_EQ(average(samples, "voltage", 2)[1], 4000);
+  EXPECT_DOUBLE_EQ(average(samples, "electric_field", 2)[1], 4e6);
+  EXPECT_DOUBLE_EQ(average(samples, "thickness", 2)[1], 1e-3);
+  samples.film[1].voltage = 0;
+  EXPECT_EQ(average(samples, "voltage", 2)[1], 0);
+}
+
 TEST(Reductions, AveragesAreTheFilmsAndExtremesThoseOfAllLayers) {
   fem::Samples samples = two_points_in_cell_one();
   samples.film[1].layer = 1;
