@@ -171,9 +171,9 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
 
   const Outcome outcome = simulation.run(observe(one, recorder, log));
   if (outcome.ending == Ending::interrupted) {
-    recorder.save_checkpoint();
-    log.warn("interrupted: {} recorded states kept in {}; go on with --resume",
-             recorder.journal().records.size(), settings.directory.string());
+    if (outcome.kind != "jump") recorder.save_checkpoint();
+    log.warn("interrupted: {} recorded states kept in {}; go on with --resume", recorder.kept(),
+             settings.directory.string());
     return ExitCode::interrupted;
   }
   recorder.write_waiting();

@@ -334,6 +334,7 @@ void Recorder::save_checkpoint() {
                             {"analyses", all(journal_.analyses)}}}});
   const std::chrono::nanoseconds taken = std::chrono::steady_clock::now() - begin;
   next_checkpoint_ = begin + std::max<std::chrono::nanoseconds>(checkpoint_interval, 30 * taken);
+  kept_ = journal_.records.size();
 }
 
 void Recorder::restore_checkpoint() try {
@@ -364,6 +365,7 @@ void Recorder::restore_checkpoint() try {
   for (const json& row : journal.at("values"))
     journal_.values.push_back(post::unpack(row, case_.quantities.size()));
   if (journal_.values.size() != journal_.records.size()) throw post::CheckpointError("damaged");
+  kept_ = journal_.records.size();
   for (const json& one : journal.at("snapshots"))
     journal_.snapshots.push_back(restore_snapshot(one, device.mesh));
   for (const json& one : journal.at("stills")) journal_.stills.push_back(restore_snapshot(one, device.mesh));

@@ -76,6 +76,8 @@ class Recorder {
   void record_analysis(Analysis analysis, const fem::State& state);
   /// Writes the checkpoint now; the run can be resumed from it.
   void save_checkpoint();
+  /// Recorded states that the last checkpoint holds.
+  std::size_t kept() const { return kept_; }
   /// Writes the last state into the series where it has not been: a run that ends within a step keeps it.
   void write_waiting();
 
@@ -109,6 +111,7 @@ class Recorder {
   std::optional<WaitingState> waiting_;
   std::optional<post::VtkSeries> series_, modes_;
   std::chrono::steady_clock::time_point next_checkpoint_;
+  std::size_t kept_ = 0;
 };
 
 } // namespace dielast::cases

@@ -381,7 +381,8 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         [this](const fem::State& state) { return law_limit(case_, device_, state); },
         [&](const fem::State& state, const fem::Increment& increment, Reached reached) {
           return accept(observer, step, state, increment, reached);
-        }};
+        },
+        observer.on_pass};
     const Outcome outcome =
         StepRun(*equilibrium_, step, path, options, in_step_, watcher, ways_on(case_, step)).run();
     if (outcome.ending == Ending::gave_up && unrecorded_) {

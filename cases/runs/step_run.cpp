@@ -73,7 +73,7 @@ void StepRun::announce(const fem::CriticalPoint& critical, bool ends) {
 }
 
 /// The last equilibrium before stability is lost is a result of its own. An interrupt waits for what comes of
-/// it.
+/// it, or for the next step of the jump from there.
 void StepRun::accept_critical(const fem::CriticalPoint& critical) {
   fem::RampProgress& ramp = progress_.ramp;
   const double length = critical.load_factor - ramp.load_factor;
@@ -323,9 +323,11 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
     s = way.load_factor;
     state =
         options_.inertia ? fem::with_masses_held(equilibrium_, std::move(way.state)) : std::move(way.state);
-    result = fem::jump(equilibrium_, state, way.direction, {.newton = options_.newton});
+    result = fem::jump(equilibrium_, state, way.direction,
+                       {.newton = options_.newton, .goes_on = observer_.goes_on});
     if (result.end != fem::JumpEnd::stuck) break;
   }
+  if (result.end == fem::JumpEnd::interrupted) return Outcome{Ending::interrupted, "jump"};
   if (result.end != fem::JumpEnd::landed) {
     const char* follow = "\"follow\"";
     Outcome outcome = cause(trouble, ways_on_.starts_with(follow) ? follow : "");

@@ -37,13 +37,17 @@ struct StepObserver {
   std::function<std::string(const fem::State&)> law_limit;
   /// Returns false to stop here (interrupt). Dashpots of the state are frozen.
   std::function<bool(const fem::State&, const fem::Increment&, Reached)> on_accept;
+  /// On the way of a jump, where no state is accepted: false to stop here (interrupt).
+  std::function<bool()> goes_on;
 };
 
 enum class Ending { complete, gave_up, interrupted };
 
 struct Outcome {
   Ending ending = Ending::complete;
-  std::string kind{};    ///< gave_up: "limit point", "instability", "singular tangent", "no equilibrium", ...
+  /// gave_up: "limit point", "instability", "singular tangent", "no equilibrium", ...; interrupted: "jump" on
+  /// the way of one, where no run begins
+  std::string kind{};
   std::string message{}; ///< gave_up: what happened and what to do
 };
 

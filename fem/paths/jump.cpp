@@ -126,6 +126,10 @@ JumpResult Descent::fall() {
   JumpResult result;
   double damping = first_damping;
   for (; result.steps < options_.most_steps && damping < most_damping; ++result.steps) {
+    if (options_.goes_on && !options_.goes_on()) {
+      result.end = JumpEnd::interrupted;
+      return result;
+    }
     if (!step(damping)) {
       damping *= slower;
       continue;

@@ -3,6 +3,8 @@
 
 #include "fem/equilibrium/equilibrium.hpp"
 
+#include <functional>
+
 namespace dielast::fem {
 
 struct JumpOptions {
@@ -10,9 +12,11 @@ struct JumpOptions {
   double push = 1e-3;    ///< first displacement along the mode, over the model's extent
   int most_steps = 3000; ///< soft modes of thin shells take a thousand
   double farthest = 100; ///< displacement over the model's extent at which it is given up
+  /// Asked before every step: false to leave the motion there (interrupt). Without it it goes on.
+  std::function<bool()> goes_on{};
 };
 
-enum class JumpEnd { landed, ran_away, stuck };
+enum class JumpEnd { landed, ran_away, stuck, interrupted };
 
 struct JumpResult {
   JumpEnd end{};

@@ -140,6 +140,29 @@ TEST_F(Interrupt, HistoryAndSeriesAreMadeAnewOfTheCheckpoint) {
   expect_same_results("stopped", "straight");
 }
 
+// A strip that curls as it is cut free falls for seconds. No run begins on the way: it falls again.
+TEST_F(Interrupt, AJumpStopsOnItsWay) {
+  const std::string rubber = "shear_modulus = \"500 kPa\"\nrelative_permittivity = 3\n";
+  write("strip.toml",
+        "model = \"3d\"\n[film]\nsection = \"shell\"\nthickness = \"60 um\"\n[film.material]\n" + rubber +
+            "[[film.layer]]\nside = \"above\"\nthickness = \"31.2 um\"\nprestretch = 1.02\n"
+            "[film.layer.material]\n" +
+            rubber +
+            "[rectangle]\nlength = \"20 mm\"\nwidth = \"6 mm\"\n[mesh]\nacross = 3\n[[support]]\n"
+            "place = \"left\"\nfix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n[[step]]\n"
+            "kind = \"release\"\non_instability = \"jump\"\n[output]\nerror_estimate = false\n");
+  const pid_t process = start({"run", "strip.toml", "-o", "stopped"});
+  ASSERT_TRUE(until([&] { return content("stopped/run.log").find("point at") != std::string::npos; }));
+  kill(process, SIGINT);
+  const Ended ended = wait_for(process);
+  ASSERT_EQ(ended.exit_code, 130) << ended.err;
+  EXPECT_EQ(content("stopped/run.log").find("jumped"), std::string::npos);
+  ASSERT_EQ(dielast({"run", "strip.toml", "-o", "stopped", "--resume"}).exit_code, 0);
+  ASSERT_EQ(dielast({"run", "strip.toml", "-o", "straight"}).exit_code, 0);
+  for (const char* file : {"history.csv", "summary.json"})
+    EXPECT_EQ(content(fmt::format("stopped/{}", file)), content(fmt::format("straight/{}", file))) << file;
+}
+
 // What is solved for behind the last step stops, too; everything else is told, and made up for.
 TEST_F(Interrupt, MarginsAndErrorEstimatesStop) {
   write("slow.toml", small_disc + "[output]\nmargins_up_to = 50\n");

@@ -57,6 +57,17 @@ TEST(Jump, finds_nothing_to_land_on_without_a_stretch_limit) {
   EXPECT_GT(state.displacement[0].x(), 100);
 }
 
+TEST(Jump, can_be_interrupted_on_its_way) {
+  const auto model = test::material_point(100);
+  Equilibrium equilibrium(*model, 1);
+  State state = at_stretch(*model, 100, 1.2638044443828862);
+  int asked = 0;
+  const JumpResult left =
+      jump(equilibrium, state, Eigen::VectorXd::Ones(1), {.goes_on = [&] { return ++asked < 4; }});
+  EXPECT_EQ(left.end, JumpEnd::interrupted);
+  EXPECT_EQ(left.steps, 3);
+}
+
 // A column's straight state beyond its buckling load falls to the bent one.
 TEST(Jump, lets_a_column_buckle) {
   const meshing::Mesh mesh = test::line(8, 2, [](double s) { return Eigen::Vector3d(s, 0, 0); });
