@@ -219,7 +219,9 @@ QualityReport quality(const Mesh& mesh) {
                        .smallest_area = infinity,
                        .largest_area = -infinity};
   const Seen seen(mesh);
+  Eigen::AlignedBox3d box;
   for (const CellBlock& block : mesh.blocks) {
+    for (const int node : block.nodes) box.extend(mesh.nodes[static_cast<std::size_t>(node)]);
     if (is_tetrahedron(block.type)) {
       add_tetrahedra(mesh, block, report);
       continue;
@@ -256,6 +258,7 @@ QualityReport quality(const Mesh& mesh) {
       report.angles[std::min(static_cast<std::size_t>(smallest / 10), report.angles.size() - 1)] += 1;
     }
   }
+  if (!box.isEmpty()) report.size = box.sizes();
   if (report.triangles == 0) report.smallest_area = report.largest_area = 0;
   if (report.worst_cell < 0) report.smallest_angle = 0;
   return report;
@@ -307,6 +310,8 @@ std::string format(const QualityReport& report) {
   else
     text += fmt::format("triangles  {}\n", report.triangles);
   text += fmt::format("lines      {}\n", report.lines);
+  const Vector3d size = report.size * 1e3;
+  text += fmt::format("size       {:.4g} x {:.4g} x {:.4g} mm\n", size.x(), size.y(), size.z());
   const int cells = report.triangles + report.tetrahedra;
   if (cells == 0) return text;
   const Vector3d worst = report.worst_place * 1e3;

@@ -13,8 +13,9 @@ namespace dielast::meshing {
 /// tetrahedra those between their faces) and aspect ratios are those of the straight cell of the corners.
 struct QualityReport {
   int nodes = 0, triangles = 0, tetrahedra = 0, meridians = 0, rods = 0, lines = 0;
-  double smallest_angle = 0; ///< degrees
-  int worst_cell = -1;       ///< triangle or tetrahedron with the smallest angle, -1 without any
+  Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< of the cells' nodes along x, y and z, m
+  double smallest_angle = 0;                      ///< degrees
+  int worst_cell = -1; ///< triangle or tetrahedron with the smallest angle, -1 without any
   Eigen::Vector3d worst_place = Eigen::Vector3d::Zero(); ///< its centroid, m
   double largest_aspect =
       0; ///< longest side / (2 sqrt(3) inradius), of tetrahedra 2 sqrt(6): 1 is equilateral

@@ -103,7 +103,7 @@ TEST(Meridian, QualityCountsThem) {
   EXPECT_EQ(report.meridians, 8);
   EXPECT_EQ(report.triangles + report.lines + report.inverted, 0);
   EXPECT_EQ(report.smallest_angle, 0);
-  EXPECT_EQ(format(report), "nodes      17\nmeridians  8\nlines      0\n");
+  EXPECT_EQ(format(report), "nodes      17\nmeridians  8\nlines      0\nsize       1000 x 0 x 2000 mm\n");
 }
 
 TEST(Meridian, ADiscMayBeAllElectrode) {

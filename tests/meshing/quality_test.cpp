@@ -142,6 +142,7 @@ TEST(Quality, IsReadable) {
   EXPECT_EQ(format(quality(two_triangles())), "nodes      6\n"
                                               "triangles  2\n"
                                               "lines      1\n"
+                                              "size       6 x 4 x 0 mm\n"
                                               "area       6.5 mm2 (triangles 0.5 .. 6 mm2)\n"
                                               "angle      36.87 deg at least, triangle 0 at (1, 1.333) mm\n"
                                               "aspect     1.44 at most (1 is equilateral)\n"
@@ -153,7 +154,7 @@ TEST(Quality, IsReadable) {
                                               "  30-40 deg       1 #########################\n"
                                               "  40-50 deg       1 #########################\n"
                                               "  50-60 deg       0\n");
-  EXPECT_EQ(format(quality(Mesh{})), "nodes      0\ntriangles  0\nlines      0\n");
+  EXPECT_EQ(format(quality(Mesh{})), "nodes      0\ntriangles  0\nlines      0\nsize       0 x 0 x 0 mm\n");
 }
 
 } // namespace
