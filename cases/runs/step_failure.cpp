@@ -97,21 +97,26 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
             "other, as in symmetric devices, move one part along by 1e-3 of an element, or model one half";
   if (trouble.critical) {
     const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
+    const bool may_switch = branches_off && step_.on_bifurcation != OnBifurcation::switch_branch &&
+                            ways_on.find("\"follow\"") != std::string::npos;
     if (timed())
       return {
           Ending::gave_up, "limit point",
           fmt::format(
-              "limit point near {}, at {:.6g} s: beyond it no equilibrium follows at the pace of the step.{}",
+              "limit point near {}, at {:.4g} s: beyond it no equilibrium follows at the pace of the step.{}",
               load_text(last(), reached), last().time, more)};
     return {
         Ending::gave_up, "limit point",
-        fmt::format("limit point near {}: equilibrium found {}, none {}at {}{}.{}",
-                    load_text(trouble.critical->load_factor),
-                    reached > 0 ? "up to " + load_text(reached) : "at the beginning of the step",
-                    trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
-                    branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable"
-                                 : "",
-                    more + (branches_off ? of_edges : ""))};
+        fmt::format(
+            "limit point near {}: equilibrium found {}, none {}at {}{}.{}",
+            load_text(trouble.critical->load_factor),
+            reached > 0 ? "up to " + load_text(reached) : "at the beginning of the step",
+            trouble.unstable_modes > 0 ? "that is stable " : "", load_text(trouble.ramp.failed_at),
+            branches_off ? "; a mode that the load does no work on (a bifurcation) makes it unstable" : "",
+            more +
+                (may_switch ? ", or along the branch that leaves there with on_bifurcation = \"switch\""
+                            : "") +
+                (branches_off ? of_edges : ""))};
   }
   if (trouble.unstable_modes > 0 && moves_freely()) return singular();
   if (trouble.unstable_modes > 0)

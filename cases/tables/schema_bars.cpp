@@ -158,7 +158,9 @@ Section rolls_section() {
                              .at_most(1));
   section.keys.push_back(
       word("ribbons",
-           {{"links", "turn freely at their ends; what bends them, E I/length each, is taken with the hinge",
+           {{"links",
+             "turn freely at their ends, and go slack where they would be pushed; what bends them, E "
+             "I/length each, is taken with the hinge",
              RibbonBending::with_hinge},
             {"beams", "are clamped to the tip and bend under the rolls' pull", RibbonBending::own}},
            to(&AntagonisticRolls::ribbons), "how the ribbons bend")

@@ -71,6 +71,10 @@ Node& list_item(Node& list, const Part& part, std::string_view key, const Source
   }
   if (part.number > 0)
     fail(source, key, fmt::format("there is no item {}, only {}", part.number, list.items.size()));
+  if (names.empty() && !list.items.empty() && list.items.front().is(Node::Kind::table))
+    fail(source, key,
+         fmt::format("there is no \"{}\": items of this list go by their numbers, [1] to [{}]", part.name,
+                     list.items.size()));
   if (names.empty())
     fail(source, key, fmt::format("there is no \"{}\" in a list of plain values", part.name));
   fail(source, key,

@@ -12,7 +12,7 @@ namespace dielast::fem {
 namespace {
 
 constexpr double first_damping = 1e-2; ///< c/dt, over the stiffness as drawn
-constexpr double least_damping = 1e-8, most_damping = 1e8;
+constexpr double least_damping = 1e-16, most_damping = 1e8;
 constexpr double quicker = 3, slower = 9; ///< factors of the time step after success and failure
 constexpr double settled = 1e-2;          ///< size of a step from which on Newton's method may finish
 constexpr double round_off = 1e-12;       ///< of an energy, over what it is the difference of

@@ -205,6 +205,57 @@ between = ["start", "end"]
   }
 }
 
+/// A ribbon that the charged roll would push goes slack: the other roll alone turns the tip, whatever the
+/// voltage. Down to such a state the energy falls along a valley that is all but flat.
+TEST_F(Rods, ARollWhoseRibbonGoesSlackLetsItsTipGo) {
+  const auto tip_angle = [this](const char* voltage, const char* key, const char* word) {
+    return values(fmt::format(R"toml(
+[film]
+thickness = "100 um"
+prestretch = 1.02
+[film.material]
+law = "yeoh"
+c1 = "17 kPa"
+c2 = "3.86 kPa"
+c3 = "-68.9 Pa"
+relative_permittivity = 2.8
+[antagonistic_rolls]
+width = "141 mm"
+layers = 2
+electrode_width = "125.8866 mm"
+electrode_length = "15 mm"
+length = "21 mm"
+arm = "0.4 mm"
+[hinge]
+length = "1 mm"
+width = "5 mm"
+thickness = "50 um"
+material = {{ youngs_modulus = "3.3 GPa", poisson_ratio = 0.3 }}
+[ribbon]
+length = "2 mm"
+width = "5 mm"
+thickness = "25 um"
+material = {{ youngs_modulus = "2.675 GPa", poisson_ratio = 0.3 }}
+[drive.upper]
+voltage = "{}"
+[drive.lower]
+voltage = "0 V"
+[[step]]
+kind = "release"
+[[step]]
+kind = "voltage"
+{} = "{}"
+[output]
+error_estimate = false
+)toml",
+                              voltage, key, word))
+        .at("tip_angle");
+  };
+  const double slack = tip_angle("2 kV", "on_instability", "jump");
+  EXPECT_NEAR(slack, 0.1340040, 1e-7);
+  EXPECT_NEAR(slack, tip_angle("1.8 kV", "on_bifurcation", "switch"), 1e-6);
+}
+
 TEST_F(Rods, AnElectrodeLongerThanTheRodIsRefused) {
   write("case.toml", roll("[drive]\nvoltage = \"1 kV\"\n"));
   Case one = read_case(directory / "case.toml", {"rod.electrode_length=22 mm"});
