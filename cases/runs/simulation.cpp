@@ -272,8 +272,8 @@ std::vector<post::Event> Simulation::events(const Step& step, const Measured& me
                                             const fem::Increment& increment, Reached reached, bool ends) {
   std::vector<post::Event> events =
       watch_.check(measured.state, measured.extremes, increment.newton.unstable_modes, ends);
-  if (!events.empty() && reached == Reached::along_path && !increment.jumped && !in_step_.followed &&
-      loads_) {
+  if (!events.empty() && records_ > 0 && reached == Reached::along_path && !increment.jumped &&
+      !in_step_.followed) {
     const fem::RampProgress& ramp = in_step_.ramp;
     const fem::LoadPath path = loads_->path(step_, ramp.start);
     const fem::NewtonOptions newton = loads_->options(step_).newton;

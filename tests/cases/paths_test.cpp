@@ -57,6 +57,19 @@ TEST_F(Paths, a_jump_lands_on_the_far_branch_from_the_limit_itself) {
   }
 }
 
+// There is no way to the drawn state on which the loss of tension could be located.
+TEST_F(Paths, film_drawn_without_tension_has_lost_it_there) {
+  const Run pressed =
+      run("[film]\nthickness = \"0.2 mm\"\nprestretch = [1.2, 0.9]\n[film.material]\n"
+          "shear_modulus = \"45 kPa\"\nrelative_permittivity = 4.7\n[disc]\nradius = \"30 mm\"\n"
+          "[mesh]\nrings = 3\n[drive]\nvoltage = \"0.1 kV\"\n",
+          "max_field");
+  EXPECT_EQ(pressed.outcome.ending, Ending::complete) << pressed.outcome.message;
+  ASSERT_FALSE(pressed.events.empty());
+  EXPECT_EQ(pressed.events.front().kind, "loss of tension");
+  EXPECT_NEAR(pressed.rows.back().value, 0.1e3 * 1.08 / 0.2e-3, 1);
+}
+
 TEST_F(Paths, a_followed_fold_is_one_event) {
   const Run followed = run(pull_in + steps("\"13 kV\"", "kind = \"voltage\"\nincrements = 40\n"
                                                         "on_instability = \"follow\"\n"),
