@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
+#include <utility>
 
 namespace dielast::cases {
 namespace {
@@ -123,7 +125,7 @@ void add_patch_steps(Node& tree) {
   }
 }
 
-/// Each region is an electrode of its name where the user has written none.
+/// Each region is an electrode of its name, as overrides have changed it, where the user has written none.
 void add_region_electrodes(Node& tree) {
   std::vector<std::string> names;
   if (const Node* sectors = tree.find("sectors")) {
@@ -134,18 +136,21 @@ void add_region_electrodes(Node& tree) {
   for (const Node& region : items_of(tree, "region")) // a second one of the name is reported elsewhere
     if (const std::string name = text_at(region, "name"); !name.empty() && !std::ranges::count(names, name))
       names.push_back(name);
-  if (names.empty()) return;
-  const Source source{tree.source.file, 0, 0};
-  Node& electrodes = list_at(tree, "electrode");
-  if (electrodes.source.is_written()) return;
-  electrodes.items.clear();
+  if (names.empty() || list_at(tree, "electrode").source.is_written()) return;
+  std::vector<Node>& electrodes = list_at(tree, "electrode").items;
+  std::vector<Node> changed = std::exchange(electrodes, {});
+  const auto is_written = [](const Node& entry) { return entry.source.is_written(); };
+  std::erase_if(changed, [&](const Node& one) { return std::ranges::none_of(one.items, is_written); });
   for (const std::string& name : names) {
-    Node electrode;
-    electrode.source = source;
-    electrode.add("name", text_node(name, source));
-    electrode.add("place", text_node(name, source));
-    electrodes.items.push_back(std::move(electrode));
+    const auto of_it = std::ranges::find_if(changed, [&](const Node& electrode) {
+      return text_at(electrode, "name") == name || text_at(electrode, "place") == name;
+    });
+    const bool any = of_it != changed.end();
+    electrodes.push_back(
+        any ? *of_it : parse_default(fmt::format("name = {0}\nplace = {0}", toml_string(name)), tree));
+    if (any) changed.erase(of_it);
   }
+  std::ranges::move(changed, std::back_inserter(electrodes)); // of no region: told where it is read
 }
 
 } // namespace

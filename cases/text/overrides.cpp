@@ -105,13 +105,20 @@ void remove(Node& tree, const std::vector<Part>& parts, std::string_view key, co
     if (table)
       table = table->is(Node::Kind::list) ? &list_item(*table, parts[i], key, source)
                                           : table->find(parts[i].name);
+  const auto require_written = [&](const Node& node) {
+    if (!node.source.is_written())
+      fail(source, key,
+           "the device brings it, whatever is removed: write what there shall be in its place in the file");
+  };
   if (table && table->is(Node::Kind::list)) {
     const Node& item = list_item(*table, parts.back(), key, source);
+    require_written(item);
     table->items.erase(table->items.begin() + (&item - table->items.data()));
     return;
   }
   const std::string& name = parts.back().name;
   if (!table || !table->find(name)) fail(source, key, "there is no such key to remove");
+  require_written(*table->find(name));
   table->remove(name);
 }
 

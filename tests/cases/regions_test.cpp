@@ -315,6 +315,22 @@ response_of = "tilt_x"
   }
 }
 
+// They were valid, and without any effect: electrodes were made anew of the regions.
+TEST_F(Regions, OverridesReachTheirElectrodes) {
+  const std::string text = manipulator + "[pivot]\nheight = \"10 mm\"\n";
+  const Case one = read(text, {"electrode[1].stray_capacitance=1 nF", "electrode.c.stray_capacitance=2 nF"});
+  EXPECT_EQ(electrodes_of(one), (Names{"a", "b", "c", "d"}));
+  EXPECT_EQ(one.electrodes[0].stray_capacitance, 1e-9);
+  EXPECT_EQ(one.electrodes[1].stray_capacitance, 0);
+  EXPECT_EQ(one.electrodes[2].stray_capacitance, 2e-9);
+  for (const char* wrong : {"electrode[1].banana=1", "electrode.a.stray_capacitance=banana",
+                            "electrode.a=", "electrode=", "electrode.e.stray_capacitance=1 nF"})
+    EXPECT_THROW(read(text, {wrong}), CaseError) << wrong;
+  const Case three = read(text, {"electrode.d.stray_capacitance=1 nF", "sectors.count=3"}); // it has no place
+  EXPECT_EQ(three.electrodes.size(), 4U);
+  EXPECT_THROW(build_device(three), CaseError);
+}
+
 // Differences of the solved tilts under voltages a little apart.
 TEST_F(Regions, TheResponseOfATiltIsItsSlope) {
   const std::string text = manipulator + "[pivot]\nheight = \"10 mm\"\n";
