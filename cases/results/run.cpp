@@ -146,6 +146,8 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
     return *ended;
   }
   if (!settings.resume) folder.begin();
+  if (settings.resume && folder.names().empty() && read_text(folder / resolved_name) == resolved_text(one))
+    folder.adopt();
   Simulation simulation(one, settings.threads);
   Recorder recorder(one, simulation, folder, settings.resume);
   spdlog::logger log = make_logger(settings, folder);

@@ -193,7 +193,14 @@ void ResultsFolder::begin(std::vector<std::string> kept) {
 void ResultsFolder::add(const std::string& name) {
   if (!is_plain(name))
     throw std::runtime_error(fmt::format("\"{}\" cannot be the name of a file of results", name));
-  if (!listed_.insert(name).second) return;
+  if (listed_.contains(name)) return;
+  std::error_code unknown;
+  const fs::file_status there = fs::symlink_status(path_ / name, unknown);
+  if (fs::exists(there) && !fs::is_directory(there) && !is_adopted_)
+    throw std::runtime_error(
+        fmt::format("{}: is none of these results, and would be overwritten; move it or {}",
+                    (path_ / name).string(), choose));
+  listed_.insert(name);
   write_all(manifest_, line_of(name), path_ / manifest_name);
   names_.push_back(name);
 }

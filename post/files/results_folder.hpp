@@ -17,7 +17,8 @@ struct FolderInUse : std::runtime_error {
 };
 
 /// A folder of results, which no other process can own while this lives, and its manifest: the list of what
-/// belongs to the results. What the manifest does not list is foreign and is never removed.
+/// belongs to the results. What the manifest does not list is foreign and is never removed or
+/// overwritten.
 ///
 /// manifest.txt has a line for the command whose results they are, then one line per file or inner folder of
 /// results, written before it is made, so that a command killed at any moment leaves nothing unlisted, and,
@@ -43,7 +44,10 @@ class ResultsFolder {
   /// Begins results, or goes on with them: removes everything that is listed but not in `kept`, inner folders
   /// with what their own manifests list.
   void begin(std::vector<std::string> kept = {});
-  /// Lists a name that is about to be made; listing it again does nothing. Throws WriteError.
+  /// The manifest was lost: files that have names of results are results.
+  void adopt() { is_adopted_ = true; }
+  /// Lists a name that is about to be made; listing it again does nothing. Throws WriteError, and
+  /// std::runtime_error where a foreign file has the name.
   void add(const std::string& name);
   /// Lists a file and writes it atomically. Throws WriteError.
   void write(const std::string& name, std::string_view bytes);
@@ -57,6 +61,7 @@ class ResultsFolder {
   std::vector<std::string> names_;
   std::set<std::string> listed_; ///< the same names
   std::optional<int> exit_code_;
+  bool is_adopted_ = false;
 };
 
 } // namespace dielast::post

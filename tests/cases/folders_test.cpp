@@ -67,6 +67,17 @@ TEST_F(Folders, NothingOfAnotherCaseStaysAndForeignFilesDo) {
   EXPECT_EQ(content("out/notes.txt"), "mine");
 }
 
+// A measured history.csv beside the case was replaced by the run's.
+TEST_F(Folders, WhatIsForeignIsNotOverwritten) {
+  write("out/history.csv", "mine");
+  const Ended ended = run();
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("out/history.csv: is none of these results"), std::string::npos) << ended.err;
+  EXPECT_EQ(content("out/history.csv"), "mine");
+  EXPECT_EQ(run({"--resume"}).exit_code, 1);
+  EXPECT_EQ(content("out/history.csv"), "mine");
+}
+
 TEST_F(Folders, EveryCommandHasItsOwn) {
   write("small-study.toml", "case = \"small.toml\"\n[study]\nvary = { \"drive.voltage\" = [\"2 kV\"] }\n");
   std::filesystem::rename(directory / "small.toml", directory / "one.toml");

@@ -73,6 +73,18 @@ TEST_F(ResultsFolderTest, NothingOfOlderResultsStaysAndWhatIsForeignDoes) {
   EXPECT_FALSE(folder.complete());
 }
 
+TEST_F(ResultsFolderTest, WhatIsForeignIsNotOverwritten) {
+  make_results();
+  foreign("c.csv");
+  ResultsFolder folder(path, "run");
+  folder.begin();
+  folder.write("a.csv", "again");
+  EXPECT_THROW(folder.write("c.csv", "c"), std::runtime_error);
+  EXPECT_EQ(text("c.csv"), "foreign");
+  EXPECT_EQ(text("a.csv"), "again");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.csv"});
+}
+
 TEST_F(ResultsFolderTest, GoesOnWithWhatIsKept) {
   make_results();
   foreign("a.csv.part"); // of a run that was killed
@@ -166,11 +178,9 @@ TEST_F(ResultsFolderTest, PlantedLinksAreNotFollowed) {
   std::filesystem::create_symlink(directory / "mine", path / "b.csv");
   ResultsFolder folder(path, "run");
   folder.write("a.csv", "a");
-  folder.write("b.csv", "b");
+  EXPECT_THROW(folder.write("b.csv", "b"), std::runtime_error);
   EXPECT_EQ(content("mine"), "mine");
   EXPECT_EQ(text("a.csv"), "a");
-  EXPECT_EQ(text("b.csv"), "b");
-  EXPECT_FALSE(std::filesystem::is_symlink(path / "b.csv"));
   std::filesystem::create_directory(directory / "other");
   std::filesystem::create_symlink(directory / "mine", directory / "other/manifest.txt");
   EXPECT_THROW(ResultsFolder(directory / "other", "run"), WriteError);
