@@ -139,15 +139,18 @@ std::vector<std::string> warnings_of_held_quantities(const Case& one, const mesh
     if (quantity.standard) continue;
     ++number;
     if (quantity.kind->word != "displacement" || !mesh.node_sets.contains(quantity.of)) continue;
+    const bool falls = quantity.along == along_gravity;
     bool rests = true;
     for (int axis = 0; axis < 3; ++axis)
-      if (!quantity.along || axis == std::min(*quantity.along, 2))
+      if (falls ? one.gravity.direction[axis] != 0 : quantity.along.value_or(axis) == axis)
         rests = rests && held.rests(quantity.of, axis);
     if (rests)
       warnings.push_back(
           one.warning_at(fmt::format("quantity[{}].of", number),
                          fmt::format("all nodes of \"{}\" are held{}: \"{}\" is always 0", quantity.of,
-                                     quantity.along ? fmt::format(" along {}", "xyzz"[*quantity.along]) : "",
+                                     falls            ? " along gravity"
+                                     : quantity.along ? fmt::format(" along {}", "xyz"[*quantity.along])
+                                                      : "",
                                      quantity.name)));
   }
   return warnings;

@@ -117,6 +117,13 @@ TEST_F(DeviceWarnings, DisplacementsOfWhatIsHeld) {
   };
   EXPECT_TRUE(warns(strip("left", "z"), "quantity[1].of: all nodes of \"left\" are held along z"));
   EXPECT_FALSE(warns(strip("right", "z"), "is always 0"));
+  EXPECT_TRUE(warns(strip("left", "gravity"), "all nodes of \"left\" are held along gravity"));
+  const std::string hung =
+      film("thickness = \"0.1 mm\"") +
+      "[rectangle]\nlength = \"30 mm\"\nwidth = \"6 mm\"\n[gravity]\ndirection = [0, -1, "
+      "0]\n[[quantity]]\nname = \"tip\"\nkind = \"displacement\"\nof = \"right\"\nalong = "
+      "\"gravity\"\n[[support]]\nplace = \"left\"\nfix = [\"x\", \"y\"]\n";
+  EXPECT_FALSE(warns(hung, "is always 0")); // a plane is held along z, along which nothing falls
   const std::string pinned =
       "model = \"3d\"\n" + film("thickness = \"1 mm\"\nprestretch = [4, 2.5]") +
       "[honeycomb]\nangle = \"150 deg\"\ncolumns = [1, 2, 1]\nwall_length = \"8 mm\"\n"
