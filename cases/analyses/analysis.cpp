@@ -38,7 +38,9 @@ Analysis modes(const Case& one, const Device& given, fem::Equilibrium& equilibri
   }
   const auto found =
       fem::vibration_modes(loose.equilibrium(), state, {.count = step.count, .drifts = loose.drifts()});
-  if (!found) throw AnalysisError("no modes found: the device is at a critical point");
+  if (!found)
+    throw AnalysisError("no modes found: the device is at a critical point, or "
+                        "more modes than can be told apart lie next to one another");
   Analysis analysis{.kind = step.kind,
                     .step = step.name,
                     .columns = {"mode[1]", "frequency[Hz]", "angular_frequency[rad/s]", "stiffness[1/s^2]"}};

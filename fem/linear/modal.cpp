@@ -15,9 +15,11 @@ namespace dielast::fem {
 namespace {
 
 constexpr int spare_vectors = 6, powers = 4, most_sweeps = 100;
-constexpr double tolerance = 1e-6;        ///< of modes; that of omega^2 is its square
-constexpr double farther = 10;            ///< shifts one after another
-constexpr double omega_round_off = 1e-13; ///< of omega^2, over that of the stiffest unknowns
+constexpr int patience = 5;                ///< sweeps after which twice as many vectors are kept,
+constexpr Eigen::Index most_vectors = 200; ///< up to so many
+constexpr double tolerance = 1e-6;         ///< of modes; that of omega^2 is its square
+constexpr double farther = 10;             ///< shifts one after another
+constexpr double omega_round_off = 1e-13;  ///< of omega^2, over that of the stiffest unknowns
 
 /// As the state is, but for what moves with a vibration.
 State vibrating(const State& state, bool instantaneous) {
@@ -54,7 +56,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   const Eigen::Index elastic = massive - rigid.motions.cols();
   const Eigen::Index wanted = std::min<Eigen::Index>(options.count, elastic);
   if (wanted <= 0) return std::vector<VibrationMode>{};
-  const Eigen::Index width = std::min(elastic, wanted + spare_vectors);
+  Eigen::Index width = std::min(elastic, wanted + spare_vectors);
 
   double shift = 0;
   const auto factor = [&](double shifted) {
@@ -132,7 +134,11 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
       converged = true;
       break;
     }
-    if (!converged) continue;
+    if (!converged) { // of many that lie close to one another all are needed, as of waves across slack film
+      if (sweep % patience == patience - 1)
+        width = std::min({elastic, 2 * width, std::max(width, most_vectors)});
+      continue;
+    }
     Eigen::MatrixXd shapes = X.leftCols(found);
     for (auto shape : shapes.colwise()) shape /= std::sqrt(shape.dot(M * shape));
     stiffness.conservativeResize(found);

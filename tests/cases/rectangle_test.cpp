@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace dielast::cases::rectangle_test {
 namespace {
@@ -142,6 +143,23 @@ TEST_F(RectangleTest, TurnedByARightAngleItIsTheSame) {
   EXPECT_GT(y, x);
   EXPECT_NEAR(last(high, other, "strain_y"), x, 2e-3 * x);
   EXPECT_NEAR(last(high, other, "strain_x"), y, 2e-3 * y);
+}
+
+// Film that is slack along y carries waves along x of any shape across, all of one frequency.
+TEST_F(RectangleTest, WavesOfFilmThatIsSlackAcrossThemAreFound) {
+  for (const char* across : {"10", "12"}) {
+    const Case one =
+        read("length = \"60 mm\"\n",
+             "[mesh]\nacross = 4\n[[step]]\nkind = \"release\"\n[[step]]\nkind = \"modes\"\ncount = 1\n"
+             "[[quantity]]\nname = \"w\"\nkind = \"natural frequency\"\n[output]\nerror_estimate = false\n",
+             {"model=3d", "film.wrinkling=tension field", "film.prestretch=[1.4, 0.8]",
+              "film.material.density=1000 kg/m^3", std::string("mesh.across=") + across});
+    Simulation simulation(one, 1);
+    ASSERT_EQ(simulation.run({}).ending, Ending::complete);
+    const double stress = mu * (1.4 * 1.4 - 1 / 1.4), length = 60e-3;
+    EXPECT_NEAR(last(one, simulation, "w"), std::numbers::pi / length * std::sqrt(stress / 1000), 0.02)
+        << across;
+  }
 }
 
 TEST_F(RectangleTest, HasCoarserMeshes) {
