@@ -77,13 +77,16 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   const auto takes_threads = [&](CLI::App* command, const char* meaning) {
     command->add_option("-j,--threads", arguments.threads, meaning)->check(CLI::Range(0, 1024));
   };
+  const auto may_be_quiet = [&](CLI::App* command) {
+    command->add_flag("-q,--quiet", arguments.quiet, "nothing on the terminal but errors");
+  };
 
   auto* run_command = takes_case(add("run", "run a case: history, ParaView series, summary, report"));
   takes_overrides(run_command);
   takes_directory(run_command);
   takes_threads(run_command, "threads [every core]; the results do not depend on it");
   run_command->add_flag("--resume", arguments.resume, "go on where an interrupted run stopped");
-  run_command->add_flag("-q,--quiet", arguments.quiet, "nothing on the terminal but errors");
+  may_be_quiet(run_command);
 
   auto* check_command = takes_case(add("check", "validate a case and mesh it, without running"));
   takes_overrides(check_command);
@@ -102,7 +105,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   takes_threads(study_command, "points at a time [every core]");
   study_command->add_flag("--resume", arguments.resume,
                           "keep the points that are done, go on with the others");
-
+  may_be_quiet(study_command);
   study_command->add_flag("--dry-run", arguments.dry_run,
                           "list the points and try one, for an estimate of time and disk");
   study_command->add_option("--slurm", arguments.slurm,
@@ -120,11 +123,13 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   takes_overrides(linearise_command);
   takes_directory(linearise_command);
   takes_threads(linearise_command, "threads [every core]");
+  may_be_quiet(linearise_command);
 
   auto* fit_command = takes_case(
       add("fit", "fit a material to measured tests, or keys of a case to what was measured on the device"));
   takes_directory(fit_command);
   fit_command->add_flag("--resume", arguments.resume, "do nothing where the fit has run to its end");
+  may_be_quiet(fit_command);
 
   auto* info_command =
       add("info", "explain a topic, or any device, law, quantity, step, section or key by its name");

@@ -237,6 +237,7 @@ int main(int argc, char** argv) {
     cases::say(stderr, "{}\n", cases::explanation(app, error, words));
     return static_cast<int>(ExitCode::usage_or_file);
   }
+  if (arguments.quiet) cases::close_standard_output();
   const std::string name = app.get_subcommands().front()->get_name();
   return static_cast<int>(finish_output(guarded(functions.at(name), arguments)));
 }

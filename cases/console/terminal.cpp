@@ -51,6 +51,8 @@ void open_standard_streams() {
       (void)!::open("/dev/null", O_RDWR); // takes the lowest number that is free
 }
 
+void close_standard_output() { (void)!std::freopen("/dev/null", "w", stdout); }
+
 ExitCode finish_output(ExitCode code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   struct stat status {};

@@ -29,6 +29,9 @@ void show(const std::string& text);
 /// place, and what is printed would be written into it.
 void open_standard_streams();
 
+/// From here on nothing is printed to the standard output.
+void close_standard_output();
+
 /// The command's exit code: usage_or_file where it was ok but the standard output could not be written. A
 /// pipe whose reader has gone is no error.
 ExitCode finish_output(ExitCode code);

@@ -116,7 +116,7 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
             more +
                 (may_switch ? ", or along the branch that leaves there with on_bifurcation = \"switch\""
                             : "") +
-                (branches_off ? of_edges : ""))};
+                of_edges)};
   }
   if (trouble.unstable_modes > 0 && moves_freely()) return singular();
   if (trouble.unstable_modes > 0)

@@ -29,6 +29,18 @@ TEST_F(ExitCodes, QuietRunsSayNothing) {
   EXPECT_NE(content("small-results/run.log"), "");
 }
 
+TEST_F(ExitCodes, QuietStudiesAndModelsSayNothing) {
+  write("study.toml", "case = \"small.toml\"\n[study]\nvary = { \"drive.voltage\" = [\"1 kV\", \"2 kV\"] }\n"
+                      "collect = [\"eps_x\"]\n");
+  for (const char* command : {"study", "linearise"}) {
+    const Ended ended =
+        dielast({command, command == std::string("study") ? "study.toml" : "small.toml", "-q"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(ended.out, "") << command;
+  }
+  EXPECT_TRUE(exists("study-study/study.csv"));
+}
+
 TEST_F(ExitCodes, OneForWrongUsage) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{},
