@@ -155,6 +155,10 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
       row.error = margin->error;
       row.error_remark = margin->remark;
     }
+    if (!std::isfinite(row.value) && row.error_remark.empty() && outcome.ending == Ending::complete)
+      row.error_remark = quantity.kind->vibrates
+                             ? "no value: too little has a mass, or modes lie too close to one another"
+                             : "no value in this state";
     results.quantities.push_back(std::move(row));
   }
   for (const Check& check : one.checks) {

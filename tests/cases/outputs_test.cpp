@@ -41,6 +41,15 @@ TEST_F(Outputs, SeriesOfTheLastStates) {
   EXPECT_EQ(last_ended, (std::vector<std::string>{all_ended[0], all_ended[1], all_ended.back()}));
 }
 
+TEST_F(Outputs, AQuantityWithoutAValueSaysWhy) {
+  write("light.toml", small_disc + "[[quantity]]\nname = \"w\"\nkind = \"natural frequency\"\n");
+  ASSERT_EQ(dielast({"run", "light.toml", "-o", "out", "--set", "film.material.density=0 kg/m^3"}).exit_code,
+            0);
+  const nlohmann::json w = json_of("out/summary.json")["quantities"]["w"];
+  EXPECT_TRUE(w["value"].is_null());
+  EXPECT_NE(w["error_remark"].get<std::string>().find("no value"), std::string::npos) << w;
+}
+
 // The page begins with what the user has asked for, and shows neither zeros nor curves of nothing.
 TEST_F(Outputs, ThePageShowsTheUsersQuantitiesFirst) {
   write("own.toml", small_honeycomb + "[[quantity]]\nname = \"my_distance\"\nkind = \"distance\"\n"
