@@ -45,13 +45,9 @@ double beyond_in(const fem::State& state, const Device& device, const Threshold&
 /// Of the polynomial through the values at all points.
 template<class Value>
 double value_at(double parameter, std::span<const fem::PathPoint> points, Value&& value) {
+  const std::vector<double> weights = fem::weights_at(points, parameter);
   double sum = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    double term = value(i);
-    for (std::size_t j = 0; j < points.size(); ++j)
-      if (j != i) term *= (parameter - points[j].parameter) / (points[i].parameter - points[j].parameter);
-    sum += term;
-  }
+  for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * value(i);
   return sum;
 }
 

@@ -39,12 +39,17 @@ Eigen::Vector3d angle_near(const Eigen::Quaterniond& rotation, const Eigen::Vect
   return (near - expected).norm() <= turn / 2 ? near : expected;
 }
 
-State extrapolate(std::span<const PathPoint> points, double parameter) {
+std::vector<double> weights_at(std::span<const PathPoint> points, double parameter) {
   std::vector<double> weight(points.size(), 1.0);
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j < points.size(); ++j)
       if (j != i)
         weight[i] *= (parameter - points[j].parameter) / (points[i].parameter - points[j].parameter);
+  return weight;
+}
+
+State extrapolate(std::span<const PathPoint> points, double parameter) {
+  const std::vector<double> weight = weights_at(points, parameter);
   const State& last = points.back().state;
   State result = last;
   for (std::size_t n = 0; n < last.displacement.size(); ++n) {

@@ -88,6 +88,9 @@ struct PathPoint {
   State state;
 };
 
+/// Of the values at `points` (of distinct parameters) in the polynomial through them, taken at `parameter`.
+std::vector<double> weights_at(std::span<const PathPoint> points, double parameter);
+
 /// Polynomial through all `points` (one or more, of distinct parameters), taken at `parameter`: displacements
 /// and scalars directly, rotations through their vectors relative to the last point. Voltages and forces are
 /// those of the last point.
