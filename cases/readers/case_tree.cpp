@@ -10,6 +10,7 @@
 #include "cases/tables/patch.hpp"
 #include "cases/tables/regions.hpp"
 #include "cases/tables/templates.hpp"
+#include "cases/text/overrides.hpp"
 
 #include <fmt/format.h>
 
@@ -138,9 +139,11 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   add_pivot_support(one);
   for (Part& part : one.parts)
     if (part.mesh.rings == 0) part.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
-  if (one.solver.smallest_increment == 0) { // thin shells bend far under little
-    const auto is_shell = [](const Film& film) { return film.section == FilmSection::shell; };
-    one.solver.smallest_increment = one.any_film(is_shell) ? 1e-5 : 1e-3;
+  if (one.solver.smallest_increment == 0) { // thin plates bend far under little
+    const auto is_plate = [](const Film& film) {
+      return film.section == FilmSection::shell || film.section == FilmSection::solid;
+    };
+    one.solver.smallest_increment = one.any_film(is_plate) ? 1e-5 : 1e-3;
   }
 
   require_known(reader, Reference::electrode, "electrode", names_of(one.electrodes, &Electrode::name));
@@ -167,6 +170,16 @@ Node read_case_file(const std::filesystem::path& path) {
   Node tree = read_tree(path);
   add_defaults(tree);
   return tree;
+}
+
+void override_case(Node& tree, std::string_view key, std::string_view value, const Source& source) {
+  apply_override(tree, key, value, source);
+  add_defaults(tree);
+}
+
+void override_case(Node& tree, std::string_view assignment) {
+  apply_override(tree, assignment);
+  add_defaults(tree);
 }
 
 } // namespace dielast::cases

@@ -191,7 +191,7 @@ void find_unknowns(SectionReader& reader, const Node& section, Node base, const 
       reader.report(start->items[i].key_source, "identify.start",
                     fmt::format("found {}: none of the unknowns", toml_string(start->keys[i])));
     else
-      apply_override(base, start->keys[i], text_of(start->items[i]), start->items[i].source);
+      override_case(base, start->keys[i], text_of(start->items[i]), start->items[i].source);
   }
   const Node& written = *section.find("unknowns");
   for (std::size_t i = 0; i < asked.keys.size(); ++i) {
@@ -301,7 +301,7 @@ Identification read_identification(const std::filesystem::path& path) {
     const std::string test_path = fmt::format("identify.test[{}]", t + 1);
     read_settings(reader, tests.items[t], test_path, asked.keys, asked.tests[t]);
     Node with = base;
-    for (const std::string& setting : asked.tests[t].settings) apply_override(with, setting);
+    for (const std::string& setting : asked.tests[t].settings) override_case(with, setting);
     DeviceTest& test = asked.tests[t];
     const Case changed = interpret(with, asked.base);
     load(test.file, path.parent_path(), {tests.items[t], test_path}, wrong,

@@ -2,7 +2,6 @@
 #include "cases/readers/reader.hpp"
 
 #include "cases/readers/case_tree.hpp"
-#include "cases/text/overrides.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +28,7 @@ Case read(const std::filesystem::path& path, const std::vector<std::string>& ove
   };
   for (const std::string& assignment : overrides) {
     try {
-      apply_override(tree, assignment);
+      override_case(tree, assignment);
     } catch (const CaseError& error) {
       gather(error);
     }

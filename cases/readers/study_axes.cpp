@@ -3,7 +3,6 @@
 
 #include "cases/readers/case_tree.hpp"
 #include "cases/text/expression.hpp"
-#include "cases/text/overrides.hpp"
 #include "cases/text/units.hpp"
 
 #include <fmt/format.h>
@@ -102,7 +101,7 @@ void try_values(SectionReader& reader, const Node& base, const Study& study,
                 const std::string& axis, std::set<std::string>& told) {
   try {
     Node tree = base;
-    for (const auto& [key, value] : values) apply_override(tree, key, value, source);
+    for (const auto& [key, value] : values) override_case(tree, key, value, source);
     interpret(std::move(tree), study.base);
   } catch (const CaseError& error) {
     for (const Diagnostic& wrong : error.diagnostics()) {

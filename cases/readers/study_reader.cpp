@@ -26,7 +26,7 @@ void read_settings(SectionReader& reader, const Node& section, Node& base, Study
   }
   for (std::size_t i = 0; i < set->items.size(); ++i) {
     const std::string value = text_of(set->items[i]);
-    apply_override(base, set->keys[i], value, set->items[i].source);
+    override_case(base, set->keys[i], value, set->items[i].source);
     study.settings.push_back(set->keys[i] + "=" + value);
   }
 }
@@ -186,12 +186,12 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
           fmt::format("found {}, which is a study of another case: name that", text_of(*base_name))}});
   if (const Node* output = base.find("output"); !output || !output->find("states")) {
     study.settings.emplace_back("output.states=\"last\""); // a grid of whole series fills disks
-    apply_override(base, study.settings.back());
+    override_case(base, study.settings.back());
   }
   read_settings(reader, *section, base, study);
   for (const std::string& assignment : overrides) {
     if (is_within(key_of(assignment), "study")) continue; // is in the tree of this file
-    apply_override(base, assignment);
+    override_case(base, assignment);
     study.settings.push_back(assignment);
   }
   base_case = interpret(base, study.base); // its own errors come first: nothing can be varied without it

@@ -4,15 +4,14 @@
 #include "cases/language/convert.hpp"
 #include "cases/language/schema.hpp"
 #include "cases/language/turned_quantities.hpp"
+#include "cases/text/overrides.hpp"
 #include "cases/text/units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <set>
-#include <utility>
 
 namespace dielast::cases {
 namespace {
@@ -111,13 +110,12 @@ Node& list_at(Node& tree, const std::string& key) {
   return tree.add(key, std::move(list));
 }
 
-/// Adds the default steps of a patch; to default steps those that an override has made necessary.
+/// Adds the default steps of a patch.
 void add_patch_steps(Node& tree) {
   const Source source{tree.source.file, 0, 0};
   Node& steps = list_at(tree, "step");
-  if (steps.source.line > 0 || steps.source.file.text() != source.file.text()) return; // written
+  if (steps.source.is_written()) return;
   for (const std::string& kind : patch_steps(tree)) {
-    if (std::ranges::any_of(steps.items, [&](const Node& s) { return text_at(s, "kind") == kind; })) continue;
     Node step;
     step.source = source;
     step.add("kind", text_node(kind, source));
@@ -125,7 +123,7 @@ void add_patch_steps(Node& tree) {
   }
 }
 
-/// Each region is an electrode of its name, as overrides have changed it, where the user has written none.
+/// Each region is an electrode of its name where the user has written none.
 void add_region_electrodes(Node& tree) {
   std::vector<std::string> names;
   if (const Node* sectors = tree.find("sectors")) {
@@ -138,19 +136,9 @@ void add_region_electrodes(Node& tree) {
       names.push_back(name);
   if (names.empty() || list_at(tree, "electrode").source.is_written()) return;
   std::vector<Node>& electrodes = list_at(tree, "electrode").items;
-  std::vector<Node> changed = std::exchange(electrodes, {});
-  const auto is_written = [](const Node& entry) { return entry.source.is_written(); };
-  std::erase_if(changed, [&](const Node& one) { return std::ranges::none_of(one.items, is_written); });
-  for (const std::string& name : names) {
-    const auto of_it = std::ranges::find_if(changed, [&](const Node& electrode) {
-      return text_at(electrode, "name") == name || text_at(electrode, "place") == name;
-    });
-    const bool any = of_it != changed.end();
-    electrodes.push_back(
-        any ? *of_it : parse_default(fmt::format("name = {0}\nplace = {0}", toml_string(name)), tree));
-    if (any) changed.erase(of_it);
-  }
-  std::ranges::move(changed, std::back_inserter(electrodes)); // of no region: told where it is read
+  electrodes.clear();
+  for (const std::string& name : names)
+    electrodes.push_back(parse_default(fmt::format("name = {0}\nplace = {0}", toml_string(name)), tree));
 }
 
 } // namespace
@@ -321,6 +309,7 @@ std::vector<Node> template_quantities(const Node& tree, const Template& device, 
 
 void add_defaults(Node& tree) {
   const Source source{tree.source.file, 0, 0};
+  const Node before = take_brought(tree); // overrides may have made another device of it
   const std::array keys{"electrode", "support"};
   std::array<bool, 2> written{};
   for (std::size_t k = 0; k < keys.size(); ++k) written[k] = tree.find(keys[k]);
@@ -340,6 +329,11 @@ void add_defaults(Node& tree) {
   add_gravity_of_strip(tree);
   add_solid_defaults(tree);
   add_model(tree);
+  for (std::size_t i = 0; i < before.items.size(); ++i)
+    if (is_changed(before.items[i])) {
+      Node& list = list_at(tree, before.keys[i]);
+      list = with_changes(list, before.items[i]);
+    }
 }
 
 void add_inertia(Node& tree) {

@@ -99,6 +99,15 @@ Node& descend(Node& node, const Part& part, std::string_view key, const Source& 
   return node.add(part.name, std::move(made));
 }
 
+/// Whether an item that a device brings is the one that overrides have changed.
+bool is_same_item(const Node& fresh, const Node& changed) {
+  for (const char* key : {"name", "kind", "place"}) {
+    const Node* node = changed.find(key);
+    if (!(node && is_changed(*node)) && text_at(fresh, key) != text_at(changed, key)) return false;
+  }
+  return true;
+}
+
 void remove(Node& tree, const std::vector<Part>& parts, std::string_view key, const Source& source) {
   Node* table = &tree;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i)
@@ -130,6 +139,41 @@ void apply_override(Node& tree, std::string_view key, std::string_view value, co
   Node* node = &tree;
   for (const Part& part : parts) node = &descend(*node, part, key, source);
   *node = parse_value(value, source);
+}
+
+bool is_changed(const Node& node) {
+  return node.source.is_written() || std::ranges::any_of(node.items, is_changed);
+}
+
+Node take_brought(Node& tree) {
+  Node brought;
+  for (std::size_t i = tree.items.size(); i-- > 0;) {
+    const Node& node = tree.items[i];
+    if (node.source.is_written() || node.is(Node::Kind::table)) continue;
+    brought.add(tree.keys[i], node);
+    tree.remove(brought.keys.back());
+  }
+  return brought;
+}
+
+Node with_changes(Node fresh, const Node& before) {
+  std::vector<bool> taken(fresh.items.size());
+  for (const Node& changed : before.items) {
+    if (!is_changed(changed)) continue;
+    std::size_t i = 0;
+    while (i < taken.size() && (taken[i] || !is_same_item(fresh.items[i], changed))) ++i;
+    if (i == taken.size()) {
+      fresh.items.push_back(changed);
+      continue;
+    }
+    taken[i] = true;
+    for (std::size_t k = 0; k < changed.items.size(); ++k) {
+      if (!is_changed(changed.items[k])) continue;
+      fresh.items[i].remove(changed.keys[k]);
+      fresh.items[i].add(changed.keys[k], changed.items[k]);
+    }
+  }
+  return fresh;
 }
 
 Node value_at(Node tree, std::string_view key) {

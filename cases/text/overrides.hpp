@@ -15,6 +15,17 @@ namespace dielast::cases {
 /// behind the "=" removes the key, or the item. The new nodes' source is `source`. Throws CaseError.
 void apply_override(Node& tree, std::string_view key, std::string_view value, const Source& source);
 
+/// Whether the user has given a node, or anything within it.
+bool is_changed(const Node& node);
+
+/// Takes out of a tree what a device has brought: lists and words at its top that the user has not given
+/// whole.
+Node take_brought(Node& tree);
+
+/// What a device brings anew, with all that overrides have changed of what it had brought before: in lists of
+/// items that had one name, kind and place; items that it brings no more stand behind.
+Node with_changes(Node fresh, const Node& before);
+
 /// What stands at the path of a key; an empty table where nothing does. Throws CaseError as apply_override.
 Node value_at(Node tree, std::string_view key);
 
