@@ -115,7 +115,7 @@ Section solver_section() {
           .otherwise("25"),
       number("smallest_increment", to(&SolverOptions::smallest_increment),
              "part of a step below which it gives up, where longer parts have led to another branch a "
-             "hundredth of it; without it 1e-3, with a shell 1e-5")
+             "hundredth of it; without it 1e-3, with a shell or solids 1e-5")
           .at_least(1e-12)
           .at_most(1)
           .optional(),

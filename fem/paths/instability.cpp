@@ -348,7 +348,8 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   const bool slides = has_friction(equilibrium.model());
   const auto is_close = [&] {
     const double first = points.front().mode ? std::abs(points.front().mode->eigenvalue) : 0;
-    return std::abs(extrapolated() - last.s) < (slides ? near_with_friction : near) &&
+    const double ahead = std::copysign(1.0, end - s_before) * (extrapolated() - last.s);
+    return ahead > -load_tolerance && ahead < (slides ? near_with_friction : near) &&
            (!slides || std::abs(last.mode->eigenvalue) < fallen * first);
   };
   const bool vanishes = points.size() > 1 ? is_close() : std::abs(last.mode->eigenvalue) < vanished;

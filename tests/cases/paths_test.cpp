@@ -328,5 +328,30 @@ TEST_F(Paths, film_without_mass_takes_a_jump_under_a_heavy_plate) {
   EXPECT_EQ(lifted.outcome.ending, Ending::complete) << lifted.outcome.message;
 }
 
+// Thin and clamped, of solid film: under 1 % of its load it bends so far that Newton's method creeps, and its
+// lowest eigenvalue, all but zero at first, grows.
+TEST_F(Paths, a_thin_plate_of_solid_film_has_no_limit_point) {
+  const auto plate = [this](int increments, const std::string& solver) {
+    return run(
+        "model = \"axisymmetric\"\n[film]\nthickness = \"1 mm\"\nsection = \"solid\"\n[film.material]\n"
+        "shear_modulus = \"40 kPa\"\nrelative_permittivity = 4.7\n[slab]\nlength = \"50 mm\"\nheight = "
+        "\"1 mm\"\n[mesh]\nacross = 2\ngrading = 3\n[chamber]\npressure = \"100 Pa\"\nat = \"bottom\"\n"
+        "[[support]]\nplace = \"right\"\nfix = [\"x\", \"z\"]\n[[support]]\nplace = \"left\"\nfix = "
+        "[\"x\"]\n[[quantity]]\nname = \"w\"\nkind = \"displacement\"\nof = \"left\"\nalong = \"z\"\n"
+        "[output]\nerror_estimate = false\n[[step]]\nkind = \"pressure\"\nincrements = " +
+            std::to_string(increments) + "\n" + solver,
+        "w");
+  };
+  for (const int increments : {10, 25}) {
+    const Run bent = plate(increments, "");
+    EXPECT_EQ(bent.outcome.ending, Ending::complete) << bent.outcome.message;
+    EXPECT_TRUE(bent.events.empty()) << bent.events.front().message;
+    EXPECT_NEAR(bent.rows.back().value, 10.683975e-3, 1e-9);
+  }
+  const Run stopped = plate(10, "[solver]\nsmallest_increment = 1e-3\n");
+  EXPECT_EQ(stopped.outcome.kind, "no equilibrium") << stopped.outcome.message;
+  for (const post::Event& event : stopped.events) EXPECT_NE(event.kind, "limit point");
+}
+
 } // namespace
 } // namespace dielast::cases::paths_test
