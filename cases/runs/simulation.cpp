@@ -307,8 +307,8 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, Me
   energy_.judge(equilibrium_->energy_scale(), records_, step_);
   if (const auto energy = energy_.worst(); ends && energy.is_poor())
     news_.push_back(poor_energy(energy, steps_, sudden_motion_so_far(case_, steps_, step_)));
-  constexpr double negligible = 1e-12; // of the energy that was exchanged: what equilibria are known to
-  if (ends && unseen_.kinetic > negligible * energy_.record().exchanged) {
+  const double negligible = 1e-12 * std::max(energy_.record().exchanged, equilibrium_->energy_scale());
+  if (ends && unseen_.kinetic > negligible) {
     constexpr double notable = 0.02; // the square of a frequency over the lowest natural one
     const double work = unseen_.work(equilibrium_->assembler(), state);
     if (work > 0 && unseen_.kinetic > notable * work) news_.push_back(left_out(unseen_.kinetic / work, step));

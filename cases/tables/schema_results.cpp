@@ -106,7 +106,7 @@ Section solver_section() {
   section.keys = {
       number("tolerance", to(&SolverOptions::tolerance), "out-of-balance force over the reaction scale")
           .above(1e-16)
-          .at_most(1e-2)
+          .at_most(1e-7)
           .otherwise("1e-9"),
       integer("max_iterations", to(&SolverOptions::max_iterations),
               "Newton iterations before an increment is cut")
