@@ -30,8 +30,10 @@ constexpr double all_of_it = 0.99;
 /// many there are; empty where there is none.
 std::vector<std::size_t> StepRun::lost_film(double s) const {
   const auto film = model().sample(loaded(last(), s)).film;
-  const auto lost = static_cast<std::size_t>(std::ranges::count_if(
-      film, [](const fem::MembraneSample& sample) { return sample.tension == materials::Tension::lost; }));
+  const auto lost =
+      static_cast<std::size_t>(std::ranges::count_if(film, [](const fem::MembraneSample& sample) {
+        return sample.tension == materials::Tension::lost && sample.voltage != 0;
+      }));
   return lost == 0 ? std::vector<std::size_t>{} : std::vector{lost, film.size()};
 }
 
