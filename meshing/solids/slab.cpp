@@ -6,6 +6,7 @@
 #include "meshing/solids/grid.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
@@ -17,7 +18,8 @@ namespace dielast::meshing {
 namespace {
 
 /// Elements along a longer side, at least: where it is hardly longer its strains change as those across do.
-int fewest(int across) { return std::max(1, across / 3); }
+/// Of half as many across always less, so that comparing the two tells what they are.
+int fewest(int across) { return std::max(static_cast<int>(std::bit_width(unsigned(across))), across / 3); }
 
 } // namespace
 

@@ -17,8 +17,9 @@ struct SlabShape {
 
 /// Triangles of a slab with its lower side at height 0 along x; heights along y, or along z where it is
 /// `upright`. `across` elements across the height; along x they are as long as high at the electrode's ends,
-/// and up to `grading` times that away from them, but a third as many at least. Where the slab is higher than
-/// long, `across` elements along x, and so up the height.
+/// and up to `grading` times that away from them, but a third as many at least, and one more for each
+/// doubling of those across. Where the slab is higher than long, `across` elements along x, and so up the
+/// height.
 ///
 /// Places: triangles `film`, `electrode`, `passive` (where there is any); nodes `left`, `right`, `bottom`,
 /// `top`, `lower_electrode` and `upper_electrode`, the lower and upper sides of what is charged.
@@ -26,7 +27,7 @@ struct SlabShape {
 Mesh slab_mesh(const SlabShape& shape, int across, double grading, bool upright);
 
 /// A slab with a width along z about z = 0, m, and its electrode's. `grading`: also along z, away from the
-/// electrode's sides, or where it covers the width, the slab's; a third of `across` at least there, too.
+/// electrode's sides, or where it covers the width, the slab's; at least as many there, too.
 struct BlockShape {
   SlabShape slab;
   double width = 0, electrode_width = 0;

@@ -75,32 +75,38 @@ TEST_F(Surfaces, are_as_well_pressed_beside_more_places) {
   EXPECT_NEAR(pressure("\"9 mm\""), alone, 1e-9 * alone);
 }
 
-/// Two discs alike, with few elements: the edge of one stands on that of the other, and slips off it. One
-/// that is wider by half of the barrier's reach is pressed on.
+/// Two blocks as wide as each other, whose edges stand on each other, drawn along without friction: one slips
+/// off. One that is narrower by a barrier's reach on either side goes on.
 TEST_F(Surfaces, tell_of_edges_that_slip_off_each_other) {
-  const auto disc = [](const char* name, const char* at, double radius, int across) {
-    return fmt::format("[part.{0}]\nat = [0, 0, \"{1}\"]\n[part.{0}.film]\nthickness = \"1 mm\"\nsection = "
-                       "\"solid\"\n[part.{0}.film.material]\nshear_modulus = \"50 kPa\"\npermittivity = "
-                       "\"4e-11 F/m\"\n[part.{0}.slab]\nlength = \"{2} mm\"\nheight = \"4 "
-                       "mm\"\n[part.{0}.mesh]\nacross = {3}\n",
-                       name, at, radius, across);
+  const auto block = [](const char* name, const char* at, double length, double width) {
+    return fmt::format(
+        "[part.{0}]\nat = [{1}]\n[part.{0}.film]\nthickness = \"0.5 mm\"\nsection = "
+        "\"solid\"\n[part.{0}.film.material]\nshear_modulus = \"100 kPa\"\nrelative_permittivity "
+        "= 3\n[part.{0}.slab]\nlength = \"{2} mm\"\nheight = \"1 mm\"\nwidth = \"{3} "
+        "mm\"\n[part.{0}.mesh]\nacross = 1\ngrading = 1\n[[support]]\nplace = \"{0}.film\"\nfix = "
+        "[\"z\"]\n",
+        name, at, length, width);
   };
-  for (const double wider : {0.0, 0.005}) {
-    const Run pressed =
-        run("model = \"axisymmetric\"\n" + disc("lower", "0 mm", 10 + wider, 3) +
-                disc("upper", "4.02 mm", 10, 2) +
-                "[contact]\nthickness = \"10 um\"\nbetween = [\"upper.bottom\", \"lower.top\"]\n"
-                "[[support]]\nplace = \"lower.bottom\"\nfix = [\"z\"]\n"
-                "[[support]]\nplace = \"upper.top\"\ndisplacement = { z = \"-0.5 mm\" }\n"
-                "[[step]]\nkind = \"move\"\n[output]\nerror_estimate = false\n"
-                "[[quantity]]\nname = \"held\"\nkind = \"force\"\nof = \"lower.bottom\"\nalong = \"z\"\n",
-            "held");
-    if (wider == 0) {
-      EXPECT_EQ(pressed.outcome.kind, "limit point");
-      EXPECT_NE(pressed.outcome.message.find("reach over the other by contact.thickness"), std::string::npos)
-          << pressed.outcome.message;
+  for (const double narrower : {0.0, 0.04}) {
+    const Run drawn = run(
+        "model = \"3d\"\n" + block("low", "\"-3 mm\", 0, 0", 6, 2) +
+            block("up", "\"-1 mm\", \"1.05 mm\", 0", 2, 2 - 2 * narrower) +
+            "[contact]\nthickness = \"40 um\"\nbetween = [\"low.top\", \"up.bottom\"]\nfriction = 0\n"
+            "[[support]]\nplace = \"low.bottom\"\nfix = [\"x\", \"y\"]\n"
+            "[[support]]\nplace = \"up.top\"\ndisplacement = { y = \"-0.1 mm\" }\n"
+            "[[support]]\nplace = \"up.top\"\nfix = [\"x\"]\nuntil = \"press\"\n"
+            "[[support]]\nplace = \"up.top\"\ndisplacement = { x = \"0.15 mm\" }\nfrom = \"slide\"\n"
+            "[[electrode]]\nname = \"e\"\nplace = \"up.film\"\n"
+            "[[step]]\nname = \"press\"\nkind = \"move\"\nincrements = 4\n"
+            "[[step]]\nname = \"slide\"\nkind = \"move\"\nincrements = 4\n[output]\nerror_estimate = false\n"
+            "[[quantity]]\nname = \"drawn\"\nkind = \"force\"\nof = \"up.top\"\nalong = \"x\"\n",
+        "drawn");
+    if (narrower == 0) {
+      EXPECT_EQ(drawn.outcome.kind, "limit point");
+      EXPECT_NE(drawn.outcome.message.find("reach over the other by contact.thickness"), std::string::npos)
+          << drawn.outcome.message;
     } else {
-      EXPECT_EQ(pressed.outcome.ending, Ending::complete) << pressed.outcome.message;
+      EXPECT_EQ(drawn.outcome.ending, Ending::complete) << drawn.outcome.message;
     }
   }
 }
