@@ -69,6 +69,7 @@ TEST_F(Folders, NothingOfAnotherCaseStaysAndForeignFilesDo) {
 
 // A measured history.csv beside the case was replaced by the run's.
 TEST_F(Folders, WhatIsForeignIsNotOverwritten) {
+  std::filesystem::create_directory(directory / "out");
   write("out/history.csv", "mine");
   const Ended ended = run();
   EXPECT_EQ(ended.exit_code, 1);
