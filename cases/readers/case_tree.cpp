@@ -111,7 +111,6 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   Case one;
   one.source = path;
   one.title = path.stem().string();
-  add_defaults(tree);
   add_inertia(tree);
   const int standard = give_way(tree, add_standard_quantities(tree));
 
@@ -140,10 +139,8 @@ Case interpret(Node tree, const std::filesystem::path& path) {
   for (Part& part : one.parts)
     if (part.mesh.rings == 0) part.mesh.rings = one.dimension == fem::Dimension::axisymmetric ? 64 : 24;
   if (one.solver.smallest_increment == 0) { // thin plates bend far under little
-    const auto is_plate = [](const Film& film) {
-      return film.section == FilmSection::shell || film.section == FilmSection::solid;
-    };
-    one.solver.smallest_increment = one.any_film(is_plate) ? 1e-5 : 1e-3;
+    const auto bends = [](const Film& film) { return film.section == FilmSection::shell || film.is_solid(); };
+    one.solver.smallest_increment = one.any_film(bends) ? 1e-5 : 1e-3;
   }
 
   require_known(reader, Reference::electrode, "electrode", names_of(one.electrodes, &Electrode::name));

@@ -15,7 +15,8 @@ Node read_case_file(const std::filesystem::path& path);
 void override_case(Node& tree, std::string_view key, std::string_view value, const Source& source);
 void override_case(Node& tree, std::string_view assignment);
 
-/// Makes a validated case of a tree. `path` is the case file's: relative names start there. Throws CaseError.
+/// Makes a validated case of a tree with what the device brings. `path` is the case file's: relative names
+/// start there. Throws CaseError.
 Case interpret(Node tree, const std::filesystem::path& path);
 
 } // namespace dielast::cases

@@ -13,6 +13,15 @@ namespace {
 
 class Rods : public test::CaseTest {};
 
+const std::string elastomer = R"toml(
+[film.material]
+law = "yeoh"
+c1 = "17 kPa"
+c2 = "3.86 kPa"
+c3 = "-68.9 Pa"
+relative_permittivity = 2.8
+)toml";
+
 /// Two layers of 0.1 x 141 mm, of which 125.83 x 15 mm under the electrode; 21 mm long, prestretched by 1.05.
 std::string roll(const std::string& rest) {
   return R"toml(
@@ -20,12 +29,8 @@ model = "planar"
 [film]
 thickness = "0.1 mm"
 prestretch = 1.05
-[film.material]
-law = "yeoh"
-c1 = "17 kPa"
-c2 = "3.86 kPa"
-c3 = "-68.9 Pa"
-relative_permittivity = 2.8
+)toml" + elastomer +
+         R"toml(
 [line]
 to = ["22.05 mm", 0, 0]
 [rod]
@@ -213,13 +218,7 @@ TEST_F(Rods, ARollWhoseRibbonGoesSlackLetsItsTipGo) {
 [film]
 thickness = "100 um"
 prestretch = 1.02
-[film.material]
-law = "yeoh"
-c1 = "17 kPa"
-c2 = "3.86 kPa"
-c3 = "-68.9 Pa"
-relative_permittivity = 2.8
-[antagonistic_rolls]
+{}[antagonistic_rolls]
 width = "141 mm"
 layers = 2
 electrode_width = "125.8866 mm"
@@ -248,7 +247,7 @@ kind = "voltage"
 [output]
 error_estimate = false
 )toml",
-                              voltage, key, word))
+                              elastomer, voltage, key, word))
         .at("tip_angle");
   };
   const double slack = tip_angle("2 kV", "on_instability", "jump");
