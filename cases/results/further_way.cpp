@@ -33,7 +33,7 @@ bool FurtherWay::begin_at(const Passed& state) {
     reached = frame.record.index >= state.record;
     return !reached && !interrupted();
   };
-  observer.on_pass = [] { return !interrupted(); };
+  observer.goes_on = [] { return !interrupted(); };
   simulation.run(observer);
   if (!reached) return false;
   begin(simulation.progress(), state.factor);
@@ -62,7 +62,7 @@ std::vector<Passed> FurtherWay::to(double factor, std::string& stopped) {
       way.push_back(state_of(frame));
       return !interrupted();
     };
-    observer.on_pass = [] { return !interrupted(); };
+    observer.goes_on = [] { return !interrupted(); };
     observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event&) {
       if (const auto at = factor_of(critical.state.voltage, end_); at && !critical.beyond)
         located_.push_back({critical.kind == fem::Instability::bifurcation, *at});

@@ -104,7 +104,7 @@ SimulationObserver observe(const Case& one, Recorder& recorder, spdlog::logger& 
     }
     recorder.record_analysis(analysis, state);
   };
-  observer.on_pass = [] { return !interrupted(); };
+  observer.goes_on = [] { return !interrupted(); };
   observer.on_accept = [&one, &recorder, &log](const Frame& frame) {
     std::string line = fmt::format("    {:8.6f}  {:>9}  {:2d} iteration{}", frame.record.load_factor,
                                    post::engineering(frame.record.largest_voltage(), "V"),
@@ -173,7 +173,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
 
   const Outcome outcome = simulation.run(observe(one, recorder, log));
   if (outcome.ending == Ending::interrupted) {
-    if (outcome.kind != "jump") recorder.save_checkpoint();
+    if (outcome.kind != between_states) recorder.save_checkpoint();
     log.warn("interrupted: {} recorded states kept in {}; go on with --resume", recorder.kept(),
              settings.directory.string());
     return ExitCode::interrupted;

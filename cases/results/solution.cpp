@@ -80,7 +80,7 @@ Solution solve(const Discretisation& discretisation, bool with_margins, int thre
       journal.values.push_back(frame.values);
       return !interrupted();
     };
-    observer.on_pass = [] { return !interrupted(); };
+    observer.goes_on = [] { return !interrupted(); };
     const Outcome outcome = simulation.run(observer);
     std::vector<Margin> margins;
     if (with_margins && outcome.ending == Ending::complete)

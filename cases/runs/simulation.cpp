@@ -264,7 +264,7 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
     }
     news_.push_back(std::move(event));
   }
-  return !observer.on_pass || observer.on_pass();
+  return !observer.goes_on || observer.goes_on();
 }
 
 /// What begins at an accepted state, and where on the way to it.
@@ -382,7 +382,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         [&](const fem::State& state, const fem::Increment& increment, Reached reached) {
           return accept(observer, step, state, increment, reached);
         },
-        observer.on_pass};
+        observer.goes_on};
     const Outcome outcome =
         StepRun(*equilibrium_, step, path, options, in_step_, watcher, ways_on(case_, step)).run();
     if (outcome.ending == Ending::gave_up && unrecorded_) {

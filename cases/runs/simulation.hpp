@@ -56,8 +56,9 @@ struct SimulationObserver {
   std::function<bool(const Frame&)> on_accept;
   /// Left out where nobody wants the analyses: then they are not made.
   std::function<void(const Analysis&, const fem::State&)> on_analysis;
-  /// The same as on_accept, at an accepted state that is not recorded and on the way of a jump.
-  std::function<bool()> on_pass;
+  /// The same as on_accept, at an accepted state that is not recorded, in a jump and in the search for a
+  /// critical point.
+  std::function<bool()> goes_on;
 };
 
 /// Takes a case through its steps.

@@ -98,7 +98,7 @@ bool StepRun::follows() const {
 std::optional<fem::CriticalPoint> StepRun::locate(double s, bool another) const {
   const double reached = progress_.ramp.load_factor;
   return fem::locate_by_load_control(equilibrium_, path_, loaded(last(), reached), reached, s,
-                                     options_.newton, another);
+                                     options_.newton, another, observer_.goes_on);
 }
 
 /// The last accepted state, where it is about to lose its stability at the pace of the step; with inertia,
@@ -131,7 +131,8 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
   if (now.points.size() > 1) progress_.ramp.points.pop_back();
   progress_.ramp.load_factor = increment.load_factor - increment.length;
   if (lost) trouble.critical = timed() ? limit_in_time() : locate(increment.load_factor, true);
-  if (leaves && (trouble.critical || stops() || begins_unstable)) {
+  const bool interrupted = lost && !trouble.critical && !goes_on();
+  if (interrupted || (leaves && (trouble.critical || stops() || begins_unstable))) {
     leaving_ = std::move(trouble);
     return false;
   }
@@ -174,6 +175,7 @@ Outcome StepRun::run() {
       if (follows() && trouble.critical && !trouble.critical->beyond)
         trouble.critical.reset(); // arclength tells
     }
+    if (!trouble.critical && !goes_on()) return {Ending::interrupted, between_states};
     if (trouble.critical && trouble.critical->beyond) {
       if (!pass(std::move(*trouble.critical))) return {Ending::interrupted};
       continue;
@@ -327,7 +329,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
                        {.newton = options_.newton, .goes_on = observer_.goes_on});
     if (result.end != fem::JumpEnd::stuck) break;
   }
-  if (result.end == fem::JumpEnd::interrupted) return Outcome{Ending::interrupted, "jump"};
+  if (result.end == fem::JumpEnd::interrupted) return Outcome{Ending::interrupted, between_states};
   if (result.end != fem::JumpEnd::landed) {
     const char* follow = "\"follow\"";
     Outcome outcome = cause(trouble, ways_on_.starts_with(follow) ? follow : "");

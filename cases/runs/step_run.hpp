@@ -37,16 +37,20 @@ struct StepObserver {
   std::function<std::string(const fem::State&)> law_limit;
   /// Returns false to stop here (interrupt). Dashpots of the state are frozen.
   std::function<bool(const fem::State&, const fem::Increment&, Reached)> on_accept;
-  /// On the way of a jump, where no state is accepted: false to stop here (interrupt).
+  /// In a jump and in the search for a critical point, where no state is accepted: false to stop here
+  /// (interrupt).
   std::function<bool()> goes_on;
 };
 
 enum class Ending { complete, gave_up, interrupted };
 
+/// Kind of an interrupt in a jump or in the search for a critical point, where no run begins.
+inline constexpr const char* between_states = "between states";
+
 struct Outcome {
   Ending ending = Ending::complete;
-  /// gave_up: "limit point", "instability", "singular tangent", "no equilibrium", ...; interrupted: "jump" on
-  /// the way of one, where no run begins
+  /// gave_up: "limit point", "instability", "singular tangent", "no equilibrium", ...; interrupted:
+  /// empty or between_states
   std::string kind{};
   std::string message{}; ///< gave_up: what happened and what to do
 };
@@ -74,6 +78,7 @@ class StepRun {
     int unstable_modes = 0;                     ///< of a state that was reached and is not accepted
   };
   bool timed() const { return options_.duration > 0; }
+  bool goes_on() const { return !observer_.goes_on || observer_.goes_on(); }
   const fem::Model& model() const { return equilibrium_.model(); }
   const fem::State& last() const { return progress_.ramp.points.back().state; }
   fem::State loaded(fem::State state, double s) const;

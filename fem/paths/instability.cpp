@@ -253,7 +253,8 @@ std::optional<PathPoint> find_beyond(Equilibrium& equilibrium, const LoadPath& p
 
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
                                                     const State& state, double s_before, double s_beyond,
-                                                    const NewtonOptions& options, bool another) {
+                                                    const NewtonOptions& options, bool another,
+                                                    const std::function<bool()>& goes_on) {
   std::vector<LoadPoint> points;
   int modes = -1;
   const auto attempt = [&](State trial, double s) {
@@ -309,6 +310,7 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   };
   const double end = s_beyond;
   for (int trial = 0; trial < most_trials && std::abs(s_beyond - points.back().s) > load_tolerance; ++trial) {
+    if (goes_on && !goes_on()) return std::nullopt;
     const LoadPoint& last = points.back();
     double s = (last.s + s_beyond) / 2;
     State start = last.state;

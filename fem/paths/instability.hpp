@@ -4,6 +4,8 @@
 #include "fem/paths/continuation.hpp"
 #include "fem/paths/path_slope.hpp"
 
+#include <functional>
+
 namespace dielast::fem {
 
 /// Eigenvector of the tangent under the control of the state, K x = eigenvalue D x with D =
@@ -59,10 +61,11 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
 /// a limit point the eigenvalue goes with the square root of the distance in s, near a bifurcation with the
 /// distance: extrapolated, that says where to go next. Ends when the critical load factor is known to 1e-7.
 /// Nothing, too, where Newton's method fails without another state and without the eigenvalue vanishing: it
-/// may have had too few iterations.
+/// may have had too few iterations; nor where `goes_on`, asked before every state, says false (interrupt).
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
                                                     const State& state, double s_before, double s_beyond,
-                                                    const NewtonOptions& options, bool another = false);
+                                                    const NewtonOptions& options, bool another = false,
+                                                    const std::function<bool()>& goes_on = {});
 
 /// First point on the path that branches off: displaced from the critical state by `amplitude` (m, its sign
 /// chooses the side) along the mode, where the load factor follows. Heads away from the bifurcation.

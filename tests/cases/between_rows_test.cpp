@@ -129,7 +129,7 @@ TEST_F(BetweenRows, AResumedRunTellsWhatWasBeforeIt) {
       return true;
     };
     int passed = 0;
-    observer.on_pass = [&] { return ++passed != states; };
+    observer.goes_on = [&] { return ++passed != states; };
     Simulation stopped(one, 1);
     ASSERT_EQ(stopped.run(observer).ending, Ending::interrupted);
     const nlohmann::json kept =

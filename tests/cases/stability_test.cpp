@@ -16,17 +16,10 @@ class Stability : public Paths {
                          "cases/gallery/minimum_energy_structure/case.toml",
                      overrides);
   }
-};
 
-/// A hinged column of 80 mm buckles at pi^2 EI/L^2 = 0.1973921 N, a little before the end of its step:
-/// however many increments lead there. (The state at the end was found from the one before by one step, whose
-/// tangent was taken for that of the end.) Film beside it without a stress does not make it stable, where it
-/// is slender and its stiffness is little beside the film's.
-TEST_F(Stability, ColumnsBuckleAtEulersForce) {
-  for (const double prestretch : {1.5, 1.0})
-    for (const double force : {0.1982, 0.1976, 0.3})
-      for (const int increments : {1, 4, 10}) {
-        const Case one = read(fmt::format(R"toml(
+  /// Hinged, 80 mm long, pressed by a force (N), and film of 10 mm beside it.
+  static std::string column(double prestretch, double force, int increments) {
+    return fmt::format(R"toml(
 model = "3d"
 [film]
 thickness = "0.1 mm"
@@ -67,7 +60,19 @@ force = ["-{} N", 0, 0]
 kind = "force"
 increments = {}
 )toml",
-                                          prestretch, force, increments));
+                       prestretch, force, increments);
+  }
+};
+
+/// A hinged column of 80 mm buckles at pi^2 EI/L^2 = 0.1973921 N, a little before the end of its step:
+/// however many increments lead there. (The state at the end was found from the one before by one step, whose
+/// tangent was taken for that of the end.) Film beside it without a stress does not make it stable, where it
+/// is slender and its stiffness is little beside the film's.
+TEST_F(Stability, ColumnsBuckleAtEulersForce) {
+  for (const double prestretch : {1.5, 1.0})
+    for (const double force : {0.1982, 0.1976, 0.3})
+      for (const int increments : {1, 4, 10}) {
+        const Case one = read(column(prestretch, force, increments));
         SimulationObserver observer;
         std::vector<double> critical;
         observer.on_critical = [&](const fem::CriticalPoint& at, const post::Event&) {
@@ -78,6 +83,54 @@ increments = {}
         EXPECT_NEAR(critical[0], 0.1973921, 1e-4 * 0.1973921)
             << prestretch << " " << force << " " << increments;
       }
+}
+
+// Its states are no states of the run, and what it would have found is not told: the run goes on from the
+// last state before it, where it is sought anew.
+TEST_F(Stability, TheSearchForACriticalPointCanBeInterrupted) {
+  for (const bool pulls_in : {false, true}) {
+    const Case one = pulls_in ? read(column(1.2, 0.1, 2) + "[[step]]\nkind = \"voltage\"\nincrements = 4\n"
+                                                           "[drive]\nvoltage = \"20 kV\"\n")
+                              : read(column(1.5, 0.3, 4));
+    std::vector<std::vector<double>> rows;
+    std::string critical;
+    SimulationObserver observer;
+    observer.on_accept = [&](const Frame& frame) {
+      rows.push_back(frame.values);
+      return true;
+    };
+    observer.on_critical = [&](const fem::CriticalPoint&, const post::Event& event) {
+      critical = event.message;
+    };
+    const Outcome whole = Simulation(one, 1).run(observer);
+    ASSERT_EQ(whole.ending, Ending::gave_up);
+    ASSERT_NE(critical, "");
+    for (const int asked : {1, 4}) {
+      std::vector<std::vector<double>> before = std::exchange(rows, {});
+      const std::string found = std::exchange(critical, "");
+      std::optional<SimulationProgress> kept;
+      Simulation stopped(one, 1);
+      observer.on_accept = [&](const Frame& frame) {
+        rows.push_back(frame.values);
+        kept = stopped.progress();
+        return true;
+      };
+      int times = 0;
+      observer.goes_on = [&] { return ++times < asked; };
+      const Outcome outcome = stopped.run(observer);
+      EXPECT_EQ(outcome.ending, Ending::interrupted);
+      EXPECT_EQ(outcome.kind, between_states);
+      EXPECT_EQ(critical, "");
+      Simulation resumed(one, 1);
+      ASSERT_TRUE(kept);
+      resumed.enter(kept->step);
+      resumed.resume(*kept);
+      observer.goes_on = {};
+      EXPECT_EQ(resumed.run(observer).message, whole.message);
+      EXPECT_EQ(critical, found);
+      EXPECT_EQ(rows, before);
+    }
+  }
 }
 
 /// A jump does not lead through a stretch of 0 to film that is inside out, where the energy is lower, too.

@@ -66,6 +66,10 @@ TEST(Instability, load_control_finds_the_limit_point_that_the_arc_length_finds) 
     const auto along = critical_points(equilibrium, path, 1);
     ASSERT_EQ(along.size(), 1U);
     EXPECT_NEAR(along[0].load_factor, exact, 1e-10);
+    int asked = 0;
+    EXPECT_FALSE(
+        locate_by_load_control(equilibrium, path, state, 0.6, 0.75, {}, false, [&] { return ++asked < 3; }));
+    EXPECT_EQ(asked, 3);
   }
 }
 
