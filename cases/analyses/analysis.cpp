@@ -4,9 +4,9 @@
 #include "cases/case/quantities.hpp"
 #include "cases/devices/pins.hpp"
 #include "cases/quantities/measurement.hpp"
+#include "fem/equilibrium/lowest_mode.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rest.hpp"
-#include "fem/paths/instability.hpp"
 
 #include <fmt/format.h>
 

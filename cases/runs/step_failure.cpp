@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Why a step ends where it does not end by itself.
 #include "cases/runs/step_run.hpp"
+#include "fem/equilibrium/lowest_mode.hpp"
 #include "fem/linear/rest.hpp"
 #include "fem/model/contact_block.hpp"
-#include "fem/paths/instability.hpp"
 
 #include <fmt/format.h>
 

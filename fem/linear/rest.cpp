@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/linear/rest.hpp"
 
+#include "fem/equilibrium/lowest_mode.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rigid_motions.hpp"
-#include "fem/paths/instability.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/instability.hpp"
 
-#include "fem/algebra/dense_algebra.hpp"
-#include "fem/algebra/orientation.hpp"
 #include "fem/model/contact_block.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 
 namespace dielast::fem {
 
 namespace {
 
-constexpr int subspace = 4, most_iterations = 200;
-constexpr double eigen_tolerance = 1e-6;  ///< of the mode; that of the eigenvalue is its square
-constexpr double round_off = 1e-13;       ///< of the eigenvalue
-constexpr double free_motion = 1e13;      ///< inverse of an eigenvalue that is of rounding
-constexpr double singular_shift = 1e-9;   ///< of the stiffness as drawn, where the tangent cannot be factored
 constexpr double negligible = 1e-7;       ///< eigenvalue, over the largest seen on the way
 constexpr double zero = 1e-3;             ///< likewise, of a bracket that has closed
 constexpr double smallest_bracket = 1e-9; ///< over the first
@@ -32,20 +24,14 @@ constexpr int most_trials = 80;
 constexpr double near = 1e-2, near_with_friction = 1e-5, fallen = 0.1;
 constexpr double vanished = 1e-5;       ///< eigenvalue of a state from which no path leads on
 constexpr double load_tolerance = 1e-7; ///< of a critical load factor
+constexpr double farthest_turn = 1e-6;  ///< beyond a bracket that has closed
 /// Of the load factor, where a state is looked for: so little that the jump of an edge that slips shows.
 constexpr std::array just_beyond{1e-5, 1e-4};
 constexpr double nearer = 0.5;     ///< than before a critical point: states beyond that are joined with it
 constexpr double along_mode = 0.7; ///< cosine between a mode and the way to the branch
+constexpr double one_way = 0.99;   ///< cosine between changes of a slope that grows along one mode
 /// Part of the way to the extrapolated critical load that the next trial goes.
 constexpr double approach = 0.9;
-
-/// Scales a direction so that the largest displacement of a node is 1 m.
-void normalise(const DofMap& dofs, const State& state, Eigen::VectorXd& direction) {
-  double largest = 0;
-  for (const Eigen::Vector3d& u : displacements(dofs, state, direction))
-    largest = std::max(largest, u.norm());
-  if (largest > 0) direction /= largest;
-}
 
 /// A converged state under load control and what it says about the way to go.
 struct LoadPoint {
@@ -56,97 +42,6 @@ struct LoadPoint {
 };
 
 } // namespace
-
-bool moves_freely(Equilibrium& equilibrium, const State& state) {
-  const Eigen::VectorXd root = equilibrium.stiffness().cwiseSqrt();
-  if (root.size() == 0) return false;
-  if (!equilibrium.factor(state)) return true;
-  std::mt19937 random(1);
-  Eigen::VectorXd x(root.size()), y;
-  for (double& one : x) one = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
-  double growth = 0;
-  for (int solve = 0; solve < 2; ++solve) { // the first one brings out the weakest mode
-    x.normalize();
-    equilibrium.tangent().solve(root.cwiseProduct(x), y);
-    x = root.cwiseProduct(y);
-    growth = x.norm();
-  }
-  return !(growth < free_motion);
-}
-
-std::vector<Eigen::Vector3d> displacements(const DofMap& dofs, const State& state,
-                                           const Eigen::VectorXd& direction) {
-  const Eigen::VectorXd all = dofs.jacobian(state) * direction;
-  std::vector<Eigen::Vector3d> result(static_cast<std::size_t>(dofs.node_count()), Eigen::Vector3d::Zero());
-  for (int n = 0; n < dofs.node_count(); ++n)
-    for (int c = 0; c < 3; ++c)
-      if (const int e = dofs.equation(n, c); e != DofMap::absent)
-        result[static_cast<std::size_t>(n)][c] = all[e];
-  return result;
-}
-
-std::vector<Eigen::Vector3d> spins(const DofMap& dofs, const State& state, const Eigen::VectorXd& direction) {
-  const Eigen::VectorXd all = dofs.jacobian(state) * direction;
-  std::vector<Eigen::Vector3d> result;
-  for (int n = 0; n < dofs.node_count(); ++n) result.push_back(dofs.spin(state, n, all));
-  return result;
-}
-
-std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {
-  if (equilibrium.model().dofs.free_count() == 0) return std::nullopt;
-  const Eigen::VectorXd& D = equilibrium.stiffness();
-  double shift = 0;
-  if (!equilibrium.factor(state)) {
-    shift = singular_shift;
-    const Eigen::VectorXd added = shift * D;
-    if (!equilibrium.factor(state, nullptr, &added)) return std::nullopt;
-  }
-  // Subspace iteration with the inverse: a few vectors, so that close modes do not slow it down.
-  const Eigen::Index width = std::min<Eigen::Index>(subspace, D.size());
-  std::mt19937 random(1);
-  Eigen::MatrixXd X(D.size(), width), Y(D.size(), width);
-  for (Eigen::Index i = 0; i < X.size(); ++i)
-    X.data()[i] = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
-  X = D.cwiseSqrt().cwiseInverse().asDiagonal() * X;
-  Eigen::VectorXd y;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const Eigen::MatrixXd gram = X.transpose() * D.asDiagonal() * X;
-    cholesky_factor(gram).triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(
-        X); // orthonormal in D
-    for (Eigen::Index i = 0; i < width; ++i) {
-      equilibrium.tangent().solve(D.cwiseProduct(X.col(i)), y);
-      Y.col(i) = y;
-    }
-    const Eigen::MatrixXd inverse = X.transpose() * D.asDiagonal() * Y;
-    if (!inverse.allFinite()) return std::nullopt;
-    const auto [theta, ritz] = symmetric_eigen(inverse); // theta: inverse eigenvalues
-    Eigen::Index lowest = 0;
-    const double tolerance = eigen_tolerance * theta.cwiseAbs().maxCoeff(&lowest);
-    const Eigen::MatrixXd images = Y * ritz;
-    const Eigen::MatrixXd residuals = images - X * ritz * theta.asDiagonal();
-    const Eigen::VectorXd error = (residuals.transpose() * D.asDiagonal() * residuals).diagonal().cwiseSqrt();
-    // All that share the lowest eigenvalue are needed to orient one. Whether another vector does, its error
-    // must tell.
-    std::vector<Eigen::Index> twins;
-    bool told = error[lowest] <= tolerance;
-    for (Eigen::Index i = 0; i < width; ++i) {
-      if (error[i] > tolerance)
-        told = told && std::abs(theta[i] - theta[lowest]) > error[i];
-      else if (coincide(1 / theta[i], 1 / theta[lowest], round_off))
-        twins.push_back(i);
-    }
-    if (told) {
-      Eigen::MatrixXd oriented = images(Eigen::all, twins) * theta(twins).cwiseInverse().asDiagonal();
-      orient_twins(oriented, equilibrium.weight().head(D.size()).cwiseInverse());
-      Mode mode{1 / theta[lowest] - shift, oriented.col(0)};
-      normalise(equilibrium.model().dofs, state, mode.direction);
-      return mode;
-    }
-    X = images;
-    X.colwise().normalize();
-  }
-  return std::nullopt;
-}
 
 Instability classify(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
                      const Mode& mode) {
@@ -249,6 +144,37 @@ std::optional<PathPoint> find_beyond(Equilibrium& equilibrium, const LoadPath& p
   return std::nullopt;
 }
 
+/// Near a limit point the slope v of the path grows along the critical mode, as one over the root of the load
+/// that is left: its changes from point to point are along that mode, of which K v = -dR/ds tells the
+/// eigenvalue. So limit points are seen whose modes are hidden by others nearer to zero: those of a slender
+/// device where film gives way in a corner, and where it gives way in two at once, that of their difference.
+std::optional<CriticalPoint> find_turn(Equilibrium& equilibrium, const LoadPath& path,
+                                       const std::vector<LoadPoint>& points) {
+  const auto last = points.rbegin();
+  if (points.size() < 3 ||
+      std::any_of(last, last + 3, [](const LoadPoint& point) { return point.slope.size() == 0; }))
+    return std::nullopt;
+  const Eigen::VectorXd& D = equilibrium.stiffness();
+  const auto product = [&D](const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
+    return u.dot(D.cwiseProduct(v));
+  };
+  Eigen::VectorXd mode = last[0].slope - last[1].slope;
+  const Eigen::VectorXd before = last[1].slope - last[2].slope;
+  if (!(product(mode, before) > one_way * std::sqrt(product(mode, mode) * product(before, before))))
+    return std::nullopt;
+  const auto eigenvalue = [&](const LoadPoint& at) {
+    return -mode.dot(load_derivative(equilibrium, path, at.state, at.s)) / product(mode, at.slope);
+  };
+  const double now = eigenvalue(last[0]), former = eigenvalue(last[1]);
+  const double left = now * now * (last[0].s - last[1].s) / (former * former - now * now);
+  if (!(std::abs(left) <= farthest_turn)) return std::nullopt;
+  normalise(equilibrium.model().dofs, last->state, mode);
+  CriticalPoint turn{{}, last->s + left, last->state, {now, std::move(mode)}, {}};
+  turn.kind = classify(equilibrium, path, turn.state, last->s, turn.mode);
+  if (turn.kind == Instability::bifurcation) return std::nullopt; // what there is of the mode is of rounding
+  return turn;
+}
+
 } // namespace
 
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
@@ -344,15 +270,17 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   const LoadPoint& last = points.back();
   if (std::min(std::abs(s_beyond - last.s), std::abs(critical_load - last.s)) > load_tolerance)
     return std::nullopt;
-  if (!last.mode) return std::nullopt;
-  kind = classify(equilibrium, path, last.state, last.s, *last.mode);
-  CriticalPoint critical{kind, critical_load, last.state, *last.mode, {}};
+  const double first = points.front().mode ? std::abs(points.front().mode->eigenvalue) : 0;
+  const bool falls = last.mode && std::abs(last.mode->eigenvalue) < fallen * first;
   const bool slides = has_friction(equilibrium.model());
+  if (last.mode) kind = classify(equilibrium, path, last.state, last.s, *last.mode);
+  if (!slides && !(falls && kind == Instability::limit_point))
+    if (auto turn = find_turn(equilibrium, path, points)) return turn;
+  if (!last.mode) return std::nullopt;
+  CriticalPoint critical{kind, critical_load, last.state, *last.mode, {}};
   const auto is_close = [&] {
-    const double first = points.front().mode ? std::abs(points.front().mode->eigenvalue) : 0;
     const double ahead = std::copysign(1.0, end - s_before) * (extrapolated() - last.s);
-    return ahead > -load_tolerance && ahead < (slides ? near_with_friction : near) &&
-           (!slides || std::abs(last.mode->eigenvalue) < fallen * first);
+    return ahead > -load_tolerance && ahead < (slides ? near_with_friction : near) && (!slides || falls);
   };
   const bool vanishes = points.size() > 1 ? is_close() : std::abs(last.mode->eigenvalue) < vanished;
   if (!vanishes && !another) attempt(State(last.state), s_beyond); // which may find another

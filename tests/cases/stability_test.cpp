@@ -85,6 +85,24 @@ TEST_F(Stability, ColumnsBuckleAtEulersForce) {
       }
 }
 
+// The film of a honeycomb gives way beside its walls' corners, along a mode that is a thousand times stiffer,
+// over the stiffness as drawn, than those of the whole. The load turns there: no bifurcation is told, and
+// none that a bracket with other modes close to zero does not show.
+TEST_F(Stability, FilmInTheCornersOfALatticeReachesALimitPoint) {
+  const Case one = read_case(std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/honeycomb/case.toml",
+                             {"check=", "output.error_estimate=false", "output.fields=false",
+                              "honeycomb.columns=[2,3,2]", "mesh.wall_elements=4", "drive.voltage=10 kV"});
+  SimulationObserver observer;
+  int turns = 0;
+  observer.on_critical = [&](const fem::CriticalPoint& critical, const post::Event& event) {
+    turns += critical.kind == fem::Instability::limit_point && !event.branches_off;
+    EXPECT_NEAR(critical.load_factor, 0.86374, 1e-5);
+    EXPECT_GT(critical.mode.eigenvalue, 0);
+  };
+  EXPECT_EQ(Simulation(one, 1).run(observer).kind, "limit point");
+  EXPECT_EQ(turns, 1);
+}
+
 // Its states are no states of the run, and what it would have found is not told: the run goes on from the
 // last state before it, where it is sought anew.
 TEST_F(Stability, TheSearchForACriticalPointCanBeInterrupted) {
