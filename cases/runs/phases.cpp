@@ -110,6 +110,21 @@ void Simulation::change_supports(fem::State& state) {
   come_to(state);
 }
 
+void Simulation::enter(int step) {
+  Holding holding = holding_in(case_, steps_, step);
+  if (holding == holding_) return;
+  holding_ = std::move(holding);
+  const fem::DofMap before = device_.model.dofs;
+  now_ = held_by(case_, holding_);
+  equilibrium_.reset();
+  device_ = build_device(now_);
+  measurement_.prepare();
+  watch_.prepare();
+  equilibrium_.emplace(device_.model, threads_);
+  frame_ = fem::Renumbering(before, device_.model.dofs)(frame_);
+  loads_.emplace(now_, device_, steps_, signals_, frame_);
+}
+
 /// Pins bear nothing where all forces balance, but for what a device that turns in them as it strains would
 /// do about itself: one whose nodes do not lie along the axes, or lie there no more, is strained by them.
 /// Then refusal_ says so.

@@ -104,20 +104,6 @@ Simulation::Simulation(const Case& one, int threads)
   loads_.emplace(now_, device_, steps_, signals_, frame_);
 }
 
-void Simulation::enter(int step) {
-  Holding holding = holding_in(case_, steps_, step);
-  if (holding == holding_) return;
-  holding_ = std::move(holding);
-  const fem::DofMap before = device_.model.dofs;
-  now_ = held_by(case_, holding_);
-  equilibrium_.reset();
-  device_ = build_device(now_);
-  measurement_.prepare();
-  equilibrium_.emplace(device_.model, threads_);
-  frame_ = fem::Renumbering(before, device_.model.dofs)(frame_);
-  loads_.emplace(now_, device_, steps_, signals_, frame_);
-}
-
 double Simulation::error_of_course(const Quantity& quantity) const {
   const auto error = measurement_.references.find(quantity.name + " error");
   return error == measurement_.references.end() ? 0 : error->second;
@@ -249,7 +235,7 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
                         const fem::Increment& increment, Reached reached) {
   if (!admits(step, increment.load_factor, state)) return false;
   account(state, increment, reached);
-  if (increment.lands && increment.load_factor >= 1 && pins_bear(state)) return false;
+  if (increment.lands && (step.duration || increment.load_factor >= 1) && pins_bear(state)) return false;
   Measured measured(device_, *equilibrium_, state, energy_, scalars_, &held_);
   if (!sample(step, increment.load_factor, measured)) return false;
   if (increment.lands) return record(observer, step, measured, increment, reached);

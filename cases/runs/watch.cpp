@@ -52,9 +52,15 @@ double smallest_stress(const Case& one) {
 }
 
 Watch::Watch(const Case& one, const Device& device)
-    : device_(device), smallest_stress_(smallest_stress(one)), lines_(device.mesh.walls()),
+    : device_(device), smallest_stress_(smallest_stress(one)),
       kept_apart_(one.contact ? one.contact->between : std::vector<std::string>()) {
-  if (lines_) contacts_.emplace(device.mesh, *lines_, device.bars.widths);
+  prepare();
+}
+
+void Watch::prepare() {
+  contacts_.reset();
+  if (const meshing::CellBlock* walls = device_.mesh.walls())
+    contacts_.emplace(device_.mesh, *walls, device_.bars.widths);
 }
 
 std::string Watch::place_of_triangle(int triangle) const {
@@ -79,11 +85,12 @@ std::string Watch::place_of_line(int line) const { return cell_of(line, line); }
 
 /// The lattice cell whose outline has both beams, or what each is in: a cell, or itself.
 std::string Watch::cell_of(int line, int other) const {
+  const meshing::CellBlock& walls = *device_.mesh.walls();
   std::string one_of_first, one_of_other;
   for (const auto& [name, nodes] : device_.mesh.node_sets) {
     if (!is_cell(name)) continue;
-    const auto has = [&nodes = nodes, this](int beam) {
-      const auto ends = lines_->cell(beam);
+    const auto has = [&nodes = nodes, &walls](int beam) {
+      const auto ends = walls.cell(beam);
       return std::binary_search(nodes.begin(), nodes.end(), ends[0]) &&
              std::binary_search(nodes.begin(), nodes.end(), ends[1]);
     };
@@ -92,8 +99,8 @@ std::string Watch::cell_of(int line, int other) const {
     if (first) one_of_first = name;
     if (second) one_of_other = name;
   }
-  if (one_of_first.empty()) one_of_first = place_of_element(lines_->cell(line));
-  if (one_of_other.empty()) one_of_other = place_of_element(lines_->cell(other));
+  if (one_of_first.empty()) one_of_first = place_of_element(walls.cell(line));
+  if (one_of_other.empty()) one_of_other = place_of_element(walls.cell(other));
   return one_of_first == one_of_other ? one_of_first : one_of_first + " and " + one_of_other;
 }
 

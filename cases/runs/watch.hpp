@@ -30,6 +30,8 @@ class Watch {
 
   /// Of a case's device, which must outlive this.
   Watch(const Case& one, const Device& device);
+  /// After the device was built anew, for other supports.
+  void prepare();
 
   /// `ends`: the state is one that a step leads to; whether film passes through itself is asked of these.
   std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes,
@@ -51,7 +53,6 @@ class Watch {
   const Device& device_;
   double smallest_stress_;
   std::optional<fem::WallContactSearch> contacts_;
-  const meshing::CellBlock* lines_;
   std::vector<std::string> kept_apart_; ///< surfaces between which there is contact
 };
 

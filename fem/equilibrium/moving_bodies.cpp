@@ -165,6 +165,7 @@ void accelerate_bodies(const Model& model, const State& state, Motion& motion) {
     for (const int e : equations_of(dofs, master, {}))
       if (dofs.is_free(e)) acceleration[e] = 0;
     carry_group(dofs, state, master, ties, turning(dofs, state, master, ties, motion.velocity), acceleration);
+    if (ways.cols() == 0) continue; // held altogether
     bodies.push_back({std::move(equations), std::move(ways), *std::move(mass)});
   }
   if (bodies.empty()) return;

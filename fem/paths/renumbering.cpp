@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/renumbering.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace dielast::fem {
 
 Renumbering::Renumbering(const DofMap& from, const DofMap& to)
-    : to_(to), from_(static_cast<std::size_t>(to.count())), was_held_(from_.size()) {
+    : to_(to), from_(static_cast<std::size_t>(to.count()), DofMap::absent), was_held_(from_.size()) {
   for (int node = 0; node < to.node_count(); ++node)
     for (int c = 0; c < DofMap::unknowns; ++c)
       if (const int e = to.equation(node, c); e != DofMap::absent) {
@@ -16,6 +18,28 @@ Renumbering::Renumbering(const DofMap& from, const DofMap& to)
         if (from_[at] == DofMap::absent) throw std::logic_error("a node turns in another way than before");
         was_held_[at] = from.is_held(from_[at]);
       }
+  for (int scalar = 0; scalar < to.scalar_count(); ++scalar)
+    from_[static_cast<std::size_t>(to.scalar_equation(scalar))] = from.scalar_equation(scalar);
+  if (std::ranges::count(from_, DofMap::absent) > 0)
+    throw std::logic_error("an unknown has no place in the numbering before");
+}
+
+/// Per node whether something of the body that it is tied to is held from now on.
+std::vector<char> Renumbering::caught() const {
+  std::vector<char> caught(static_cast<std::size_t>(to_.node_count()));
+  for (int node = 0; node < to_.node_count(); ++node)
+    for (int c = 0; c < DofMap::unknowns; ++c)
+      if (const int e = to_.equation(node, c); e != DofMap::absent && to_.is_held(e))
+        caught[static_cast<std::size_t>(node)] |= !was_held_[static_cast<std::size_t>(e)];
+  std::vector<char> tied(caught.size());
+  for (bool more = true; std::exchange(more, false);) // bodies may be tied to one another
+    for (const Tie& tie : to_.ties()) {
+      const auto node = static_cast<std::size_t>(tie.node), master = static_cast<std::size_t>(tie.master);
+      if (tied[node] || !(caught[master] || tied[master])) continue;
+      tied[node] = 1;
+      more = true;
+    }
+  return tied;
 }
 
 Eigen::VectorXd Renumbering::operator()(const Eigen::VectorXd& values) const {
@@ -32,6 +56,15 @@ State Renumbering::operator()(State state) const {
                                 &motion.acceleration_now}) {
     *part = (*this)(*part);
     if (part != &motion.position) part->segment(to_.free_count(), to_.held_count()).setZero();
+  }
+  if (const std::vector<char> bodies = caught(); std::ranges::count(bodies, 1) > 0) {
+    const Eigen::SparseMatrix<double> jacobian = to_.jacobian(state);
+    for (Eigen::VectorXd* rates : {&motion.velocity, &motion.acceleration, &motion.acceleration_now}) {
+      const Eigen::VectorXd carried = jacobian * rates->head(to_.free_count());
+      for (const Tie& tie : to_.ties())
+        for (int c = 0; c < 3 && bodies[static_cast<std::size_t>(tie.node)]; ++c)
+          if (const int e = to_.equation(tie.node, c); e != DofMap::absent) (*rates)[e] = carried[e];
+    }
   }
   for (int e = 0; e < to_.free_count(); ++e)
     if (was_held_[static_cast<std::size_t>(e)]) motion.unbalanced[e] = 0;

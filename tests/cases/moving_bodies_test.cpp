@@ -169,5 +169,41 @@ increments = 400
   EXPECT_EQ(ran.events.count("unresolved energy"), 0u);
 }
 
+/// A body of 50 g amid a ring of film.
+std::string body_in_ring(const std::string& rest) {
+  return "model = \"planar\"\n[film]\nthickness = \"0.1 mm\"\nprestretch = "
+         "1.5\n[film.material]\nshear_modulus "
+         "= \"40 kPa\"\nrelative_permittivity = 2.8\n[annulus]\ninner_radius = \"5 mm\"\nouter_radius = \"20 "
+         "mm\"\n[mesh]\nrings = 4\n[[support]]\nplace = \"outer\"\nfix = [\"x\", \"y\"]\n[[body]]\nname = "
+         "\"b\"\nplaces = [\"inner\"]\nmass = \"50 g\"\ninertia = [0, 0, \"400 g.mm^2\"]\n" +
+         rest + "[output]\nerror_estimate = false\n";
+}
+
+TEST_F(MovingBodies, MayBeHeldAltogether) {
+  const Ran ran = run(body_in_ring(
+      "fix = [\"x\", \"y\", \"turn_z\"]\n[[step]]\nkind = \"transient\"\ninertia = "
+      "true\nduration = \"30 ms\"\nincrements = 20\n[drive]\nvoltage = { wave = \"sine\", mean = "
+      "\"1 kV\", amplitude = \"0.5 kV\", frequency = \"20 Hz\" }\n"));
+  EXPECT_GT(ran.last("electrical_work"), 0);
+}
+
+// What is tied to a body that a support takes hold of stands with it: the energy of its mass, which is that
+// of nodes that are tied, is released.
+TEST_F(MovingBodies, ThatAreCaughtReleaseTheirKineticEnergy) {
+  const Ran ran = run(body_in_ring(
+      "[[support]]\nplace = \"b\"\nfix = [\"x\", \"y\"]\nfrom = \"catch\"\n[[load]]\nplace = \"b\"\nforce = "
+      "[\"200 mN\", 0, 0]\n[[step]]\nkind = \"transient\"\ninertia = true\nduration = \"30 ms\"\nincrements "
+      "= 60\n[[step]]\nkind = \"transient\"\nname = \"catch\"\ninertia = true\nduration = \"15 "
+      "ms\"\nincrements = 20\n[[quantity]]\nname = \"kinetic\"\nkind = \"energy\"\nof = "
+      "\"kinetic\"\n[[quantity]]\nname = \"released\"\nkind = \"energy\"\nof = \"released\"\n"));
+  EXPECT_EQ(ran.events.count("caught"), 1u);
+  std::size_t caught = ran.time.size() - 1; // the last row before
+  while (ran.time[caught] > 30e-3 * (1 + 1e-9)) --caught;
+  const double kinetic = ran.values.at("kinetic")[caught];
+  EXPECT_NEAR(ran.last("released"), kinetic, 1e-3 * kinetic);
+  EXPECT_LT(std::abs(ran.last("energy_error")), 1e-2 * kinetic);
+  EXPECT_LT(ran.last("kinetic"), 1e-2 * kinetic);
+}
+
 } // namespace
 } // namespace dielast::cases::moving_bodies_test

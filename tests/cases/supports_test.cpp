@@ -316,5 +316,37 @@ TEST_F(Supports, ThatHoldTheFilmAreNotBlamedForASpring) {
   EXPECT_NE(warnings(spring).find("is not held in its prestretch"), std::string::npos);
 }
 
+// A support that is there already takes hold once more: all stays as it was, the pressures of a solid and the
+// forces on it, too.
+TEST_F(Supports, LeaveSolidsAsTheyAre) {
+  const auto slab = [](const std::string& when) {
+    return "[film]\nthickness = \"0.1 mm\"\nwidth = \"10 mm\"\n[film.material]\nshear_modulus = \"0.4 "
+           "MPa\"\nrelative_permittivity = 2.8\n[slab]\nlength = \"10 mm\"\nheight = \"2 "
+           "mm\"\n[mesh]\nacross "
+           "= 2\n" +
+           side("right", "x\", \"y", "") + side("right", "x", when) +
+           "[[load]]\nplace = \"left\"\nforce = [\"50 uN\", 0, 0]\n[drive]\nvoltage = \"1.5 kV\"\n"
+           "[output]\nerror_estimate = false\n" +
+           step("force", "pull", "increments = 2") + step("voltage", "charge", "increments = 2") +
+           "[[quantity]]\nname = \"ux\"\nkind = \"displacement\"\nof = \"left\"\nalong = \"x\"\n";
+  };
+  const Ran once = run(slab("")), again = run(slab("from = \"charge\""));
+  for (const auto& [name, values] : once.values)
+    EXPECT_NEAR(again.last(name), values.back(), 1e-9 * std::abs(values.back())) << name;
+}
+
+// The device is built anew with other supports.
+TEST_F(Supports, OfALatticeChangeWhileItsWallsAreWatched) {
+  const Ran ran = run("[film]\nthickness = \"1 mm\"\nprestretch = 2\n[film.material]\nshear_modulus = \"20 "
+                      "kPa\"\nrelative_permittivity = 4\n[honeycomb]\nangle = \"150 deg\"\ncolumns = [1, 2, "
+                      "1]\nwall_length = \"8 mm\"\nwall_width = \"0.8 mm\"\nwall_height = \"2 "
+                      "mm\"\n[honeycomb.wall_material]\nyoungs_modulus = \"78 MPa\"\npoisson_ratio = "
+                      "0.45\nyield_strain = 1e-3\ndensity = \"1200 kg/m^3\"\n[mesh]\nwall_elements = 4\n"
+                      "[drive]\nvoltage = \"3 kV\"\n[output]\nerror_estimate = false\n" +
+                      side("film", "x\", \"y", "until = \"hold\"") +
+                      step("voltage", "hold", "increments = 1") + step("voltage", "go", "increments = 4"));
+  EXPECT_EQ(ran.events.count("wall yield"), 1u);
+}
+
 } // namespace
 } // namespace dielast::cases::supports_test
