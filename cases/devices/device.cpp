@@ -33,14 +33,16 @@ namespace {
 
 /// Times that tell whether the loads balance at all times.
 std::vector<double> telling_times(const Case& one) {
-  std::vector<double> times{0};
+  double longest = 0;
+  for (const Step& step : one.steps) longest = std::max(longest, step.duration.value_or(0));
+  std::vector<double> times{0, longest};
   for (const Load& load : one.loads)
     for (int c = 0; c < fem::DofMap::components; ++c) {
       const Waveform* wave = load.component(c);
       if (!wave) continue;
       const double period = wave->period();
       if (std::isfinite(period)) times.insert(times.end(), {period / 3, period / 7});
-      for (const double t : wave->kinks(0, std::isfinite(period) ? period : 1e10)) times.push_back(t);
+      for (const double t : wave->kinks(0, std::isfinite(period) ? period : longest)) times.push_back(t);
     }
   return times;
 }

@@ -102,6 +102,9 @@ TEST(Loads, OfAFreeBodyMustBalanceAtAllTimes) {
   };
   EXPECT_NO_THROW(build_device(loads("'1 mN'")));
   EXPECT_THROW(build_device(loads("{wave='ramp', from='1 mN', to='2 mN', duration='1 s'}")), CaseError);
+  EXPECT_THROW(build_device(loads("{wave='trapezoid', from='1 mN', to='2 mN', at='0.2 s', rise='0.1 s', "
+                                  "hold='0.1 s', fall='0.1 s'}")),
+               CaseError);
 }
 
 Case patch(const std::string& lines) {
