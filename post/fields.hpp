@@ -57,6 +57,7 @@ struct Field {
   std::optional<Extreme> worst{}; ///< of a scalar: the end of its range that breaks a device
   bool in_space = false;          ///< a symmetric tensor (xx, yy, zz, xy, yz, xz) that turns with the film
   bool of_electrodes = false;     ///< a scalar that is 0 beside electrodes, where its averages do not look
+  bool of_membranes = false;      ///< where there are any, its extremes do not look at what bears compression
 
   int width() const { return components.empty() ? 1 : static_cast<int>(components.size()); }
 };

@@ -21,6 +21,8 @@ int layer_of(const fem::MembraneSample& sample) { return sample.layer; }
 int layer_of(const fem::BeamSample&) { return 0; }
 int electrode_of(const fem::MembraneSample& sample) { return sample.electrode; }
 int electrode_of(const fem::BeamSample&) { return -1; }
+bool bears_compression(const fem::MembraneSample& sample) { return sample.bears_compression; }
+bool bears_compression(const fem::BeamSample&) { return true; }
 
 /// Averages are over the samples of one layer.
 template<class Sample, class Point>
@@ -187,9 +189,12 @@ const WantedScalars& WantedScalars::all() {
 Extremes::Extremes(const fem::Samples& samples, const WantedScalars& wanted)
     : wanted_(wanted), ends_(wanted.names_.size()) {
   std::array<double, widest_field> values;
+  const bool any_membrane =
+      std::ranges::count(samples.film, false, &fem::MembraneSample::bears_compression) > 0;
   const auto look = [&](const auto& point, const auto& rows, const auto& sample, Part part) {
     const void* evaluated = nullptr; // components of a field follow one another
     for (const auto& row : rows) {
+      if (any_membrane && row.field->of_membranes && bears_compression(sample)) continue;
       if (row.field != evaluated) row.field->evaluate(point, values.data());
       evaluated = row.field;
       auto& [low, high] = ends_[row.number];

@@ -34,6 +34,7 @@ struct MembraneSample {
   int electrode = -1;           ///< number of the electrode that covers it; -1: none
   int layer = 0;                ///< of a shell with several: 0 is the film itself, others lie on it
   double breakdown_field = 0;   ///< true field at which this film breaks down, V/m
+  bool bears_compression = false;             ///< of a shell or a solid
   std::shared_ptr<const SolidSample> solid{}; ///< of a solid, F and S above are NaN; otherwise null
 };
 

@@ -27,6 +27,7 @@ void ShellBlock::sample(const State& state, Samples& samples) const {
               .asDiagonal();
     s.S = materials::tension_field::stress(field.potential);
     s.tension = field.tension;
+    s.bears_compression = true;
     s.thickness = layer.thickness;
     s.voltage = electrode == passive ? 0 : state.voltage[static_cast<std::size_t>(electrode)];
     s.field_share = at.place.field[at.lane];

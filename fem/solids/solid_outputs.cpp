@@ -49,6 +49,7 @@ void SolidBlock<Element>::sample(const State& state, Samples& samples) const {
         s.electrode = electrode(e);
         s.voltage = state.voltage[static_cast<std::size_t>(s.electrode)];
       }
+      s.bears_compression = true;
       s.solid = std::make_shared<const SolidSample>(
           SolidSample{turned(F), turned(F * S * F.transpose() / J), in_space * (inverse.transpose() * E0),
                       has_potential() ? none_here : part(e).thickness / across});

@@ -58,6 +58,18 @@ TEST(Reductions, AveragesAreTheFilmsAndExtremesThoseOfAllLayers) {
   EXPECT_EQ(field->layer, 1);
 }
 
+// The frame of a membrane bears compression, which is no loss of tension.
+TEST(Reductions, ExtremesOfTensionAreThoseOfMembranesWhereThereAreAny) {
+  fem::Samples samples;
+  for (const double stress : {-800e3, 20e3, 30e3})
+    samples.film.push_back(film_sample(stretched(1, 1), stress * Eigen::Matrix2d::Identity()));
+  samples.film[0].bears_compression = true;
+  const auto least = [&] { return Extremes(samples).find("min_principal_stress", Extreme::minimum)->value; };
+  EXPECT_DOUBLE_EQ(least(), 20e3);
+  for (fem::MembraneSample& sample : samples.film) sample.bears_compression = true;
+  EXPECT_DOUBLE_EQ(least(), -800e3);
+}
+
 TEST(Reductions, AveragesOfAllFieldsLieCellByCell) {
   const auto arrays = cell_values(two_points_in_cell_one().walls, wall_fields(), 3);
   ASSERT_EQ(arrays.size(), wall_fields().size());
