@@ -3,17 +3,19 @@
 
 #include "post/fields.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace dielast::cases {
 
-std::vector<double> changes_by_barrier(const Case& one, const Solution& own,
-                                       const std::vector<Discretisation>& discretisations,
-                                       const std::vector<Solution>& others, int threads) {
+BarrierChanges changes_by_barrier(const Case& one, const Solution& own,
+                                  const std::vector<Discretisation>& discretisations,
+                                  const std::vector<Solution>& others, int threads) {
   constexpr double all_over_half = 2 + std::numbers::sqrt2; // 1 / (1 - 0.5^0.5)
-  std::vector<double> changes(own.values.size(), 0.0);
+  BarrierChanges changes{std::vector<double>(own.values.size(), 0.0), ""};
   if (!one.contact) return changes;
   Discretisation thinner{one};
   const Solution* thick = &own;
@@ -21,9 +23,12 @@ std::vector<double> changes_by_barrier(const Case& one, const Solution& own,
     if (others[i].size > thinner.size) thinner = discretisations[i], thick = &others[i];
   thinner.one.contact->thickness /= 2;
   const Solution thin = solve(thinner, false, threads);
-  if (!thin.trouble.empty()) return changes;
-  for (std::size_t q = 0; q < changes.size(); ++q)
-    changes[q] =
+  if (const std::string reason = why_not(*thick, thin); !thin.trouble.empty() || !reason.empty())
+    changes.unknown = fmt::format("half of contact.thickness, which tells what it changes, {}",
+                                  thin.trouble.empty() ? "takes the device another way"
+                                                       : "does not lead to the end (" + thin.trouble + ")");
+  for (std::size_t q = 0; q < thin.values.size() && changes.unknown.empty(); ++q)
+    changes.of_quantities[q] =
         all_over_half * std::abs(on_its_side(thin.values[q], own, thick->values[q]) - thick->values[q]);
   return changes;
 }

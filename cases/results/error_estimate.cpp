@@ -203,9 +203,9 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
     estimates.events = {remark_on_end(one, own, others, orders_of({}, one, smooth, bonded))};
     return estimates;
   }
-  const std::vector<double> of_barrier = changes_by_barrier(one, own, discretisations, others, threads);
+  const BarrierChanges of_barrier = changes_by_barrier(one, own, discretisations, others, threads);
   const std::vector<double> of_bending = changes_by_bending(one, own_run, own, threads);
-  if (interrupted()) estimates.reason = "interrupted";
+  estimates.reason = interrupted() ? "interrupted" : of_barrier.unknown;
   if (!estimates.reason.empty()) return estimates;
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
@@ -234,7 +234,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
       if (takes_time(one)) // the steps were chosen to be no better than that
         raise(estimate, std::max(one.solver.time_tolerance, spring) * std::abs(own.values[q]));
       raise(estimate, of_bending[q]);
-      if (estimate.error) *estimate.error += of_barrier[q];
+      if (estimate.error) *estimate.error += of_barrier.of_quantities[q];
     }
   }
   for (const Margin& margin : margins) {

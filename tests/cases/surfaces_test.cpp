@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces of solids that touch: [contact] between.
 #include "cases/devices/device.hpp"
+#include "cases/results/error_estimate.hpp"
 #include "tests/cases/path_cases.hpp"
 
 #include <fmt/format.h>
@@ -211,6 +212,29 @@ TEST_F(Surfaces, refuse_surfaces_that_touch_or_cross_as_drawn) {
                CaseError);
   EXPECT_THROW(build_device(read(two_blocks(0.1, 'y', "\"lower.top\", \"lower.left\", \"upper.bottom\""))),
                CaseError);
+}
+
+// Blocks that are as far apart as their barrier is thick touch with all of it only: half of it, which tells
+// what it changes, leaves the upper one loose. Then the errors are not known.
+TEST_F(Surfaces, ErrorsAreNotToldWhereHalfTheBarrierTellsNothing) {
+  std::string text = two_blocks(0.01);
+  const std::string moved = "\ndisplacement = { y = \"-0.1 mm\" }", kind = "kind = \"move\"";
+  text.replace(text.find(moved), moved.size(), "");
+  text.replace(text.find(kind), kind.size(), "kind = \"force\"");
+  write("blocks.toml", text + "[[load]]\nplace = \"upper.top\"\nforce = [0, \"-1 mN\", 0]\n");
+  const Case one = read_case(directory / "blocks.toml", {"output.error_estimate=true"});
+  Simulation simulation(one, 1);
+  std::vector<post::StepRecord> records;
+  SimulationObserver observer;
+  observer.on_accept = [&](const Frame& frame) {
+    records.push_back(frame.record);
+    return true;
+  };
+  const Outcome outcome = simulation.run(observer);
+  ASSERT_EQ(outcome.ending, Ending::complete) << outcome.message;
+  const Estimates estimates = estimate_errors(one, simulation, outcome, records, {}, 1);
+  EXPECT_NE(estimates.reason.find("half of contact.thickness"), std::string::npos) << estimates.reason;
+  EXPECT_TRUE(estimates.quantities.empty());
 }
 
 } // namespace
