@@ -289,7 +289,7 @@ void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   const auto need = [&](StepKind kind, const char* word, bool given) {
     for (std::size_t s = 0; s < one.steps.size(); ++s)
       if (const StepPlace at = place_of_step(tree, s);
-          one.steps[s].kind == kind && !given && !one.steps[s].to)
+          one.steps[s].kind == kind && !given && (!one.chamber || !one.steps[s].to))
         reader.report(at.source, at.key, fmt::format("has nothing to reach; give [chamber] a {}", word));
   };
   need(StepKind::pressure, "pressure", one.chamber && one.chamber->pressure);
