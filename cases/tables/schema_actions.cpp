@@ -204,7 +204,7 @@ Section circuit_section() {
           "leakage_resistance", "Ohm", to(&Circuit::leakage_resistance),
           "through the film under the whole electrode; without it none leaks. In steps without a duration "
           "it divides the voltage as it does in the long run. An isolated electrode loses its charge "
-          "through it while time passes; a charge that is given stays")
+          "through it while time passes; a charge that is given stays: its source gives what leaks, too")
           .at_least(smallest_resistance)
           .optional(),
       measure("current_limit", "A", to(&Circuit::current_limit),
