@@ -212,12 +212,13 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
       if (!progress_.followed)
         progress_.followed =
             fem::switch_branch(equilibrium_, path_, *trouble.critical, amplitude * model().extent, arcs());
+    // A branch that is unstable from its beginning is none that a device takes.
+    if (jumps && progress_.followed && progress_.followed->newton.unstable_modes > 0)
+      progress_.followed.reset();
     if (progress_.followed) return std::nullopt;
-    accept_critical(*trouble.critical);
-    return failure(trouble);
   }
   if (jumps) return jump(trouble);
-  if (ends) {
+  if (ends || switches) {
     if (trouble.critical) accept_critical(*trouble.critical);
     return failure(trouble);
   }

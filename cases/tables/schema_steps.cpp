@@ -162,7 +162,10 @@ Section step_section() {
           .only(moving),
       word("on_bifurcation",
            {{"follow", "along the path it is on", OnBifurcation::follow},
-            {"switch", "onto the branch that is stable", OnBifurcation::switch_branch}},
+            {"switch",
+             "onto the branch that is stable; where that is unstable from its beginning, with on_instability "
+             "\"jump\" to the next stable state",
+             OnBifurcation::switch_branch}},
            to(&Step::on_bifurcation), "what happens where another path branches off")
           .otherwise("follow")
           .only_with(when::without_duration())

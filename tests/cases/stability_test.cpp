@@ -244,5 +244,44 @@ TEST_F(Stability, ABranchThatIsUnstableAtItsEndIsNoResult) {
   EXPECT_EQ(jumped.rows.back().load_factor, 1);
 }
 
+// Where a buckled beam is pushed through, the branch along which it turns is unstable from its beginning: a
+// step that may jump does so from there, as without a switch.
+TEST_F(Stability, ABranchThatIsUnstableFromItsBeginningIsJumpedFrom) {
+  const auto beam = [](const char* name, double from, double to) {
+    return fmt::format(
+        "[part.{0}.line]\nfrom = [\"{1} mm\", 0, 0]\nto = [\"{2} mm\", 0, 0]\n[part.{0}.beam]\n"
+        "width = \"0.5 mm\"\nheight = \"5 mm\"\nmaterial = {{ youngs_modulus = \"2 GPa\", "
+        "poisson_ratio = 0.3 }}\n",
+        name, from, to);
+  };
+  const auto end = [&](const char* on_bifurcation) {
+    const Run ran = run(
+        beam("l", -20, 0) + beam("r", 0, 20) +
+            "[part.f.film]\nthickness = \"0.5 mm\"\nprestretch = 2\n[part.f.film.material]\nshear_modulus = "
+            "\"50 "
+            "kPa\"\nrelative_permittivity = 4.7\n[part.f.rod]\nwidth = \"10 mm\"\n[part.f.line]\nto = [0, "
+            "\"30 "
+            "mm\", 0]\n[[tie]]\nbetween = [\"l.end\", \"r.start\"]\n[[tie]]\nbetween = [\"l.end\", "
+            "\"f.start\"]\n"
+            "[[support]]\nplace = \"l.start\"\nfix = [\"y\", \"turn_z\"]\ndisplacement = { x = \"0.5 mm\" }\n"
+            "[[support]]\nplace = \"r.end\"\nfix = [\"y\", \"turn_z\"]\ndisplacement = { x = \"-0.5 mm\" }\n"
+            "[[support]]\nplace = \"f.end\"\nfix = [\"x\", \"y\"]\n[[load]]\nplace = \"l.end\"\nforce = [0, "
+            "\"-5 "
+            "N\", 0]\n[drive]\nvoltage = \"1 kV\"\n[output]\nerror_estimate = false\n[[quantity]]\nname = "
+            "\"y\"\n"
+            "kind = \"displacement\"\nof = \"l.end\"\nalong = \"y\"\n[[step]]\nkind = "
+            "\"release\"\n[[step]]\nkind "
+            "= \"move\"\n[[step]]\nkind = \"force\"\nincrements = 20\non_instability = "
+            "\"jump\"\non_bifurcation = \"" +
+            std::string(on_bifurcation) + "\"\n",
+        "y");
+    EXPECT_EQ(ran.outcome.ending, Ending::complete) << ran.outcome.message;
+    return ran.rows.back().value;
+  };
+  const double y = end("switch");
+  EXPECT_NEAR(y, -4.24692e-3, 1e-6); // by a chain of 80 hinged bars with springs between them
+  EXPECT_NEAR(y, end("follow"), 1e-9);
+}
+
 } // namespace
 } // namespace dielast::cases::stability_test
