@@ -86,6 +86,16 @@ void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::D
   }
 }
 
+void require_free_devices(const Case& one, const std::vector<Step>& steps, const Holding& first) {
+  std::vector<Holding> built{first};
+  for (int step = 0; step < std::ssize(steps); ++step) {
+    Holding later = holding_in(one, steps, step);
+    if (!is_free(one, later.supports) || std::ranges::count(built, later) > 0) continue;
+    build_device(held_by(one, later));
+    built.push_back(std::move(later));
+  }
+}
+
 /// Supports let go and take hold at the beginning of the current step. What lets go hands its forces to the
 /// loads, so that the state stays in balance.
 void Simulation::change_supports(fem::State& state) {

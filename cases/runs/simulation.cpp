@@ -94,6 +94,7 @@ Simulation::Simulation(const Case& one, int threads)
     enter(0);
     frame_ = frame_force();
   }
+  require_free_devices(one, steps_, holding_);
   for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
   for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
   if (settles && !is_held(frame_) && !one.any_geometry<Patch>())
