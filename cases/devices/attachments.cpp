@@ -36,7 +36,8 @@ void require_a_direction(const Case& one, const meshing::Mesh& mesh, const fem::
   const std::string key = object + ".along";
   throw one.error_at(
       key,
-      fmt::format("\"{}\" and \"{}\" are drawn at the same {}: along it nothing says which way it pushes",
+      fmt::format("\"{}\" and \"{}\" are drawn at the same {}: along it nothing says which way it pushes; an "
+                  "end on a [[body]] is at its centre, which may lie elsewhere",
                   between[0], between[1], "xyz"[distance.axis]));
 }
 

@@ -189,7 +189,7 @@ void check_leaks(SectionReader& reader, const Node& tree, const Case& one) {
     const StepPlace at = place_of_step(tree, s);
     if (given)
       reader.warn(at.source, at.key,
-                  "charges that are given here stay what they are, in spite of leakage_resistance");
+                  "charges that are given here stay what they are: their sources give what leaks, too");
     if (step.kind == StepKind::relax && isolated)
       reader.report(
           at.source, at.key + ".control",
@@ -229,7 +229,7 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
                                   : tree.find("support")->items[s].source.is_written()
                                       ? std::string("held by a [[support]]")
                                       : std::string("held by a [[support]] that the geometry brings where "
-                                                    "the case has none")));
+                                                    "the case has none (write one for what is to stand)")));
       }
     const bool spatial = one.dimension == fem::Dimension::spatial;
     const auto& moment = body.inertia;

@@ -310,7 +310,7 @@ std::unique_ptr<ElementBlock> make_shell_block(const meshing::Mesh& mesh, const 
                                                std::vector<std::vector<int>> electrodes,
                                                std::vector<int> numbers) {
   if (cells.type != meshing::CellType::triangle6 || cells.size() == 0)
-    throw std::invalid_argument("a shell is made of 6-node triangles");
+    throw std::invalid_argument("a shell is made of 6-node triangles (gmsh -order 2)");
   if (section.layers.empty() || electrodes.size() != section.layers.size())
     throw std::invalid_argument("a shell needs layers, and the electrodes of each");
   for (const auto& layer : electrodes)

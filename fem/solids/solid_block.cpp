@@ -342,7 +342,7 @@ std::unique_ptr<ElementBlock> make_solid_block(const meshing::Mesh& mesh, SolidC
   using meshing::CellType;
   const bool of_triangles = cells.elements.type == CellType::triangle6;
   if (!(of_triangles || cells.elements.type == CellType::tetrahedron10) || cells.elements.size() == 0)
-    throw std::invalid_argument("a solid is made of 6-node triangles or 10-node tetrahedra");
+    throw std::invalid_argument("a solid is made of 6-node triangles or 10-node tetrahedra (gmsh -order 2)");
   if (of_triangles && dimension == Dimension::spatial)
     throw std::invalid_argument("a solid of triangles is in plane strain or of revolution");
   if (!of_triangles && dimension != Dimension::spatial)
