@@ -6,6 +6,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include <random>
+
 namespace dielast::fem {
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) {
@@ -29,6 +31,14 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b
 
 Eigen::MatrixXcd solve_dense(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b) {
   return A.partialPivLu().solve(b);
+}
+
+Eigen::MatrixXd random_vectors(Eigen::Index rows, Eigen::Index count) {
+  std::mt19937 random(1);
+  Eigen::MatrixXd vectors(rows, count);
+  for (double& entry : vectors.reshaped())
+    entry = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  return vectors;
 }
 
 } // namespace dielast::fem

@@ -5,8 +5,8 @@
 
 namespace dielast::fem {
 
-// Decompositions of small dense matrices. They stand in one translation unit because their templates take the
-// compiler half a minute wherever they are used.
+// Decompositions of small dense matrices, which stand in one translation unit because their templates take
+// the compiler half a minute wherever they are used; and vectors to start from.
 
 /// A = vectors diag(values) vectors^T, values ascending, vectors orthonormal.
 struct SymmetricEigen {
@@ -37,6 +37,9 @@ Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& A);
 
 /// The x with the least |A x - b|, by columns.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
+
+/// `count` columns of entries between -1/2 and 1/2, the same ones in every run.
+Eigen::MatrixXd random_vectors(Eigen::Index rows, Eigen::Index count);
 
 /// A^-1 b.
 Eigen::MatrixXcd solve_dense(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);

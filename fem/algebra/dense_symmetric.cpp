@@ -7,6 +7,7 @@
 namespace dielast::fem {
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {
+  if (A.rows() == 0) return {}; // Eigen's solver would read beyond it
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace dielast::fem {
 
@@ -31,9 +30,7 @@ bool moves_freely(Equilibrium& equilibrium, const State& state) {
   const Eigen::VectorXd root = equilibrium.stiffness().cwiseSqrt();
   if (root.size() == 0) return false;
   if (!equilibrium.factor(state)) return true;
-  std::mt19937 random(1);
-  Eigen::VectorXd x(root.size()), y;
-  for (double& one : x) one = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  Eigen::VectorXd x = random_vectors(root.size(), 1), y;
   double growth = 0;
   for (int solve = 0; solve < 2; ++solve) { // the first one brings out the weakest mode
     x.normalize();
@@ -73,11 +70,8 @@ std::optional<Mode> lowest_mode(Equilibrium& equilibrium, const State& state) {
   }
   // Subspace iteration with the inverse: a few vectors, so that close modes do not slow it down.
   const Eigen::Index width = std::min<Eigen::Index>(subspace, D.size());
-  std::mt19937 random(1);
-  Eigen::MatrixXd X(D.size(), width), Y(D.size(), width);
-  for (Eigen::Index i = 0; i < X.size(); ++i)
-    X.data()[i] = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
-  X = D.cwiseSqrt().cwiseInverse().asDiagonal() * X;
+  Eigen::MatrixXd X = D.cwiseSqrt().cwiseInverse().asDiagonal() * random_vectors(D.size(), width);
+  Eigen::MatrixXd Y(D.size(), width);
   Eigen::VectorXd y;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const Eigen::MatrixXd gram = X.transpose() * D.asDiagonal() * X;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <random>
 
 namespace dielast::fem {
 
@@ -89,10 +88,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
     if (options.drifts) rigid.take_off(Y);
     return Y;
   };
-  std::mt19937 random(1);
-  Eigen::MatrixXd X(free, width);
-  for (Eigen::Index i = 0; i < X.size(); ++i)
-    X.data()[i] = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  Eigen::MatrixXd X = random_vectors(free, width);
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     Eigen::MatrixXd V(free, 0), W(free, 0); // W = K^-1 M V, without rigid motions
     if (options.drifts && sweep == 0) rigid.take_off(X);

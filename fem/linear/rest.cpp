@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/linear/rest.hpp"
 
+#include "fem/algebra/dense_algebra.hpp"
 #include "fem/equilibrium/lowest_mode.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rigid_motions.hpp"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 
 namespace dielast::fem {
@@ -50,11 +50,7 @@ double stiffness_change(Equilibrium& equilibrium, const State& here, const State
   for (std::size_t i = 0; i < K.values.size(); ++i) change.values[i] -= K.values[i];
   if (!equilibrium.factor(here)) return none;
   const Eigen::VectorXd& D = equilibrium.stiffness();
-  std::mt19937 random(1);
-  Eigen::VectorXd x(D.size()), y;
-  for (double& entry : x)
-    entry = static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 0.5;
-  x = x.cwiseQuotient(D.cwiseSqrt());
+  Eigen::VectorXd x = random_vectors(D.size(), 1).cwiseQuotient(D.cwiseSqrt()), y;
   double largest = 0;
   for (int power = 0; power < powers; ++power) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
