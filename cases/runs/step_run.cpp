@@ -208,13 +208,14 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
   const bool ends = !switches && !jumps && (step_.on_instability == OnInstability::stop || timed());
   if (trouble.critical) announce(*trouble.critical, ends);
   if (switches) {
-    for (const double amplitude : branch_amplitudes)
-      if (!progress_.followed)
-        progress_.followed =
-            fem::switch_branch(equilibrium_, path_, *trouble.critical, amplitude * model().extent, arcs());
-    // A branch that is unstable from its beginning is none that a device takes.
-    if (jumps && progress_.followed && progress_.followed->newton.unstable_modes > 0)
-      progress_.followed.reset();
+    for (const double amplitude : branch_amplitudes) {
+      if (progress_.followed) break;
+      progress_.followed =
+          fem::switch_branch(equilibrium_, path_, *trouble.critical, amplitude * model().extent, arcs());
+      // A branch that is unstable from its beginning is none that a device takes.
+      if (jumps && progress_.followed && progress_.followed->newton.unstable_modes > 0)
+        progress_.followed.reset();
+    }
     if (progress_.followed) return std::nullopt;
   }
   if (jumps) return jump(trouble);

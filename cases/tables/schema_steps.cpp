@@ -163,8 +163,8 @@ Section step_section() {
       word("on_bifurcation",
            {{"follow", "along the path it is on", OnBifurcation::follow},
             {"switch",
-             "onto the branch that is stable; where that is unstable from its beginning, with on_instability "
-             "\"jump\" to the next stable state",
+             "onto the branch that is stable; where there is none, with on_instability \"jump\" to the "
+             "next stable state",
              OnBifurcation::switch_branch}},
            to(&Step::on_bifurcation), "what happens where another path branches off")
           .otherwise("follow")

@@ -22,9 +22,10 @@ constexpr int most_trials = 80;
 /// Part of the step beyond a bracket that has closed, in which the eigenvalue must vanish. With friction it
 /// leaps wherever a node starts or stops to slide: it must vanish closer by, and have fallen to this part.
 constexpr double near = 1e-2, near_with_friction = 1e-5, fallen = 0.1;
-constexpr double vanished = 1e-5;       ///< eigenvalue of a state from which no path leads on
-constexpr double load_tolerance = 1e-7; ///< of a critical load factor
-constexpr double farthest_turn = 1e-6;  ///< beyond a bracket that has closed
+constexpr double vanished = 1e-5;            ///< eigenvalue of a state from which no path leads on
+constexpr double load_tolerance = 1e-7;      ///< of a critical load factor
+constexpr double farthest_turn = 1e-6;       ///< beyond a bracket that has closed
+constexpr double just_before_end = 1 - 1e-9; ///< a step that reaches a turn does not reach its end
 /// Of the load factor, where a state is looked for: so little that the jump of an edge that slips shows.
 constexpr std::array just_beyond{1e-5, 1e-4};
 constexpr double nearer = 0.5;     ///< than before a critical point: states beyond that are joined with it
@@ -167,9 +168,14 @@ std::optional<CriticalPoint> find_turn(Equilibrium& equilibrium, const LoadPath&
   };
   const double now = eigenvalue(last[0]), former = eigenvalue(last[1]);
   const double left = now * now * (last[0].s - last[1].s) / (former * former - now * now);
-  if (!(std::abs(left) <= farthest_turn)) return std::nullopt;
+  const double ahead = std::copysign(1.0, last[0].s - last[1].s) * left;
+  if (!(ahead >= -load_tolerance && ahead <= farthest_turn)) return std::nullopt;
   normalise(equilibrium.model().dofs, last->state, mode);
-  CriticalPoint turn{{}, last->s + left, last->state, {now, std::move(mode)}, {}};
+  CriticalPoint turn{{},
+                     std::min(last->s + left, std::max(last->s, just_before_end)),
+                     last->state,
+                     {now, std::move(mode)},
+                     {}};
   turn.kind = classify(equilibrium, path, turn.state, last->s, turn.mode);
   if (turn.kind == Instability::bifurcation) return std::nullopt; // what there is of the mode is of rounding
   return turn;
