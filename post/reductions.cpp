@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
@@ -21,8 +22,6 @@ int layer_of(const fem::MembraneSample& sample) { return sample.layer; }
 int layer_of(const fem::BeamSample&) { return 0; }
 int electrode_of(const fem::MembraneSample& sample) { return sample.electrode; }
 int electrode_of(const fem::BeamSample&) { return -1; }
-bool bears_compression(const fem::MembraneSample& sample) { return sample.bears_compression; }
-bool bears_compression(const fem::BeamSample&) { return true; }
 
 /// Averages are over the samples of one layer.
 template<class Sample, class Point>
@@ -190,11 +189,11 @@ Extremes::Extremes(const fem::Samples& samples, const WantedScalars& wanted)
     : wanted_(wanted), ends_(wanted.names_.size()) {
   std::array<double, widest_field> values;
   const bool any_membrane =
-      std::ranges::count(samples.film, false, &fem::MembraneSample::bears_compression) > 0;
-  const auto look = [&](const auto& point, const auto& rows, const auto& sample, Part part) {
+      std::ranges::any_of(samples.film, std::logical_not{}, &fem::MembraneSample::bears_compression);
+  const auto look = [&](const auto& point, const auto& rows, const auto& sample, Part part, bool is_frame) {
     const void* evaluated = nullptr; // components of a field follow one another
     for (const auto& row : rows) {
-      if (any_membrane && row.field->of_membranes && bears_compression(sample)) continue;
+      if (is_frame && row.field->of_membranes) continue;
       if (row.field != evaluated) row.field->evaluate(point, values.data());
       evaluated = row.field;
       auto& [low, high] = ends_[row.number];
@@ -207,9 +206,10 @@ Extremes::Extremes(const fem::Samples& samples, const WantedScalars& wanted)
     }
   };
   if (!wanted.film_.empty())
-    for (const auto& sample : samples.film) look(FilmPoint(sample), wanted.film_, sample, Part::film);
+    for (const auto& sample : samples.film)
+      look(FilmPoint(sample), wanted.film_, sample, Part::film, any_membrane && sample.bears_compression);
   if (!wanted.walls_.empty())
-    for (const auto& sample : samples.walls) look(sample, wanted.walls_, sample, Part::walls);
+    for (const auto& sample : samples.walls) look(sample, wanted.walls_, sample, Part::walls, false);
 }
 
 double film_value(const fem::MembraneSample& sample, std::string_view scalar) {

@@ -95,10 +95,10 @@ bool StepRun::follows() const {
 
 /// The critical point between the last accepted state and the load factor s, where Newton's method has found
 /// `another` state, less stable or not of this path, or none.
-std::optional<fem::CriticalPoint> StepRun::locate(double s, bool another) const {
+std::optional<fem::CriticalPoint> StepRun::locate(double s, bool another) {
   const double reached = progress_.ramp.load_factor;
   return fem::locate_by_load_control(equilibrium_, path_, loaded(last(), reached), reached, s,
-                                     options_.newton, another, observer_.goes_on);
+                                     options_.newton, another, [this] { return goes_on(); });
 }
 
 /// The last accepted state, where it is about to lose its stability at the pace of the step; with inertia,
@@ -131,8 +131,7 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
   if (now.points.size() > 1) progress_.ramp.points.pop_back();
   progress_.ramp.load_factor = increment.load_factor - increment.length;
   if (lost) trouble.critical = timed() ? limit_in_time() : locate(increment.load_factor, true);
-  const bool interrupted = lost && !trouble.critical && !goes_on();
-  if (interrupted || (leaves && (trouble.critical || stops() || begins_unstable))) {
+  if (interrupted_ || (leaves && (trouble.critical || stops() || begins_unstable))) {
     leaving_ = std::move(trouble);
     return false;
   }
@@ -175,7 +174,7 @@ Outcome StepRun::run() {
       if (follows() && trouble.critical && !trouble.critical->beyond)
         trouble.critical.reset(); // arclength tells
     }
-    if (!trouble.critical && !goes_on()) return {Ending::interrupted, between_states};
+    if (interrupted_) return {Ending::interrupted, between_states};
     if (trouble.critical && trouble.critical->beyond) {
       if (!pass(std::move(*trouble.critical))) return {Ending::interrupted};
       continue;

@@ -78,7 +78,10 @@ class StepRun {
     int unstable_modes = 0;                     ///< of a state that was reached and is not accepted
   };
   bool timed() const { return options_.duration > 0; }
-  bool goes_on() const { return !observer_.goes_on || observer_.goes_on(); }
+  bool goes_on() {
+    interrupted_ = interrupted_ || (observer_.goes_on && !observer_.goes_on());
+    return !interrupted_;
+  }
   const fem::Model& model() const { return equilibrium_.model(); }
   const fem::State& last() const { return progress_.ramp.points.back().state; }
   fem::State loaded(fem::State state, double s) const;
@@ -86,7 +89,7 @@ class StepRun {
   bool on_ramp(const fem::RampProgress& now, const fem::Increment& increment);
   bool stops() const { return step_.on_instability == OnInstability::stop && !options_.inertia; }
   bool follows() const;
-  std::optional<fem::CriticalPoint> locate(double s, bool another) const;
+  std::optional<fem::CriticalPoint> locate(double s, bool another);
   std::optional<fem::CriticalPoint> limit_in_time() const;
   void announce(const fem::CriticalPoint& critical, bool ends);
   bool pass(fem::CriticalPoint critical);
@@ -118,6 +121,7 @@ class StepRun {
   const StepObserver& observer_;
   const std::string ways_on_;      ///< what a step that stops may do instead, for messages; empty: nothing
   std::optional<Trouble> leaving_; ///< the step leaves its path
+  bool interrupted_ = false;       ///< between states, see StepObserver::goes_on
 };
 
 } // namespace dielast::cases

@@ -3,7 +3,6 @@
 
 #include "fem/model/contact_block.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 

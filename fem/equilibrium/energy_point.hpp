@@ -21,7 +21,7 @@ struct EnergyPoint {
                          ///< port pressure and own volume of a chamber, 0 of an electrode
   Conjugates electrical; ///< per port voltage and charge, 0 of a chamber
   Conjugates resistance; ///< per port drop of voltage from its source (without time, from what the
-                         ///< source leads it to) and charge
+                         ///< source leads it to; of a charge that is given see given_through) and charge
   Conjugates sheet;      ///< per Ports::sheet_points drop of voltage from the terminal and charge
   /// Powers, W: of dashpots by their flow rules; of dampers and drag; of leaking current in the film, in
   /// sheets on its way there, and in the resistance behind its source.

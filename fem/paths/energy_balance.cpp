@@ -58,16 +58,16 @@ class Interval {
     const double volts = end_.electrical.force[e] - begin_.electrical.force[e];
     return std::clamp((end_.resistance.force[e] - begin_.resistance.force[e]) / volts, -1.0, 1.0);
   }
-  /// Of resistances times the squares of the rates of coordinates, which need time.
-  double over_rates(Conjugates EnergyPoint::*pair, const Eigen::VectorXd& resistances) const {
+  /// Of resistances times the squares of the rates of charges, which need time.
+  double over_rates(const Eigen::VectorXd& resistances) const {
     const double h = duration(), h1 = before_ ? begin_.time - before_->time : 0;
     double result = 0;
     for (Eigen::Index i = 0; i < resistances.size(); ++i) {
-      const double now = (end_.*pair).coordinate[i], then = (begin_.*pair).coordinate[i],
+      const double now = end_.resistance.coordinate[i], then = begin_.resistance.coordinate[i],
                    rate = (now - then) / h;
       result += resistances[i] * h * rate * rate;
       if (!(h1 > 0)) continue;
-      const double change = 2 * (rate - (then - (before_->*pair).coordinate[i]) / h1) / (h + h1);
+      const double change = 2 * (rate - (then - before_->resistance.coordinate[i]) / h1) / (h + h1);
       result += resistances[i] * h * h * h * change * change / 12; // parabola through three states
     }
     return result;
@@ -143,7 +143,7 @@ void EnergyBalance::account(const EnergyPoint& point, bool is_cut) {
             std::max(0.0, conducted.value + leak_through_sheet);
     record_.work.resistance +=
         std::max(0.0, resisted.value + interval.over(EnergyPoint::leak_through_resistance).value +
-                          interval.over_rates(&EnergyPoint::resistance, point.given_through));
+                          interval.over_rates(point.given_through));
     record_.work.leak += std::max(0.0, leaked.value);
     doubt = std::abs(flow.value - point.flow) * (fine ? one_order : 1) + std::abs(damped.curvature) +
             std::abs(conducted.curvature);

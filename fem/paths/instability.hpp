@@ -40,7 +40,7 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
 /// a limit point the eigenvalue goes with the square root of the distance in s, near a bifurcation with the
 /// distance: extrapolated, that says where to go next. Ends when the critical load factor is known to 1e-7.
 /// Nothing, too, where Newton's method fails without another state and without the eigenvalue vanishing: it
-/// may have had too few iterations; nor where `goes_on`, asked before every state, says false (interrupt).
+/// may have had too few iterations; nor where `goes_on`, asked before every trial, says false (interrupt).
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
                                                     const State& state, double s_before, double s_beyond,
                                                     const NewtonOptions& options, bool another = false,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/paths/renumbering.hpp"
 
+#include "fem/equilibrium/moving_bodies.hpp"
+
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
@@ -59,12 +61,12 @@ State Renumbering::operator()(State state) const {
   }
   if (const std::vector<char> bodies = caught(); std::ranges::count(bodies, 1) > 0) {
     const Eigen::SparseMatrix<double> jacobian = to_.jacobian(state);
-    for (Eigen::VectorXd* rates : {&motion.velocity, &motion.acceleration, &motion.acceleration_now}) {
-      const Eigen::VectorXd carried = jacobian * rates->head(to_.free_count());
-      for (const Tie& tie : to_.ties())
-        for (int c = 0; c < 3 && bodies[static_cast<std::size_t>(tie.node)]; ++c)
-          if (const int e = to_.equation(tie.node, c); e != DofMap::absent) (*rates)[e] = carried[e];
-    }
+    const Eigen::VectorXd carried = jacobian * motion.velocity.head(to_.free_count());
+    for (const Tie& tie : to_.ties())
+      for (int c = 0; c < 3 && bodies[static_cast<std::size_t>(tie.node)]; ++c)
+        if (const int e = to_.equation(tie.node, c); e != DofMap::absent) motion.velocity[e] = carried[e];
+    for (Eigen::VectorXd* rates : {&motion.acceleration, &motion.acceleration_now})
+      carry_accelerations(to_, state, motion.velocity, *rates);
   }
   for (int e = 0; e < to_.free_count(); ++e)
     if (was_held_[static_cast<std::size_t>(e)]) motion.unbalanced[e] = 0;

@@ -15,8 +15,8 @@ class Renumbering {
 
   /// A vector with one entry per equation; what stands behind them stays.
   Eigen::VectorXd operator()(const Eigen::VectorXd& values) const;
-  /// The state with its dead forces and its motion; what is held from now on is at rest, and with it what is
-  /// tied to it, and what is let go in balance.
+  /// The state with its dead forces and its motion: what is held from now on is at rest, what is tied to it
+  /// moves with what is left of its body, and what is let go is in balance.
   State operator()(State state) const;
   /// Of values per equation those at unknowns that are let go, 0 at all others.
   Eigen::VectorXd let_go(const Eigen::VectorXd& values) const;
