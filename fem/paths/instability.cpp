@@ -148,7 +148,7 @@ std::optional<PathPoint> find_beyond(Equilibrium& equilibrium, const LoadPath& p
 /// Near a limit point the slope v of the path grows along the critical mode, as one over the root of the load
 /// that is left: its changes from point to point are along that mode, of which K v = -dR/ds tells the
 /// eigenvalue. So limit points are seen whose modes are hidden by others nearer to zero: those of a slender
-/// device where film gives way in a corner, and where it gives way in two at once, that of their difference.
+/// device where film gives way in a cell, and where it gives way in two at once, that of their difference.
 std::optional<CriticalPoint> find_turn(Equilibrium& equilibrium, const LoadPath& path,
                                        const std::vector<LoadPoint>& points) {
   const auto last = points.rbegin();
