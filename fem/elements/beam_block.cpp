@@ -310,22 +310,33 @@ Evaluation BeamBlock<Nodes>::evaluate(const State& state, int first, int last, c
   return result;
 }
 
+/// Of the section's fibres, by axial force and bending.
+double largest_fibre_strain(const Eigen::Vector<double, 6>& strain, const materials::BeamSection& section) {
+  return std::abs(strain[0]) + std::abs(strain[5]) * section.half_width +
+         std::abs(strain[4]) * section.half_height;
+}
+
 template<int Nodes>
 void BeamBlock<Nodes>::sample(const State& state, Samples& samples) const {
+  constexpr std::size_t points = Nodes - 1;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const Nodal n = nodal(elements_[e], state);
-    for (const Point& point : elements_[e].point) {
-      const Vector6 strain = kinematics(point, n).strain() - point.rest;
+    std::array<Vector6, points> strains;
+    for (std::size_t p = 0; p < points; ++p)
+      strains[p] = kinematics(elements_[e].point[p], n).strain() - elements_[e].point[p].rest;
+    const Vector6 middle = (strains.front() + strains.back()) / 2;
+    for (std::size_t p = 0; p < points; ++p) {
+      const Vector6& strain = strains[p];
+      const Vector6 end = middle + std::sqrt(3.0) * (strain - middle); // of the element
       const Vector6 stress = stiffness_.cwiseProduct(strain);
       BeamSample s;
       s.cell = numbers_[e];
-      s.length = point.length;
+      s.length = elements_[e].point[p].length;
       s.force = stress.head<3>();
       s.moment = stress.tail<3>();
       s.strain = strain.head<3>();
       s.curvature = strain.tail<3>();
-      s.fibre_strain = std::abs(s.strain[0]) + std::abs(s.curvature[2]) * section_.half_width +
-                       std::abs(s.curvature[1]) * section_.half_height;
+      s.fibre_strain = std::max(largest_fibre_strain(middle, section_), largest_fibre_strain(end, section_));
       s.yield_strain = section_.yield_strain;
       samples.walls.push_back(s);
     }

@@ -47,7 +47,7 @@ struct BeamSample {
   Eigen::Vector3d moment;    ///< N m
   Eigen::Vector3d strain;    ///< axial and shear strains, -
   Eigen::Vector3d curvature; ///< change of curvature, 1/m
-  double fibre_strain = 0;   ///< largest |strain| of the cross-section's fibres along the wall, -
+  double fibre_strain = 0;   ///< largest |strain| of fibres along the wall, over what the point stands for, -
   double yield_strain = 0;   ///< strain at which the wall's material yields, -
 };
 

@@ -16,13 +16,20 @@ class BeamPatch : public ::testing::TestWithParam<int> {
       4, GetParam(), [](double s) { return Eigen::Vector3d(s, 0, 0); },
       [](double t) { return t * (0.3 + 0.7 * t); });
   std::unique_ptr<Model> model = [this] {
-    auto m = test::unnumbered_model(mesh.node_count(), false,
-                                    make_beam_block(mesh, mesh.blocks[0], test::uneven_section()));
+    auto m =
+        test::unnumbered_model(mesh.node_count(), false, make_beam_block(mesh, mesh.blocks[0], section()));
     for (int c = 0; c < DofMap::components; ++c) m->dofs.hold(0, c);
     m->dofs.number();
     return m;
   }();
   Equilibrium equilibrium{*model, 1};
+
+  static materials::BeamSection section() {
+    materials::BeamSection section = test::uneven_section();
+    section.half_width = 0.02;
+    section.half_height = 0.05;
+    return section;
+  }
 
   State loaded(int component, double load) {
     State state = model->initial_state();
@@ -66,9 +73,10 @@ TEST_P(BeamPatch, constant_small_twist_and_curvature_are_exact) {
 }
 
 // A transverse tip load bends linearly: two-node elements have the exact section forces in their middle,
-// three-node ones the exact deflection F s^2 (3 - s) / 6 EI + F s / GA at the corners.
+// three-node ones the exact deflection F s^2 (3 - s) / 6 EI + F s / GA at the corners and the exact strain of
+// the outermost fibre at the ends of elements.
 TEST_P(BeamPatch, small_transverse_load) {
-  const materials::BeamSection section = test::uneven_section();
+  const materials::BeamSection section = this->section();
   const double force = 1e-6;
   const State in_plane = loaded(1, force), out_of_plane = loaded(2, force);
   for (const BeamSample& sample : model->sample(in_plane).walls)
@@ -76,6 +84,11 @@ TEST_P(BeamPatch, small_transverse_load) {
   for (const BeamSample& sample : model->sample(out_of_plane).walls)
     EXPECT_NEAR(sample.force[2], force, 1e-6 * force);
   if (GetParam() == 1) return;
+  const auto at_clamp = [this](const State& state) {
+    return model->sample(state).walls.front().fibre_strain;
+  };
+  EXPECT_NEAR(at_clamp(in_plane), force * section.half_width / section.EI3, 1e-9 * force);
+  EXPECT_NEAR(at_clamp(out_of_plane), force * section.half_height / section.EI2, 1e-9 * force);
   for (std::size_t a = 0; a < mesh.nodes.size(); a += 2) {
     const double s = mesh.nodes[a].x(), bend = s * s * (3 - s) / 6;
     EXPECT_NEAR(in_plane.displacement[a].y(), force * (bend / section.EI3 + s / section.GA2), 1e-9 * force);
