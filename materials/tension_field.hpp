@@ -22,6 +22,9 @@ struct TensionField {
   InPlaneC<double> natural; ///< C of the film itself: wider than the given C where it wrinkles
   /// d/dC of any function q(natural) is carry * dq/dnatural, in (C11, C22, C12).
   Eigen::Matrix3d carry = Eigen::Matrix3d::Identity();
+  /// By how much `natural`, (C11, C22, C12), follows forces on it, as dPsi/dC is one, while C stays: what the
+  /// wrinkles take up.
+  Eigen::Matrix3d give = Eigen::Matrix3d::Zero();
 };
 
 namespace tension_field {
@@ -194,7 +197,7 @@ TensionField relax(const Potential& psi, const InPlaneC<double>& C, const Membra
   if (tension < -1e-9 * D.norm() * C.trace()) {
     film = natural_state(psi, film);
     if (!film.found) return lost;
-    return {Tension::slack, {film.psi.value, {}, {}}, film.C, Matrix3::Zero()};
+    return {Tension::slack, {film.psi.value, {}, {}}, film.C, Matrix3::Zero(), second(film.psi).inverse()};
   }
   // Stationary in the width b = a a and in the direction of a: A is their stiffness, the direction's over b,
   // which is regular where b vanishes.
@@ -202,12 +205,12 @@ TensionField relax(const Potential& psi, const InPlaneC<double>& C, const Membra
   N << v[0] * v[0], 2 * v[0] * e[0], v[1] * v[1], 2 * v[1] * e[1], v[0] * v[1], v[0] * e[1] + v[1] * e[0];
   Eigen::Matrix2d A = N.transpose() * D * N;
   A(1, 1) += std::max(tension, 0.0) / a.squaredNorm();
-  const Matrix3 carry = Matrix3::Identity() - D * N * A.inverse() * N.transpose();
+  const Matrix3 give = N * A.inverse() * N.transpose(), carry = Matrix3::Identity() - D * give;
   const Matrix3 tangent = carry * D;
   MembranePotential<double> relaxed = film.psi;
   for (std::size_t p = 0; p < 6; ++p)
     relaxed.second[p] = tangent(component_pairs[p][0], component_pairs[p][1]);
-  return {Tension::wrinkled, relaxed, film.C, carry};
+  return {Tension::wrinkled, relaxed, film.C, carry, give};
 }
 
 } // namespace dielast::materials

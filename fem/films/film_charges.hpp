@@ -21,6 +21,7 @@ void FilmBlock<Kinematics>::add_charges(const State& state, const DofMap* dof_ma
     charges.capacitance[e] += per_volt * density.value;
     charges.charge[e] += per_volt * phi * density.value;
     if (!dof_map) return;
+    charges.capacitance[e] += per_volt * 2 * at.k * density.per_k; // k goes with the square of Phi
     const auto& q = density.slope;
     for (int a = 0; a < Nodes; ++a)
       for (int c = 0; c < Dim; ++c) {

@@ -80,7 +80,8 @@ FilmResponse::ChargeDensity FilmResponse::charge_density(const materials::Tensio
   if (!wrinkles(field)) return natural;
   const ChargeDensity taut = of(at);
   return {(1 - wrinkled_) * natural.value + wrinkled_ * taut.value,
-          (1 - wrinkled_) * (field.carry * natural.slope) + wrinkled_ * taut.slope};
+          (1 - wrinkled_) * (field.carry * natural.slope) + wrinkled_ * taut.slope,
+          (1 - wrinkled_) * natural.slope.dot(field.give * natural.slope) / 2};
 }
 
 EnergyParts FilmResponse::energies(const State& state, int point, const materials::TensionField& field,

@@ -44,11 +44,12 @@ class FilmResponse {
     return {materials::Tension::taut, {}, at};
   }
 
-  /// e det C of the film itself, its derivatives in the given (C11, C22, C12): the charge on an electrode is
-  /// the integral of eps Phi/H^2 times it.
+  /// e det C of the film itself, its derivatives in the given (C11, C22, C12) and, as the field widens what
+  /// is wrinkled, in k: the charge on an electrode is the integral of eps Phi/H^2 times it.
   struct ChargeDensity {
     double value;
     Eigen::Vector3d slope;
+    double per_k = 0;
   };
   ChargeDensity charge_density(const materials::TensionField& field, const C& at) const;
 

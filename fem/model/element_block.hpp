@@ -77,8 +77,9 @@ struct Evaluation {
 /// What the ports hold at a state: Q_p = -dE/dPhi_p of the energy E(u, Phi) that the blocks give. Of a
 /// chamber it is the volume: minus the derivative with respect to the pressure.
 struct Charges {
-  std::vector<double> charge;            ///< per port, C, or m^3
-  std::vector<double> capacitance;       ///< dQ_p/dPhi_p at fixed u, F (m^3/Pa)
+  std::vector<double> charge; ///< per port, C, or m^3
+  /// dQ_p/dPhi_p at fixed u, F (m^3/Pa); without couplings at the present width of wrinkled film, too: Q/Phi.
+  std::vector<double> capacitance;
   std::vector<Eigen::VectorXd> coupling; ///< dQ_p/du per port, count() entries; left out when not wanted
 };
 

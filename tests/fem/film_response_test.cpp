@@ -197,7 +197,15 @@ TEST(Charges, are_the_derivatives_of_the_energy_in_the_voltage) {
     Eigen::VectorXd above, below;
     const double step = 10, high = at(3e3 + step, above), low = at(3e3 - step, below);
     EXPECT_NEAR(-(high - low) / (2 * step), charges.charge[0], 1e-6 * charges.charge[0]);
-    EXPECT_NEAR(charges.charge[0], charges.capacitance[0] * 3e3, 1e-14 * charges.charge[0]);
+    EXPECT_NEAR(charges.charge[0], model->charges(state, false).capacitance[0] * 3e3,
+                1e-14 * charges.charge[0]);
+    const auto charge_at = [&](double volts) {
+      State there = state;
+      there.voltage = {volts};
+      return model->charges(there, false).charge[0];
+    };
+    const double per_volt = (charge_at(3e3 + step) - charge_at(3e3 - step)) / (2 * step);
+    EXPECT_NEAR(charges.capacitance[0], per_volt, 1e-6 * per_volt);
     // dR/dPhi = -dQ/du
     EXPECT_LT(((above - below) / (2 * step) + charges.coupling[0]).norm(), 1e-5 * charges.coupling[0].norm());
   }
