@@ -98,18 +98,26 @@ Equilibrium::Equilibrium(const Model& model, int threads)
       if (const int e = model.dofs.equation(n, c); e != DofMap::absent) weight_[e] = 1 / model.length_scale;
   for (int s = 0; s < model.dofs.scalar_count(); ++s)
     weight_[model.dofs.scalar_equation(s)] = 1 / model.length_scale; // residuals are energies
-  assembler_.tangent(model.initial_state());
-  const SparseSymmetric& K = assembler_.matrix();
-  const auto squared = weight_.head(K.size).array().square();
-  stiffness_.resize(K.size);
-  for (int c = 0; c < K.size; ++c) {
-    const auto diagonal = static_cast<std::size_t>(K.column_start[static_cast<std::size_t>(c)]);
-    stiffness_[c] = std::abs(K.values[diagonal]);
-  }
-  const double stiffest = K.size > 0 ? (stiffness_.array() * squared).maxCoeff() : 0.0;
+  const auto squared = weight_.head(model.dofs.free_count()).array().square();
+  const auto stiffest_of = [&](const State& drawn) { // as stiffness_ is of that state
+    assembler_.tangent(drawn);
+    const SparseSymmetric& K = assembler_.matrix();
+    stiffness_.resize(K.size);
+    for (int c = 0; c < K.size; ++c) {
+      const auto diagonal = static_cast<std::size_t>(K.column_start[static_cast<std::size_t>(c)]);
+      stiffness_[c] = std::abs(K.values[diagonal]);
+    }
+    return K.size > 0 ? (stiffness_.array() * squared).maxCoeff() : 0.0;
+  };
+  State drawn = model.initial_state();
+  double stiffest = stiffest_of(drawn);
   // Positions are known to a rounding of the extent; the stiffest unknowns turn it into force.
   round_off_ = std::numeric_limits<double>::epsilon() * stiffest * model.extent *
-               std::sqrt(static_cast<double>(K.size));
+               std::sqrt(static_cast<double>(stiffness_.size()));
+  if (drawn.history) { // what flows, a viscosity's stiff spring too, does not tell how far forces move film
+    drawn.scheme = materials::TimeScheme::relaxed();
+    stiffest = stiffest_of(drawn);
+  }
   stiffness_ = stiffness_.array().max(least_stiffness * stiffest / squared);
   film_stiffness_ = film_stiffness();
   energy_scale_ = (squared == 1).select(stiffness_.array(), 0).sum() * model.extent * model.extent;

@@ -146,7 +146,8 @@ class Equilibrium {
                                   const Eigen::VectorXd* right = nullptr);
   BorderedTangent& tangent() { return tangent_; }
   /// A positive weight per free equation that makes displacements comparable: the diagonal of the tangent as
-  /// drawn (N/m, N m for rotations), not less than a small part of the largest.
+  /// drawn, with dashpots that have flowed (N/m, N m for rotations), not less than a small part of the
+  /// largest.
   const Eigen::VectorXd& stiffness() const { return stiffness_; }
   /// What makes moments comparable with forces: 1 for forces, 1/(model's length scale) for moments, per
   /// equation.
