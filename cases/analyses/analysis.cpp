@@ -76,18 +76,6 @@ double common_bias(const Device& device, const fem::State& at_rest, const std::v
   return std::ranges::all_of(driven, [&](std::size_t port) { return source(port) == bias; }) ? bias : 0;
 }
 
-/// About an unstable state what is disturbed grows: no sine answers a sine there, whatever the linear
-/// equations give. A tangent that cannot be factored is that of what nothing holds but its inertia.
-void require_stable(fem::Equilibrium& equilibrium, const fem::State& state) {
-  fem::State at = fem::relaxed(state);
-  if (!equilibrium.factor(at)) return;
-  if (const int unstable = equilibrium.tangent().unstable_modes(); unstable > 0)
-    throw AnalysisError(fmt::format("small sines go about a stable state, and this one has {} unstable "
-                                    "mode{} at the voltages of its sources: "
-                                    "a device would leave it; a step of kind \"modes\" shows how",
-                                    unstable, unstable == 1 ? "" : "s"));
-}
-
 Analysis harmonic(const Case& one, const Device& given, fem::Equilibrium& equilibrium,
                   const fem::State& state, const Step& step) {
   const Quantity& quantity = *response_quantity(one, step.response_of);
@@ -114,7 +102,7 @@ Analysis harmonic(const Case& one, const Device& given, fem::Equilibrium& equili
   WithoutPins loose(one, given, equilibrium, about);
   const Device& device = loose.device();
   const fem::State& at_rest = loose.state();
-  const double bias = common_bias(device, at_rest, driven);
+  const double bias = analysis.bias = common_bias(device, at_rest, driven);
   if (bias != 0)
     analysis.columns.push_back(
         fmt::format("{}_per_squared_volt[{}/V^2]", quantity.name, unit_of(quantity, one.quantities)));
@@ -194,6 +182,16 @@ void require_rest(fem::Equilibrium& equilibrium, const fem::State& state) {
         "other axes, or follow small motions in a step of kind \"transient\"");
 }
 
+void require_stable(fem::Equilibrium& equilibrium, const fem::State& state) {
+  fem::State at = fem::relaxed(state);
+  if (!equilibrium.factor(at)) return;
+  if (const int unstable = equilibrium.tangent().unstable_modes(); unstable > 0)
+    throw AnalysisError(fmt::format("small motions go about a stable state, and this one has {} unstable "
+                                    "mode{} at the voltages of its sources: "
+                                    "a device would leave it; a step of kind \"modes\" shows how",
+                                    unstable, unstable == 1 ? "" : "s"));
+}
+
 std::vector<std::size_t> driven_ports(const Case& one, const std::vector<std::string>& names) {
   const auto ports_with = [&](auto&& swings) {
     std::vector<std::size_t> ports;
@@ -227,7 +225,10 @@ fem::State operating_point(const Device& device, fem::State state, const std::ve
     const auto& circuit = device.model.ports[e].circuit;
     if (!circuit) continue;
     if (fem::is_isolated(state.supply[e])) {
-      if (std::ranges::find(driven, e) == driven.end()) continue;
+      if (std::ranges::find(driven, e) == driven.end()) {
+        if (circuit->leakage > 0) state.supply[e] = fem::Supply::leak;
+        continue;
+      }
       state.source[e] = circuit->holding_source(state.voltage[e]);
     }
     state.supply[e] = fem::Supply::circuit;

@@ -12,11 +12,13 @@ namespace dielast::cases {
 /// What a step of kind "modes" or "harmonic" has found: a table, and shapes to look at.
 struct Analysis {
   StepKind kind{};
-  std::string step;                 ///< its name
-  std::string of;                   ///< harmonic: the quantity that responds
-  std::vector<std::string> driven;  ///< harmonic: the electrodes whose sources swing
-  std::vector<std::string> columns; ///< with units, as in history.csv; harmonic: about a bias U, the same for
-                                    ///< all sources, the last one is the response per U^2, its slope over 2 U
+  std::string step;                ///< its name
+  std::string of;                  ///< harmonic: the quantity that responds
+  std::vector<std::string> driven; ///< harmonic: the electrodes whose sources swing
+  std::vector<std::string>
+      columns;     ///< with units, as in history.csv; harmonic: about a bias U, the same for
+                   ///< all sources, the last one is the response per U^2, its slope over 2 |U|
+  double bias = 0; ///< that one, V; otherwise 0
   std::vector<std::vector<double>> rows;
   /// A shape and its name, a vector per mesh node: displacement of a mode, scaled to one, or of a sine of 1 V
   /// in phase and a quarter period behind (m/V).
@@ -38,11 +40,16 @@ std::string no_response(const std::string& quantity, std::string_view key, bool 
 std::vector<double> frequencies(const Sweep& sweep);
 
 /// The state that small vibrations go about: sources behind their circuits. Electrodes that are isolated stay
-/// so, but for those whose sources are `driven`: these take up at the electrode's voltage.
+/// so and leak, but for those whose sources are `driven`: these take up at the electrode's voltage.
 fem::State operating_point(const Device& device, fem::State state, const std::vector<std::size_t>& driven);
 
 /// Throws AnalysisError where the state is not at rest.
 void require_rest(fem::Equilibrium& equilibrium, const fem::State& state);
+
+/// Throws AnalysisError about an unstable state: there what is disturbed grows, and no sine answers a sine,
+/// whatever the linear equations give. A tangent that cannot be factored is that of what nothing holds but
+/// its inertia.
+void require_stable(fem::Equilibrium& equilibrium, const fem::State& state);
 
 /// Numbers of the electrodes whose sources swing together: the named ones, without names all whose [drive]
 /// has a voltage, without any such all.

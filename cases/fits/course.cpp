@@ -25,8 +25,8 @@ Course::Course(const DeviceTest& test, const std::vector<RecordedRow>& rows, std
     points_.push_back(point);
     largest = std::max(largest, std::abs(point.x));
   }
-  constexpr double digits = 2e-8, balance = 1e-7; // of a time in another unit, and what forces are known to
-  same_x_ = largest * (test.against == "time" ? digits : balance);
+  constexpr double place = 2e-9, balance = 1e-7; // of states in time, and what forces are known to
+  same_x_ = largest * (test.against == "time" ? place : balance);
   constexpr double negligible = 1e-5;
   double low = INFINITY, high = -INFINITY;
   for (const auto& value : test.measured) {
@@ -71,10 +71,12 @@ Course::Visit Course::meant(Visit rows) const {
 }
 
 std::vector<Course::Visit> Course::visits(double value) const {
+  constexpr double digits = 2e-8; // of a time in another unit
+  const double same_x = std::max(same_x_, test_.against == "time" ? digits * std::abs(value) : 0);
   std::vector<Visit> all;
   bool jumps_over = false, inside = false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const bool was_inside = std::exchange(inside, std::abs(points_[i].x - value) <= same_x_);
+    const bool was_inside = std::exchange(inside, std::abs(points_[i].x - value) <= same_x);
     if (inside && was_inside) {
       all.back().last = i;
     } else if (inside) {

@@ -107,7 +107,7 @@ std::complex<double> response(const DeviceTest& test, const Analysis& analysis,
   if (test.response == MeasuredResponse::impedance) return polar(row, admittance + 2);
   if (row.size() == admittance + 4)
     throw std::runtime_error("there is no response per squared volt about 0 V; give [drive] a voltage");
-  return std::polar(row.back(), row[2] * degree);
+  return std::copysign(1.0, analysis.bias) * std::polar(row.back(), row[2] * degree);
 }
 
 } // namespace

@@ -28,7 +28,7 @@ FitError error_of(const MeasuredTest& test, const std::vector<double>& model) {
 /// Which bound a parameter is at, and what that tells. `range`: of the fit.
 std::string bound_of(const FittedParameter& one, double range) {
   constexpr double near = 1e-6, wide = 100;
-  const double factor = std::max(one.value / one.start, one.start / one.value);
+  const double ratio = std::abs(one.value / one.start), factor = std::max(ratio, 1 / ratio);
   if (!(factor > (1 - near) * range)) return "its bound: the tests do not tell it";
   return fmt::format("the bound that fit.range sets, {:.6g} times its start value: {}", one.value / one.start,
                      range < wide ? "the tests may want it farther away"

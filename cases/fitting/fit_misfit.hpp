@@ -19,7 +19,7 @@ class Coordinate {
       if (std::isfinite(parameter.below)) upper = std::min(upper, q(parameter.below));
     } else {
       scale_ = start != 0 ? std::abs(start) : parameter.unit == "Pa" ? modulus : 1;
-      lower = q(start) - range, upper = q(start) + range;
+      lower = -range, upper = range;
     }
   }
   /// One of any sign as a logarithm, of the sign of `sign`.
@@ -27,7 +27,7 @@ class Coordinate {
     Coordinate signed_one = *this;
     signed_one.logarithmic_ = true;
     signed_one.scale_ = std::copysign(1, sign);
-    signed_one.upper = std::log(std::max(upper, -lower) * scale_);
+    signed_one.upper = std::log(upper * scale_);
     signed_one.lower = 2 * std::log(scale_) - signed_one.upper;
     return signed_one;
   }

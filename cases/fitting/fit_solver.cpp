@@ -4,6 +4,8 @@
 #include "cases/fitting/fit_starts.hpp"
 #include "cases/fitting/fit_statistics.hpp"
 
+#include <limits>
+
 namespace dielast::cases {
 namespace {
 
@@ -94,8 +96,9 @@ Attempt minimise_in_time(const FitTask& task, const std::vector<Coordinate>& coo
   return attempt;
 }
 
-/// One that gave up must be better by more than noise lets differ.
+/// One that gave up must be better by more than noise lets differ; one without a model has a negative cost.
 double counted_cost(const Attempt& attempt) {
+  if (attempt.cost < 0) return std::numeric_limits<double>::infinity();
   return attempt.ending == FitEnding::gave_up ? 1.01 * attempt.cost : attempt.cost;
 }
 

@@ -19,8 +19,10 @@ Section fit_section() {
           "is named here or given with the material); without it everything")
           .values(1, 100)
           .optional(),
-      number("range", to(&Fit::range),
-             "largest factor between start value and result, either way: the bounds of every parameter")
+      number(
+          "range", to(&Fit::range),
+          "largest factor between start value and result, either way: the bounds of every parameter; of one "
+          "that may have any sign, of its size, which may fall to 0")
           .above(1)
           .at_most(1e6)
           .otherwise("1e4"),

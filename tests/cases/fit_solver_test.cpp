@@ -252,6 +252,23 @@ TEST(FitSolver, OgdenTermsOfBothSignsComeBack) {
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(fit.parameters[i].value / values[i], 1, 1e-6);
 }
 
+// A number that may have any sign is bounded by its size: one that ends on the other side of 0 is no less
+// known.
+TEST(FitSolver, ASignThatTurnsIsAtNoBound) {
+  const Material ogden{.law = materials::Ogden{{40e3, -8e3}, {1.5, -2.5}}};
+  MeasuredTest pull, biaxial;
+  for (int i = 1; i <= 20; ++i) pull.history.stretch.push_back(1 + 0.2 * i);
+  biaxial = pull;
+  biaxial.history.mode = materials::Mode::equal_biaxial;
+  pull.stress = nominal_stress(ogden, pull.history, 1);
+  biaxial.stress = nominal_stress(ogden, biaxial.history, 1);
+  FitTask task = task_from({.law = materials::Ogden{{30e3, 5e3}, {2, -2}}}, {pull, biaxial});
+  task.range = 2;
+  const FitOutcome fit = solve_fit(task);
+  EXPECT_NEAR(fit.parameters[1].value, -8e3, 1e-2);
+  for (const FittedParameter& parameter : fit.parameters) EXPECT_TRUE(parameter.determined());
+}
+
 TEST(FitParameters, ABranchKeepsItsRelaxationTimeWhenItsSpringChanges) {
   Material material = truth;
   const auto all = fit_parameters(material);

@@ -188,8 +188,9 @@ TEST_F(Paths, an_unstable_disc_answers_no_small_sine) {
   const Outcome stable = ends(0.9 * buckling_voltage()), unstable = ends(1.1 * buckling_voltage());
   EXPECT_EQ(stable.ending, Ending::complete) << stable.message;
   EXPECT_EQ(unstable.ending, Ending::gave_up);
-  EXPECT_NE(unstable.message.find("small sines go about a stable state, and this one has 1 unstable mode at"),
-            std::string::npos)
+  EXPECT_NE(
+      unstable.message.find("small motions go about a stable state, and this one has 1 unstable mode at"),
+      std::string::npos)
       << unstable.message;
 }
 
