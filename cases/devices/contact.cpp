@@ -32,7 +32,7 @@ fem::Evaluation as_drawn(const fem::ElementBlock& block, const meshing::Mesh& me
   return block.evaluate(state, 0, block.element_count(), {});
 }
 
-void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
+void add_walls(const Case& one, const Part& part, const meshing::Mesh& mesh, fem::Model& model) {
   const meshing::CellBlock& lines = *mesh.walls();
   const std::vector<double> widths = bars(one, mesh).widths;
   const fem::WallContactSearch walls(mesh, lines, widths);
@@ -44,7 +44,7 @@ void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
     for (const int node : lines.cell(line)) lines_at[node].push_back(line);
   std::vector<fem::ContactPair> pairs;
   for (const auto& place : mesh.node_sets) {
-    if (!place.first.starts_with("cell[")) continue;
+    if (!place.first.starts_with(part.called("cell["))) continue;
     const std::vector<int>& nodes = place.second;
     std::vector<int> around;
     std::map<int, double> length; // that a node stands for, by Simpson's rule
@@ -72,7 +72,7 @@ void add_walls(const Case& one, const meshing::Mesh& mesh, fem::Model& model) {
       }
     }
   }
-  const Beam& wall = std::get<Honeycomb>(one.unnamed()->geometry).wall;
+  const Beam& wall = std::get<Honeycomb>(part.geometry).wall;
   const double thickness = one.contact->thickness;
   // A gap of half the barrier's thickness carries about what strains a wall across itself by 1 %.
   model.blocks.push_back(fem::make_wall_contact_block(
@@ -369,14 +369,12 @@ void add_contact(const Case& one, const meshing::Mesh& mesh, const std::vector<i
                  fem::Model& model) {
   if (!one.contact) return;
   if (!one.contact->between.empty()) add_surfaces(one, mesh, parts, model);
-  if (one.table)
-    add_table(one, mesh, parts, model);
-  else if (!one.contact->between.empty())
-    return;
-  else if (const auto* roll = one.geometry<Roll>())
+  if (one.table) add_table(one, mesh, parts, model);
+  if (const auto* roll = one.geometry<Roll>(); roll && !one.table && one.contact->between.empty())
     add_core(one, *roll, mesh, model);
-  else
-    add_walls(one, mesh, model);
+  if (one.dimension != fem::Dimension::planar) return;
+  for (const Part& part : one.parts)
+    if (std::holds_alternative<Honeycomb>(part.geometry)) add_walls(one, part, mesh, model);
 }
 
 } // namespace dielast::cases

@@ -16,8 +16,7 @@ constexpr double same_time = 4e-9;
 
 class ControlSignal : public Signal {
  public:
-  ControlSignal(const Case& one, const Controller& controller, const Waveform* said)
-      : controller_(controller), said_(said) {
+  ControlSignal(const Case& one, const Controller& controller) : controller_(controller) {
     const auto found = std::ranges::find(one.quantities, controller.quantity, &Quantity::name);
     quantity_ = static_cast<std::size_t>(found - one.quantities.begin());
   }
@@ -43,12 +42,13 @@ class ControlSignal : public Signal {
 
   bool samples(double t) const override { return t >= samples_ * controller_.every - close_; }
 
-  std::string sample(double t, const Measured& measured, const Measurement& measurement) override {
+  std::string sample(double t, const Waveform* said, const Measured& measured,
+                     const Measurement& measurement) override {
     const double lack = controller_.target - measurement.value(quantity_, measured);
     if (!std::isfinite(lack))
       return fmt::format("quantity \"{}\", which a controller measures, has no value", controller_.quantity);
     integral_ += rate_ * (samples_ > 0 ? controller_.every : since_);
-    const double base = said_ ? said_->at(t) : 0;
+    const double base = said ? said->at(t) : 0;
     const double wanted = base + controller_.gain * lack + controller_.integral_gain * integral_;
     before_ = std::exchange(held_, std::clamp(wanted, controller_.lowest, controller_.highest));
     // At a limit the integral stays, unless it leads away from there.
@@ -72,7 +72,6 @@ class ControlSignal : public Signal {
 
  private:
   const Controller& controller_;
-  const Waveform* said_;
   std::size_t quantity_ = 0;
   int samples_ = 0;              ///< in this step
   double duration_ = 0;          ///< of this step, s
@@ -85,8 +84,8 @@ class ControlSignal : public Signal {
 
 } // namespace
 
-std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller, const Waveform* said) {
-  return std::make_unique<ControlSignal>(one, controller, said);
+std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller) {
+  return std::make_unique<ControlSignal>(one, controller);
 }
 
 } // namespace dielast::cases

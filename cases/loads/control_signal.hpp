@@ -5,8 +5,8 @@
 
 namespace dielast::cases {
 
-/// What a [[controller]] makes of the states that are reached: sampled, and held. `said`: of the load by
-/// the case, to which it is added; null: nothing.
-std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller, const Waveform* said);
+/// What a [[controller]] makes of the states that are reached: sampled, and held, in addition to
+/// what the case says of the load.
+std::unique_ptr<Signal> control_signal(const Case& one, const Controller& controller);
 
 } // namespace dielast::cases

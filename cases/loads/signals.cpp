@@ -4,10 +4,8 @@
 #include "cases/loads/control_signal.hpp"
 
 namespace dielast::cases {
-namespace {
 
-/// What the case says of a load; null: nothing.
-const Waveform* wave_of(const Case& one, const DrivenLoad& load) {
+const Waveform* said_of(const Case& one, const DrivenLoad& load) {
   const auto there = [](const std::optional<Waveform>& wave) { return wave ? &*wave : nullptr; };
   const auto along = static_cast<std::size_t>(load.along);
   switch (load.what) {
@@ -25,18 +23,16 @@ const Waveform* wave_of(const Case& one, const DrivenLoad& load) {
     return nullptr;
   case Driven::displacement:
     for (const Support& own : one.supports)
-      if (own.place == load.of && own.fixed[along]) return there(own.motion[along]);
+      if (own.place == load.of && own.fixed[along] && own.motion[along]) return &*own.motion[along];
     return nullptr;
   }
   return nullptr;
 }
 
-} // namespace
-
 Signals signals_of(const Case& one) {
   Signals signals;
   for (const Controller& controller : one.controllers)
-    signals[controller.drives] = control_signal(one, controller, wave_of(one, controller.drives));
+    signals[controller.drives] = control_signal(one, controller);
   return signals;
 }
 

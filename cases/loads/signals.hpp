@@ -30,8 +30,10 @@ class Signal {
   virtual void begin(double duration) = 0;
   /// Whether it wants to see the state that was accepted at this time of the step; always its beginning.
   virtual bool samples(double t) const = 0;
-  /// Sees that state. Says what is wrong with it, nothing where it can go on.
-  virtual std::string sample(double t, const Measured& measured, const Measurement& measurement) = 0;
+  /// Sees that state; `said`: of the load by what holds the device in this step, see said_of(). Says what is
+  /// wrong with it, nothing where it can go on.
+  virtual std::string sample(double t, const Waveform* said, const Measured& measured,
+                             const Measurement& measurement) = 0;
   /// What it keeps between states; with it, it goes on bit for bit.
   virtual std::vector<double> memory() const = 0;
   virtual void recall(const std::vector<double>& memory) = 0;
@@ -39,5 +41,8 @@ class Signal {
 
 using Signals = std::map<DrivenLoad, std::unique_ptr<Signal>>;
 Signals signals_of(const Case& one);
+
+/// What the case says of a load; null: nothing.
+const Waveform* said_of(const Case& one, const DrivenLoad& load);
 
 } // namespace dielast::cases

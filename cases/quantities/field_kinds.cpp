@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -54,7 +55,7 @@ std::string value_words(const Quantity& q) {
 /// The part with its electrode that a reading is of.
 std::pair<int, int> film_of(const Probing& probing, const FilmReading& reading) {
   return {probing.device.film_parts[static_cast<std::size_t>(reading.cell)],
-          probing.drawn.film[static_cast<std::size_t>(reading.first)].electrode};
+          probing.drawn.film[static_cast<std::size_t>(reading.points.front())].electrode};
 }
 
 constexpr const char* two_values =
@@ -106,11 +107,14 @@ Probe value(const Probing& probing) {
   return [value_in](const Measured& measured) { return value_in(measured.samples); };
 }
 
-/// Of the film of the place's own part, along the radius about where that was drawn. At an edge of the mesh
-/// what lies side by side is taken together, inside it film on either side has stretches of its own.
+/// Of the film of the place's own part, along the radius about where that was drawn; there itself, where all
+/// directions lead away, the root of their mean square. At an edge of the mesh what lies side by side is
+/// taken together, inside it film on either side has stretches of its own.
 Probe radial_stretch(const Probing& probing) {
   const Device& device = probing.device;
   const meshing::Mesh& mesh = device.mesh;
+  if (mesh.film()->type == meshing::CellType::rod2 || probing.one.any_geometry<Roll>())
+    probing.refuse("of", "film that is rolled, or lies along a line, has no stretch along a radius");
   std::vector<FilmReading> readings = readings_at(probing.quantity.of, mesh, probing.drawn);
   const std::vector<char> own = film_at(probing.quantity.of, probing.one, device);
   std::erase_if(readings, [&own](const FilmReading& at) { return !own[static_cast<std::size_t>(at.cell)]; });
@@ -128,10 +132,13 @@ Probe radial_stretch(const Probing& probing) {
     const Part& part = probing.one.parts[static_cast<std::size_t>(film_of(probing, at).first)];
     if (part.has_mesh()) at.drawn -= Eigen::Vector3d(part.at.data());
   }
-  return [readings = std::move(readings)](const Measured& measured) {
+  const double at_origin = 1e-9 * mesh.bounds().sizes().norm();
+  return [readings = std::move(readings), at_origin](const Measured& measured) {
     return mean(readings, measured.samples,
-                [](const fem::MembraneSample& sample, const FilmReading& reading) {
-                  return (sample.F * reading.drawn.head<2>().normalized()).norm();
+                [at_origin](const fem::MembraneSample& sample, const FilmReading& reading) {
+                  const Eigen::Vector2d radius = reading.drawn.head<2>();
+                  return radius.norm() > at_origin ? (sample.F * radius.normalized()).norm()
+                                                   : sample.F.norm() / std::sqrt(2.0);
                 });
   };
 }

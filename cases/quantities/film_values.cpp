@@ -32,7 +32,8 @@ const Part& part_at(const Case& one, const Device& device, const fem::MembraneSa
 
 const materials::Material& material_at(const Case& one, const Device& device, const fem::MembraneSample& at) {
   const Film& film = *part_at(one, device, at).film;
-  return at.layer == 0 ? film.material : film.further_layers[static_cast<std::size_t>(at.layer) - 1].material;
+  if (at.layer == 0 || film.further_layers.empty()) return film.material; // of covers, too
+  return film.further_layers[static_cast<std::size_t>(at.layer) - 1].material;
 }
 
 /// Values of the shape functions at a place in an element and their derivatives there.
@@ -100,32 +101,27 @@ Eigen::MatrixXd continued(CellType type, int points, const Eigen::MatrixXd& loca
          fem::least_squares(basis(local_points(type, points)), Eigen::MatrixXd::Identity(points, points));
 }
 
-/// The integration points of an element among the samples; films of a case may have different rules.
-struct Points {
-  int first = 0, count = 0;
-};
-
-std::vector<Points> points_of_cells(const meshing::CellBlock& film, const fem::Samples& samples) {
-  std::vector<Points> points(static_cast<std::size_t>(film.size()));
-  for (int i = 0; i < std::ssize(samples.film); ++i) {
-    Points& own = points[static_cast<std::size_t>(samples.film[static_cast<std::size_t>(i)].cell)];
-    if (own.count++ == 0) own.first = i;
-  }
+/// The integration points of the elements, by their numbers among the samples; films of a case may have
+/// different rules, and those of rods are in several blocks.
+std::vector<std::vector<int>> points_of_cells(const meshing::CellBlock& film, const fem::Samples& samples) {
+  std::vector<std::vector<int>> points(static_cast<std::size_t>(film.size()));
+  for (std::size_t i = 0; i < samples.film.size(); ++i)
+    points[static_cast<std::size_t>(samples.film[i].cell)].push_back(static_cast<int>(i));
   return points;
 }
 
-Eigen::VectorXd volumes_of(const Points& points, const fem::Samples& samples) {
-  Eigen::VectorXd volumes(points.count);
-  for (int p = 0; p < points.count; ++p)
-    volumes[p] = samples.film[static_cast<std::size_t>(points.first + p)].volume;
+Eigen::VectorXd volumes_of(const std::vector<int>& points, const fem::Samples& samples) {
+  Eigen::VectorXd volumes(points.size());
+  std::ranges::transform(points, volumes.begin(),
+                         [&](int p) { return samples.film[static_cast<std::size_t>(p)].volume; });
   return volumes;
 }
 
 /// Weights of an element's points at local coordinates, a row for each. Those of a rod are of film side by
 /// side, under its electrode and beside it, all along the rod.
-Eigen::MatrixXd weights_at(CellType type, const Points& points, const fem::Samples& samples,
+Eigen::MatrixXd weights_at(CellType type, const std::vector<int>& points, const fem::Samples& samples,
                            const Eigen::MatrixXd& local) {
-  if (type != CellType::rod2) return continued(type, points.count, local);
+  if (type != CellType::rod2) return continued(type, static_cast<int>(points.size()), local);
   const Eigen::VectorXd volumes = volumes_of(points, samples);
   return (volumes / volumes.sum()).transpose().replicate(local.rows(), 1);
 }
@@ -141,19 +137,19 @@ bool is_inside(CellType type, const Eigen::VectorXd& local) {
 std::vector<FilmReading> readings_at(const std::string& place, const meshing::Mesh& mesh,
                                      const fem::Samples& samples) {
   const meshing::CellBlock& film = *mesh.film();
-  const std::vector<Points> all = points_of_cells(film, samples);
+  const auto all = points_of_cells(film, samples);
   std::vector<FilmReading> readings;
-  std::map<int, Eigen::MatrixXd> to_nodes; // by number of points
+  std::map<std::size_t, Eigen::MatrixXd> to_nodes; // by number of points
   const auto& nodes = mesh.node_sets.at(place);
   for (int cell = 0; cell < film.size(); ++cell) {
     const auto own = film.cell(cell);
-    const Points& points = all[static_cast<std::size_t>(cell)];
+    const std::vector<int>& points = all[static_cast<std::size_t>(cell)];
     for (std::size_t a = 0; a < own.size(); ++a) {
       if (!std::binary_search(nodes.begin(), nodes.end(), own[a])) continue;
-      Eigen::MatrixXd& weights = to_nodes[points.count];
+      Eigen::MatrixXd& weights = to_nodes[points.size()];
       if (weights.size() == 0 || film.type == CellType::rod2)
         weights = weights_at(film.type, points, samples, local_nodes(film.type));
-      readings.push_back({cell, points.first, mesh.nodes[static_cast<std::size_t>(own[a])],
+      readings.push_back({cell, points, mesh.nodes[static_cast<std::size_t>(own[a])],
                           weights.row(static_cast<Eigen::Index>(a)).transpose()});
     }
   }
@@ -212,12 +208,12 @@ Eigen::Matrix3d turn_to(const Eigen::Vector3d& point, const meshing::Mesh& mesh)
 std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,
                                      const fem::Samples& samples) {
   const meshing::CellBlock& film = *mesh.film();
-  const std::vector<Points> all = points_of_cells(film, samples);
+  const auto all = points_of_cells(film, samples);
   std::vector<FilmReading> readings;
   for (const ElementPoint& at : elements_at(point, mesh)) {
-    const Points& points = all[static_cast<std::size_t>(at.cell)];
-    readings.push_back({at.cell, points.first, point,
-                        weights_at(film.type, points, samples, at.local.transpose()).transpose()});
+    const std::vector<int>& points = all[static_cast<std::size_t>(at.cell)];
+    readings.push_back(
+        {at.cell, points, point, weights_at(film.type, points, samples, at.local.transpose()).transpose()});
   }
   return readings;
 }
@@ -227,11 +223,11 @@ std::vector<FilmReading> readings_in(const std::string& place, const meshing::Me
   const meshing::CellBlock& film = *mesh.film();
   const std::vector<int>* cells = mesh.cells_of(place, &film);
   if (!cells) return {};
-  const std::vector<Points> all = points_of_cells(film, samples);
+  const auto all = points_of_cells(film, samples);
   std::vector<FilmReading> readings;
   for (const int cell : *cells) {
-    const Points& points = all[static_cast<std::size_t>(cell)];
-    readings.push_back({cell, points.first, mesh.nodes[static_cast<std::size_t>(film.cell(cell)[0])],
+    const std::vector<int>& points = all[static_cast<std::size_t>(cell)];
+    readings.push_back({cell, points, mesh.nodes[static_cast<std::size_t>(film.cell(cell)[0])],
                         volumes_of(points, samples)});
   }
   return readings;

@@ -14,8 +14,8 @@ namespace dielast::cases {
 /// squares). In a part of the film they are the undeformed volumes, m^3.
 struct FilmReading {
   int cell = 0;
-  int first = 0;         ///< number of the element's first integration point among the samples
-  Eigen::Vector3d drawn; ///< the point, m; of a part of the film a node of the element
+  std::vector<int> points; ///< numbers of the element's integration points among the samples
+  Eigen::Vector3d drawn;   ///< the point, m; of a part of the film a node of the element
   Eigen::VectorXd weight;
 };
 
@@ -90,7 +90,9 @@ double mean(const std::vector<FilmReading>& readings, const fem::Samples& sample
   double sum = 0, weight = 0;
   for (const FilmReading& reading : readings) {
     for (Eigen::Index p = 0; p < reading.weight.size(); ++p)
-      sum += reading.weight[p] * value(samples.film[static_cast<std::size_t>(reading.first + p)], reading);
+      sum +=
+          reading.weight[p] *
+          value(samples.film[static_cast<std::size_t>(reading.points[static_cast<std::size_t>(p)])], reading);
     weight += reading.weight.sum();
   }
   return sum / weight;

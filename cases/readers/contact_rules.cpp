@@ -65,7 +65,7 @@ void check_contact(SectionReader& reader, const Node& tree, const Case& one) {
   if (core && one.contact && one.contact->thickness >= roll->radius)
     reader.report(tree.find("contact")->find("thickness")->source, "contact.thickness",
                   "it leaves no room for a core: it must be below roll.radius");
-  const bool walls = one.geometry<Honeycomb>() && one.dimension == fem::Dimension::planar;
+  const bool walls = one.any_geometry<Honeycomb>() && one.dimension == fem::Dimension::planar;
   const bool surfaces = one.contact && !one.contact->between.empty();
   if (one.contact && !one.table && !walls && !core && !surfaces)
     report("contact", "is between the walls of a planar [honeycomb], surfaces of solids (between = [...]), a "

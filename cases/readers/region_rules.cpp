@@ -29,17 +29,21 @@ std::vector<Written> written_regions(const Node& tree, const Part& part) {
 } // namespace
 
 void check_surroundings_of_walls(SectionReader& reader, const Node& tree, const Case& one) {
-  const auto* lattice = one.geometry<Honeycomb>();
-  if (!lattice) return;
-  const double half_width = lattice->wall_bond == WallBond::width ? lattice->wall.width / 2 : 0;
-  try {
-    meshing::cell_corners({lattice->angle, lattice->columns, lattice->wall_length},
-                          half_width + lattice->electrode_gap);
-  } catch (const std::invalid_argument& error) {
-    const Node& written = *tree.find("honeycomb");
-    const Node* gap = written.find("electrode_gap");
-    reader.report(gap ? gap->source : written.source, gap ? "honeycomb.electrode_gap" : "honeycomb.wall_bond",
-                  error.what());
+  for (const Part& part : one.parts) {
+    const auto* lattice = std::get_if<Honeycomb>(&part.geometry);
+    if (!lattice) continue;
+    const double half_width = lattice->wall_bond == WallBond::width ? lattice->wall.width / 2 : 0;
+    try {
+      meshing::cell_corners({lattice->angle, lattice->columns, lattice->wall_length},
+                            half_width + lattice->electrode_gap);
+    } catch (const std::invalid_argument& error) {
+      const Node* top = part.name.empty() ? &tree : tree.find("part")->find(part.name);
+      const Node& written = *top->find("honeycomb");
+      const Node* gap = written.find("electrode_gap");
+      reader.report(gap ? gap->source : written.source,
+                    part.key_prefix() + (gap ? "honeycomb.electrode_gap" : "honeycomb.wall_bond"),
+                    error.what());
+    }
   }
 }
 

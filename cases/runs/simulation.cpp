@@ -223,7 +223,7 @@ bool Simulation::sample(const Step& step, double load_factor, Measured& measured
   for (const auto& [load, signal] : signals_) {
     if (!signal->samples(t)) continue;
     measured.may_rest = false;
-    const std::string wrong = signal->sample(t, measured, measurement_);
+    const std::string wrong = signal->sample(t, said_of(now_, load), measured, measurement_);
     if (wrong.empty()) continue;
     refusal_ = {Ending::gave_up, "no measurement", fmt::format("step \"{}\" stopped: {}", step.name, wrong)};
     return false;

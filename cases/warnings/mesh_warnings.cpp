@@ -300,12 +300,14 @@ std::vector<std::string> thickness_warnings(const Case& one, const meshing::Mesh
   constexpr double thin = 5;    // times its thickness a film is wide at least
   constexpr double slender = 3; // times its width a wall is long at least
   std::vector<std::string> warnings;
-  if (const auto* lattice = one.geometry<Honeycomb>();
-      lattice && lattice->wall_length < slender * lattice->wall.width)
-    warnings.push_back(one.warning_at(
-        "honeycomb.wall_width", fmt::format("walls are {} wide and {} long: they are beams, of slender walls",
-                                            post::engineering(lattice->wall.width, "m"),
-                                            post::engineering(lattice->wall_length, "m"))));
+  for (const Part& part : one.parts)
+    if (const auto* lattice = std::get_if<Honeycomb>(&part.geometry);
+        lattice && lattice->wall_length < slender * lattice->wall.width)
+      warnings.push_back(
+          one.warning_at(part.key_prefix() + "honeycomb.wall_width",
+                         fmt::format("walls are {} wide and {} long: they are beams, of slender walls",
+                                     post::engineering(lattice->wall.width, "m"),
+                                     post::engineering(lattice->wall_length, "m"))));
   const meshing::CellBlock& cells = *mesh.film();
   const bool meridian = meshing::is_meridian(cells.type);
   if (!meridian && !meshing::is_triangle(cells.type)) return warnings;
