@@ -46,11 +46,6 @@ bool any_quantity(const Case& one, bool (*is)(const Quantity& quantity)) {
   return std::ranges::any_of(one.quantities, is);
 }
 
-bool slides_with_friction(const Case& one) {
-  return (one.table && one.table->friction > 0) ||
-         (one.contact && !one.contact->between.empty() && one.contact->friction > 0);
-}
-
 bool has_branches(const Case& one) {
   return std::ranges::any_of(one.film_materials(), [](const auto* material) {
     return !material->branches.empty() || material->viscosity > 0;
@@ -78,6 +73,11 @@ bool masses_accelerate(const Case& one) {
 }
 
 bool film_weighs(const Case& one) { return one.gravity.film && has_step(one, {StepKind::weight}); }
+
+bool slides_with_friction(const Case& one) {
+  return (one.table && one.table->friction > 0) ||
+         (one.contact && !one.contact->between.empty() && one.contact->friction > 0);
+}
 
 bool may_jump(const Case& one) {
   return !slides_with_friction(one) && !one.any_film([](const Film& film) { return film.is_solid(); });

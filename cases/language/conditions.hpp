@@ -66,6 +66,8 @@ bool has_mass(const Case& one);
 bool masses_accelerate(const Case& one);
 /// Whether film and bars are let hang by a step.
 bool film_weighs(const Case& one);
+/// Whether there is contact with friction.
+bool slides_with_friction(const Case& one);
 /// Whether a step may jump to another state, or follow an unstable path. The rules refuse what may not.
 bool may_jump(const Case& one);
 bool may_follow(const Case& one, const Step& step);

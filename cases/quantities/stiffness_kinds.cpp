@@ -2,9 +2,11 @@
 // What small forces and vibrations about a state at rest find.
 #include "cases/case/holding.hpp"
 #include "cases/devices/pins.hpp"
+#include "cases/language/conditions.hpp"
 #include "cases/quantities/probing.hpp"
 #include "fem/linear/modal.hpp"
 #include "fem/linear/rest.hpp"
+#include "fem/model/contact_block.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +19,8 @@ namespace dielast::cases {
 namespace {
 
 bool at_rest(const Measured& measured) {
-  return measured.may_rest && fem::unrest(measured.equilibrium, measured.state).empty() &&
+  return measured.may_rest && !fem::has_friction(measured.equilibrium.model()) &&
+         fem::unrest(measured.equilibrium, measured.state).empty() &&
          fem::skew_stiffness(measured.equilibrium, measured.state) <= fem::negligible_skew;
 }
 
@@ -157,7 +160,13 @@ std::vector<Key> mode_keys() {
               .otherwise("1")};
 }
 
+/// What slides goes on sliding or sticks, as it is pushed on or back.
+std::string with_friction(const Case& one) {
+  return slides_with_friction(one) ? "has no value here: with friction it depends on the way to go on" : "";
+}
+
 std::string without_support(const Case& one, const Quantity& quantity) {
+  if (const std::string slides = with_friction(one); !slides.empty()) return slides;
   const auto at = std::ranges::find(one.steps, quantity.at, &Step::name);
   const Holding holding = holding_in(one, one.steps, static_cast<int>(at - one.steps.begin()));
   return is_free(one, holding.supports)
@@ -166,7 +175,7 @@ std::string without_support(const Case& one, const Quantity& quantity) {
 }
 
 std::string without_mass(const Case& one, const Quantity&) {
-  return has_mass(one) ? "" : "has no value here: nothing has a mass";
+  return has_mass(one) ? with_friction(one) : "has no value here: nothing has a mass";
 }
 
 } // namespace

@@ -85,6 +85,7 @@ void StepRun::accept_critical(const fem::CriticalPoint& critical) {
 }
 
 bool StepRun::accept(const fem::State& state, const fem::Increment& increment, Reached reached) {
+  accepted_ = {increment.load_factor, state};
   return !observer_.on_accept || observer_.on_accept(state, increment, reached);
 }
 
@@ -104,16 +105,18 @@ std::optional<fem::CriticalPoint> StepRun::locate(double s, bool another) {
 /// The last accepted state, where it is about to lose its stability at the pace of the step; with inertia,
 /// that of what has no mass.
 std::optional<fem::CriticalPoint> StepRun::limit_in_time() const {
-  const double reached = progress_.ramp.load_factor;
-  fem::State state = loaded(last(), reached);
+  fem::State state = last(); // with its own loads: those of this load factor may not all act yet
+  state.scheme = materials::TimeScheme::frozen();
   if (options_.inertia) state = fem::with_masses_held(equilibrium_, std::move(state));
   auto mode = fem::lowest_mode(equilibrium_, state);
   if (!mode || std::abs(mode->eigenvalue) > critical_in_time) return std::nullopt;
-  return fem::CriticalPoint{fem::Instability::limit_point, reached, std::move(state), std::move(*mode)};
+  return fem::CriticalPoint{fem::Instability::limit_point, progress_.ramp.load_factor, std::move(state),
+                            std::move(*mode)};
 }
 
 /// A state under load control. Where stability was lost on the way, the critical point is located; a step
 /// that leaves its path there does not accept the unstable state, nor one that stops at instabilities any.
+/// Where loads jump, and dashpots flow at the beginning of a step, states follow at one load factor.
 bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increment) {
   int unstable = increment.newton.unstable_modes;
   const auto loses = [&] { return increment.unstable_before >= 0 && unstable > increment.unstable_before; };
@@ -128,10 +131,17 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
   Trouble trouble{{fem::RampEnd::gave_up, increment.load_factor, increment.newton}, {}, unstable};
   // back to the last stable state
   const fem::RampProgress beyond_it = progress_.ramp;
-  if (now.points.size() > 1) progress_.ramp.points.pop_back();
-  progress_.ramp.load_factor = increment.load_factor - increment.length;
-  if (lost) trouble.critical = timed() ? limit_in_time() : locate(increment.load_factor, true);
-  if (interrupted_ || (leaves && (trouble.critical || stops() || begins_unstable))) {
+  const bool in_place = increment.load_factor == accepted_.parameter;
+  if (in_place)
+    progress_.ramp.points = {{now.points.back().parameter, accepted_.state}};
+  else if (now.points.size() > 1)
+    progress_.ramp.points.pop_back();
+  progress_.ramp.load_factor = accepted_.parameter;
+  if (lost && timed())
+    trouble.critical = limit_in_time();
+  else if (lost && !in_place)
+    trouble.critical = locate(increment.load_factor, true);
+  if (interrupted_ || (leaves && (trouble.critical || stops() || begins_unstable || in_place))) {
     leaving_ = std::move(trouble);
     return false;
   }
@@ -340,6 +350,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   }
   if (options_.inertia) state = fem::with_masses_let_go(model(), std::move(state), before);
   state = model().settled(std::move(state));
+  if (timed()) state.time = before.time + (s - ramp.load_factor) * options_.duration;
   ramp.load_factor = s;
   ramp.increment = 1.0 / options_.increments;
   ramp.at_break = ramp.turns = true;

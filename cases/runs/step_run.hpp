@@ -67,7 +67,7 @@ class StepRun {
           const fem::RampOptions& options, StepProgress& progress, const StepObserver& observer,
           std::string ways_on)
       : equilibrium_(equilibrium), step_(step), path_(path), options_(options), progress_(progress),
-        observer_(observer), ways_on_(std::move(ways_on)) {}
+        observer_(observer), ways_on_(std::move(ways_on)), accepted_{progress.ramp.load_factor, last()} {}
 
   Outcome run();
 
@@ -120,6 +120,7 @@ class StepRun {
   StepProgress& progress_;
   const StepObserver& observer_;
   const std::string ways_on_;      ///< what a step that stops may do instead, for messages; empty: nothing
+  fem::PathPoint accepted_;        ///< the last accepted state and its load factor
   std::optional<Trouble> leaving_; ///< the step leaves its path
   bool interrupted_ = false;       ///< between states, see StepObserver::goes_on
 };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dielast::cases::friction_test {
@@ -45,6 +46,17 @@ TEST_F(Friction, blocks_stand_where_friction_suffices_by_little) {
   std::string thin = pulled_block("0.9");
   thin.replace(thin.find("0.02 mm"), 7, "2 um");
   EXPECT_NEAR(values(thin).at("way"), sheared, 0.03 * sheared);
+}
+
+// Pushed on it slides, pushed back it sticks.
+TEST_F(Friction, leaves_a_stiffness_without_value) {
+  const std::string text =
+      pulled_block("0.3") + "[[quantity]]\nname = \"k\"\nkind = \"stiffness\"\nof = \"top\"\nalong = \"x\"\n";
+  EXPECT_TRUE(std::isnan(values(text).at("k")));
+  const Case one = read(text);
+  EXPECT_TRUE(std::ranges::any_of(one.warnings, [](const auto& warning) {
+    return warning.text().find("with friction it depends on the way to go on") != std::string::npos;
+  }));
 }
 
 TEST_F(Friction, tell_that_what_is_pressed_slides) {
