@@ -127,7 +127,7 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
                   .warnings = simulation.warnings(),
                   .no_errors_because = estimates.reason,
                   .event_remarks = estimates.events,
-                  .time_error = simulation.time_error(),
+                  .time_error = simulation.time_steps().error,
                   .taken = simulation.taken(),
                   .margins = with_estimates(std::move(margins), estimates.margins)};
   constexpr double poor_time_error = 0.02;

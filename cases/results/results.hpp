@@ -17,7 +17,7 @@ struct Results {
   std::vector<std::string> warnings{}; ///< before the run: keys without effect, a film of odd size
   std::string no_errors_because;       ///< why no quantity has an error estimate; empty otherwise
   std::vector<EventRemark> event_remarks;
-  double time_error = 0; ///< see Simulation::time_error()
+  double time_error = 0; ///< see TimeSteps
   Taken taken{};
   std::vector<Margin> margins;
   std::vector<std::optional<ProfileTable>> profiles{}; ///< see profiles_of()

@@ -54,6 +54,7 @@ Solution solution_of(const Case& one, const Simulation& run, const Outcome& outc
   }
   solution.values = run.results();
   solution.margins = std::move(margins);
+  solution.time_steps = run.time_steps().count;
   const Device& device = run.device();
   const fem::Samples samples = device.model.sample(run.state());
   const post::Extremes extremes(samples);

@@ -21,6 +21,7 @@ struct Solution {
   std::set<std::string> events; ///< kinds of whatever else happened
   post::StepRecord last;        ///< the record of the last accepted state
   std::vector<Margin> margins;
+  int time_steps = 0;
   std::string trouble; ///< why it did not reach its end (Outcome::kind, or what was thrown); empty otherwise
 };
 

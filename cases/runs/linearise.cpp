@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -73,6 +74,7 @@ Linearised linearise(const Case& one, Simulation& simulation) {
   const fem::State at_rest =
       operating_point(simulation.device(), lying ? *lying : simulation.state(), driven);
   require_rest(simulation.equilibrium(), at_rest);
+  require_stable(simulation.equilibrium(), at_rest);
   WithoutPins loose(one, simulation.device(), simulation.equilibrium(), at_rest);
   const Device& device = loose.device();
   const fem::State& state = loose.state();
@@ -112,9 +114,10 @@ Linearised linearise(const Case& one, Simulation& simulation) {
       double error = 0;
       for (std::size_t i = 0; i < omega.size(); ++i) {
         reduced.push_back(model.transfer(Complex(0, omega[i]))(0, 0));
-        error = std::max(error, std::abs(reduced[i] - result.full[i]) / std::abs(result.full[i]));
+        const double there = std::abs(reduced[i] - result.full[i]) / std::abs(result.full[i]);
+        if (!(there <= error)) error = there; // nor is what is no number a good model
       }
-      return error;
+      return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
     };
     const fem::StateSpace model = fem::balanced_truncation(large, one.linearise->order);
     const double error = error_of(model);
@@ -208,7 +211,8 @@ post::Report report_of(const Case& one, const Linearised& found) {
     curves.push_back({one.linearise->compare[c].name, found.frequency, found.compared[c]});
   post::Section plots{"Response", {}};
   plots.add(post::draw(post::bode(found.output, fmt::format("{} [{}/V]", found.output, found.unit), curves)));
-  post::Table gains{{"model", fmt::format("static gain [{}/V]", found.unit)}, {}};
+  post::Table gains{{"model", fmt::format("gain at {:.4g} Hz [{}/V]", found.frequency.front(), found.unit)},
+                    {}};
   for (const post::FrequencyResponse& curve : curves)
     gains.rows.push_back({curve.label, fmt::format("{:.6g}", std::copysign(std::abs(curve.value.front()),
                                                                            curve.value.front().real()))});

@@ -54,7 +54,7 @@ json archive(const SimulationProgress& progress) {
           {"energy", post::archive(progress.energy)},
           {"references", progress.references},
           {"active_events", progress.active_events},
-          {"time_error", progress.time_error},
+          {"time_steps", {progress.time_steps.count, progress.time_steps.error}},
           {"let_go", pack(progress.let_go)},
           {"signals", progress.signals},
           {"news", std::move(news)},
@@ -77,7 +77,7 @@ SimulationProgress restore_progress(const json& archived, const post::StateSizes
   progress.energy = post::restore_energy(archived.at("energy"), sizes);
   progress.references = archived.at("references");
   progress.active_events = archived.at("active_events");
-  progress.time_error = archived.at("time_error");
+  progress.time_steps = {archived.at("time_steps").at(0), archived.at("time_steps").at(1)};
   progress.let_go = unpack(archived.at("let_go"), sizes);
   progress.signals = archived.at("signals");
   for (const json& event : archived.at("news")) progress.news.push_back(restore_event(event));
@@ -107,7 +107,7 @@ fem::FactorMemory restore_factor(const json& archived) {
 SimulationProgress Simulation::progress() const {
   SimulationProgress progress{
       step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
-      time_error_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_,
+      time_steps_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_,
       taken_};
   for (const auto& [load, signal] : signals_) progress.signals.push_back(signal->memory());
   return progress;
@@ -121,7 +121,7 @@ void Simulation::resume(const SimulationProgress& progress) {
   come_to(state());
   measurement_.references = progress.references;
   watch_.active = progress.active_events;
-  time_error_ = progress.time_error;
+  time_steps_ = progress.time_steps;
   unseen_ = progress.unseen;
   if (progress.peaks.size() != measurement_.peaks.size()) throw post::CheckpointError("damaged");
   measurement_.peaks = progress.peaks;

@@ -130,6 +130,7 @@ bool Simulation::come_to_rest(fem::State& state) {
   state = *std::move(rest);
   come_to(state);
   const auto release = energy_.add_after_jump(fem::energy_point(*equilibrium_, state, 1, held_));
+  measurement_.all({device_, *equilibrium_, state, energy_, scalars_, &held_}); // courses go on from there
   if (moves)
     news_.push_back(
         {"came to rest", "",
@@ -175,7 +176,8 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
     fem::follow_spins(device_.model.dofs, before, state, energy_.record().points.back().mechanical.coordinate,
                       point.mechanical.coordinate);
   }
-  time_error_ += increment.time_error;
+  time_steps_.count += increment.time_error > 0 ? 1 : 0;
+  time_steps_.error += increment.time_error;
   std::optional<fem::EnergyBalance::JumpRelease> release;
   if (records_ > 0 && steps_[static_cast<std::size_t>(step_)].kind == StepKind::release) {
     point.mechanical.force.head(state.dead_force.size()) -= loads_->cut(step_, in_step_.ramp.start, state);
@@ -344,6 +346,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
       if (device_.model.ports.any_circuit())
         energy_.reconnect(fem::energy_point(*equilibrium_, state, 0, held_));
       unseen_ = {};
+      in_step_.jumps = 0;
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
       if (step.kind == StepKind::release) energy_.cut(loads_->cut(step_, ramp.start, state));
       for (const auto& [load, signal] : signals_) signal->begin(step.duration.value_or(0));

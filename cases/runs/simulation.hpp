@@ -19,6 +19,12 @@ struct Taken {
   int iterations = 0; ///< of Newton's method that led to them
 };
 
+/// The time steps of a run.
+struct TimeSteps {
+  int count = 0;
+  double error = 0; ///< the sum of what each of them may have added, relative
+};
+
 /// Where a simulation stands between two increments: with it, it goes on bit for bit.
 struct SimulationProgress {
   int step = 0;    ///< number of the current step, from 0
@@ -27,7 +33,7 @@ struct SimulationProgress {
   fem::EnergyBalance::Record energy;
   std::map<std::string, double> references;
   std::set<std::string> active_events;
-  double time_error = 0;                      ///< sum over the time steps
+  TimeSteps time_steps{};
   Eigen::VectorXd let_go{};                   ///< see StepLoads
   std::vector<std::vector<double>> signals{}; ///< what each of them keeps
   fem::UnseenMotion unseen{};                 ///< of the current step
@@ -93,7 +99,7 @@ class Simulation {
   /// Works, heat and how well they are resolved.
   const fem::EnergyBalance& energy() const { return energy_; }
   /// Sum of the errors that the time steps may have added to internal variables and motion, relative.
-  double time_error() const { return time_error_; }
+  const TimeSteps& time_steps() const { return time_steps_; }
   const Taken& taken() const { return taken_; }
   /// What a mean over time may be off for the states that it is made of, in its unit; of others 0.
   double error_of_course(const Quantity& quantity) const;
@@ -142,7 +148,7 @@ class Simulation {
   std::vector<post::Event> news_; ///< for the next record
   fem::EnergyBalance energy_;
   std::optional<fem::Increment> unrecorded_; ///< that led to the last accepted state
-  double time_error_ = 0;
+  TimeSteps time_steps_;
   fem::UnseenMotion unseen_; ///< of the current step
   fem::State accounted_;     ///< the last state in energy_
   fem::Holding held_;        ///< what holds it

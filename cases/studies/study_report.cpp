@@ -123,6 +123,14 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
   const auto x_quantity = position(study.collect, spec.x);
   const bool joined = varies_one_key(study, spec);
   post::Plot plot{.x_label = spec.x};
+  std::set<std::string> written; // units of x: where they differ, all are told in SI
+  for (const StudyPoint& point : points)
+    if (const auto number = x_axis ? written_measure(point.values[*x_axis]) : std::nullopt)
+      written.insert(number->unit);
+  const bool alike = written.size() <= 1;
+  const std::string unit = written.empty() ? ""
+                           : alike         ? *written.begin()
+                                           : name_of_unit(si_unit(*written.rbegin()).powers);
   double size = 0;
   std::string names;
   for (const std::string& y : spec.y)
@@ -146,9 +154,9 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
       series.style = joined ? post::Series::Style::line_and_points : post::Series::Style::points;
       if (x_axis) {
         const auto number = written_measure(points[p].values[*x_axis]);
-        series.x.push_back(number ? number->number : static_cast<double>(p + 1));
-        plot.x_label =
-            number && !number->unit.empty() ? fmt::format("{} [{}]", spec.x, number->unit) : spec.x;
+        series.x.push_back(!number ? static_cast<double>(p + 1)
+                                   : number->number * (alike ? 1 : si_unit(number->unit).factor));
+        if (!unit.empty()) plot.x_label = fmt::format("{} [{}]", spec.x, unit);
       } else {
         series.x.push_back(x_quantity ? collected.reached_value(p, *x_quantity) : static_cast<double>(p + 1));
       }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/command.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace dielast::test::responses_test {
@@ -193,6 +195,78 @@ TEST_F(Responses, ErrorsOfTimeStepsThatAddUpAreTold) {
   };
   EXPECT_NE(warnings("1e-2").find("time steps: their errors"), std::string::npos);
   EXPECT_EQ(warnings("1e-5").find("time steps: their errors"), std::string::npos);
+}
+
+// A row of a wave, a time step: longer ones are none, and tell nothing of what these leave out.
+TEST_F(Responses, ErrorsOfTimeStepsThatAWaveSetsAreTold) {
+  std::string rows;
+  for (int i = 0; i <= 200; ++i)
+    rows += fmt::format("{},{}\n", 0.05 * i, 20 * std::pow(std::sin(0.05 * i * 0.6), 2));
+  write("wave.csv", "time_s,stress_kPa\n" + rows);
+  write("wave.toml", R"([film]
+thickness = "1 mm"
+[film.material]
+shear_modulus = "18 kPa"
+permittivity = "4e-11 F/m"
+[[film.material.branch]]
+shear_modulus = "42 kPa"
+relaxation_time = "10 s"
+[patch]
+mode = "biaxial"
+stress_x = { wave = "file", file = "wave.csv" }
+[[step]]
+kind = "transient"
+duration = "10 s"
+increments = 10
+record = "5 s"
+)");
+  const auto stretch = [&](const char* tolerance) {
+    EXPECT_EQ(dielast({"run", "wave.toml", "-o", "out", "-q", "--set",
+                       std::string("solver.time_tolerance=") + tolerance})
+                  .exit_code,
+              0);
+    return json_of("out/summary.json")["quantities"]["stretch_x"];
+  };
+  const nlohmann::json coarse = stretch("1e-5"), fine = stretch("1e-9");
+  const double error = coarse["value"].get<double>() - fine["value"].get<double>();
+  EXPECT_GT(std::abs(error), 5e-6);
+  EXPECT_GT(coarse["error_estimate"].get<double>(), std::abs(error));
+}
+
+TEST_F(Responses, ALinearModelIsOfAStableState) {
+  write("square.toml", R"([film]
+thickness = "0.5 mm"
+[film.material]
+law = "mooney-rivlin"
+c1 = "18 kPa"
+c2 = "4 kPa"
+relative_permittivity = 4.7
+density = 0
+[patch]
+stress_x = "230 kPa"
+stress_y = "230 kPa"
+[drive]
+voltage = "100 V"
+[[step]]
+kind = "force"
+increments = 20
+on_instability = "follow"
+[[step]]
+kind = "voltage"
+on_instability = "follow"
+[[quantity]]
+name = "ux"
+kind = "displacement"
+of = "right"
+along = "x"
+[linearise]
+output = "ux"
+from = "0.1 Hz"
+to = "10 Hz"
+)");
+  const Ended ended = dielast({"linearise", "square.toml", "-o", "out"});
+  EXPECT_EQ(ended.exit_code, 4);
+  EXPECT_NE(ended.err.find("this one has 1 unstable mode"), std::string::npos) << ended.err;
 }
 
 TEST_F(Responses, RefuseTheRadiusOfAnArea) {
