@@ -110,6 +110,15 @@ std::size_t Measurement::subject(const Quantity& quantity) const {
   return static_cast<std::size_t>(found - case_.quantities.begin());
 }
 
+double Measurement::rise(std::size_t number, const Measured& measured) const {
+  const Quantity& each = case_.quantities[number];
+  const Quantity& quantity = each.kind->so_far ? case_.quantities[subject(each)] : each;
+  if (!quantity.kind->extreme) return 0;
+  const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);
+  return extremum ? post::rise_at(*extremum, measured.samples, device_.mesh, device_.film_parts, quantity.of)
+                  : 0;
+}
+
 void Measurement::step_ended(const std::string& step, const Measured& measured) {
   // Courses are those of the steps that a case has: what a film does to settle before the first is none of
   // it.

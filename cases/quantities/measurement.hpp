@@ -30,6 +30,10 @@ class Measurement {
   /// One of them, by its number in the case; NaN of those of another's course, too.
   double value(std::size_t number, const Measured& measured) const;
 
+  /// How steep an extreme of a field, or one whose course is followed, is where it lies, see post::rise_at();
+  /// of other quantities 0.
+  double rise(std::size_t number, const Measured& measured) const;
+
   /// Says that a step ended in this state: elongations and displacements since it start here.
   void step_ended(const std::string& step, const Measured& measured);
 

@@ -177,7 +177,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
   const std::vector<Discretisation> discretisations = compared_with(one, own_run, bonded.any);
   estimates.reason = why_not_compared(one, own_run.device(), discretisations);
   if (!estimates.reason.empty()) return estimates;
-  const Solution own = solution_of(one, own_run, outcome, records, margins);
+  const Solution own = solution_of(own_run, outcome, records, margins);
   const bool with_margins = own.trouble.empty() && std::ranges::any_of(margins, [](const Margin& margin) {
                               return margin.factor.has_value();
                             });

@@ -4,7 +4,6 @@
 #include "cases/case/quantities.hpp"
 #include "cases/console/terminal.hpp"
 #include "post/engineering.hpp"
-#include "post/fields.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,8 +44,8 @@ std::string end_text(const post::StepRecord& record) {
 
 } // namespace
 
-Solution solution_of(const Case& one, const Simulation& run, const Outcome& outcome,
-                     std::span<const post::StepRecord> records, std::vector<Margin> margins) {
+Solution solution_of(const Simulation& run, const Outcome& outcome, std::span<const post::StepRecord> records,
+                     std::vector<Margin> margins) {
   Solution solution = told_by(records);
   if (outcome.ending != Ending::complete) {
     solution.trouble = outcome.kind;
@@ -55,17 +54,7 @@ Solution solution_of(const Case& one, const Simulation& run, const Outcome& outc
   solution.values = run.results();
   solution.margins = std::move(margins);
   solution.time_steps = run.time_steps().count;
-  const Device& device = run.device();
-  const fem::Samples samples = device.model.sample(run.state());
-  const post::Extremes extremes(samples);
-  for (const Quantity& each : one.quantities) {
-    const Quantity& quantity = measured(each, one.quantities);
-    const auto extremum = quantity.kind->extreme && each.at.empty()
-                              ? extremes.find(quantity.of, quantity.extreme)
-                              : std::nullopt;
-    solution.rises.push_back(
-        extremum ? post::rise_at(*extremum, samples, device.mesh, device.film_parts, quantity.of) : 0);
-  }
+  solution.rises = run.rises();
   return solution;
 }
 
@@ -86,7 +75,7 @@ Solution solve(const Discretisation& discretisation, bool with_margins, int thre
     std::vector<Margin> margins;
     if (with_margins && outcome.ending == Ending::complete)
       margins = margins_of(one, simulation, journal, outcome, threads);
-    solution = solution_of(one, simulation, outcome, journal.records, std::move(margins));
+    solution = solution_of(simulation, outcome, journal.records, std::move(margins));
   } catch (const std::exception& error) { // no mesh, a place that it lacks, no memory: the run itself is done
     solution = told_by(journal.records);
     solution.trouble = error.what();

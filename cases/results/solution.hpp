@@ -16,7 +16,7 @@ namespace dielast::cases {
 struct Solution {
   double size = 1; ///< of its elements and time steps, over the run's
   std::vector<double> values;
-  std::vector<double> rises;    ///< of extremes at the end, otherwise 0
+  std::vector<double> rises;    ///< see Simulation::rises()
   std::vector<std::string> way; ///< what happened to the equilibrium, in order
   std::set<std::string> events; ///< kinds of whatever else happened
   post::StepRecord last;        ///< the record of the last accepted state
@@ -26,8 +26,8 @@ struct Solution {
 };
 
 /// That of a run.
-Solution solution_of(const Case& one, const Simulation& run, const Outcome& outcome,
-                     std::span<const post::StepRecord> records, std::vector<Margin> margins);
+Solution solution_of(const Simulation& run, const Outcome& outcome, std::span<const post::StepRecord> records,
+                     std::vector<Margin> margins);
 
 /// That of a case with another discretisation; what is thrown on its way is its trouble.
 Solution solve(const Discretisation& discretisation, bool with_margins, int threads);

@@ -317,6 +317,7 @@ void Recorder::save_checkpoint() {
                           {"progress", archive(simulation_.progress())},
                           {"factor", archive(simulation_.equilibrium().tangent().memory())},
                           {"results", post::pack(simulation_.results())},
+                          {"rises", post::pack(simulation_.rises())},
                           {"steps_ended", steps_ended_},
                           {"series_time", series_time_ ? json(*series_time_) : json(nullptr)},
                           {"series", entries(series_)},
@@ -355,7 +356,8 @@ void Recorder::restore_checkpoint() try {
   simulation_.resume(restore_progress(saved.at("progress"), sizes));
   if (const json& factor = saved.at("factor"); !factor.is_null())
     simulation_.equilibrium().tangent().recall(restore_factor(factor));
-  simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()));
+  simulation_.set_results(post::unpack(saved.at("results"), case_.quantities.size()),
+                          post::unpack(saved.at("rises"), case_.quantities.size()));
   steps_ended_ = saved.at("steps_ended");
   if (const json& time = saved.at("series_time"); !time.is_null()) series_time_ = time.get<double>();
   const json& journal = saved.at("journal");

@@ -49,7 +49,8 @@ Simulation::Simulation(const Case& one, int threads)
     : case_(one), threads_(threads), holding_(holding_in(one, one.steps, 0)), now_(held_by(one, holding_)),
       device_(build_device(now_)), measurement_(one, device_), signals_(signals_of(one)),
       watch_(one, device_), scalars_(wanted(measurement_)), steps_(one.steps),
-      results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()) {
+      results_(one.quantities.size(), std::numeric_limits<double>::quiet_NaN()),
+      rises_(one.quantities.size(), 0) {
   require_one_motion(one, device_.mesh, device_.model.dofs);
   equilibrium_.emplace(device_.model, threads);
   frame_ = frame_force();
@@ -290,7 +291,9 @@ bool Simulation::record(const SimulationObserver& observer, const Step& step, Me
   const std::vector<double> values = measurement_.all(measured);
   for (std::size_t q = 0; q < values.size(); ++q) {
     const std::string& at = case_.quantities[q].at;
-    if (at.empty() || (ends && at == step.name)) results_[q] = values[q];
+    if (!at.empty() && !(ends && at == step.name)) continue;
+    results_[q] = values[q];
+    if (ends) rises_[q] = measurement_.rise(q, measured);
   }
   const fem::NewtonResult& newton = increment.newton;
   energy_.judge(equilibrium_->energy_scale(), records_, step_);

@@ -96,6 +96,8 @@ class Simulation {
   const std::vector<Step>& steps() const { return steps_; }
   /// Values of the quantities, each at the end of the step that it is read at; NaN where that did not happen.
   const std::vector<double>& results() const { return results_; }
+  /// How steep those are there that are extremes of fields, see post::rise_at(); of others 0.
+  const std::vector<double>& rises() const { return rises_; }
   /// Works, heat and how well they are resolved.
   const fem::EnergyBalance& energy() const { return energy_; }
   /// Sum of the errors that the time steps may have added to internal variables and motion, relative.
@@ -105,7 +107,10 @@ class Simulation {
   double error_of_course(const Quantity& quantity) const;
   /// Of the quantities, see Measurement.
   const std::vector<post::Peak>& peaks() const { return measurement_.peaks; }
-  void set_results(std::vector<double> results) { results_ = std::move(results); }
+  void set_results(std::vector<double> results, std::vector<double> rises) {
+    results_ = std::move(results);
+    rises_ = std::move(rises);
+  }
 
  private:
   Eigen::VectorXd frame_force();
@@ -141,7 +146,7 @@ class Simulation {
   std::optional<Outcome> refusal_; ///< of a state that no physics allows
   Eigen::VectorXd frame_;          ///< see StepLoads
   std::optional<StepLoads> loads_;
-  std::vector<double> results_;
+  std::vector<double> results_, rises_;
   int step_ = 0, records_ = 0;
   Taken taken_;
   StepProgress in_step_;

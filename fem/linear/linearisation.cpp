@@ -62,8 +62,11 @@ void Linearisation::find_rates() {
     interpolate_rates(low, high);
   }
   std::ranges::sort(rates_);
-  for (const double known : rates_)
-    relaxing_.push_back(assembler.relaxation(state_, [&](double rate) { return same(rate, known); }));
+  for (const double known : rates_) // a rate between two that it is close to is one of the first
+    relaxing_.push_back(assembler.relaxation(state_, [&](double rate) {
+      const auto first = std::ranges::find_if(rates_, [&](double other) { return same(rate, other); });
+      return first != rates_.end() && *first == known ? 1.0 : 0.0;
+    }));
 }
 
 /// Between Chebyshev's points of the rates' logarithms. The pole of s/(s + rate), s = i omega, lies pi/2
