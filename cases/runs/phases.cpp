@@ -118,6 +118,7 @@ void Simulation::change_supports(fem::State& state) {
   if (state.motion && !holding_.pins) catch_what_moves(state, record);
   energy_ = fem::EnergyBalance(std::move(record));
   come_to(state);
+  measurement_.all({device_, *equilibrium_, state, energy_, scalars_, &held_}); // courses go on from there
 }
 
 void Simulation::enter(int step) {

@@ -5,6 +5,7 @@
 #include "fem/equilibrium/sheet_conduction.hpp"
 #include "fem/model/assembler.hpp"
 
+#include <algorithm>
 #include <functional>
 
 namespace dielast::fem {
@@ -99,6 +100,8 @@ class Equilibrium {
   /// Whether film that bears nothing but tension carries none, nor a field that balances one: the tangent
   /// tells of rounding there, and no path leads on.
   bool is_slack(const State& state) const;
+  /// Whether every free equation is one of such film, or of what carries it.
+  bool film_moves_all() const { return std::ranges::count(moved_by_film(), 0) == 0; }
   /// Whether all but so many unstable modes of a state are none: of film that carries no tension rounding has
   /// the sign, and film that is slack under a field keeps a trace of its compression. Modes of what else
   /// there is are what they are, however soft it is beside the film.

@@ -187,7 +187,7 @@ std::shared_ptr<const Motion> motion_now(const Model& model, const State& state,
     const double tau = part * duration;
     const Eigen::VectorXd p0 = Loads::of(state, dofs).held, p1 = beside(1), p2 = beside(2), p3 = beside(3);
     motion.acceleration_now.segment(dofs.free_count(), dofs.held_count()) =
-        (2 * p0 - 5 * p1 + 4 * p2 - p3) / (tau * tau);
+        (4 * (p2 - p0) - 5 * (p1 - p0) - (p3 - p0)) / (tau * tau); // of what stays none
   }
   accelerate_bodies(model, state, motion);
   return std::make_shared<const Motion>(std::move(motion));

@@ -62,9 +62,12 @@ namespace {
 constexpr double left_side = 1e-13; ///< before a break, in load factors
 constexpr double beside = 1e-9; ///< a break, in load factors: loads that only turn change little until there
 
-std::vector<double> mix(const std::vector<double>& from, const std::vector<double>& to, double s) {
-  std::vector<double> between(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) between[i] = (1 - s) * from[i] + s * to[i];
+/// What stays does so to the last bit: accelerations are second differences of what moves.
+template<class Values>
+Values mix(const Values& from, const Values& to, double s) {
+  Values between = from;
+  for (decltype(from.size()) i = 0; i < from.size(); ++i)
+    if (from[i] != to[i]) between[i] = (1 - s) * from[i] + s * to[i];
   return between;
 }
 
@@ -117,7 +120,7 @@ LoadPath linear_path(const DofMap& dofs, Loads from, Loads to, const Ports* port
     };
   path.apply = [&dofs, from = std::move(from), to = std::move(to)](State& state, double s) {
     Loads{mix(from.voltage, to.voltage, s), mix(from.charge, to.charge, s), mix(from.source, to.source, s),
-          (1 - s) * from.dead_force + s * to.dead_force, (1 - s) * from.held + s * to.held}
+          mix(from.dead_force, to.dead_force, s), mix(from.held, to.held, s)}
         .apply(state, dofs);
   };
   return path;

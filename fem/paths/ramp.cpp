@@ -171,9 +171,11 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   slope_.reset();
   const Model& model = equilibrium_.model();
   if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
-  if (has_friction(model)) return true; // a path with a corner wherever a node starts or stops to slide
+  if (has_friction(model) &&
+      std::max(contact_force(model, last()), contact_force(model, trial)) > equilibrium_.round_off())
+    return true; // a path with a corner wherever a node starts or stops to slide
   if (options_.inertia) return follows(predicted, trial, s);
-  if (options_.newton.wrinkles && equilibrium_.is_slack(last()))
+  if (options_.newton.wrinkles && equilibrium_.is_slack(last()) && equilibrium_.film_moves_all())
     return equilibrium_.is_slack(trial) || leads_back_to_slack(equilibrium_, within(s), trial, options_);
   if (is_foreseen(model.dofs, equilibrium_.stiffness(), progress_.points, parameter(s), predicted, trial))
     return true;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What stands beside a device, and touches it nowhere, does not change what becomes of the device; nor does
+// what has come to an end before.
+#include "tests/cases/film_cases.hpp"
+
+#include <cmath>
+
+namespace dielast::cases::bystanders_test {
+namespace {
+
+class Bystanders : public FilmCases {
+ protected:
+  Outcome outcome_of(const std::string& text) {
+    write("film.toml", text);
+    const Case one = read_case(directory / "film.toml");
+    Simulation simulation(one, 1);
+    return simulation.run({});
+  }
+  /// A shallow arch of two beams whose crown is pushed down past its limit point, in one increment.
+  static std::string arch(double width, double force, const std::string& beside) {
+    std::string text = "model = \"planar\"\n";
+    for (const auto& [name, from, to] : {std::tuple("l", "[\"-20 mm\", 0, 0]", "[0, \"3 mm\", 0]"),
+                                         {"r", "[0, \"3 mm\", 0]", "[\"20 mm\", 0, 0]"}})
+      text +=
+          fmt::format("[part.{0}.beam]\nwidth = \"{1} mm\"\nheight = \"10 mm\"\n[part.{0}.beam.material]\n"
+                      "youngs_modulus = \"10 MPa\"\npoisson_ratio = 0.3\n[part.{0}.line]\nfrom = {2}\nto = "
+                      "{3}\n",
+                      name, width, from, to);
+    return text + beside +
+           fmt::format(
+               "[[tie]]\nbetween = [\"l.end\", \"r.start\"]\n[[support]]\nplace = \"l.start\"\nfix = "
+               "[\"x\", \"y\", \"turn_z\"]\n[[support]]\nplace = \"r.end\"\nfix = [\"x\", \"y\", "
+               "\"turn_z\"]\n[[support]]\nplace = \"l.end\"\nfix = [\"x\", \"turn_z\"]\n[[load]]\nplace "
+               "= \"l.end\"\nforce = [0, \"-{} mN\", 0]\n[[step]]\nkind = \"force\"\nincrements = 1\n"
+               "[output]\nerror_estimate = false\n",
+               force);
+  }
+  static std::string sheet(const char* prestretch) {
+    return fmt::format("[part.sheet]\nat = [0, \"50 mm\", 0]\n[part.sheet.film]\nthickness = \"0.1 mm\"\n"
+                       "wrinkling = \"tension field\"\nprestretch = {}\n[part.sheet.film.material]\n"
+                       "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[part.sheet.rectangle]\n"
+                       "length = \"10 mm\"\n[part.sheet.mesh]\nacross = 4\n[[support]]\nplace = "
+                       "\"sheet.frame\"\nfix = [\"x\", \"y\"]\n",
+                       prestretch);
+  }
+  static std::string block(const char* friction) {
+    return fmt::format(
+        "[part.block]\nat = [\"60 mm\", 0, 0]\n[part.block.film]\nthickness = \"1 mm\"\nwidth = "
+        "\"10 mm\"\nsection = \"solid\"\n[part.block.film.material]\nshear_modulus = \"40 kPa\"\n"
+        "permittivity = \"4e-11 F/m\"\n[part.block.slab]\nlength = \"4 mm\"\nheight = \"3 mm\"\n"
+        "[part.block.mesh]\nacross = 2\n[contact]\nthickness = \"0.02 mm\"\n[table]\nat = "
+        "\"block.bottom\"\nfriction = {}\n[[support]]\nplace = \"block.top\"\nfix = [\"x\", "
+        "\"y\"]\n",
+        friction);
+  }
+};
+
+TEST_F(Bystanders, SlackFilmDoesNotHideALimitPoint) {
+  for (const char* prestretch : {"1.2", "1"}) {
+    const Outcome outcome = outcome_of(arch(0.5, 200, sheet(prestretch)));
+    EXPECT_EQ(outcome.kind, "limit point") << prestretch << outcome.message;
+    EXPECT_NE(outcome.message.find("load factor 0.13435"), std::string::npos) << outcome.message;
+  }
+}
+
+TEST_F(Bystanders, FrictionThatHoldsNothingDoesNotHideALimitPoint) {
+  for (const char* friction : {"0", "0.3"}) {
+    const Outcome outcome = outcome_of(arch(2, 1500, block(friction)));
+    EXPECT_EQ(outcome.kind, "limit point") << friction << outcome.message;
+    EXPECT_NE(outcome.message.find("load factor 0.31972"), std::string::npos) << outcome.message;
+  }
+}
+
+// A way of its ends that is no round number, gone before, accelerates no mass.
+TEST_F(Bystanders, AWayThatIsGoneAcceleratesNoMass) {
+  const Ran ran = run(
+      "[film]\nthickness = \"0.5 mm\"\nprestretch = 1.2\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+      "permittivity = \"4e-11 F/m\"\n[[film.material.branch]]\nshear_modulus = \"1 Pa\"\nrelaxation_time = "
+      "\"1 "
+      "ms\"\n[rectangle]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[mesh]\nacross = 1\n[[support]]\nplace = "
+      "\"left\"\nfix = [\"x\", \"y\"]\ndisplacement = { x = \"173 mm\" }\n[[support]]\nplace = "
+      "\"right\"\nfix = "
+      "[\"x\", \"y\"]\ndisplacement = { x = \"173 mm\" }\n[[point_mass]]\nplace = \"right\"\nmass = \"10 "
+      "kg\"\n"
+      "[[step]]\nname = \"m\"\nkind = \"move\"\n[[step]]\nkind = \"hold\"\nduration = \"1 s\"\ninertia = "
+      "true\n"
+      "increments = 20\n[[quantity]]\nname = \"f\"\nkind = \"force\"\nof = \"right\"\nalong = "
+      "\"x\"\n[[quantity]]\n"
+      "name = \"most\"\nkind = \"peak\"\nof = \"f\"\nextreme = \"maximum\"\n[output]\n"
+      "error_estimate = false\n");
+  EXPECT_NEAR(ran.last("most"), ran.last("f"), 1e-6 * ran.last("f"));
+}
+
+TEST_F(Bystanders, ASupportThatHasLetGoBearsNothingInAMean) {
+  const Ran ran = run(
+      "[film]\nthickness = \"1 mm\"\nprestretch = 1.5\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+      "permittivity = \"4e-11 F/m\"\n[patch]\nlength = \"20 mm\"\nwidth = \"20 mm\"\n[drive]\nvoltage = \"2 "
+      "kV\"\n[[support]]\nplace = \"right\"\nfix = [\"x\"]\nuntil = \"a\"\n[[step]]\nkind = "
+      "\"voltage\"\nname "
+      "= \"a\"\nduration = \"1 s\"\n[[step]]\nkind = \"hold\"\nduration = \"1 s\"\nincrements = 2\n"
+      "[[quantity]]\nname = \"f\"\nkind = \"force\"\nof = \"right\"\nalong = \"x\"\n[[quantity]]\nname = "
+      "\"mean\"\nkind = \"mean\"\nof = \"f\"\nsince = \"a\"\n[output]\nerror_estimate = false\n");
+  EXPECT_NEAR(ran.last("mean"), 0, 1e-9);
+}
+
+} // namespace
+} // namespace dielast::cases::bystanders_test
