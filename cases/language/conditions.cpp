@@ -23,8 +23,6 @@ bool has_bars(const Part& part) {
          std::holds_alternative<Honeycomb>(part.geometry);
 }
 
-namespace {
-
 bool has_heavy_bars(const Part& part) {
   const auto heavy = [](const Beam& beam) { return beam.material.density > 0; };
   const auto* lattice = std::get_if<Honeycomb>(&part.geometry);
@@ -32,6 +30,8 @@ bool has_heavy_bars(const Part& part) {
          (part.hinge && heavy(part.hinge->beam)) || (part.ribbon && heavy(part.ribbon->beam)) ||
          (lattice && heavy(lattice->wall));
 }
+
+namespace {
 
 /// Whether film or bars have a density.
 bool has_dense_parts(const Case& one) {
@@ -306,8 +306,9 @@ Condition volume_applies() {
 
 Condition an_electrode_keeps_off_walls() {
   return on_case("an [[electrode]] at the place \"electrode\"", [](const Case& one) {
-    return std::ranges::any_of(one.electrodes,
-                               [](const Electrode& e) { return e.place.ends_with("electrode"); });
+    return std::ranges::any_of(one.electrodes, [](const Electrode& e) {
+      return e.place == "electrode" || e.place.ends_with(".electrode");
+    });
   });
 }
 

@@ -59,6 +59,8 @@ bool has_step(const Case& one, std::initializer_list<StepKind> kinds);
 
 /// Beams, cables, or the walls of a lattice.
 bool has_bars(const Part& part);
+/// Whether some of these have a density.
+bool has_heavy_bars(const Part& part);
 
 /// Whether film, bars, the plate, a point mass, a body or what is around a fin has a mass.
 bool has_mass(const Case& one);

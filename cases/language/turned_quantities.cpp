@@ -12,6 +12,9 @@ namespace {
 
 /// rad; 0 for what is no angle, which the reader reports.
 double angle_of(const Node& part) try {
+  if (const Node* turned = part.find("turned");
+      turned && (turned->is(Node::Kind::number) || turned->is(Node::Kind::integer)))
+    return turned->number;
   return parse_measure(text_at(part, "turned"), "rad").value;
 } catch (const UnitError&) {
   return 0;

@@ -30,9 +30,11 @@ class Columns {
 
   /// Number of the column of that name, with any unit; -1 where there is none.
   int find(const std::string& name) const {
-    for (std::size_t i = 0; i < csv_.names.size(); ++i)
-      if (csv_.names[i] == name || split_unit(csv_.names[i]).name == name) return static_cast<int>(i);
-    return -1;
+    auto found =
+        std::ranges::find(csv_.names, name); // "gap_in" is a gap in inches only where there is no "gap"
+    if (found == csv_.names.end())
+      found = std::ranges::find_if(csv_.names, [&](const auto& own) { return split_unit(own).name == name; });
+    return found == csv_.names.end() ? -1 : static_cast<int>(found - csv_.names.begin());
   }
   std::vector<double> values(const std::string& name, std::string_view si_unit) const {
     const int column = find(name);

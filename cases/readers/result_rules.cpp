@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases/case/holding.hpp"
 #include "cases/case/quantities.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/readers/rules.hpp"
@@ -67,6 +68,13 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
       reader.warn(source, key, idle);
     check_step_with_end(reader, one, list->items[q].find("at"), key + ".at", quantity.at);
     check_step_with_end(reader, one, list->items[q].find("since"), key + ".since", quantity.since);
+    const auto number_of = [&](const std::string& step) {
+      return std::ranges::find(one.steps, step, &Step::name) - one.steps.begin();
+    };
+    if (!quantity.at.empty() && !quantity.since.empty() && number_of(quantity.at) < number_of(quantity.since))
+      reader.report(list->items[q].find("at")->source, key + ".at",
+                    fmt::format("found \"{}\": that step ends before \"{}\", since which it counts",
+                                quantity.at, quantity.since));
   }
   list = tree.find("profile");
   for (std::size_t p = 0; p < one.profiles.size(); ++p) {
@@ -106,11 +114,24 @@ void check_driven(const Case& one, const Controller& controller, const Report& r
                                     }) != 1)
     report("place", fmt::format("found \"{}\": it needs one [[load]] with a force on it", load.of));
   if (load.what != Driven::displacement) return;
-  if (std::ranges::none_of(one.supports, [&](const Support& own) {
-        return own.place == load.of && own.fixed[static_cast<std::size_t>(load.along)];
-      }))
+  const auto holds_it = [&](const Support& own) {
+    return own.place == load.of && own.fixed[static_cast<std::size_t>(load.along)];
+  };
+  const auto holds_while_time_passes = [&](const Support& own) {
+    const auto number = static_cast<std::size_t>(&own - one.supports.data());
+    for (std::size_t s = 0; s < one.steps.size(); ++s)
+      if (one.steps[s].kind == StepKind::transient &&
+          holding_in(one, one.steps, static_cast<int>(s)).supports[number] != 0)
+        return holds_it(own);
+    return false;
+  };
+  if (std::ranges::none_of(one.supports, holds_it))
     report("place",
            fmt::format("found \"{}\": no [[support]] fixes it along {}", load.of, "xyz"[load.along]));
+  else if (has_step(one, {StepKind::transient}) &&
+           std::ranges::none_of(one.supports, holds_while_time_passes))
+    report("place",
+           fmt::format("found \"{}\": no [[support]] holds it in a step of kind \"transient\"", load.of));
   if (std::ranges::any_of(one.steps, &Step::inertia))
     report("drives", "it moves the support by jumps, which need steps without inertia");
 }

@@ -113,14 +113,17 @@ void check_masses(SectionReader& reader, const Node& tree, const Case& one) {
       reader.report(at.source, at.key,
                     "nothing vibrates: film, bars, plate and point masses have no mass; give plate.mass or "
                     "film.material.density");
+    const auto weightless = [](const auto& all) {
+      return std::ranges::all_of(all, [](const auto& body) { return body.mass == 0; });
+    };
     if (step.kind == StepKind::weight && !one.plate && one.point_masses.empty() && one.bodies.empty() &&
         !one.gravity.film)
       reader.report(
           at.source, at.key,
           "nothing has a weight; add [plate], a [[point_mass]], a [[body]] or [gravity] with film = true");
-    if (step.kind == StepKind::weight && one.plate && one.plate->mass == 0 && one.point_masses.empty() &&
-        one.bodies.empty() && !one.gravity.film)
-      reader.warn(at.source, at.key, "has no effect here: plate.mass is 0");
+    else if (step.kind == StepKind::weight && (!one.plate || one.plate->mass == 0) &&
+             weightless(one.point_masses) && weightless(one.bodies) && !one.gravity.film)
+      reader.warn(at.source, at.key, "has no effect here: nothing has a weight");
     if (step.kind == StepKind::relax && !when::branches().met(one, nullptr) && one.circuits.empty() &&
         !lets_go(one, s) && step.on_instability == OnInstability::stop &&
         std::ranges::none_of(one.electrodes,
@@ -162,11 +165,8 @@ void check_own_weight(SectionReader& reader, const Node& tree, const Case& one) 
   const Node* gravity = tree.find("gravity");
   const bool falls = std::ranges::count(one.steps, StepKind::weight, &Step::kind) > 0;
   if (!gravity || gravity->find("film") || one.gravity.film || !falls) return;
-  const bool heavy_bars = std::ranges::any_of(one.parts, [](const Part& part) {
-    return (part.beam && part.beam->material.density > 0) || (part.cable && part.cable->density > 0);
-  });
   const auto weighs = [](const materials::Material* material) { return material->density > 0; };
-  if (heavy_bars || std::ranges::any_of(one.film_materials(), weighs))
+  if (std::ranges::any_of(one.parts, has_heavy_bars) || std::ranges::any_of(one.film_materials(), weighs))
     reader.warn(gravity->source, "gravity",
                 "the own weight of film and bars is left out here, though they have a density: film = true "
                 "counts it, film = false says that it shall be so");

@@ -3,6 +3,7 @@
 
 #include "cases/readers/case_tree.hpp"
 #include "cases/text/expression.hpp"
+#include "cases/text/overrides.hpp"
 #include "cases/text/units.hpp"
 
 #include <fmt/format.h>
@@ -139,6 +140,17 @@ WrittenAxis read_axis(SectionReader& reader, const std::string& key, const Node&
   return read;
 }
 
+/// No key is varied twice, nor within another.
+void refuse_overlaps(SectionReader& reader, const Node& vary, const Node& base) {
+  for (std::size_t i = 0; i < vary.items.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::string one = numbered_key(base, vary.keys[i]), other = numbered_key(base, vary.keys[j]);
+      if (is_within(one, other) || is_within(other, one))
+        reader.report(vary.items[i].key_source, fmt::format("study.vary.\"{}\"", vary.keys[i]),
+                      fmt::format("is varied already, with {}", toml_string(vary.keys[j])));
+    }
+}
+
 /// Of a pair either may have a value several times.
 void warn_of_repetition(SectionReader& reader, const WrittenAxis& axis) {
   std::set<std::string> seen;
@@ -261,6 +273,7 @@ void read_axes(SectionReader& reader, const Node& section, const Node& base, Stu
     study.axes.push_back(written.back().axis);
     if (!study.goes_together(vary->keys[i])) warn_of_repetition(reader, written.back());
   }
+  refuse_overlaps(reader, *vary, base);
   read_derived(reader, section, study);
   find_parameters(reader, *vary, study);
   read_pair(reader, section, study);

@@ -47,25 +47,20 @@ std::string_view key_of(std::string_view assignment) {
   return key;
 }
 
-/// Whether a key is another, or stands within it.
-bool is_within(std::string_view key, std::string_view other) {
-  return key.starts_with(other) &&
-         (key.size() == other.size() || key[other.size()] == '.' || key[other.size()] == '[');
-}
-
 /// What varies, or is computed, takes the place of what all points are to have.
-void check_settings(SectionReader& reader, const Node& section, const Study& study,
+void check_settings(SectionReader& reader, const Node& section, const Study& study, const Node& base,
                     const std::vector<std::string>& overrides) {
-  const auto check = [&](const Source& source, std::string_view key) {
+  const auto check = [&](const Source& source, const std::string& key) {
     for (const std::string& varied : study.varied())
-      if (is_within(key, varied))
-        reader.report(source, std::string(key),
+      if (is_within(numbered_key(base, key), numbered_key(base, varied)))
+        reader.report(source, key,
                       fmt::format("has no effect: the study gives {} a value at each of its points",
                                   toml_string(varied)));
   };
   if (const Node* set = section.find("set"); set && set->is(Node::Kind::table))
     for (std::size_t i = 0; i < set->items.size(); ++i) check(set->items[i].key_source, set->keys[i]);
-  for (const std::string& assignment : overrides) check({"--set " + assignment}, key_of(assignment));
+  for (const std::string& assignment : overrides)
+    check({"--set " + assignment}, std::string(key_of(assignment)));
 }
 
 /// Quantities and axes that the study names must exist.
@@ -199,7 +194,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   const std::size_t errors_before = reader.diagnostics().size();
   read_axes(reader, *section, base, study);
   const bool knows_axes = reader.diagnostics().size() == errors_before;
-  check_settings(reader, *section, study, overrides);
+  check_settings(reader, *section, study, base, overrides);
   check_names(reader, *section, study, base_case);
   check_targets(reader, *section, study, base_case, knows_axes);
   complete_collection(study, base_case);

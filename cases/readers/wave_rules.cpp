@@ -2,6 +2,7 @@
 // What follows a drive or a wave, and how finely.
 #include "cases/readers/rules.hpp"
 
+#include "cases/case/holding.hpp"
 #include "cases/case/sudden_motion.hpp"
 #include "cases/language/conditions.hpp"
 #include "post/engineering.hpp"
@@ -56,6 +57,31 @@ std::pair<std::string, Source> place_of_motion(const SectionReader& reader, cons
   const auto written = reader.keys().find(key);
   const Node* section = tree.find(key);
   return {key, written != reader.keys().end() ? written->second : section ? section->source : tree.source};
+}
+
+/// A support is moved by steps in which it holds.
+void check_motions_held(SectionReader& reader, const Node& tree, const Case& one) {
+  for (std::size_t i = 0; i < one.supports.size(); ++i) {
+    const Support& support = one.supports[i];
+    if (support.from.empty() && support.until.empty()) continue;
+    const auto moves_it = [&](bool over_time) {
+      for (std::size_t s = 0; s < one.steps.size(); ++s)
+        if ((one.steps[s].kind == StepKind::transient ||
+             (!over_time && one.steps[s].kind == StepKind::move)) &&
+            holding_in(one, one.steps, static_cast<int>(s)).supports[i] != 0)
+          return true;
+      return false;
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& motion = support.motion[axis];
+      const bool over_time = motion && !motion->constant() && has_step(one, {StepKind::transient});
+      if (!motion || moves_it(over_time)) continue;
+      const auto [key, source] = place_of_motion(reader, tree, one, i, axis);
+      reader.report(source, key,
+                    fmt::format("no step of kind {} moves it: the support does not hold then (from, until)",
+                                over_time ? "\"transient\"" : "\"move\" or \"transient\""));
+    }
+  }
 }
 
 /// A support does not jump with what has a mass.
@@ -164,6 +190,7 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
                               "at {:.6g} s",
                               wave.start, end));
   }
+  check_motions_held(reader, tree, one);
   check_jumps(reader, tree, one);
   check_beginnings(reader, one);
   check_repeated_voltages(reader, tree, one);

@@ -77,7 +77,8 @@ Section wave_section(std::string_view unit) {
   };
   section.check = [](const void* object) -> std::optional<Conflict> {
     const auto& wave = *static_cast<const Waveform*>(object);
-    if (wave.repeat > 0 && wave.repeat < wave.rise + wave.hold + wave.fall)
+    constexpr double round_off = 1e-9;
+    if (wave.repeat > 0 && wave.repeat < (1 - round_off) * (wave.rise + wave.hold + wave.fall))
       return Conflict{"period", "must not be below rise + hold + fall"};
     return std::nullopt;
   };

@@ -128,7 +128,8 @@ void add_region_electrodes(Node& tree) {
   std::vector<std::string> names;
   if (const Node* sectors = tree.find("sectors")) {
     const Node* count = sectors->find("count");
-    const double many = count && count->is(Node::Kind::integer) ? count->number : 4;
+    const double many =
+        count && (count->is(Node::Kind::integer) || count->is(Node::Kind::number)) ? count->number : 4;
     for (int k = 0; k < std::clamp(many, 0.0, 26.0); ++k) names.emplace_back(1, static_cast<char>('a' + k));
   }
   for (const Node& region : items_of(tree, "region")) // a second one of the name is reported elsewhere

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <utility>
 
 namespace dielast::cases {
 namespace {
@@ -64,11 +65,16 @@ std::string item_name(const Node& item) {
 Node& list_item(Node& list, const Part& part, std::string_view key, const Source& source) {
   if (part.number > 0 && part.number <= list.items.size()) return list.items[part.number - 1];
   std::vector<std::string> names;
+  Node* found = nullptr;
   for (Node& item : list.items) {
     const std::string name = item_name(item);
-    if (part.number == 0 && name == part.name) return item;
+    if (part.number == 0 && name == part.name && std::exchange(found, &item))
+      fail(source, key,
+           fmt::format("several items go by \"{}\"; give the number of one, [1] to [{}]", name,
+                       list.items.size()));
     if (!name.empty()) names.push_back(name);
   }
+  if (found) return *found;
   if (part.number > 0)
     fail(source, key, fmt::format("there is no item {}, only {}", part.number, list.items.size()));
   if (names.empty() && !list.items.empty() && list.items.front().is(Node::Kind::table))
@@ -158,9 +164,12 @@ Node take_brought(Node& tree) {
 
 Node with_changes(Node fresh, const Node& before) {
   std::vector<bool> taken(fresh.items.size());
-  for (const Node& changed : before.items) {
+  const bool alike = fresh.items.size() == before.items.size();
+  for (std::size_t number = 0; number < before.items.size(); ++number) {
+    const Node& changed = before.items[number];
     if (!is_changed(changed)) continue;
-    std::size_t i = 0;
+    // By its number where the device brings as many as before: what is changed may be what it goes by.
+    std::size_t i = alike && !taken[number] && is_same_item(fresh.items[number], changed) ? number : 0;
     while (i < taken.size() && (taken[i] || !is_same_item(fresh.items[i], changed))) ++i;
     if (i == taken.size()) {
       fresh.items.push_back(changed);
@@ -181,6 +190,28 @@ Node value_at(Node tree, std::string_view key) {
   Node* node = &tree;
   for (const Part& part : parts_of(key, source)) node = &descend(*node, part, key, source);
   return *node;
+}
+
+std::string numbered_key(Node tree, const std::string& key) try {
+  const Source source{key};
+  std::string numbered;
+  Node* node = &tree;
+  for (const Part& part : parts_of(key, source)) {
+    Node& next = descend(*node, part, key, source);
+    if (node->is(Node::Kind::list))
+      numbered += fmt::format("[{}]", &next - node->items.data() + 1);
+    else
+      numbered += (numbered.empty() ? "" : ".") + part.name;
+    node = &next;
+  }
+  return numbered;
+} catch (const CaseError&) {
+  return key;
+}
+
+bool is_within(std::string_view key, std::string_view other) {
+  return key.starts_with(other) &&
+         (key.size() == other.size() || key[other.size()] == '.' || key[other.size()] == '[');
 }
 
 void apply_override(Node& tree, std::string_view assignment) {

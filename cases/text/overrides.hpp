@@ -29,6 +29,13 @@ Node with_changes(Node fresh, const Node& before);
 /// What stands at the path of a key; an empty table where nothing does. Throws CaseError as apply_override.
 Node value_at(Node tree, std::string_view key);
 
+/// The key with the numbers of items in place of their names: two keys of one thing are one. As it is written
+/// where nothing stands there.
+std::string numbered_key(Node tree, const std::string& key);
+
+/// Whether a key is another, or stands within it.
+bool is_within(std::string_view key, std::string_view other);
+
 /// Splits "key=value" and applies it; its source is "--set key=value".
 void apply_override(Node& tree, std::string_view assignment);
 

@@ -59,5 +59,20 @@ TEST_F(DeviceModels, TellShortTimesApartInALongRun) {
   EXPECT_GT(whole[1], 1.05 * whole[2]);
 }
 
+// The name as it is written before one with a unit at its end.
+TEST_F(DeviceModels, TakeTheColumnOfTheirName) {
+  write("v.csv", "voltage_V,gap_in,gap\n100,1,2\n200,3,4\n");
+  write("case.toml",
+        "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"20 kPa\"\nrelative_permittivity = "
+        "3\n[rectangle]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[[support]]\nplace = \"left\"\nfix = "
+        "[\"x\", \"y\"]\n[drive]\nvoltage = \"200 V\"\n[[step]]\nkind = \"voltage\"\n[[quantity]]\nname = "
+        "\"gap\"\nkind = \"displacement\"\nof = \"right\"\nalong = \"x\"\n");
+  write("identify.toml", "case = \"case.toml\"\n[identify]\nunknowns = [\"film.material.shear_modulus\"]\n"
+                         "[[identify.test]]\nfile = \"v.csv\"\nquantity = \"gap\"\n");
+  const DeviceTest test = read_identification(directory / "identify.toml").tests[0];
+  EXPECT_EQ(test.measured[0].real(), 2);
+  EXPECT_EQ(test.measured[1].real(), 4);
+}
+
 } // namespace
 } // namespace dielast::cases::device_model_test

@@ -64,5 +64,34 @@ TEST_F(OverriddenDevices, KeepWhatIsOverriddenOfWhatTheyBring) {
   EXPECT_EQ(sectors.electrodes[1].stray_capacitance, 1e-9);
 }
 
+TEST_F(OverriddenDevices, MeasureTurnedPartsAlikeWhateverTheUnitOfTheAngle) {
+  const auto names = [&](const std::string& turned) {
+    std::string all;
+    for (const Quantity& quantity :
+         read("[part.a]\nturned = " + turned +
+              "\n[part.a.film]\nmaterial = \"VHB 4910 (honeycomb)\"\nthickness = \"1 mm\"\nprestretch = 2\n"
+              "[part.a.honeycomb]\nangle = \"150 deg\"\nwall_length = \"8 mm\"\nwall_width = \"0.8 mm\"\n"
+              "wall_height = \"2 mm\"\nwall_material = \"TPU 78 MPa\"\n")
+             .quantities)
+      all += fmt::format("{} {} ", quantity.name, quantity.along.value_or(-1));
+    return all;
+  };
+  EXPECT_EQ(names("1.5707963267948966"), names("\"90 deg\""));
+  EXPECT_NE(names("1.5707963267948966"), names("0"));
+}
+
+// What an item goes by may be what is changed of it.
+TEST_F(OverriddenDevices, AreChangedWhereTheyAreMeant) {
+  const std::string drive = "[drive]\nvoltage = \"2 kV\"\ncharge = \"10 nC\"\n";
+  const Case charged = read(film + annulus + plate + drive, {"step.voltage.kind=charge"});
+  ASSERT_EQ(charged.steps.size(), 2U);
+  EXPECT_EQ(charged.steps[0].kind, StepKind::weight);
+  EXPECT_EQ(charged.steps[1].kind, StepKind::charge);
+  const Case moved = read(film + annulus, {"support.outer.place=film"});
+  ASSERT_EQ(moved.supports.size(), 2U);
+  EXPECT_EQ(moved.supports[0].place, "inner");
+  EXPECT_EQ(moved.supports[1].place, "film");
+}
+
 } // namespace
 } // namespace dielast::cases::overridden_devices_test
