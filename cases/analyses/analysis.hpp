@@ -15,10 +15,10 @@ struct Analysis {
   std::string step;                ///< its name
   std::string of;                  ///< harmonic: the quantity that responds
   std::vector<std::string> driven; ///< harmonic: the electrodes whose sources swing
-  std::vector<std::string>
-      columns;     ///< with units, as in history.csv; harmonic: about a bias U, the same for
-                   ///< all sources, the last one is the response per U^2, its slope over 2 |U|
-  double bias = 0; ///< that one, V; otherwise 0
+  /// With units, as in history.csv; harmonic: about a bias U, the same for all sources, the last one is the
+  /// response per U^2, its slope over 2 |U|.
+  std::vector<std::string> columns;
+  double bias = 0; ///< U, V; 0 where there is none
   std::vector<std::vector<double>> rows;
   /// A shape and its name, a vector per mesh node: displacement of a mode, scaled to one, or of a sine of 1 V
   /// in phase and a quarter period behind (m/V).

@@ -21,6 +21,14 @@ Holding holding_in(const Case& one, const std::vector<Step>& steps, int step) {
   return holding;
 }
 
+bool holds_in_any(const Case& one, std::size_t support, std::initializer_list<StepKind> kinds) {
+  for (std::size_t s = 0; s < one.steps.size(); ++s)
+    if (std::ranges::count(kinds, one.steps[s].kind) > 0 &&
+        holding_in(one, one.steps, static_cast<int>(s)).supports[support] != 0)
+      return true;
+  return false;
+}
+
 Case held_by(Case one, const Holding& holding) {
   std::vector<Support> all = std::exchange(one.supports, {});
   for (std::size_t i = 0; i < all.size(); ++i)

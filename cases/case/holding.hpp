@@ -3,6 +3,7 @@
 
 #include "cases/case/case.hpp"
 
+#include <initializer_list>
 #include <vector>
 
 namespace dielast::cases {
@@ -20,6 +21,9 @@ struct Holding {
 /// What holds in this step (its number). An analysis is about the state as the step before has left it: no
 /// support lets go or takes hold in it.
 Holding holding_in(const Case& one, const std::vector<Step>& steps, int step);
+
+/// Whether a support (its number) holds in a step of one of these kinds.
+bool holds_in_any(const Case& one, std::size_t support, std::initializer_list<StepKind> kinds);
 
 /// The case with what holds then alone.
 Case held_by(Case one, const Holding& holding);

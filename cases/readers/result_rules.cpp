@@ -68,10 +68,9 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
       reader.warn(source, key, idle);
     check_step_with_end(reader, one, list->items[q].find("at"), key + ".at", quantity.at);
     check_step_with_end(reader, one, list->items[q].find("since"), key + ".since", quantity.since);
-    const auto number_of = [&](const std::string& step) {
-      return std::ranges::find(one.steps, step, &Step::name) - one.steps.begin();
-    };
-    if (!quantity.at.empty() && !quantity.since.empty() && number_of(quantity.at) < number_of(quantity.since))
+    const auto at = std::ranges::find(one.steps, quantity.at, &Step::name),
+               since = std::ranges::find(one.steps, quantity.since, &Step::name);
+    if (at < since && since != one.steps.end())
       reader.report(list->items[q].find("at")->source, key + ".at",
                     fmt::format("found \"{}\": that step ends before \"{}\", since which it counts",
                                 quantity.at, quantity.since));
@@ -119,11 +118,7 @@ void check_driven(const Case& one, const Controller& controller, const Report& r
   };
   const auto holds_while_time_passes = [&](const Support& own) {
     const auto number = static_cast<std::size_t>(&own - one.supports.data());
-    for (std::size_t s = 0; s < one.steps.size(); ++s)
-      if (one.steps[s].kind == StepKind::transient &&
-          holding_in(one, one.steps, static_cast<int>(s)).supports[number] != 0)
-        return holds_it(own);
-    return false;
+    return holds_it(own) && holds_in_any(one, number, {StepKind::transient});
   };
   if (std::ranges::none_of(one.supports, holds_it))
     report("place",

@@ -64,18 +64,12 @@ void check_motions_held(SectionReader& reader, const Node& tree, const Case& one
   for (std::size_t i = 0; i < one.supports.size(); ++i) {
     const Support& support = one.supports[i];
     if (support.from.empty() && support.until.empty()) continue;
-    const auto moves_it = [&](bool over_time) {
-      for (std::size_t s = 0; s < one.steps.size(); ++s)
-        if ((one.steps[s].kind == StepKind::transient ||
-             (!over_time && one.steps[s].kind == StepKind::move)) &&
-            holding_in(one, one.steps, static_cast<int>(s)).supports[i] != 0)
-          return true;
-      return false;
-    };
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto& motion = support.motion[axis];
       const bool over_time = motion && !motion->constant() && has_step(one, {StepKind::transient});
-      if (!motion || moves_it(over_time)) continue;
+      const bool reached = holds_in_any(one, i, {StepKind::transient}) ||
+                           (!over_time && holds_in_any(one, i, {StepKind::move}));
+      if (!motion || reached) continue;
       const auto [key, source] = place_of_motion(reader, tree, one, i, axis);
       reader.report(source, key,
                     fmt::format("no step of kind {} moves it: the support does not hold then (from, until)",

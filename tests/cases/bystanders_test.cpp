@@ -10,12 +10,6 @@ namespace {
 
 class Bystanders : public FilmCases {
  protected:
-  Outcome outcome_of(const std::string& text) {
-    write("film.toml", text);
-    const Case one = read_case(directory / "film.toml");
-    Simulation simulation(one, 1);
-    return simulation.run({});
-  }
   /// A shallow arch of two beams whose crown is pushed down past its limit point, in one increment.
   static std::string arch(double width, double force, const std::string& beside) {
     std::string text = "model = \"planar\"\n";

@@ -63,6 +63,13 @@ class FilmCases : public test::ScratchTest {
     return ran;
   }
 
+  /// How a run ends, whatever comes of it.
+  Outcome outcome_of(const std::string& text) {
+    write("film.toml", text);
+    const Case one = read_case(directory / "film.toml");
+    return Simulation(one, 1).run({});
+  }
+
   double uniform(double from, double to) { return std::uniform_real_distribution(from, to)(random_); }
   int below(int end) { return std::uniform_int_distribution(0, end - 1)(random_); }
 

@@ -238,7 +238,8 @@ TEST(FitSolver, GivingUpAndInterruptsKeepTheBestSoFar) {
   EXPECT_LT(squares(stopped.material), squares(task.start));
 }
 
-TEST(FitSolver, OgdenTermsOfBothSignsComeBack) {
+/// Moduli of 40 and -8 kPa, exponents of 1.5 and -2.5, pulled along one axis and along two.
+std::vector<MeasuredTest> tests_of_ogden() {
   const Material ogden{.law = materials::Ogden{{40e3, -8e3}, {1.5, -2.5}}};
   MeasuredTest pull, biaxial;
   for (int i = 1; i <= 20; ++i) pull.history.stretch.push_back(1 + 0.2 * i);
@@ -246,8 +247,12 @@ TEST(FitSolver, OgdenTermsOfBothSignsComeBack) {
   biaxial.history.mode = materials::Mode::equal_biaxial;
   pull.stress = nominal_stress(ogden, pull.history, 1);
   biaxial.stress = nominal_stress(ogden, biaxial.history, 1);
+  return {pull, biaxial};
+}
+
+TEST(FitSolver, OgdenTermsOfBothSignsComeBack) {
   const FitOutcome fit =
-      solve_fit(task_from({.law = materials::Ogden{{30e3, -10e3}, {2, -2}}}, {pull, biaxial}));
+      solve_fit(task_from({.law = materials::Ogden{{30e3, -10e3}, {2, -2}}}, tests_of_ogden()));
   const std::vector<double> values{40e3, -8e3, 1.5, -2.5};
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(fit.parameters[i].value / values[i], 1, 1e-6);
 }
@@ -255,14 +260,7 @@ TEST(FitSolver, OgdenTermsOfBothSignsComeBack) {
 // A number that may have any sign is bounded by its size: one that ends on the other side of 0 is no less
 // known.
 TEST(FitSolver, ASignThatTurnsIsAtNoBound) {
-  const Material ogden{.law = materials::Ogden{{40e3, -8e3}, {1.5, -2.5}}};
-  MeasuredTest pull, biaxial;
-  for (int i = 1; i <= 20; ++i) pull.history.stretch.push_back(1 + 0.2 * i);
-  biaxial = pull;
-  biaxial.history.mode = materials::Mode::equal_biaxial;
-  pull.stress = nominal_stress(ogden, pull.history, 1);
-  biaxial.stress = nominal_stress(ogden, biaxial.history, 1);
-  FitTask task = task_from({.law = materials::Ogden{{30e3, 5e3}, {2, -2}}}, {pull, biaxial});
+  FitTask task = task_from({.law = materials::Ogden{{30e3, 5e3}, {2, -2}}}, tests_of_ogden());
   task.range = 2;
   const FitOutcome fit = solve_fit(task);
   EXPECT_NEAR(fit.parameters[1].value, -8e3, 1e-2);

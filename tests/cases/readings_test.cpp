@@ -7,15 +7,7 @@
 namespace dielast::cases::readings_test {
 namespace {
 
-class Readings : public FilmCases {
- protected:
-  Outcome outcome_of(const std::string& text) {
-    write("film.toml", text);
-    const Case one = read_case(directory / "film.toml");
-    Simulation simulation(one, 1);
-    return simulation.run({});
-  }
-};
+class Readings : public FilmCases {};
 
 const std::string material = "[film.material]\nshear_modulus = \"50 kPa\"\nrelative_permittivity = 4\n";
 
