@@ -15,6 +15,7 @@ namespace dielast::cases {
 struct StudyAxis {
   std::string key;                 ///< path, as after --set
   std::vector<std::string> values; ///< TOML texts, as after --set key=
+  bool is_measure = true;          ///< whether its texts are numbers with units
 };
 
 /// A key whose values are computed of those of the axes.

@@ -128,7 +128,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   auto* fit_command = takes_case(
       add("fit", "fit a material to measured tests, or keys of a case to what was measured on the device"));
   takes_directory(fit_command);
-  fit_command->add_flag("--resume", arguments.resume, "do nothing where the fit has run to its end");
+  fit_command->add_flag("--resume", arguments.resume,
+                        "do nothing where the fit of a material has run to its end");
   may_be_quiet(fit_command);
 
   auto* info_command =

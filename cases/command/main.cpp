@@ -152,12 +152,14 @@ ExitCode study(const Arguments& arguments) {
 }
 
 ExitCode fit(const Arguments& arguments) {
-  if (cases::is_rational_fit(arguments.case_file))
-    return run_rational_fits(cases::read_rational_fits(arguments.case_file),
-                             {arguments.output("-fit"), arguments.resume});
+  const bool is_rational = cases::is_rational_fit(arguments.case_file);
+  if (arguments.resume && (is_rational || cases::is_identification(arguments.case_file)))
+    throw std::invalid_argument("--resume is for fits of materials: leave it out, and this one starts over");
+  if (is_rational)
+    return run_rational_fits(cases::read_rational_fits(arguments.case_file), arguments.output("-fit"));
   if (cases::is_identification(arguments.case_file))
-    return run_identification(cases::read_identification(arguments.case_file),
-                              {arguments.output("-fit"), arguments.resume}, arguments.threads);
+    return run_identification(cases::read_identification(arguments.case_file), arguments.output("-fit"),
+                              arguments.threads);
   return run_fit(cases::read_fit(arguments.case_file), {arguments.output("-fit"), arguments.resume});
 }
 

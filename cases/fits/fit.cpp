@@ -57,7 +57,7 @@ ExitCode run_fit(const Fit& fit, const FitSettings& settings) {
   folder.write("fit.json", fit_json(results).dump(2) + "\n");
 
   say("{}\n{}", results.ending(), fit_summary(results));
-  for (const std::string& warning : results.warnings()) say("warning: {}\n", warning);
+  for (const std::string& warning : results.warnings()) say(stderr, "warning: {}\n", warning);
   say("results in {}: report.html, material.toml, fit.csv, fit.json\n", directory.string());
   std::fflush(stdout);
   const FitEnding ending = results.outcome.ending;

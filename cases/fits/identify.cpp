@@ -154,7 +154,10 @@ IdentifyOutcome solve_identification(const Identification& asked, int threads,
     const auto at = static_cast<std::size_t>(i);
     return std::abs(q[i]) >= bound * (1 - 1e-6) || (at < at_end.ends.size() && at_end.ends[at]);
   };
-  outcome.model = misfit.models({q})[0].value_or(Model(asked.tests.size()));
+  Model unknown; // of a run that was interrupted
+  for (const DeviceTest& test : asked.tests)
+    unknown.emplace_back(test.x.size(), std::numeric_limits<double>::quiet_NaN());
+  outcome.model = misfit.models({q})[0].value_or(unknown);
   const auto r = misfit.residuals(outcome.model);
   if (r && outcome.ending != FitEnding::interrupted) at_end = misfit.differences(q, *r);
   Eigen::MatrixXd& J = at_end.slope;
@@ -181,11 +184,12 @@ IdentifyOutcome solve_identification(const Identification& asked, int threads,
   return outcome;
 }
 
-ExitCode run_identification(const Identification& asked, const FitSettings& settings, int threads) {
-  post::ResultsFolder folder(settings.directory, "fit");
+ExitCode run_identification(const Identification& asked, const std::filesystem::path& directory,
+                            int threads) {
+  post::ResultsFolder folder(directory, "fit");
   folder.begin();
   say("{}: {} unknowns, {} tests, in {}\n", asked.title, asked.unknowns.size(), asked.tests.size(),
-      settings.directory.string());
+      directory.string());
   const auto tell = [](int iteration, double misfit) {
     say("  iteration {:3d}   rms of the weighted residuals {:.6g}\n", iteration, misfit);
     std::fflush(stdout);
@@ -200,9 +204,8 @@ ExitCode run_identification(const Identification& asked, const FitSettings& sett
   post::write_report(folder, identify_report(asked, outcome));
   folder.write("identify.json", identify_json(asked, outcome));
   say("{}", identify_summary(asked, outcome));
-  for (const std::string& warning : identify_warnings(asked, outcome)) say("warning: {}\n", warning);
-  say("results in {}: report.html, identified.toml, identify.csv, identify.json\n",
-      settings.directory.string());
+  for (const std::string& warning : identify_warnings(asked, outcome)) say(stderr, "warning: {}\n", warning);
+  say("results in {}: report.html, identified.toml, identify.csv, identify.json\n", directory.string());
   if (outcome.ending == FitEnding::interrupted) return ExitCode::interrupted;
   const ExitCode code = outcome.ending == FitEnding::converged ? ExitCode::ok : ExitCode::not_converged;
   if (code != ExitCode::ok)

@@ -31,7 +31,7 @@ IdentifyOutcome solve_identification(const Identification& asked, int threads,
 /// Writes identify.json, identify.csv, identified.toml (the case with what was found) and report.html. What
 /// does not converge, or is interrupted, leaves the best that was found. Throws FileError and
 /// post::WriteError.
-ExitCode run_identification(const Identification& asked, const FitSettings& settings, int threads);
+ExitCode run_identification(const Identification& asked, const std::filesystem::path& directory, int threads);
 
 /// The files of run_identification.
 std::string identify_json(const Identification& asked, const IdentifyOutcome& outcome);

@@ -144,8 +144,8 @@ std::vector<RationalOutcome> solve_rational_fits(const RationalFits& asked) {
   return outcomes;
 }
 
-ExitCode run_rational_fits(const RationalFits& asked, const FitSettings& settings) {
-  post::ResultsFolder folder(settings.directory, "fit");
+ExitCode run_rational_fits(const RationalFits& asked, const std::filesystem::path& directory) {
+  post::ResultsFolder folder(directory, "fit");
   folder.begin();
   const std::vector<RationalOutcome> outcomes = solve_rational_fits(asked);
   Json json{{"title", asked.title}, {"fits", Json::array()}, {"version", DIELAST_VERSION}};
@@ -156,13 +156,13 @@ ExitCode run_rational_fits(const RationalFits& asked, const FitSettings& setting
     say("{}\n", fit.name());
     for (const auto& row : number_table(fit, outcomes[i]).rows)
       say("  {:<26}  {:<20}  {}\n", row[0].text, row[1].text, row[2].text);
-    for (const std::string& warning : warnings_of(fit, outcomes[i])) say("warning: {}\n", warning);
+    for (const std::string& warning : warnings_of(fit, outcomes[i])) say(stderr, "warning: {}\n", warning);
     if (outcomes[i].ending != FitEnding::converged) code = ExitCode::not_converged;
   }
   folder.write("rational.csv", table_of(asked, outcomes));
   post::write_report(folder, report_of(asked, outcomes));
   folder.write("rational.json", json.dump(2) + "\n");
-  say("results in {}: report.html, rational.csv, rational.json\n", settings.directory.string());
+  say("results in {}: report.html, rational.csv, rational.json\n", directory.string());
   folder.set_complete(static_cast<int>(code));
   return code;
 }

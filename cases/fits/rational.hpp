@@ -10,6 +10,6 @@ namespace dielast::cases {
 std::vector<RationalOutcome> solve_rational_fits(const RationalFits& asked);
 
 /// Writes rational.json, rational.csv (measured and model) and report.html. Throws post::WriteError.
-ExitCode run_rational_fits(const RationalFits& asked, const FitSettings& settings);
+ExitCode run_rational_fits(const RationalFits& asked, const std::filesystem::path& directory);
 
 } // namespace dielast::cases

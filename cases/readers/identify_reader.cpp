@@ -161,13 +161,16 @@ void load(const std::filesystem::path& file, const std::filesystem::path& folder
 }
 
 /// A test's own settings are keys of the case, which no schema of this file knows.
-void read_settings(SectionReader& reader, const Node& table, const std::string& path,
+void read_settings(SectionReader& reader, const Node& table, const std::string& path, const Node& base,
                    const std::vector<std::string>& unknowns, DeviceTest& test) {
   const Node* set = table.find("set");
   if (!set) return;
   for (std::size_t i = 0; set->is(Node::Kind::table) && i < set->items.size(); ++i) {
     test.settings.push_back(set->keys[i] + "=" + text_of(set->items[i]));
-    if (std::ranges::count(unknowns, set->keys[i]) > 0)
+    const std::string key = numbered_key(base, set->keys[i]);
+    if (std::ranges::any_of(unknowns, [&](const std::string& unknown) {
+          return is_within(numbered_key(base, unknown), key);
+        }))
       reader.report(set->items[i].key_source, path + ".set",
                     fmt::format("found {}: it is one of the unknowns, which are found for all tests",
                                 toml_string(set->keys[i])));
@@ -301,7 +304,7 @@ Identification read_identification(const std::filesystem::path& path) {
   std::vector<Diagnostic> wrong;
   for (std::size_t t = 0; t < asked.tests.size() && reader.diagnostics().empty(); ++t) {
     const std::string test_path = fmt::format("identify.test[{}]", t + 1);
-    read_settings(reader, tests.items[t], test_path, asked.keys, asked.tests[t]);
+    read_settings(reader, tests.items[t], test_path, base, asked.keys, asked.tests[t]);
     Node with = base;
     for (const std::string& setting : asked.tests[t].settings) override_case(with, setting);
     DeviceTest& test = asked.tests[t];

@@ -237,7 +237,7 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
                                : fem::moves(one.dimension, 5) && !body.fixed[5];
     const bool moves = has_step(one, {StepKind::modes}) || std::ranges::any_of(one.steps, &Step::inertia);
     const bool tilts = spatial && !(body.fixed[3] && body.fixed[4]);
-    if (body.mass > 0 && turns && moves && moment[0] + moment[1] + (tilts ? 0 : moment[2]) == 0)
+    if (body.mass > 0 && turns && moves && (tilts ? moment[0] + moment[1] : moment[2]) == 0)
       reader.report(written->items[b].source, fmt::format("body[{}].inertia", b + 1),
                     "missing; what moves with inertia and can turn has moments of inertia");
   }

@@ -85,9 +85,10 @@ std::vector<std::string> range_values(SectionReader& reader, const Node& node, c
                               text_of(*node.find("to")), last, from.unit));
     for (int i = 0; i < static_cast<int>(count); ++i) {
       const double part = i / (count - 1);
-      const double value = step          ? from.number + i * step->number
-                           : logarithmic ? from.number * std::pow(to.number / from.number, part)
-                                         : from.number + part * (to.number - from.number);
+      double value = step          ? from.number + i * step->number
+                     : logarithmic ? from.number * std::pow(to.number / from.number, part)
+                                   : from.number + part * (to.number - from.number);
+      if (std::abs(value) < 1e-12 * std::max(std::abs(from.number), std::abs(to.number))) value = 0;
       const std::string number = fmt::format("{:.12g}", value);
       values.push_back(from.unit.empty() ? number : toml_string(fmt::format("{} {}", number, from.unit)));
     }
@@ -113,6 +114,54 @@ void try_values(SectionReader& reader, const Node& base, const Study& study,
   }
 }
 
+/// The table's key at a path, of which several choices may have one of that name; null where there is none.
+const Key* key_at(const std::string& path) {
+  static const Section waves = wave_section("V");
+  const Section* section = &case_schema();
+  const Key* key = nullptr;
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string name = path.substr(begin, std::min(path.find('[', begin), end) - begin);
+    key = section->find_key(name, "");
+    if (const Section* inner = section->find_section(name))
+      section = inner;
+    else if (key && key->type == Type::wave)
+      section = &waves;
+    begin = end + 1;
+  }
+  return key;
+}
+
+bool takes_measures(const Key& key) {
+  return key.type == Type::measure || key.type == Type::wave || key.type == Type::tolerance ||
+         key.type == Type::integer;
+}
+
+/// Whether a value is written in rad/s.
+bool is_angular(const std::string& value) {
+  const auto written = written_measure(value);
+  return written && written->unit == "rad/s";
+}
+
+/// Hz and rad/s stand for one another by 2 pi: columns and plots of an axis have one of them.
+void require_one_kind(SectionReader& reader, const StudyAxis& axis, const Source& source) {
+  std::optional<BasePowers> first;
+  for (const std::string& value : axis.values) try {
+      const auto written = written_measure(value);
+      if (!written) continue;
+      BasePowers powers = si_unit(written->unit).powers, of_first = first.value_or(powers);
+      const bool differ = powers.back() != of_first.back();
+      powers.back() = of_first.back(); // of rad
+      if (differ && powers == of_first)
+        return reader.report(
+            source, fmt::format("study.vary.\"{}\"", axis.key),
+            fmt::format("found {} beside {}, allowed units of one kind", value, axis.values[0]));
+      if (!first) first = powers;
+    } catch (const UnitError&) { // a file, or told where the value is tried
+      return;
+    }
+}
+
 /// Values of a key and where each is written.
 struct WrittenAxis {
   StudyAxis axis;
@@ -122,6 +171,7 @@ struct WrittenAxis {
 WrittenAxis read_axis(SectionReader& reader, const std::string& key, const Node& node) {
   WrittenAxis read{{key, {}}};
   const std::string path = fmt::format("study.vary.\"{}\"", key);
+  if (const Key* known = key_at(key)) read.axis.is_measure = takes_measures(*known);
   if (node.is(Node::Kind::list)) {
     if (node.items.empty()) reader.report(node.source, path, "is empty; give at least one value");
     for (const Node& item : node.items) {
@@ -137,6 +187,7 @@ WrittenAxis read_axis(SectionReader& reader, const std::string& key, const Node&
         fmt::format("found {}, allowed a list of values or {{ from, to, step }}; is \"{}\" in quotes?",
                     text_of(node), key));
   }
+  if (read.axis.is_measure) require_one_kind(reader, read.axis, node.source);
   return read;
 }
 
@@ -161,7 +212,7 @@ void warn_of_repetition(SectionReader& reader, const WrittenAxis& axis) {
 }
 
 /// A key's expressions: texts, or numbers that stand for themselves.
-void read_derived(SectionReader& reader, const Node& section, Study& study) {
+void read_derived(SectionReader& reader, const Node& section, const Node& base, Study& study) {
   const Node* derive = section.find("derive");
   if (!derive) return;
   if (!derive->is(Node::Kind::table)) {
@@ -173,7 +224,11 @@ void read_derived(SectionReader& reader, const Node& section, Study& study) {
     const Node& node = derive->items[i];
     DerivedKey& one = study.derived.emplace_back(DerivedKey{derive->keys[i], {}, node.is(Node::Kind::list)});
     const std::string path = fmt::format("study.derive.\"{}\"", one.key);
-    if (std::ranges::find(study.axes, one.key, &StudyAxis::key) != study.axes.end())
+    const std::string key = numbered_key(base, one.key);
+    if (std::ranges::any_of(study.axes, [&](const StudyAxis& axis) {
+          const std::string varied = numbered_key(base, axis.key);
+          return is_within(key, varied) || is_within(varied, key);
+        }))
       reader.report(derive->items[i].key_source, path, "is varied already");
     for (const Node& item : one.is_list ? node.items : std::vector<Node>{node}) {
       const bool is_number = item.is(Node::Kind::integer) || item.is(Node::Kind::number);
@@ -247,7 +302,16 @@ void try_axes(SectionReader& reader, const Node& base, const Study& study,
       }
       try {
         const std::vector<std::string> derived = derived_values(study, values);
-        for (std::size_t d = 0; d < derived.size(); ++d) tried.emplace_back(study.derived[d].key, derived[d]);
+        for (std::size_t d = 0; d < derived.size(); ++d) {
+          const std::string& key = study.derived[d].key;
+          if (const Key* known = key_at(key);
+              known && known->unit == "Hz" && is_angular(derived[d]) && told.insert(key).second)
+            reader.report(written[a].sources[v], fmt::format("study.derive.\"{}\"", key),
+                          fmt::format("is {}, an angle per time, which would be divided by 2 pi once more; "
+                                      "divide what is in rad/s by 2*pi*rad",
+                                      derived[d]));
+          tried.emplace_back(key, derived[d]);
+        }
       } catch (const ExpressionError&) {
         continue; // told before
       }
@@ -274,7 +338,7 @@ void read_axes(SectionReader& reader, const Node& section, const Node& base, Stu
     if (!study.goes_together(vary->keys[i])) warn_of_repetition(reader, written.back());
   }
   refuse_overlaps(reader, *vary, base);
-  read_derived(reader, section, study);
+  read_derived(reader, section, base, study);
   find_parameters(reader, *vary, study);
   read_pair(reader, section, study);
   double points = 1;

@@ -229,9 +229,12 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
   post::write_report(folder, study_report(study, points, collected, answers));
 
   int failed = 0;
+  bool checked = true;
   for (std::size_t p = 0; p < points.size(); ++p)
     if (const auto& result = collected.results[p]; !result || result->exit_code != 0) {
-      ++failed;
+      const bool has_ended = result && result->has_ended();
+      failed += !has_ended;
+      checked = checked && !has_ended;
       say("failed: {}: {}\n", label(study, points[p]),
           !result                   ? "not finished"
           : result->message.empty() ? "checks failed, see its run.log"
@@ -243,9 +246,9 @@ ExitCode run_study(const Study& study, const StudySettings& settings) {
       (settings.directory / "study.csv").string(), (settings.directory / "report.html").string());
   const bool solved =
       std::ranges::all_of(solutions, [](const TargetSolution& one) { return one.problem.empty(); });
-  const ExitCode code = failed || !solved                           ? ExitCode::not_converged
-                        : all_answered(study, collected, solutions) ? ExitCode::ok
-                                                                    : ExitCode::check_failed;
+  const ExitCode code = failed || !solved                                      ? ExitCode::not_converged
+                        : checked && all_answered(study, collected, solutions) ? ExitCode::ok
+                                                                               : ExitCode::check_failed;
   folder.set_complete(static_cast<int>(code));
   return code;
 }

@@ -96,10 +96,10 @@ void begin_again(post::ResultsFolder& folder, const Study& study, const std::vec
     const auto [begin, end] = there.equal_range(case_of(study, point));
     auto own =
         std::find_if(begin, end, [&](const auto& folder_there) { return folder_there.second == name; });
-    if (own == end && begin != end)
-      moves.emplace_back((own = begin)->second, name);
-    else
+    if (own != end)
       kept.push_back(name);
+    else if (begin != end)
+      moves.emplace_back((own = begin)->second, name);
     if (own != end) there.erase(own);
   }
   if (!there.empty())

@@ -33,16 +33,31 @@ struct Column {
   std::vector<std::string> cells;
 };
 
+/// A value of what varies that is a number with a unit; nothing for words, and names of files that begin with
+/// a digit.
+std::optional<WrittenMeasure> measure_in(const Study& study, std::size_t varied, const std::string& value) {
+  if (varied < study.axes.size() && !study.axes[varied].is_measure) return std::nullopt;
+  auto written = written_measure(value);
+  try {
+    if (written) si_unit(written->unit);
+  } catch (const UnitError&) {
+    return std::nullopt;
+  }
+  return written;
+}
+
 /// Columns of what varies: of numbers in the unit in which all are written, otherwise in SI; one for each
 /// item of a list; texts where something is no number.
-std::vector<Column> columns_of(const std::string& name, const std::vector<std::string>& values) {
+std::vector<Column> columns_of(const Study& study, std::size_t varied,
+                               const std::vector<std::string>& values) {
+  const std::string name = study.varied()[varied];
   std::vector<std::vector<WrittenMeasure>> rows;
   std::size_t items = 1;
   for (const std::string& value : values) {
     const Node node = parse_value(value, {});
     auto& row = rows.emplace_back();
     for (const Node& item : node.is(Node::Kind::list) ? node.items : std::vector<Node>{node})
-      if (const auto number = written_measure(text_of(item))) row.push_back(*number);
+      if (const auto number = measure_in(study, varied, text_of(item))) row.push_back(*number);
     items = std::max(items, row.size());
     if (row.empty() || (node.is(Node::Kind::list) && row.size() != node.items.size())) rows.back().clear();
   }
@@ -125,7 +140,7 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
   post::Plot plot{.x_label = spec.x};
   std::set<std::string> written; // units of x: where they differ, all are told in SI
   for (const StudyPoint& point : points)
-    if (const auto number = x_axis ? written_measure(point.values[*x_axis]) : std::nullopt)
+    if (const auto number = x_axis ? measure_in(study, *x_axis, point.values[*x_axis]) : std::nullopt)
       written.insert(number->unit);
   const bool alike = written.size() <= 1;
   const std::string unit = written.empty() ? ""
@@ -153,7 +168,7 @@ post::Plot make_plot(const Study& study, const StudyPlot& spec, const std::vecto
                                           : fmt::format("{}, {} = {}", y, spec.group, name);
       series.style = joined ? post::Series::Style::line_and_points : post::Series::Style::points;
       if (x_axis) {
-        const auto number = written_measure(points[p].values[*x_axis]);
+        const auto number = measure_in(study, *x_axis, points[p].values[*x_axis]);
         series.x.push_back(!number ? static_cast<double>(p + 1)
                                    : number->number * (alike ? 1 : si_unit(number->unit).factor));
         if (!unit.empty()) plot.x_label = fmt::format("{} [{}]", spec.x, unit);
@@ -177,7 +192,7 @@ std::string study_table(const Study& study, const std::vector<StudyPoint>& point
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::vector<std::string> values;
     for (const StudyPoint& point : points) values.push_back(point.values[i]);
-    for (Column& column : columns_of(names[i], values)) varied.push_back(std::move(column));
+    for (Column& column : columns_of(study, i, values)) varied.push_back(std::move(column));
   }
   for (const Column& column : varied) table += "," + post::csv_cell(column.header);
   for (std::size_t q = 0; q < study.collect.size(); ++q)

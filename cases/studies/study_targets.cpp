@@ -42,6 +42,8 @@ std::vector<Point> curve_of(const Study& study, const StudyTarget& target,
       failed.push_back(key);
   }
   std::ranges::sort(curve);
+  const auto same_key = [](const Point& a, const Point& b) { return a.first == b.first; };
+  curve.erase(std::unique(curve.begin(), curve.end(), same_key), curve.end()); // a value may stand twice
   return curve;
 }
 

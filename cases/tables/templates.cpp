@@ -87,6 +87,11 @@ std::vector<Node> of_each_electrode(const Node& tree, const std::string& kind, c
 
 bool is_wave(const Node& node) { return node.find("wave") || std::ranges::any_of(node.items, is_wave); }
 
+/// Whether the drive of all electrodes, or of one ([drive.NAME]), has the key.
+bool drives(const Node& drive, const char* key) {
+  return drive.find(key) || std::ranges::any_of(drive.items, [&](const Node& one) { return one.find(key); });
+}
+
 /// Kinds of the steps that a patch takes: one for whatever is given, in this order.
 std::vector<std::string> patch_steps(const Node& tree) {
   const Node none;
@@ -96,8 +101,8 @@ std::vector<std::string> patch_steps(const Node& tree) {
   std::vector<std::string> kinds;
   if (patch->find("stretch_x") || patch->find("stretch_y")) kinds.emplace_back("move");
   if (patch->find("stress_x") || patch->find("stress_y")) kinds.emplace_back("force");
-  if (drive->find("charge")) kinds.emplace_back("charge");
-  if (drive->find("voltage") || kinds.empty()) kinds.emplace_back("voltage");
+  if (drives(*drive, "charge")) kinds.emplace_back("charge");
+  if (drives(*drive, "voltage") || kinds.empty()) kinds.emplace_back("voltage");
   return kinds;
 }
 

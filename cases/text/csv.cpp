@@ -204,6 +204,12 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
       }
     }
   }
+  for (std::size_t c = 0; c < names.size(); ++c)
+    if (!names[c].empty() && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(c),
+                                       names[c]) != names.begin() + static_cast<std::ptrdiff_t>(c))
+      wrong.push_back({{table.file, table.header_line, 1},
+                       names[c],
+                       "two columns have this name; rename one, or take it out"});
   const bool any_numbers = !std::ranges::all_of(columns, &Column::text);
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string& word = columns[c].first_text;

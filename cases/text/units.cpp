@@ -94,7 +94,8 @@ double factor_left_out(const std::string& unit, std::string_view wanted) {
   constexpr double turn = 2 * std::numbers::pi;
   const bool is_angle = si_unit(unit).powers.back() != 0; // of rad
   if (!wants_angle) return is_angle ? 1 / turn : 1;
-  return !is_angle && unit.find("Hz") != std::string::npos ? turn : 1;
+  return !is_angle && (unit.find("Hz") != std::string::npos || unit.find("ertz") != std::string::npos) ? turn
+                                                                                                       : 1;
 }
 
 /// Factor from `unit` to `si_unit`. Reciprocals, offsets (celsius), logarithms and dates also "convert" in
@@ -114,9 +115,27 @@ double factor_to_si(const std::string& unit, std::string_view si_unit) {
   return convert(1.0) * left_out;
 }
 
-/// A decimal factor is 1000 or 1/1000 up to round-off: dividing by a whole number keeps "0.8 mm" equal to
-/// 0.0008.
+/// The number whose decimal digits stand so many places further: "2.9 cm" is "29 mm" to the last bit.
+double shifted(double number, int places) {
+  std::array<char, 40> digits{};
+  const char* const end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::scientific).ptr;
+  const char* const exponent = std::find(static_cast<const char*>(digits.data()), end, 'e');
+  int power = 0; // behind "e+", which from_chars() does not read, or "e-"
+  std::from_chars(exponent + (exponent[1] == '+' ? 2 : 1), end, power);
+  const std::string text = fmt::format(
+      "{}e{}", std::string_view(digits.data(), static_cast<std::size_t>(exponent - digits.data())),
+      power + places);
+  double value = 0;
+  const bool fits = std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc{};
+  return fits ? value : number * std::pow(10.0, places);
+}
+
+/// A decimal factor is 1000 or 1/1000 up to round-off, others may be whole numbers.
 double scaled(double number, double factor) {
+  const double places = std::round(std::log10(factor));
+  if (number != 0 && std::abs(factor / std::pow(10.0, places) - 1.0) < 1e-14)
+    return shifted(number, static_cast<int>(places));
   const double whole = std::round(factor), parts = std::round(1.0 / factor);
   constexpr double round_off = 1e-14;
   if (whole >= 1 && std::abs(factor / whole - 1.0) < round_off) return number * whole;
@@ -181,10 +200,16 @@ WrittenMeasure split_measure(std::string_view text) {
 
 Measure parse_measure(std::string_view text, std::string_view si_unit) {
   const auto [number, unit] = split_measure(text);
-  // udunits would take "1 2 mm" for 1 x (2 mm)
-  if (!unit.empty() && !unit.starts_with("1/") &&
+  // udunits would take "1 2 mm" for 1 x (2 mm), "1 1/2 mm" for 1 x 1/2 mm, and "1 mm 2" for 2 mm
+  constexpr std::string_view digits = "0123456789";
+  const bool is_reciprocal =
+      unit.starts_with("1/") && unit.size() > 2 && digits.find(unit[2]) == std::string::npos;
+  if (!unit.empty() && !is_reciprocal &&
       std::string_view("0123456789.+-*/^(),").find(unit[0]) != std::string_view::npos)
     throw UnitError(fmt::format("with \"{}\" after the number", unit));
+  for (std::size_t i = unit.find_first_of(" \t"); i < unit.size(); i = unit.find_first_of(" \t", i + 1))
+    if (i + 1 < unit.size() && digits.find(unit[i + 1]) != std::string::npos)
+      throw UnitError(fmt::format("with a second number in \"{}\"", unit));
   const double value = scaled(number, factor_to_si(unit, si_unit));
   if (!std::isfinite(value)) throw UnitError("which is too large or too small to store");
   return {value, unit};

@@ -49,7 +49,9 @@ void load_samples(Waveform& wave, std::string_view unit, const std::filesystem::
     const int column = value_column(csv, csv.names[static_cast<std::size_t>(time)], wave, table, path, wrong);
     if (wrong.size() > errors_before) return;
     const std::string& name = csv.names[static_cast<std::size_t>(column)];
-    if (unit == "1" && name.find("strain") != std::string::npos) {
+    if (unit == "1" &&
+        (name.find("strain") != std::string::npos || name.find("elongation") != std::string::npos ||
+         (names_percent(name) && name.find("stretch") == std::string::npos))) {
       wrong.push_back({{csv.file, csv.header_line, 1},
                        name,
                        "is wanted as a stretch, a length over the unstretched one: 1 plus the strain"});

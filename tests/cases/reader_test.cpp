@@ -211,6 +211,8 @@ TEST(Reader, APatchTakesOneStepForEachThatIsGiven) {
   EXPECT_EQ(patch_steps("stretch_x = 2\nstress_y = \"1 kPa\"", "voltage = \"1 kV\""),
             (Kinds{move, force, voltage}));
   EXPECT_EQ(patch_steps("mode = \"equal-biaxial\"", "charge = \"1 nC\""), Kinds{charge});
+  EXPECT_EQ(patch_steps("stress_x = \"1 kPa\"", "[drive.film]\nvoltage = \"1 kV\""), (Kinds{force, voltage}));
+  EXPECT_EQ(patch_steps("", "[drive.film]\ncharge = \"1 nC\""), Kinds{charge});
   EXPECT_EQ(patch_steps("", "voltage = \"1 kV\"", {"patch.stress_x=1 kPa"}), (Kinds{force, voltage}));
   EXPECT_EQ(patch_steps("", "",
                         {"drive.voltage={wave=\"sine\", amplitude=\"1 kV\", frequency=\"1 Hz\"}",

@@ -238,6 +238,47 @@ TEST_F(StudyCommand, PointsThatHaveRunKeepTheirResultsUnderNewNumbers) {
     EXPECT_FALSE(entry.path().filename().string().starts_with("moving")) << entry.path();
 }
 
+// Names of files that begin with a digit are no numbers with a unit.
+TEST_F(StudyCommand, WavesWhoseFilesAreCalledByNumbers) {
+  write("1kV.csv", "time_s,voltage_kV\n0,0\n1,1\n");
+  write("2up.csv", "time_s,voltage_kV\n0,0\n1,2\n");
+  write("study.toml",
+        "[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"40 kPa\"\npermittivity = \"4e-11 "
+        "F/m\"\n[patch]\n[drive]\nvoltage = { wave = \"file\", file = \"1kV.csv\" }\n[[step]]\nkind = "
+        "\"transient\"\nduration = \"1 s\"\n[study]\nvary = { \"drive.voltage.file\" = [\"1kV.csv\", "
+        "\"2up.csv\"] }\ncollect = [\"stretch_x\"]\n");
+  const Ended ended = dielast(into("out"));
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(content("out/study.csv").starts_with("point,drive.voltage.file,stretch_x[1],"));
+}
+
+TEST_F(StudyCommand, PointsWhoseChecksFailHaveReachedTheirEnds) {
+  write("study.toml",
+        "case = \"small.toml\"\n[study]\nvary = { \"solver.max_iterations\" = [20, 25] }\n"
+        "collect = [\"eps_x\"]\nset = { \"check\" = [{ quantity = \"eps_x\", value = 7, source = \"none\", "
+        "tolerance = 0.1 }] }\n");
+  const Ended ended = dielast(into("out"));
+  EXPECT_EQ(ended.exit_code, 5) << ended.err;
+  EXPECT_NE(ended.out.find("2 of 2 points reached their ends"), std::string::npos) << ended.out;
+}
+
+TEST_F(StudyCommand, ImpossiblePointsHaveNothingOfThoseBeforeThem) {
+  write("study.toml",
+        "model = \"axisymmetric\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2.0\n[film.material]\n"
+        "shear_modulus = \"40 kPa\"\npermittivity = \"4e-11 F/m\"\n[disc]\nradius = \"20 mm\"\n"
+        "[mesh]\nrings = 6\n[drive]\nvoltage = \"1 kV\"\n[output]\nerror_estimate = false\n"
+        "[study]\nvary = { \"disc.radius\" = [\"20 mm\", \"10 mm\"], \"disc.electrode_radius\" = "
+        "[\"5 mm\", \"8 mm\"] }\ncollect = [\"capacitance\"]\n");
+  ASSERT_EQ(dielast(into("out")).exit_code, 0);
+  std::string other = content("study.toml");
+  other.replace(other.find("\"8 mm\""), 6, "\"15 mm\"");
+  write("study.toml", other);
+  EXPECT_EQ(dielast(into("out", {"--resume"})).exit_code, 4);
+  const std::string table = content("out/study.csv");
+  EXPECT_NE(table.find("\n4,10,15,,2,"), std::string::npos) << table;
+  EXPECT_FALSE(exists("out/point-0004/report.html"));
+}
+
 TEST_F(StudyCommand, PointsOfAnotherGridAreNotTakenForTheirs) {
   write_study("{ \"drive.voltage\" = [\"2 kV\", \"4 kV\"] }");
   ASSERT_EQ(dielast(into("out")).exit_code, 0);

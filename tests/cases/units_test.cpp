@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/text/units.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <clocale>
@@ -47,32 +48,28 @@ TEST(Units, FrequenciesAndAngularFrequenciesAreTwoThings) {
                              {"2 kHz", "Hz", 2000},
                              {"10 Hz", "rad/s", 10 * turn},
                              {"1 kHz", "rad/s", 1000 * turn},
+                             {"2 kilohertz", "rad/s", 2000 * turn},
                              {"60 rpm", "rad/s", turn},
                              {"3 1/s", "rad/s", 3},
                              {"40 rad/s", "rad/s", 40}})
     EXPECT_DOUBLE_EQ(parse_measure(one.text, one.unit).value, one.value) << one.text << " in " << one.unit;
 }
 
-TEST(Units, DecimalPrefixesAreExact) { EXPECT_EQ(parse_measure("0.8 mm", "m").value, 0.0008); }
+TEST(Units, DecimalPrefixesAreExact) {
+  EXPECT_EQ(parse_measure("0.8 mm", "m").value, 0.0008);
+  for (int tenths = 1; tenths < 1000; ++tenths)
+    EXPECT_EQ(parse_measure(fmt::format("{}.{} cm", tenths / 10, tenths % 10), "m").value,
+              parse_measure(fmt::format("{} mm", tenths), "m").value);
+  EXPECT_EQ(parse_measure("-3e-7 MPa", "Pa").value, -0.3);
+  EXPECT_EQ(parse_measure("1 1/mm", "1/m").value, 1000);
+}
 
 TEST(Units, RefusesWhatIsNoMeasureOfTheKind) {
-  for (const auto& [text, unit] : {std::pair{"1 kPa", "m"},
-                                   {"1", "m"},
-                                   {"", "m"},
-                                   {"mm", "m"},
-                                   {"1 mm mm", "m"},
-                                   {"1 2 mm", "m"},
-                                   {"1,5 mm", "m"},
-                                   {"1 mmm", "m"},
-                                   {"nan mm", "m"},
-                                   {"inf m", "m"},
-                                   {"1e999 m", "m"},
-                                   {"1 mm^-1", "m"},
-                                   {"1 m @ 2", "m"},
-                                   {"0x10 m", "m"},
-                                   {"1 m/", "m"},
-                                   {"1 celsius", "1"},
-                                   {"--1 m", "m"}})
+  for (const auto& [text, unit] :
+       {std::pair{"1 kPa", "m"}, {"1", "m"},        {"", "m"},       {"mm", "m"},        {"1 mm mm", "m"},
+        {"1 2 mm", "m"},         {"1 1/2 mm", "m"}, {"1/2 mm", "m"}, {"1 mm 2", "m"},    {"1,5 mm", "m"},
+        {"1 mmm", "m"},          {"nan mm", "m"},   {"inf m", "m"},  {"1e999 m", "m"},   {"1 mm^-1", "m"},
+        {"1 m @ 2", "m"},        {"0x10 m", "m"},   {"1 m/", "m"},   {"1 celsius", "1"}, {"--1 m", "m"}})
     EXPECT_THROW(parse_measure(text, unit), UnitError) << text;
 }
 
