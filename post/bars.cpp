@@ -17,7 +17,9 @@ Bars::Bars(const meshing::Mesh& mesh, const meshing::CellBlock& lines, std::span
     for (std::size_t i = 0; i < course.size(); ++i) {
       // A line's three nodes may lie on a curve: its section is across the chords beside the node.
       const Eigen::Vector3d along = at(std::min(i + 1, course.size() - 1)) - at(i == 0 ? 0 : i - 1);
-      const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(along).normalized();
+      Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(along);
+      if (across.norm() <= 1e-9 * along.norm()) across = Eigen::Vector3d::UnitX(); // a cable along z
+      across.normalize();
       const Eigen::Vector3d up = along.cross(across).normalized();
       const Eigen::Vector3d wide = width / 2 * across, high = height / 2 * up;
       for (const Eigen::Vector3d& arm : {Eigen::Vector3d(-wide - high), Eigen::Vector3d(wide - high),

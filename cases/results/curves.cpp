@@ -2,6 +2,7 @@
 #include "cases/results/curves.hpp"
 
 #include "cases/case/quantities.hpp"
+#include "cases/runs/watch.hpp"
 
 #include <fmt/format.h>
 
@@ -36,6 +37,8 @@ std::map<std::string, double> sizes_of_units(const Case& one, const Journal& jou
         double& size = sizes[unit_of(one.quantities[q], one.quantities)];
         size = std::max(size, std::abs(row[q]));
       }
+  if (const auto stress = sizes.find("Pa"); stress != sizes.end()) // of a free film rounding alone
+    stress->second = std::max(stress->second, smallest_stress(one) / round_off);
   return sizes;
 }
 

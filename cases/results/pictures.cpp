@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace dielast::cases {
@@ -19,10 +21,18 @@ class Pictures {
  public:
   Pictures(const Device& device, const Snapshot& last)
       : device_(device), meridian_(meshing::is_meridian(device.mesh.film()->type)),
-        solid_of_revolution_(device.solid && device.mesh.bounds().sizes().y() == 0),
-        wall_width_(device.bars.widths.empty() ? 0 : std::ranges::max(device.bars.widths)) {
-    // Thickness and field jump at the electrode's edge: they are not smoothed across it.
-    for (const double field : last.field) regions_.push_back(field != 0);
+        solid_of_revolution_(device.solid && device.mesh.bounds().sizes().y() == 0) {
+    // Thickness and field jump where an electrode or a part ends: they are not smoothed across it.
+    std::map<std::array<int, 3>, int> numbers;
+    std::vector<int> electrodes(last.field.size(), -1);
+    for (const fem::MembraneSample& sample : device.model.sample(device.model.initial_state()).film) {
+      int& electrode = electrodes[static_cast<std::size_t>(sample.cell)];
+      electrode = std::max(electrode, sample.electrode);
+    }
+    for (std::size_t cell = 0; cell < electrodes.size(); ++cell) {
+      const std::array key{device.film_parts[cell], electrodes[cell], last.field[cell] != 0 ? 1 : 0};
+      regions_.push_back(numbers.try_emplace(key, static_cast<int>(numbers.size())).first->second);
+    }
     for (const FinPoints& fin : device.fins) fins_.push_back(fin.corners);
   }
 
@@ -43,7 +53,8 @@ class Pictures {
   post::Image image(const std::vector<const Snapshot*>& states, std::vector<double> Snapshot::*values,
                     const std::string& quantity, const std::string& unit, const std::string& caption,
                     const std::string& name) const {
-    post::Picture picture{.quantity = quantity, .unit = unit, .wall_width = wall_width_, .fins = fins_};
+    post::Picture picture{
+        .quantity = quantity, .unit = unit, .wall_widths = device_.bars.widths, .fins = fins_};
     for (const Snapshot* state : states) picture.panels.push_back(panel(*state, state->*values));
     return image(std::move(picture), caption, true, name);
   }
@@ -51,7 +62,7 @@ class Pictures {
   post::Slides slides(const std::vector<Snapshot>& states, const ShapeField& shown) const {
     post::Picture picture{.quantity = shown.meaning,
                           .unit = shown.unit,
-                          .wall_width = wall_width_,
+                          .wall_widths = device_.bars.widths,
                           .fins = fins_,
                           .width = 900};
     for (const Snapshot& state : states) picture.panels.push_back(panel(state, state.shape));
@@ -59,12 +70,13 @@ class Pictures {
   }
   /// A small picture without colours.
   post::Image shape(const Snapshot& state, const std::string& caption) const {
-    return image({.wall_width = wall_width_, .fins = fins_, .panels = {panel(state, {})}, .width = 800},
-                 caption, false, "mode " + state.title);
+    return image(
+        {.wall_widths = device_.bars.widths, .fins = fins_, .panels = {panel(state, {})}, .width = 800},
+        caption, false, "mode " + state.title);
   }
   /// The device as drawn with these of its places.
   post::Image places(std::vector<post::Mark> marks) const {
-    return image({.wall_width = wall_width_,
+    return image({.wall_widths = device_.bars.widths,
                   .fins = fins_,
                   .panels = {panel({.displacement = std::vector<Eigen::Vector3d>(device_.mesh.nodes.size(),
                                                                                  Eigen::Vector3d::Zero())},
@@ -95,7 +107,6 @@ class Pictures {
 
   const Device& device_;
   bool meridian_, solid_of_revolution_;
-  double wall_width_;
   std::vector<int> regions_;
   std::vector<std::array<int, 4>> fins_;
 };

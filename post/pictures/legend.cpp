@@ -143,7 +143,7 @@ void draw_marks(cairo_t* cr, const std::vector<Mark>& marks, const std::vector<E
     if (const auto middle = middle_of_area(marks[m].nodes, at))
       beside = to_px(*middle) + Eigen::Vector2d(-advance / 2, size / 3);
     const auto box = [&] {
-      return Box(beside - Eigen::Vector2d(0, size), beside + Eigen::Vector2d(advance, line - size));
+      return Box(beside - Eigen::Vector2d(0, size), beside + Eigen::Vector2d(advance, line - size - 1));
     };
     while (std::ranges::any_of(taken, [&](const Box& other) { return other.intersects(box()); }))
       beside.y() += line;

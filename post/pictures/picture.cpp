@@ -73,14 +73,14 @@ void stroke(cairo_t* cr, const Way& way, double near) {
   cairo_stroke(cr);
 }
 
-Box extent(const meshing::Mesh& mesh, const Picture& picture, const Panel& panel, double wall_width) {
+Box extent(const meshing::Mesh& mesh, const Picture& picture, const Panel& panel) {
   Box box;
   for (const std::array<int, 4>& fin : picture.fins)
     for (const int node : fin) box.extend(panel.positions[static_cast<std::size_t>(node)].head<2>());
   for (const CellBlock& block : mesh.blocks)
     for (const int node : block.nodes) box.extend(panel.positions[static_cast<std::size_t>(node)].head<2>());
   if (box.isEmpty()) throw std::invalid_argument("nothing to draw");
-  const Eigen::Vector2d half = Eigen::Vector2d::Constant(wall_width / 2);
+  const Eigen::Vector2d half = Eigen::Vector2d::Constant(picture.widest_wall() / 2);
   return {box.min() - half, box.max() + half};
 }
 
@@ -105,7 +105,7 @@ constexpr double rod_width = 0.01;
 /// Rods have no section in the mesh.
 void stroke_rods(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
                  std::pair<double, double> range) {
-  cairo_set_line_width(cr, rod_width * extent(mesh, picture, panel, 0).sizes().norm());
+  cairo_set_line_width(cr, rod_width * extent(mesh, picture, panel).sizes().norm());
   std::size_t number = 0;
   for (const CellBlock& block : mesh.blocks) {
     if (is_line(block.type)) continue;
@@ -121,23 +121,28 @@ void stroke_rods(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture,
   }
 }
 
-void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Panel& panel, double width, double px) {
+void stroke_walls(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
+                  double px) {
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_width(cr, width);
   set_colour(cr, wall_colour);
   constexpr int most_together = 32; // cells: Cairo's time grows faster than the length of a path
   const double unseen = px / 5;
+  double width = px;
+  std::size_t line = 0;
   for (const CellBlock& block : mesh.blocks) {
     if (!is_line(block.type)) continue;
     Way way;
-    for (int cell = 0, together = 0; cell < block.size(); ++cell) {
-      const bool goes_on =
-          together > 0 && together < most_together && block.cell(cell)[0] == block.cell(cell - 1)[1];
+    for (int cell = 0, together = 0; cell < block.size(); ++cell, ++line) {
+      const double before =
+          std::exchange(width, std::max(picture.wall_widths.empty() ? 0 : picture.wall_widths[line], px));
+      const bool goes_on = together > 0 && together < most_together && width == before &&
+                           block.cell(cell)[0] == block.cell(cell - 1)[1];
       together = goes_on ? together + 1 : 1;
       if (!goes_on) {
         stroke(cr, way, unseen);
         way.clear();
+        cairo_set_line_width(cr, width);
       }
       add_cell(way, block, cell, panel.positions);
     }
@@ -194,7 +199,7 @@ void keep_as_png(cairo_surface_t* surface) {
 void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, const Panel& panel,
                 std::pair<double, double> range, double scale, Raster& film, double pixel, double left,
                 double top, double width, double height) {
-  const Box box = extent(mesh, picture, panel, picture.wall_width);
+  const Box box = extent(mesh, picture, panel);
   const Surface surface(cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(film.pixels()),
                                                             CAIRO_FORMAT_ARGB32, film.width(), film.height(),
                                                             4 * film.width()),
@@ -213,9 +218,9 @@ void draw_panel(cairo_t* cr, const meshing::Mesh& mesh, const Picture& picture, 
   cairo_translate(cr, std::ceil(width) / 2, std::ceil(height) / 2);
   cairo_scale(cr, scale, -scale);
   cairo_translate(cr, -box.center().x(), -box.center().y());
-  fill_fins(cr, picture, panel, std::max(picture.wall_width, 1 / scale));
+  fill_fins(cr, picture, panel, std::max(picture.widest_wall(), 1 / scale));
   stroke_rods(cr, mesh, picture, panel, range);
-  stroke_walls(cr, mesh, panel, std::max(picture.wall_width, 1 / scale), 1 / scale);
+  stroke_walls(cr, mesh, picture, panel, 1 / scale);
   cairo_restore(cr);
   const Eigen::Vector2d middle(left + std::ceil(width) / 2, top + std::ceil(height) / 2);
   draw_marks(cr, picture.marks, panel.positions, box.center(), left + width + margin,
@@ -241,12 +246,14 @@ std::pair<double, double> value_range(const Picture& picture) {
 }
 
 void check(const meshing::Mesh& mesh, const Picture& picture) {
-  std::size_t triangles = 0;
+  std::size_t triangles = 0, lines = 0;
   for (const CellBlock& block : mesh.blocks)
     if (is_meridian(block.type))
       throw std::invalid_argument("a film of revolution is drawn by its profile");
-    else if (!is_line(block.type))
-      triangles += static_cast<std::size_t>(block.size());
+    else
+      (is_line(block.type) ? lines : triangles) += static_cast<std::size_t>(block.size());
+  if (!picture.wall_widths.empty() && picture.wall_widths.size() != lines)
+    throw std::invalid_argument("a picture needs a width per line");
   if (picture.panels.empty()) throw std::invalid_argument("nothing to draw");
   for (const Panel& panel : picture.panels)
     if (panel.positions.size() != mesh.nodes.size() ||
@@ -275,7 +282,7 @@ class Drawing {
     panel_width_ = (picture.width - 2 * margin - gap * (panels - 1)) / panels;
     Eigen::Vector2d largest(1e-12, 1e-12);
     for (const Panel& panel : picture.panels)
-      largest = largest.cwiseMax(extent(mesh, picture, panel, picture.wall_width).sizes());
+      largest = largest.cwiseMax(extent(mesh, picture, panel).sizes());
     scale_ = std::min(panel_width_ / largest.x(), tallest_panel / largest.y());
     panel_height_ = largest.y() * scale_;
     const bool titled =
@@ -285,7 +292,7 @@ class Drawing {
     legend_top_ = panel_top_ + panel_height_ + 64;
     // A film's pixel may end as far as its width on either side of where it should.
     constexpr double least = 2, most = 3; // px
-    const double within = std::min(std::floor(scale_ * picture.wall_width / 2), most);
+    const double within = std::min(std::floor(scale_ * picture.narrowest_wall() / 2), most);
     edges_ = within >= least && hides_edges(mesh, picture) ? Edges::hidden : smoothness;
     if (edges_ == Edges::hidden) pixel_ = within;
     coloured_ = std::ranges::any_of(picture.panels, [](const Panel& panel) { return !panel.values.empty(); });
@@ -297,7 +304,7 @@ class Drawing {
     const Eigen::Vector2d size(std::ceil(panel_width_), std::ceil(panel_height_));
     std::vector<Raster> films;
     for (const Panel& panel : panels) {
-      const Box box = extent(mesh_, picture_, panel, picture_.wall_width);
+      const Box box = extent(mesh_, picture_, panel);
       Raster film = film_raster(
           mesh_, panel, range_,
           {finer * scale_, {box.center().x(), box.center().y(), 0}, finer * size, view_.light, view_.relief});

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -33,11 +34,14 @@ struct Picture {
   std::string title{};
   std::string quantity{};                 ///< what the colours mean, e.g. "True electric field"
   std::string unit{};                     ///< of `values`, SI; "1" when it has none
-  double wall_width = 0;                  ///< drawn true to scale, m
+  std::vector<double> wall_widths{};      ///< of the mesh's lines, drawn true to scale, m; empty: lines
   std::vector<std::array<int, 4>> fins{}; ///< flat, the nodes of their corners
   std::vector<Panel> panels{};
   std::vector<Mark> marks{}; ///< in every panel
   int width = 1280;          ///< px, a fifth more than a page shows; the height follows from the shapes
+
+  double widest_wall() const { return wall_widths.empty() ? 0 : std::ranges::max(wall_widths); }
+  double narrowest_wall() const { return wall_widths.empty() ? 0 : std::ranges::min(wall_widths); }
 };
 
 // None of these needs a display. Each throws std::invalid_argument when a panel does not fit the mesh and for

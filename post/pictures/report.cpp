@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <map>
+#include <set>
 
 namespace dielast::post {
 
@@ -253,7 +253,7 @@ std::string Report::html() const {
 
 std::vector<Figure> Report::figures() const {
   std::vector<Figure> figures;
-  std::map<std::string, int> taken;
+  std::set<std::string> taken;
   for (const Section& section : sections)
     for (const Block& block : section.blocks)
       if (const auto* image = std::get_if<Image>(&block);
@@ -265,8 +265,9 @@ std::vector<Figure> Report::figures() const {
           else if (!name.empty() && name.back() != '_')
             name += '_';
         if (name.ends_with('_')) name.pop_back();
-        if (const int before = taken[name]++; before > 0) name += fmt::format("_{}", before + 1);
-        figures.push_back({fmt::format("figure_{}.svg", name), image->svg});
+        std::string own = name;
+        for (int again = 2; !taken.insert(own).second; ++again) own = fmt::format("{}_{}", name, again);
+        figures.push_back({fmt::format("figure_{}.svg", own), image->svg});
       }
   return figures;
 }

@@ -16,13 +16,15 @@ constexpr std::string_view sorting = R"js(
 for (const table of document.querySelectorAll("table")) {
   const body = table.tBodies[0], rows = [...body.rows];
   if (rows.length < 3) continue;
+  const units = [...table.tHead.rows[0].cells].findIndex(head => head.textContent.trim() === "Unit");
+  const mixed = units >= 0 && new Set(rows.map(row => row.cells[units]?.textContent.trim())).size > 1;
   [...table.tHead.rows[0].cells].forEach((head, column) => {
     const text = row => row.cells[column] ? row.cells[column].textContent.trim() : "";
     const number = words => words.match(/^([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)(.*)$/i);
     const filled = rows.map(text).filter(words => words !== "" && words !== "-");
     const numbers = filled.map(number).filter(found => found);
     const numeric = numbers.length === filled.length && new Set(numbers.map(found => found[2].trim())).size === 1;
-    if (!numeric && numbers.length > 0) return;
+    if (numbers.length > 0 && (!numeric || mixed)) return;
     const key = row => {
       const words = text(row);
       return words === "" || words === "-" ? null : numeric ? Number(number(words)[1]) : words;

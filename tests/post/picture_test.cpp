@@ -146,13 +146,18 @@ TEST(Png, DividesColoursByTheirOpacity) {
   }
 }
 
+/// All as wide.
+std::vector<double> walls(const meshing::Mesh& mesh, double width) {
+  return std::vector<double>(static_cast<std::size_t>(mesh.walls()->size()), width);
+}
+
 TEST(Picture, IsAPngOfTheWidthAskedFor) {
   const meshing::Mesh mesh = square_mesh();
   const std::string bytes =
       render_png(mesh, {.title = "Square",
                         .quantity = "Thickness",
                         .unit = "m",
-                        .wall_width = 0.05,
+                        .wall_widths = walls(mesh, 0.05),
                         .panels = {{"a", mesh.nodes, {1e-3, 2e-3}}, {"b", mesh.nodes, {1e-3, 2e-3}}},
                         .width = 900});
   EXPECT_TRUE(bytes.starts_with("\x89PNG\r\n\x1a\n"));
@@ -203,10 +208,14 @@ TEST(Picture, WallsHaveTheirTrueWidth) {
   mesh.blocks.push_back({meshing::CellType::line2, {0, 1}});
   const double width = 0.01;
   const Pixels pixels(
-      render_png(mesh, {.wall_width = width, .panels = {{"", mesh.nodes, {}}}, .width = 600}));
+      render_png(mesh, {.wall_widths = walls(mesh, width), .panels = {{"", mesh.nodes, {}}}, .width = 600}));
   const double scale = (600 - 2 * 44) / (0.1 + width);
   const double area = scale * scale * (0.1 * width + M_PI / 4 * width * width); // round ends
   EXPECT_NEAR(static_cast<double>(pixels.count(0xff292e38)), area, 0.03 * area);
+  mesh.blocks.back().nodes = {0, 1, 2, 3};
+  const Pixels two(
+      render_png(mesh, {.wall_widths = {width, width / 5}, .panels = {{"", mesh.nodes, {}}}, .width = 600}));
+  EXPECT_NEAR(static_cast<double>(two.count(0xff292e38)), 1.2 * area, 0.07 * area);
 }
 
 TEST(Picture, ALineDoesNotBeginAtTheEndOfTheTextBeforeIt) {
@@ -379,7 +388,8 @@ TEST(Picture, FilmInAFrameLooksAsIfItsEdgesWereSmooth) {
   EXPECT_TRUE(is_framed(mesh));
   const auto drawn = [&](const std::vector<int>& regions) {
     return Pixels(render_png(
-        mesh, {.wall_width = 0.05, .panels = {{"", mesh.nodes, {1.0, 1.0}, regions}}, .width = 400}));
+        mesh,
+        {.wall_widths = walls(mesh, 0.05), .panels = {{"", mesh.nodes, {1.0, 1.0}, regions}}, .width = 400}));
   };
   const Pixels framed = drawn({}), smooth = drawn({0, 1}); // as colours may jump between regions
   EXPECT_TRUE(std::ranges::equal(framed.colours, smooth.colours, alike));
