@@ -91,12 +91,30 @@ fem::MembraneSample turned(fem::MembraneSample sample, const Eigen::Matrix3d& tu
   return sample;
 }
 
+/// Film under an electrode and beside it may be in one element, of a rod: a scalar of electrodes is that
+/// under them.
+void look_under_electrodes(std::vector<FilmReading>& readings, const Probing& probing) {
+  const auto fields = post::film_fields();
+  const auto field = std::ranges::find(fields, probing.quantity.of, &post::FilmField::name);
+  if (field == fields.end() || !field->of_electrodes) return;
+  for (FilmReading& reading : readings) {
+    const auto is_covered = [&](int p) {
+      return probing.drawn.film[static_cast<std::size_t>(p)].electrode >= 0;
+    };
+    if (std::ranges::none_of(reading.points, is_covered)) continue;
+    for (std::size_t p = 0; p < reading.points.size(); ++p)
+      if (!is_covered(reading.points[p])) reading.weight[static_cast<Eigen::Index>(p)] = 0;
+  }
+}
+
 Probe value(const Probing& probing) {
   const Quantity& quantity = probing.quantity;
   const Eigen::Matrix3d turn = quantity.point
                                    ? turn_to(Eigen::Vector3d(quantity.point->data()), probing.device.mesh)
                                    : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-  const auto value_in = [readings = readings_of(probing), &quantity, turn](const fem::Samples& samples) {
+  std::vector<FilmReading> readings = readings_of(probing);
+  look_under_electrodes(readings, probing);
+  const auto value_in = [readings = std::move(readings), &quantity, turn](const fem::Samples& samples) {
     return mean(readings, samples, [&](const fem::MembraneSample& sample, const auto&) {
       return post::film_value(turned(sample, turn), quantity.of);
     });

@@ -107,10 +107,27 @@ namespace {
 /// Of the elements of a sphere's wall: length over height.
 constexpr double slenderness = 2;
 
-void require_wall(double inner_radius, double outer_radius, int across) {
+/// Where the elements of a sphere's wall end, and the angle that they take.
+struct SphereSteps {
+  std::vector<double> radii; ///< m, ascending
+  double angle = 0;
+};
+
+/// Equal steps; of a thick wall equal ratios, as strains and fields go with powers of the radius.
+SphereSteps steps_through(double inner_radius, double outer_radius, int across) {
   if (!(inner_radius > 0 && outer_radius > inner_radius))
     throw std::invalid_argument("a hollow sphere needs an inner radius above 0 and a larger outer one");
   if (across < 1) throw std::invalid_argument("a hollow sphere needs an element across its wall");
+  constexpr double thick = 2; // outer over inner radius
+  const double size = (outer_radius - inner_radius) / across, ratio = outer_radius / inner_radius;
+  if (ratio <= thick)
+    return {graded_line({inner_radius, outer_radius}, {}, size, size),
+            slenderness * size / ((outer_radius + inner_radius) / 2)};
+  SphereSteps steps{{inner_radius}, slenderness * std::log(ratio) / across};
+  for (int k = 1; k < across; ++k)
+    steps.radii.push_back(inner_radius * std::pow(ratio, static_cast<double>(k) / across));
+  steps.radii.push_back(outer_radius);
+  return steps;
 }
 
 /// The eighth of the unit sphere, each side of it divided into `parts`.
@@ -151,23 +168,19 @@ Mesh eighth_of_sphere(int parts) {
 } // namespace
 
 Mesh sphere_eighth_mesh(double inner_radius, double outer_radius, int across) {
-  require_wall(inner_radius, outer_radius, across);
-  const double size = (outer_radius - inner_radius) / across, middle = (outer_radius + inner_radius) / 2;
-  const int parts =
-      std::max(2, static_cast<int>(std::lround(std::numbers::pi / 2 * middle / (slenderness * size))));
+  const SphereSteps steps = steps_through(inner_radius, outer_radius, across);
+  const int parts = std::max(2, static_cast<int>(std::lround(std::numbers::pi / 2 / steps.angle)));
   return extruded(
-      eighth_of_sphere(parts), graded_line({inner_radius, outer_radius}, {}, size, size),
+      eighth_of_sphere(parts), steps.radii,
       [](const Eigen::Vector3d& towards, double radius) -> Eigen::Vector3d { return radius * towards; },
       "inner", "outer");
 }
 
 Mesh hollow_sphere_mesh(double inner_radius, double outer_radius, int across) {
-  require_wall(inner_radius, outer_radius, across);
   constexpr double pole = std::numbers::pi / 2;
-  const double size = (outer_radius - inner_radius) / across, middle = (outer_radius + inner_radius) / 2;
-  const std::vector<double> wall = graded_line({inner_radius, outer_radius}, {}, size, size),
-                            turn = graded_line({-pole, 0, pole}, {}, 1, slenderness * size / middle);
-  TriangleGrid grid(wall, turn, [&](double radius, double latitude) {
+  const SphereSteps steps = steps_through(inner_radius, outer_radius, across);
+  const std::vector<double> turn = graded_line({-pole, 0, pole}, {}, 1, steps.angle);
+  TriangleGrid grid(steps.radii, turn, [&](double radius, double latitude) {
     const double x = std::abs(latitude) == pole ? 0 : radius * std::cos(latitude);
     return Eigen::Vector3d(x, 0, radius * std::sin(latitude));
   });

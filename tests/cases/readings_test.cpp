@@ -32,9 +32,8 @@ TEST_F(Readings, OfARollAreOfItsOwnFilm) {
           place);
     return run(text);
   };
-  const double charged = 15 * 125.83 / (21 * 141); // part of the film
   const Ran up = fields("1200 V", "0 V"), down = fields("0 V", "1200 V");
-  EXPECT_NEAR(up.last("upper"), charged * up.last("largest"), 1e-9 * up.last("largest"));
+  EXPECT_NEAR(up.last("upper"), up.last("largest"), 1e-9 * up.last("largest")); // under the electrode
   EXPECT_EQ(up.last("lower"), 0);
   EXPECT_NEAR(down.last("lower"), up.last("upper"), 1e-7 * up.last("upper"));
   EXPECT_EQ(down.last("upper"), 0);
@@ -73,6 +72,23 @@ TEST_F(Readings, FilmThatIsRolledHasNoStretchAlongARadius) {
 }
 
 // Covers of a strip are layers that [[film.layer]] does not know.
+// Film under the electrode of a rod and beside it is in one element: the field is that under it.
+TEST_F(Readings, TheFieldOfARodIsThatUnderItsElectrode) {
+  const Ran ran = run(
+      "model = \"planar\"\n[film]\nthickness = \"0.1 mm\"\nprestretch = 1.3\n[film.material]\nshear_modulus "
+      "= \"50 "
+      "kPa\"\npermittivity = \"4e-11 F/m\"\n[line]\nto = [\"40 mm\", 0, 0]\n[rod]\nwidth = \"10 mm\"\n"
+      "electrode_width = \"4 mm\"\n[[support]]\nplace = \"start\"\nfix = [\"x\", \"y\"]\n[[support]]\nplace "
+      "= "
+      "\"end\"\nfix = [\"x\", \"y\"]\n[drive]\nvoltage = \"1 kV\"\n[[step]]\nkind = "
+      "\"voltage\"\n[[quantity]]\n"
+      "name = \"field\"\nkind = \"value\"\nof = \"electric_field\"\nplace = \"film\"\n[[quantity]]\nname = "
+      "\"most\"\nkind = \"extreme\"\nof = \"electric_field\"\nextreme = \"maximum\"\n[output]\n"
+      "error_estimate = false\n");
+  EXPECT_GT(ran.last("most"), 4e6);
+  EXPECT_NEAR(ran.last("field"), ran.last("most"), 1e-9 * ran.last("most"));
+}
+
 TEST_F(Readings, AStripWithCoversEndsAtItsLimitPoint) {
   const Outcome outcome = outcome_of(
       "model = \"3d\"\n[film]\nsection = \"shell\"\nthickness = \"1 mm\"\nprestretch = 1\n" + material +
