@@ -79,7 +79,7 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
                         step_.name, load_text(reached), lost[0], lost[1], load_text(trouble.ramp.failed_at))};
   // without tension, or stiffness, any load leads far away, and seems to be too large
   if (reached == 0 && !timed() && fem::moves_freely(equilibrium_, loaded(last(), 0))) return singular();
-  if (!trouble.critical && !timed() && equilibrium_.is_slack(last()))
+  if (!trouble.critical && !timed() && is_slack())
     return {Ending::gave_up, "slack film",
             fmt::format("slack film: step \"{}\" stopped at {}, where the film carries no tension, and no "
                         "state was found in which it carries the loads at {}. {}",
@@ -120,7 +120,8 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
                             : "") +
                 of_edges)};
   }
-  if (trouble.unstable_modes > 0 && moves_freely()) return singular();
+  const bool off_path = trouble.ramp.failure.outcome == fem::Outcome::off_path;
+  if ((trouble.unstable_modes > 0 || off_path) && moves_freely()) return singular();
   if (trouble.unstable_modes > 0)
     return {Ending::gave_up, "instability",
             fmt::format(
@@ -128,7 +129,7 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
                 "leave it. Change what makes it unstable (compressed film, a voltage beyond a limit point){}",
                 step_.name, load_text(reached), load_text(trouble.ramp.failed_at), trouble.unstable_modes,
                 trouble.unstable_modes == 1 ? "" : "s", go_on)};
-  if (trouble.ramp.failure.outcome == fem::Outcome::off_path)
+  if (off_path)
     return {Ending::gave_up, "limit point",
             fmt::format("limit point near {}: however small the increment, Newton's method finds only states "
                         "of another branch beyond it.{}",

@@ -178,7 +178,7 @@ Outcome StepRun::run() {
                           limit)};
     } else if (timed()) {
       trouble.critical = limit_in_time();
-    } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !equilibrium_.is_slack(last())) {
+    } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !is_slack()) {
       const bool another = progress_.ramp.beside || trouble.ramp.failure.outcome == fem::Outcome::converged;
       trouble.critical = locate(trouble.ramp.failed_at, another);
       if (follows() && trouble.critical && !trouble.critical->beyond)

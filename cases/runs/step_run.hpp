@@ -110,6 +110,8 @@ class StepRun {
   std::string load_text(double s) const;
   std::vector<std::size_t> lost_film(double s) const;
   bool moves_freely() const;
+  /// Whether all that moves is slack film, or what carries it.
+  bool is_slack() const { return equilibrium_.is_slack(last()) && equilibrium_.film_moves_all(); }
   Outcome failure(const Trouble& trouble) const;
   Outcome cause(const Trouble& trouble, const std::string& ways_on) const;
 

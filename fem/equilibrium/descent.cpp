@@ -45,8 +45,7 @@ double Equilibrium::film_stiffness() const {
   return *there;
 }
 
-/// Whether film that may be slack moves a free equation, by its own nodes or by what carries them.
-std::vector<char> Equilibrium::moved_by_film() const {
+std::vector<char> Equilibrium::moved_by(bool film) const {
   const DofMap& dofs = model_.dofs;
   std::map<int, int> carried; // tied equations and the nodes that carry them
   for (const Tie& tie : dofs.ties())
@@ -56,7 +55,7 @@ std::vector<char> Equilibrium::moved_by_film() const {
     if (dofs.is_free(equation)) moved[static_cast<std::size_t>(equation)] = 1;
   };
   for (const auto& block : model_.blocks) {
-    if (!block->may_be_slack()) continue;
+    if (block->may_be_slack() != film || dynamic_cast<const ContactBlock*>(block.get())) continue;
     std::vector<int> equations(static_cast<std::size_t>(block->dofs_per_element()));
     for (int e = 0; e < block->element_count(); ++e) {
       block->element_equations(e, dofs, equations);
@@ -69,6 +68,14 @@ std::vector<char> Equilibrium::moved_by_film() const {
       }
     }
   }
+  return moved;
+}
+
+std::vector<char> Equilibrium::moved_by_film_alone() const {
+  std::vector<char> moved = moved_by_film();
+  const std::vector<char> others = moved_by(false);
+  for (std::size_t e = 0; e < moved.size(); ++e)
+    if (others[e]) moved[e] = 0;
   return moved;
 }
 

@@ -17,6 +17,7 @@ struct EnergyPoint {
   double length = 0;     ///< of the path since the point before, in a parameter in which the path is smooth
   double time = 0;       ///< s
   bool moves = false;    ///< with inertia: external forces balance internal ones over the time steps only
+  bool flowed = false;   ///< dashpots were let go, the loads are as they were
   Conjugates mechanical; ///< per equation dead forces (reactions at held ones) and displacements; then per
                          ///< port pressure and own volume of a chamber, 0 of an electrode
   Conjugates electrical; ///< per port voltage and charge, 0 of a chamber

@@ -100,7 +100,10 @@ class Equilibrium {
   /// Whether film that bears nothing but tension carries none, nor a field that balances one: the tangent
   /// tells of rounding there, and no path leads on.
   bool is_slack(const State& state) const;
-  /// Whether every free equation is one of such film, or of what carries it.
+  /// Per free equation whether it is one of such film, or of what carries it.
+  std::vector<char> moved_by_film() const { return moved_by(true); }
+  /// As it, of those that no bar, shell or solid beside it resists.
+  std::vector<char> moved_by_film_alone() const;
   bool film_moves_all() const { return std::ranges::count(moved_by_film(), 0) == 0; }
   /// Whether all but so many unstable modes of a state are none: of film that carries no tension rounding has
   /// the sign, and film that is slack under a field keeps a trace of its compression. Modes of what else
@@ -178,7 +181,7 @@ class Equilibrium {
   bool follow_charges(State& state, Pressure pressure) const;
   bool fill(State& state);
   double film_stiffness() const;
-  std::vector<char> moved_by_film() const;
+  std::vector<char> moved_by(bool film) const;
   State widened(State state, double strain) const;
   double backtrack(State& state, Balance& current, const Eigen::VectorXd& step, int halvings,
                    double balanced_to);

@@ -157,11 +157,11 @@ void EnergyBalance::account(const EnergyPoint& point, bool is_cut) {
     work.released -= rest;
   } else if (point.moves) {
     record_.rest += rest;
-  } else if (range > 0) {
+  } else if (range > 0 && !point.flowed) {
     electrical_share = rest * electrical.range / range;
     mechanical_share = rest * mechanical.range / range;
     if (electrical.range > 0 && mechanical.range > 0) doubt += std::abs(rest);
-  } else if (!flows) {
+  } else if (!flows && !point.flowed) {
     record_.rest += rest;
   } else {
     const double taken = std::max(-heat, -rest);

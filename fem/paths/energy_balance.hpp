@@ -27,7 +27,8 @@ struct Work {
 /// the path through the increment before (order 4). It is exact for forces or coordinates that stay. What the
 /// balance then leaves belongs to the works whose forces and coordinates both change, in proportion to the
 /// products of these changes; so that works of quasi-static increments in which one load changes are changes
-/// of a potential, whatever the size of the increment. Where no such work is done the rest is heat. With
+/// of a potential, whatever the size of the increment. Where no such work is done, and where dashpots are let
+/// go while the loads stay, the rest is heat. With
 /// inertia the rest stays: it is the error of the time scheme. Where supports strike masses the force has no
 /// value of its own: the work of the impulse is added (work_of_impulses()).
 ///

@@ -119,8 +119,9 @@ std::optional<PathPoint> find_beyond(Equilibrium& equilibrium, const LoadPath& p
                                      const NewtonOptions& options) {
   const auto left = [&](const LoadPoint& point) { return std::sqrt(std::abs(critical_load - point.s)); };
   const LoadPoint& last = points.back();
-  const auto former = std::find_if(points.rbegin(), points.rend(),
-                                   [&](const LoadPoint& point) { return left(point) > 3 * left(last); });
+  auto former = std::find_if(points.rbegin(), points.rend(),
+                             [&](const LoadPoint& point) { return left(point) > 3 * left(last); });
+  if (former == points.rend() && points.size() > 1 && left(points.front()) > left(last)) --former;
   if (former == points.rend()) return std::nullopt;
   const DofMap& dofs = equilibrium.model().dofs;
   const auto distance = [&](const State& from, const State& to) {
@@ -281,7 +282,10 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   const bool slides = has_friction(equilibrium.model());
   if (last.mode) kind = classify(equilibrium, path, last.state, last.s, *last.mode);
   if (!slides && !(falls && kind == Instability::limit_point))
-    if (auto turn = find_turn(equilibrium, path, points)) return turn;
+    if (auto turn = find_turn(equilibrium, path, points)) {
+      turn->beyond = find_beyond(equilibrium, path, points, turn->load_factor, modes, options);
+      return turn;
+    }
   if (!last.mode) return std::nullopt;
   CriticalPoint critical{kind, critical_load, last.state, *last.mode, {}};
   const auto is_close = [&] {

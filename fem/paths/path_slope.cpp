@@ -67,6 +67,17 @@ WorkOfLoads work_of_loads(Equilibrium& equilibrium, const LoadPath& path, const 
   return {own, (change + of_reactions) * (end.s == s0 ? 1 : -1)};
 }
 
+/// How fast the forces on free equations change with the loads there, in the norm of the stiffness.
+double rate_of_loads(Equilibrium& equilibrium, const LoadPath& path, State at, double s, double ds) {
+  Balance here, there;
+  path.apply(at, s);
+  equilibrium.balance(at, here);
+  path.apply(at, s + ds);
+  equilibrium.balance(at, there);
+  const Eigen::VectorXd change = (there.force - here.force).head(equilibrium.stiffness().size()) / ds;
+  return std::sqrt(change.dot(change.cwiseQuotient(equilibrium.stiffness())));
+}
+
 double norm_by(const Eigen::VectorXd& stiffness, const Eigen::VectorXd& u) {
   return std::sqrt(u.dot(stiffness.cwiseProduct(u)));
 }
@@ -96,8 +107,8 @@ Eigen::VectorXd slope_at(Equilibrium& equilibrium, const LoadPath& path, const S
 }
 
 bool is_foreseen(const DofMap& dofs, const Eigen::VectorXd& stiffness, std::span<const PathPoint> points,
-                 double parameter, const State& predicted, const State& trial, bool swings) {
-  constexpr double close = 0.1, close_in_swing = 0.3, faster = 3;
+                 double parameter, const State& predicted, const State& trial, double faster, bool swings) {
+  constexpr double close = 0.1, close_in_swing = 0.3;
   if (points.size() < 2) return false;
   const auto size = [&](const State& from, const State& to) { return distance(dofs, stiffness, from, to); };
   double before = 0; // as far as the path would go now
@@ -117,19 +128,35 @@ bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, 
          still * std::sqrt(equilibrium.energy_scale());
 }
 
+bool is_beside_corner(const Model& model, const State& predicted, const State& trial) {
+  constexpr double beside = 1e-3;
+  double farthest = 0;
+  for (std::size_t n = 0; n < trial.displacement.size(); ++n)
+    farthest = std::max(farthest, (trial.displacement[n] - predicted.displacement[n]).norm());
+  return farthest <= beside * model.extent;
+}
+
 bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& from, const PathEnd& to,
                const Steadiness& steadiness) {
   const Eigen::VectorXd chord = equilibrium.model().dofs.increment(from.state, to.state);
+  Eigen::VectorXd stiffness = equilibrium.stiffness();
   const auto product = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-    return a.dot(equilibrium.stiffness().cwiseProduct(b));
+    return a.dot(stiffness.cwiseProduct(b));
   };
-  const auto norm = [&](const Eigen::VectorXd& a) { return norm_by(equilibrium.stiffness(), a); };
+  const auto norm = [&](const Eigen::VectorXd& a) { return norm_by(stiffness, a); };
   const double least = still * std::sqrt(equilibrium.energy_scale());
   if (norm(chord) <= least) return true;
   const bool singular_start = from.slope.size() == 0;
   const double length = to.s - from.s;
   const Eigen::VectorXd v0 = length * from.slope, v1 = length * to.slope;
-  const double n0 = singular_start ? 0 : norm(v0), n1 = norm(v1);
+  double n0 = singular_start ? 0 : norm(v0), n1 = norm(v1);
+  const auto slows_down = [&] { // where that is not of loads that go slower themselves
+    if (!(n1 < steadiness.slowest * n0)) return false;
+    const double ds = difference * length;
+    return n1 * rate_of_loads(equilibrium, path, from.state, from.s, ds) <
+           steadiness.slowest * n0 * rate_of_loads(equilibrium, path, to.state, to.s, -ds);
+  };
+  if (!steadiness.beside_film && slows_down()) return false;
   if (!singular_start && norm(chord - (v0 + v1) / 2) <= steadiness.steady * std::max(n0, n1)) return true;
   const WorkOfLoads work0 = work_of_loads(equilibrium, path, from, from.s, to.s),
                     work1 = work_of_loads(equilibrium, path, to, from.s, to.s);
@@ -140,7 +167,15 @@ bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& fr
   const double energy = n1 > n0 ? steadiness.energy_of_faster : steadiness.energy;
   // not a number where loads cannot be
   if (!(missing <= energy * std::abs(work1.work - work0.work) + round_off)) return false;
-  if (std::isinf(steadiness.chord)) return true;
+  if (steadiness.beside_film) {
+    const std::vector<char> moved = equilibrium.moved_by_film_alone();
+    for (std::size_t e = 0; e < moved.size(); ++e)
+      if (moved[e]) stiffness[static_cast<Eigen::Index>(e)] = 0;
+    if (norm(chord) <= least) return true;
+    n0 = singular_start ? 0 : norm(v0);
+    n1 = norm(v1);
+    if (slows_down()) return false;
+  }
   if (singular_start) return product(chord, v1) > 0; // of it only the energy is known
   if (missing <= linear * std::abs(work1.work - work0.work) && norm(chord) <= std::max(n0, n1)) {
     // Loads that do not go straight on take the path to other points of the plane of both slopes.

@@ -4,7 +4,6 @@
 #include "fem/equilibrium/equilibrium.hpp"
 #include "fem/paths/load_path.hpp"
 
-#include <limits>
 #include <span>
 
 namespace dielast::fem {
@@ -17,25 +16,38 @@ Eigen::VectorXd slope_at(Equilibrium& equilibrium, const LoadPath& path, const S
 
 /// Whether a predictor through the `points` of a path has led to `trial`, at `parameter`, closely, in the
 /// norm of `stiffness` (per free equation). As a predictor that runs away may meet another branch, the path
-/// must not have become several times faster either since the increment before; one that `swings`, and has
-/// hardly moved where it turns round, since the fastest increment between the points.
+/// must not have become more than so many times `faster` either since the increment before; one that
+/// `swings`, and has hardly moved where it turns round, since the fastest increment between the points.
 bool is_foreseen(const DofMap& dofs, const Eigen::VectorXd& stiffness, std::span<const PathPoint> points,
-                 double parameter, const State& predicted, const State& trial, bool swings = false);
+                 double parameter, const State& predicted, const State& trial, double faster,
+                 bool swings = false);
 
 /// Whether an increment is too small to tell of a path, in the norm of `stiffness` (per free equation).
 bool is_still(const Equilibrium& equilibrium, const Eigen::VectorXd& stiffness, const State& from,
               const State& to);
 
+/// Whether a corner of a path may have led to `trial`: no node is farther from where it was foretold than a
+/// thousandth of the model's extent. Beside a corner that goes with the increment; behind a jump it stays.
+bool is_beside_corner(const Model& model, const State& predicted, const State& trial);
+
 /// How far an increment may be from what the slopes at its ends tell of it; see is_joined().
 struct Steadiness {
   double chord, energy, energy_of_faster;
-  double steady = 0; ///< where the chord is as near as this to the mean slope it tells all
-  static constexpr Steadiness resolved() { return {0.1, 0.1, 0.25}; }
+  double slowest;           ///< slope at the end over that at the beginning
+  double steady;            ///< where the chord is as near as this to the mean slope it tells all
+  bool beside_film = false; ///< whether only the energy is asked of what film alone moves
+  static constexpr Steadiness resolved() { return {0.1, 0.1, 0.25, 1.0 / 3, 0}; }
   /// For increments so short that they may hold a kink of the path, where wrinkles begin, but no other
   /// branch.
-  static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5, 0.05}; }
-  /// For film that wrinkles: across them it may be anywhere, so that only the energy tells.
-  static constexpr Steadiness wrinkled() { return {std::numeric_limits<double>::infinity(), 0.5, 0.5}; }
+  static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5, 0, 0.05}; }
+  static constexpr Steadiness of_length(double increment) {
+    constexpr double longest_kinked = 1e-4;
+    return increment > longest_kinked ? resolved() : kinked();
+  }
+  /// For film that wrinkles: across them it may be anywhere. `others`: for what resists beside it.
+  static constexpr Steadiness wrinkled(const Steadiness& others) {
+    return {others.chord, 0.5, 0.5, others.slowest, 0, true};
+  }
 };
 
 /// A converged state and how an equilibrium path u(s) goes through it.
@@ -56,11 +68,12 @@ struct PathEnd {
 /// Where the path gets faster, |v1| > |v0|, it may do so up to the square root at a limit point: c may be
 /// near any point between v0 and v, and the energy may miss `energy_of_faster`. Where it misses next to
 /// nothing, and c is no longer than the longer slope, c may be near any point of the plane of v0 and v1:
-/// loads that do not go straight on lead there. Where |c - v| <= steady max(|v0|, |v1|) the energy is not
-/// asked: while nothing but dashpots move, the works differ by the time schemes of their increments, and by
-/// nothing else. What a film has set free on its way to another branch is missing from the energy; on another
-/// branch it is mostly slower. An increment that fails may just be too long. `to.slope` must not be that of a
-/// singular tangent.
+/// loads that do not go straight on lead there. Right before a limit point v0 is as long as one likes, and
+/// what a jump sets free may be what the curved way to it misses: |v1| >= slowest |v0|, each over the rate of
+/// the loads. Where |c - v| <= steady max(|v0|, |v1|) the energy is not asked: while nothing but dashpots
+/// move, the works differ by the time schemes of their increments, and by nothing else. What a film has set
+/// free on its way to another branch is missing from the energy; on another branch it is mostly slower. An
+/// increment that fails may just be too long. `to.slope` must not be that of a singular tangent.
 bool is_joined(Equilibrium& equilibrium, const LoadPath& path, const PathEnd& from, const PathEnd& to,
                const Steadiness& steadiness);
 

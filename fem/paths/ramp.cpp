@@ -16,15 +16,13 @@ namespace dielast::fem {
 namespace {
 
 constexpr double round_off = load_factor_round_off;
-constexpr double most_growth = 2; ///< of a time step: BDF2 is stable below 2.41
-constexpr double safety = 0.9;
-constexpr int jump_parts = 8;             ///< of loads that jump
-constexpr double smallest_on_path = 1e-9; ///< of the load factor, where other branches are found
-constexpr double longest_kinked = 1e-4;   ///< increment, see Steadiness
-constexpr double first_moment = 1e-3;     ///< of an increment in time: its start, with dashpots that flow
-constexpr double enough_progress = 0.1;   ///< of a step, within the most tries
-constexpr double farthest_slope = 100;    ///< of an increment, over the model's extent
-constexpr double tiny = 1e-300;
+constexpr double most_growth = 2, safety = 0.9; ///< of a time step: BDF2 is stable below 2.41
+constexpr int jump_parts = 8;                   ///< of loads that jump
+constexpr double smallest_on_path = 1e-9;       ///< of the load factor, where other branches are found
+constexpr double first_moment = 1e-3;   ///< of an increment in time: its start, with dashpots that flow
+constexpr double enough_progress = 0.1; ///< of a step, within the most tries
+constexpr double most_faster = 1.5, faster_if_shortened = 1.25, faster_in_swing = 3; ///< see is_foreseen()
+constexpr double farthest_slope = 100; ///< of an increment, over the model's extent
 
 /// One step under load control.
 class Ramp {
@@ -56,9 +54,9 @@ class Ramp {
   bool goes_on(const State& predicted, const State& trial, double s);
   bool detour(const LoadPath& path, State start, const RampOptions& options, bool tells);
   bool pass_break();
-  bool flow();
+  std::optional<RampResult> flow();
   bool accept(State state, double s);
-  enum class Then { goes_on, turns };
+  enum class Then { goes_on, turns, flowed };
   bool notify(bool lands, double length, Then then = Then::goes_on, bool jumped = false);
 
   Equilibrium& equilibrium_;
@@ -163,7 +161,7 @@ Eigen::VectorXd Ramp::slope_of_start(const LoadPath& increment) {
 bool Ramp::follows(const State& predicted, const State& trial, double s) const {
   return massless_.size() == 0 || is_still(equilibrium_, massless_, last(), trial) ||
          is_foreseen(equilibrium_.model().dofs, massless_, progress_.points, parameter(s), predicted, trial,
-                     true);
+                     faster_in_swing, true);
 }
 
 /// Whether a converged trial lies on the path through the last accepted states.
@@ -171,25 +169,26 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   slope_.reset();
   const Model& model = equilibrium_.model();
   if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
-  if (has_friction(model) &&
-      std::max(contact_force(model, last()), contact_force(model, trial)) > equilibrium_.round_off())
-    return true; // a path with a corner wherever a node starts or stops to slide
   if (options_.inertia) return follows(predicted, trial, s);
   if (options_.newton.wrinkles && equilibrium_.is_slack(last()) && equilibrium_.film_moves_all())
     return equilibrium_.is_slack(trial) || leads_back_to_slack(equilibrium_, within(s), trial, options_);
-  if (is_foreseen(model.dofs, equilibrium_.stiffness(), progress_.points, parameter(s), predicted, trial))
-    return true;
   const double length = s - progress_.load_factor;
+  // Increments become shorter before limit points, where what is foretold runs away.
+  const double faster = !timed() && length < largest_ - round_off ? faster_if_shortened : most_faster;
+  const auto& points = progress_.points;
+  if (is_foreseen(model.dofs, equilibrium_.stiffness(), points, parameter(s), predicted, trial, faster))
+    return true;
   const LoadPath increment = within(s);
   // as long as its tangent is there
   const Eigen::VectorXd end = slope_at(equilibrium_, increment, trial, 1, -1, equilibrium_.solved());
-  const bool wrinkled = options_.newton.wrinkles && (is_wrinkled(model, last()) || is_wrinkled(model, trial));
-  const Steadiness steadiness = wrinkled                  ? Steadiness::wrinkled()
-                                : length > longest_kinked ? Steadiness::resolved()
-                                                          : Steadiness::kinked();
+  Steadiness steadiness = Steadiness::of_length(length);
+  if (options_.newton.wrinkles && (is_wrinkled(model, last()) || is_wrinkled(model, trial)))
+    steadiness = Steadiness::wrinkled(steadiness);
   const PathEnd to{trial, 1, end, equilibrium_.solved()};
   const Eigen::VectorXd start = progress_.slope ? length * *progress_.slope : slope_of_start(increment);
   if (!is_joined(equilibrium_, increment, {last(), setting_out(), start}, to, steadiness)) {
+    // Friction gives a path a corner wherever a node starts or stops to slide.
+    if (has_friction(model) && is_beside_corner(model, predicted, trial)) return true;
     progress_.slope = start / length;
     return false;
   }
@@ -272,10 +271,11 @@ bool Ramp::pass_break() {
 }
 
 /// Lets dashpots that have been frozen flow, and charge spread along sheets, with the loads as they are: what
-/// that changes of the forces is taken away in parts. False where that leads to no equilibrium.
-bool Ramp::flow() {
+/// that changes of the forces is taken away in parts. Says how the ramp ends where that leads to no
+/// equilibrium, or to one that the observer does not want.
+std::optional<RampResult> Ramp::flow() {
   State state = last();
-  if (timed() || options_.instantaneous || !state.history || state.scheme.is_relaxed()) return true;
+  if (timed() || options_.instantaneous || !state.history || state.scheme.is_relaxed()) return {};
   state.scheme = scheme(0);
   equilibrium_.conduct(state);
   const auto fades = [&](State from) {
@@ -291,15 +291,15 @@ bool Ramp::flow() {
   if (relaxed.norm <= std::max(options_.newton.tolerance * relaxed.scale, equilibrium_.round_off())) {
     State end = equilibrium_.model().settled(std::move(state));
     const auto alike = [](double x, double y) { return std::abs(x - y) <= round_off * (1 + std::abs(y)); };
-    if (std::ranges::equal(end.history->now, last().history->now, alike)) return true;
+    if (std::ranges::equal(end.history->now, last().history->now, alike)) return {};
     progress_.points = {{parameter(progress_.load_factor), std::move(end)}}; // the shape is held
     newton_ = {.unstable_modes = std::max(0, progress_.unstable_modes)};
   } else if (const State start = last(); !fades(start)) { // which leaves a state of its own
     const auto end = flown(equilibrium_, start, options_);
-    if (!end || !fades(*end)) return false;
+    if (!end || !fades(*end)) return RampResult{RampEnd::gave_up, 0, newton_};
   }
-  notify(false, 1, Then::turns);
-  return true;
+  if (notify(false, 1, Then::flowed)) return {};
+  return RampResult{RampEnd::stopped};
 }
 
 bool Ramp::accept(State state, double s) {
@@ -319,16 +319,18 @@ bool Ramp::accept(State state, double s) {
 
 /// Tells the observer; false when it wants to stop. What it is told may be stored: `then` is known by it.
 bool Ramp::notify(bool lands, double length, Then then, bool jumped) {
-  const bool turned = std::exchange(progress_.turns, then == Then::turns);
+  const bool turned = std::exchange(progress_.turns, then != Then::goes_on);
   const int before = std::exchange(unstable_before_, -1);
   const double error = std::exchange(time_error_, 0.0);
-  const Increment increment{progress_.load_factor, newton_, lands, length, turned, jumped, before, error};
+  const Increment increment{progress_.load_factor, newton_, lands, length, turned, jumped, before, error,
+                            then == Then::flowed};
   return !observer_.on_accept || observer_.on_accept(progress_, increment);
 }
 
 RampResult Ramp::run() {
   progress_.points.back().parameter = parameter(progress_.load_factor);
-  if (progress_.load_factor == 0 && !flow()) return {RampEnd::gave_up, 0, newton_};
+  if (progress_.load_factor == 0)
+    if (const auto end = flow()) return *end;
   const double from = progress_.load_factor;
   for (double tries = 0; progress_.load_factor < 1; ++tries) {
     if (tries >= options_.most_tries * std::max(1.0, (progress_.load_factor - from) / enough_progress))
@@ -375,7 +377,7 @@ RampResult Ramp::run() {
       double error = flow ? history_error(*flow, *arrived.history) : 0;
       if (options_.inertia)
         error = std::max(error, motion_error(equilibrium_.model(), motion_scheme, *motion, *arrived.motion));
-      const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, tiny));
+      const double growth = safety * std::cbrt(options_.time_tolerance / std::max(error, 1e-300));
       progress_.increment = std::min(largest_, tried * std::clamp(growth, 0.2, most_growth));
       if (error > options_.time_tolerance && tried > smallest_) continue;
       time_error_ = error == 0 && flow && flow->now != arrived.history->now ? options_.time_tolerance : error;

@@ -48,6 +48,7 @@ struct Increment {
   int unstable_before = -1; ///< unstable modes of the last accepted state; -1: unknown
   double time_error = 0; ///< that the time step may have added, relative; of the first ones after a break the
                          ///< tolerance
+  bool flowed = false;   ///< dashpots that had been frozen were let go, with the loads as they are
 };
 
 /// Where a ramp stands between two increments. A value: stored with the state it lets a run go on bit for

@@ -57,7 +57,9 @@ State Renumbering::operator()(State state) const {
   for (Eigen::VectorXd* part : {&motion.position, &motion.velocity, &motion.acceleration, &motion.unbalanced,
                                 &motion.acceleration_now}) {
     *part = (*this)(*part);
-    if (part != &motion.position) part->segment(to_.free_count(), to_.held_count()).setZero();
+    if (part == &motion.position) continue;
+    for (int e = to_.free_count(); e < to_.count(); ++e) // what goes on being held moves as it did
+      if (!was_held_[static_cast<std::size_t>(e)]) (*part)[e] = 0;
   }
   if (const std::vector<char> bodies = caught(); std::ranges::count(bodies, 1) > 0) {
     const Eigen::SparseMatrix<double> jacobian = to_.jacobian(state);
