@@ -43,6 +43,11 @@ Measurement::Measurement(const Case& one, const Device& device) : case_(one), de
 
 void Measurement::begin_peaks() { peaks.assign(case_.quantities.size(), {no_value, 0}); }
 
+void Measurement::begin(const Quantity& course, double time) {
+  course.kind->begin(references, course, time);
+  references.erase(course.name + " rises");
+}
+
 void Measurement::prepare() {
   const fem::State initial = device_.model.initial_state();
   const fem::Samples drawn = device_.model.sample(initial);
@@ -88,9 +93,18 @@ double Measurement::value(std::size_t number, const Measured& measured) const {
 std::vector<double> Measurement::all(const Measured& measured) {
   std::vector<double> values;
   for (std::size_t q = 0; q < case_.quantities.size(); ++q) values.push_back(value(q, measured));
-  for (std::size_t q = 0; q < values.size(); ++q)
-    if (const Quantity& quantity = case_.quantities[q]; quantity.kind->so_far)
-      values[q] = quantity.kind->so_far(references, quantity, values[subject(quantity)], measured.state.time);
+  for (std::size_t q = 0; q < values.size(); ++q) {
+    const Quantity& quantity = case_.quantities[q];
+    if (quantity.kind->so_far) {
+      const double now = values[subject(quantity)], time = measured.state.time;
+      const auto last = references.find(quantity.name + " last time");
+      const double dt = last == references.end() ? 0 : time - last->second;
+      values[q] = quantity.kind->so_far(references, quantity, now, time);
+      note_rise_of_course(quantity, now, values[q], dt, measured);
+    } else if (quantity.kind->extreme && quantity.at.empty() && !std::isnan(values[q])) {
+      note_farthest(quantity, values[q], measured);
+    }
+  }
   constexpr double same = 1 + 1e-9; // of two that rounding makes different the first
   for (std::size_t q = 0; q < values.size(); ++q)
     if (!std::isnan(values[q]) && !(std::abs(values[q]) <= same * std::abs(peaks[q].value)))
@@ -110,13 +124,52 @@ std::size_t Measurement::subject(const Quantity& quantity) const {
   return static_cast<std::size_t>(found - case_.quantities.begin());
 }
 
-double Measurement::rise(std::size_t number, const Measured& measured) const {
-  const Quantity& each = case_.quantities[number];
-  const Quantity& quantity = each.kind->so_far ? case_.quantities[subject(each)] : each;
-  if (!quantity.kind->extreme) return 0;
+/// An extreme of a field where it was farthest, and how steep it was there.
+void Measurement::note_farthest(const Quantity& quantity, double now, const Measured& measured) {
+  const auto [farthest, is_first] = references.try_emplace(quantity.name + " farthest", now);
+  const double before = farthest->second;
+  if (!is_first && !(quantity.extreme == post::Extreme::maximum ? now > before : now < before)) return;
+  farthest->second = now;
+  references[quantity.name + " rise"] = rise_of(quantity, measured);
+}
+
+/// How steep the subject of a course was: of a peak where it had it, of a mean over time the mean.
+void Measurement::note_rise_of_course(const Quantity& quantity, double now, double value, double dt,
+                                      const Measured& measured) {
+  const Quantity& extreme = case_.quantities[subject(quantity)];
+  if (!extreme.kind->extreme || std::isnan(now) || std::isnan(value)) return;
+  if (const auto known = references.find(quantity.name + " known"); known != references.end()) {
+    const double rise = rise_of(extreme, measured);
+    double& sum = references[quantity.name + " rises"];
+    sum += dt * rise;
+    references[quantity.name + " rise"] = known->second > 0 ? sum / known->second : rise;
+  } else if (now == value) {
+    references[quantity.name + " rise"] = rise_of(extreme, measured);
+  }
+}
+
+double Measurement::rise_of(const Quantity& quantity, const Measured& measured) const {
   const auto extremum = measured.extremes.find(quantity.of, quantity.extreme);
   return extremum ? post::rise_at(*extremum, measured.samples, device_.mesh, device_.film_parts, quantity.of)
                   : 0;
+}
+
+double Measurement::rise(std::size_t number, const Measured& measured) const {
+  const Quantity& each = case_.quantities[number];
+  if (!each.kind->so_far) return each.kind->extreme ? rise_of(each, measured) : 0;
+  const auto kept = references.find(each.name + " rise");
+  return kept == references.end() ? 0 : kept->second;
+}
+
+std::vector<Farthest> Measurement::farthest() const {
+  std::vector<Farthest> all;
+  for (const Quantity& quantity : case_.quantities) {
+    const auto value = references.find(quantity.name + " farthest");
+    all.push_back(value == references.end()
+                      ? Farthest{}
+                      : Farthest{value->second, references.at(quantity.name + " rise")});
+  }
+  return all;
 }
 
 void Measurement::step_ended(const std::string& step, const Measured& measured) {
@@ -125,13 +178,12 @@ void Measurement::step_ended(const std::string& step, const Measured& measured) 
   const bool is_own = std::ranges::count(case_.steps, step, &Step::name) > 0;
   if (!is_own) begin_peaks();
   for (const Quantity& quantity : case_.quantities)
-    if (!is_own && quantity.since.empty() && quantity.kind->begin)
-      quantity.kind->begin(references, quantity, measured.state.time);
+    if (!is_own && quantity.since.empty() && quantity.kind->begin) begin(quantity, measured.state.time);
   for (std::size_t q = 0; q < case_.quantities.size(); ++q) {
     const Quantity& quantity = case_.quantities[q];
     if (quantity.since != step || step.empty()) continue;
     if (quantity.kind->begin)
-      quantity.kind->begin(references, quantity, measured.state.time);
+      begin(quantity, measured.state.time);
     else
       references[quantity.name] = shapes_[q](measured.state);
     if (const auto components = magnitudes_.find(q); components != magnitudes_.end())

@@ -11,6 +11,13 @@
 
 namespace dielast::cases {
 
+/// What an extreme of a field was where it has been farthest in a run, and how steep there, see
+/// post::rise_at().
+struct Farthest {
+  double value = std::numeric_limits<double>::quiet_NaN(); ///< NaN: it has had none
+  double rise = 0;
+};
+
 /// Evaluates the quantities of a case on the states of a device.
 class Measurement {
  public:
@@ -30,9 +37,12 @@ class Measurement {
   /// One of them, by its number in the case; NaN of those of another's course, too.
   double value(std::size_t number, const Measured& measured) const;
 
-  /// How steep an extreme of a field, or one whose course is followed, is where it lies, see post::rise_at();
-  /// of other quantities 0.
+  /// How steep an extreme of a field is where it lies, see post::rise_at(), and one whose course is followed
+  /// where it had its peak, or in the mean; of other quantities 0.
   double rise(std::size_t number, const Measured& measured) const;
+
+  /// Of every extreme that is not read at one step's end; of other quantities nothing.
+  std::vector<Farthest> farthest() const;
 
   /// Says that a step ended in this state: elongations and displacements since it start here.
   void step_ended(const std::string& step, const Measured& measured);
@@ -45,6 +55,11 @@ class Measurement {
 
  private:
   void begin_peaks();
+  void begin(const Quantity& course, double time);
+  void note_farthest(const Quantity& quantity, double now, const Measured& measured);
+  void note_rise_of_course(const Quantity& quantity, double now, double value, double dt,
+                           const Measured& measured);
+  double rise_of(const Quantity& quantity, const Measured& measured) const;
   /// The number of the quantity whose course one follows.
   std::size_t subject(const Quantity& quantity) const;
 

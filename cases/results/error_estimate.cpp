@@ -216,25 +216,33 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
   const std::vector<double> of_bending = changes_by_bending(one, own_run, own, threads);
   estimates.reason = interrupted() ? "interrupted" : of_barrier.unknown;
   if (!estimates.reason.empty()) return estimates;
+  const auto singular = [&](const Quantity& quantity) {
+    if (!quantity.kind->extreme) return "";
+    if (has_fringes(one)) return "singular where an electrode ends: no converged value";
+    if (bonded.of_solid && is_singular_with_strain(quantity.of, bonded))
+      return "singular where a held side ends: no converged value";
+    return "";
+  };
+  const auto estimated = [&](const Quantity& quantity, const auto& sample) {
+    std::vector<Sampled> sampled;
+    for (const Solution& other : others) sampled.push_back(sample(other));
+    return estimate_error(sample(own), sampled, orders_of(*quantity.kind, one, smooth, bonded),
+                          direction_of(quantity),
+                          unit_of(quantity, one.quantities) == "Pa" ? smallest_stress(one) : 0);
+  };
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
     ErrorEstimate& estimate = estimates.quantities.emplace_back();
     const auto without = quantity.kind->without_error;
     if (const std::string remark = without ? without(quantity) : ""; !remark.empty()) {
       estimate.remark = remark;
-    } else if (quantity.kind->extreme && has_fringes(one)) {
+    } else if (const std::string remark_on_place = singular(quantity); !remark_on_place.empty()) {
       estimate.singular = true;
-      estimate.remark = "singular where an electrode ends: no converged value";
-    } else if (quantity.kind->extreme && bonded.of_solid && is_singular_with_strain(quantity.of, bonded)) {
-      estimate.singular = true;
-      estimate.remark = "singular where a held side ends: no converged value";
+      estimate.remark = remark_on_place;
     } else {
-      std::vector<Sampled> sampled;
-      for (const Solution& other : others)
-        sampled.push_back({other.size, on_its_side(other.values[q], own, own.values[q]), other.rises[q]});
-      estimate = estimate_error(
-          {1, own.values[q], own.rises[q]}, sampled, orders_of(*one.quantities[q].kind, one, smooth, bonded),
-          direction_of(quantity), unit_of(quantity, one.quantities) == "Pa" ? smallest_stress(one) : 0);
+      estimate = estimated(quantity, [&](const Solution& s) {
+        return Sampled{s.size, on_its_side(s.values[q], own, own.values[q]), s.rises[q]};
+      });
       if (quantity.kind->of_balance && quantity.kind->of_balance(quantity))
         raise(estimate, own_run.energy().error() + unknown_release);
       if (quantity.kind->of_run) raise(estimate, margin_accuracy * std::abs(own.values[q]));
@@ -262,7 +270,18 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
       estimate.remark = fmt::format("not reached with {}: no error estimate", size_text(others.front().size));
     }
   }
-  estimates.events = event_remarks(one, own_run.device(), own, others, estimates.quantities);
+  std::vector<ErrorEstimate> of_farthest; // events may have been on the way
+  for (std::size_t q = 0; q < one.quantities.size(); ++q) {
+    const Quantity& quantity = one.quantities[q];
+    ErrorEstimate& estimate = of_farthest.emplace_back();
+    if (!quantity.kind->extreme) continue;
+    estimate = estimated(quantity, [&](const Solution& s) {
+      return Sampled{s.size, s.farthest[q].value, s.farthest[q].rise};
+    });
+    if (*singular(quantity) != '\0') estimate = {.singular = true};
+    if (takes_time(one)) raise(estimate, one.solver.time_tolerance * std::abs(own.farthest[q].value));
+  }
+  estimates.events = event_remarks(one, own_run.device(), own, others, of_farthest);
   return estimates;
 }
 

@@ -29,7 +29,8 @@ struct Estimates {
 bool is_singular_there(const Case& one, const std::string& limit,
                        const std::vector<ErrorEstimate>& estimates);
 
-/// Of events of film and walls, from the quantities' estimates and from what happened on other meshes.
+/// Of events of film and walls, from the estimates of extremes where they were farthest and from what
+/// happened on other meshes.
 std::vector<EventRemark> event_remarks(const Case& one, const Device& device, const Solution& own,
                                        const std::vector<Solution>& others,
                                        const std::vector<ErrorEstimate>& estimates);

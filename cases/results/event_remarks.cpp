@@ -53,13 +53,15 @@ std::vector<EventRemark> event_remarks(const Case& one, const Device& device, co
     for (std::size_t q = 0; q < one.quantities.size(); ++q) {
       const Quantity& quantity = one.quantities[q];
       if (!quantity.kind->extreme || quantity.of != threshold.field ||
-          quantity.extreme != threshold.extreme || !quantity.at.empty() || !std::isfinite(own.values[q]) ||
+          quantity.extreme != threshold.extreme || !quantity.at.empty() ||
+          !std::isfinite(own.farthest[q].value) ||
           ((device.tension_field || device.bears_compression) && threshold.kind == "loss of tension"))
         continue;
-      const bool rounding = std::abs(own.values[q]) < smallest && estimates[q].error.value_or(0) < smallest;
+      const auto [value, rise] = own.farthest[q];
+      const bool rounding = std::abs(value) < smallest && estimates[q].error.value_or(0) < smallest;
       if (rounding && threshold.kind == "loss of tension") continue; // as across a rod
-      std::string remark = threshold_remark(quantity, own.values[q], own.rises[q], estimates[q],
-                                            threshold.limit, unit_of(quantity, one.quantities));
+      std::string remark = threshold_remark(quantity, value, rise, estimates[q], threshold.limit,
+                                            unit_of(quantity, one.quantities));
       if (remark.empty()) continue;
       if (!own.events.contains(std::string(threshold.kind))) remark = "not on this mesh, but it " + remark;
       remarks.push_back({std::string(threshold.kind), std::move(remark)});

@@ -55,6 +55,7 @@ Solution solution_of(const Simulation& run, const Outcome& outcome, std::span<co
   solution.margins = std::move(margins);
   solution.time_steps = run.time_steps().count;
   solution.rises = run.rises();
+  solution.farthest = run.farthest();
   return solution;
 }
 

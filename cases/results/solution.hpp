@@ -16,10 +16,11 @@ namespace dielast::cases {
 struct Solution {
   double size = 1; ///< of its elements and time steps, over the run's
   std::vector<double> values;
-  std::vector<double> rises;    ///< see Simulation::rises()
-  std::vector<std::string> way; ///< what happened to the equilibrium, in order
-  std::set<std::string> events; ///< kinds of whatever else happened
-  post::StepRecord last;        ///< the record of the last accepted state
+  std::vector<double> rises;      ///< see Simulation::rises()
+  std::vector<Farthest> farthest; ///< see Measurement
+  std::vector<std::string> way;   ///< what happened to the equilibrium, in order
+  std::set<std::string> events;   ///< kinds of whatever else happened
+  post::StepRecord last;          ///< the record of the last accepted state
   std::vector<Margin> margins;
   int time_steps = 0;
   std::string trouble; ///< why it did not reach its end (Outcome::kind, or what was thrown); empty otherwise

@@ -86,11 +86,11 @@ void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::D
   }
 }
 
-void require_free_devices(const Case& one, const std::vector<Step>& steps, const Holding& first) {
+void require_devices(const Case& one, const std::vector<Step>& steps, const Holding& first) {
   std::vector<Holding> built{first};
   for (int step = 0; step < std::ssize(steps); ++step) {
     Holding later = holding_in(one, steps, step);
-    if (!is_free(one, later.supports) || std::ranges::count(built, later) > 0) continue;
+    if (std::ranges::count(built, later) > 0) continue;
     build_device(held_by(one, later));
     built.push_back(std::move(later));
   }
@@ -171,7 +171,8 @@ void Simulation::catch_what_moves(const fem::State& state, fem::EnergyBalance::R
   news_.push_back({"caught", "",
                    fmt::format("step \"{}\" begins with a support that takes hold of what moves: it stands "
                                "at once, and {} of kinetic energy were released",
-                               steps_[static_cast<std::size_t>(step_)].name, post::engineering(lost, "J"))});
+                               steps_[static_cast<std::size_t>(step_)].name, post::engineering(lost, "J")),
+                   post::Moment{0, state.time, voltages(state)}});
 }
 
 } // namespace dielast::cases

@@ -11,8 +11,8 @@ namespace dielast::cases {
 /// merely holds another one may move. `dofs` numbered.
 void require_one_motion(const Case& one, const meshing::Mesh& mesh, const fem::DofMap& dofs);
 
-/// Throws as build_device() where one of the devices that other supports leave free from a later step on
-/// cannot be; `first`: what holds at first.
-void require_free_devices(const Case& one, const std::vector<Step>& steps, const Holding& first);
+/// Throws as build_device() where the device cannot be with the supports of one of its steps; `first`: what
+/// holds at first.
+void require_devices(const Case& one, const std::vector<Step>& steps, const Holding& first);
 
 } // namespace dielast::cases

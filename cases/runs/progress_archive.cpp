@@ -40,6 +40,23 @@ post::Event restore_event(const json& archived) {
   return event;
 }
 
+/// As much of an increment as a record tells.
+json archive(const fem::Increment& increment) {
+  return {{"load_factor", increment.load_factor},
+          {"iterations", increment.newton.iterations},
+          {"residual", increment.newton.residual},
+          {"unstable_modes", increment.newton.unstable_modes},
+          {"jumped", increment.jumped}};
+}
+
+fem::Increment restore_increment(const json& archived) {
+  return {.load_factor = archived.at("load_factor"),
+          .newton = {.iterations = archived.at("iterations"),
+                     .residual = archived.at("residual"),
+                     .unstable_modes = archived.at("unstable_modes")},
+          .jumped = archived.at("jumped")};
+}
+
 json archive(const SimulationProgress& progress) {
   json news = json::array();
   for (const post::Event& event : progress.news) news.push_back(archive(event));
@@ -60,6 +77,7 @@ json archive(const SimulationProgress& progress) {
           {"news", std::move(news)},
           {"peaks", post::pack(peaks)},
           {"taken", {progress.taken.states, progress.taken.iterations}},
+          {"unrecorded", progress.unrecorded ? archive(*progress.unrecorded) : json(nullptr)},
           {"unseen",
            {{"kinetic", progress.unseen.kinetic},
             {"size", progress.unseen.size},
@@ -84,6 +102,8 @@ SimulationProgress restore_progress(const json& archived, const post::StateSizes
   const std::vector<double> peaks = post::unpack(archived.at("peaks"));
   for (std::size_t i = 0; i + 1 < peaks.size(); i += 2) progress.peaks.push_back({peaks[i], peaks[i + 1]});
   progress.taken = {archived.at("taken").at(0), archived.at("taken").at(1)};
+  if (const json& unrecorded = archived.at("unrecorded"); !unrecorded.is_null())
+    progress.unrecorded = restore_increment(unrecorded);
   const json& unseen = archived.at("unseen");
   progress.unseen = {unseen.at("kinetic"), unseen.at("size"), unpack(unseen.at("start"), sizes),
                      unpack(unseen.at("farthest"), sizes)};
@@ -108,7 +128,7 @@ SimulationProgress Simulation::progress() const {
   SimulationProgress progress{
       step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
       time_steps_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_,
-      taken_};
+      taken_,      unrecorded_};
   for (const auto& [load, signal] : signals_) progress.signals.push_back(signal->memory());
   return progress;
 }
@@ -127,7 +147,7 @@ void Simulation::resume(const SimulationProgress& progress) {
   measurement_.peaks = progress.peaks;
   news_ = progress.news;
   taken_ = progress.taken;
-  unrecorded_.reset();
+  unrecorded_ = progress.unrecorded;
   refusal_.reset();
   loads_->let_go = progress.let_go;
   if (progress.signals.size() != signals_.size()) throw post::CheckpointError("damaged");

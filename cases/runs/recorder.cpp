@@ -284,13 +284,14 @@ void Recorder::record(const Frame& frame) {
   }
   // The last accepted state is replaced until its step has ended.
   const bool replaces = record.index > 1 && journal_.records.back().step == record.step;
+  const bool ended_before = replaces && journal_.records.back().load_factor >= 1; // and jumped from there
   if (replaces)
     journal_.snapshots.back() = std::move(now);
   else
     journal_.snapshots.push_back(std::move(now));
   journal_.records.push_back(record);
   journal_.values.push_back(frame.values);
-  steps_ended_ += frame.ends_step;
+  steps_ended_ += frame.ends_step && !ended_before;
   if (!frame.ends_path && std::chrono::steady_clock::now() > next_checkpoint_) save_checkpoint();
 }
 

@@ -95,7 +95,7 @@ Simulation::Simulation(const Case& one, int threads)
     enter(0);
     frame_ = frame_force();
   }
-  require_free_devices(one, steps_, holding_);
+  require_devices(one, steps_, holding_);
   for (const Diagnostic& warning : one.warnings) warnings_.push_back(warning.text());
   for (const std::string& warning : device_.warnings) warnings_.push_back(warning);
   if (settles && !is_held(frame_) && !one.any_geometry<Patch>())
@@ -137,7 +137,8 @@ bool Simulation::come_to_rest(fem::State& state) {
         {"came to rest", "",
          fmt::format("step \"{}\" is without inertia and begins in motion ({} of kinetic energy): it "
                      "goes on from where the device comes to rest; {} were released",
-                     step.name, post::engineering(kinetic, "J"), post::engineering(release.energy, "J"))});
+                     step.name, post::engineering(kinetic, "J"), post::engineering(release.energy, "J")),
+         post::Moment{0, state.time, voltages(state)}});
   return true;
 }
 
@@ -169,6 +170,7 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
   const double energy_before = held_.energy;
   come_to(state);
   fem::EnergyPoint point = fem::energy_point(*equilibrium_, state, increment.length, held_);
+  point.flowed = increment.flowed;
   if (!energy_.empty()) {
     point.flow = fem::flow_heat(*equilibrium_, before, energy_before, state, held_.energy);
     if (increment.turns) point.impulses = fem::work_of_impulses(device_.model, before, state);
@@ -239,11 +241,11 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
                         const fem::Increment& increment, Reached reached) {
   if (!admits(step, increment.load_factor, state)) return false;
   account(state, increment, reached);
+  unrecorded_ = increment;
   if (increment.lands && (step.duration || increment.load_factor >= 1) && pins_bear(state)) return false;
   Measured measured(device_, *equilibrium_, state, energy_, scalars_, &held_);
   if (!sample(step, increment.load_factor, measured)) return false;
   if (increment.lands) return record(observer, step, measured, increment, reached);
-  unrecorded_ = increment;
   measured.may_rest = !step.duration;
   measurement_.all(measured);
   for (post::Event& event : events(step, measured, increment, reached)) {
@@ -378,7 +380,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         observer.goes_on};
     const Outcome outcome =
         StepRun(*equilibrium_, step, path, options, in_step_, watcher, ways_on(case_, step)).run();
-    if (outcome.ending == Ending::gave_up && unrecorded_) {
+    if ((outcome.ending == Ending::gave_up || refusal_) && unrecorded_) {
       Measured measured(device_, *equilibrium_, state(), energy_, scalars_, &held_);
       record(observer, step, measured, *unrecorded_);
     }

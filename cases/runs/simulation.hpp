@@ -40,6 +40,7 @@ struct SimulationProgress {
   std::vector<post::Peak> peaks{};            ///< see Measurement
   std::vector<post::Event> news{};            ///< for the next record
   Taken taken{};
+  std::optional<fem::Increment> unrecorded{}; ///< that led to the last accepted state
 };
 
 /// An accepted state.
@@ -107,6 +108,7 @@ class Simulation {
   double error_of_course(const Quantity& quantity) const;
   /// Of the quantities, see Measurement.
   const std::vector<post::Peak>& peaks() const { return measurement_.peaks; }
+  std::vector<Farthest> farthest() const { return measurement_.farthest(); }
   void set_results(std::vector<double> results, std::vector<double> rises) {
     results_ = std::move(results);
     rises_ = std::move(rises);

@@ -145,5 +145,31 @@ TEST_F(BetweenRows, AResumedRunTellsWhatWasBeforeIt) {
   }
 }
 
+// Stopped at its last state, with no row since the step before: the row with which it gives up is written.
+TEST_F(BetweenRows, AResumedRunThatGivesUpWritesItsLastRow) {
+  const Case one = read(std::string(film) + "[drive]\nvoltage = \"60 kV\"\n[[step]]\nkind = \"voltage\"\n"
+                                            "duration = \"1 s\"\nrecord = \"1 s\"\n");
+  std::vector<double> times;
+  int states = 0;
+  SimulationObserver observer;
+  observer.on_accept = [&](const Frame& frame) {
+    times.push_back(frame.record.time);
+    return true;
+  };
+  observer.goes_on = [&] { return ++states > 0; };
+  const Outcome straight = Simulation(one, 1).run(observer);
+  ASSERT_EQ(straight.kind, "limit point") << straight.message;
+  const std::vector<double> all = std::exchange(times, {});
+  int left = std::exchange(states, 0);
+  observer.goes_on = [&] { return --left != 0; };
+  Simulation stopped(one, 1);
+  EXPECT_EQ(stopped.run(observer).ending, Ending::interrupted);
+  const nlohmann::json kept = archive(stopped.progress());
+  Simulation resumed(one, 1);
+  resumed.resume(restore_progress(kept, post::StateSizes::of(resumed.device().model)));
+  EXPECT_EQ(resumed.run(observer).kind, "limit point");
+  EXPECT_EQ(times, all);
+}
+
 } // namespace
 } // namespace dielast::cases::between_rows_test

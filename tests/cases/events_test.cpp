@@ -187,6 +187,58 @@ TEST_F(Events, ThoseBetweenTwoStatesAreWhereTheirMarginsAre) {
 
 TEST_F(Events, NoneAtTheUsualVoltage) { EXPECT_EQ(events({}), nlohmann::json::array()); }
 
+// The voltage goes back to 0: what the field was on the way, and how well it is known, is that of its peak.
+TEST_F(Events, ThoseOnTheWayDependOnTheMeshAsThoseAtTheEnd) {
+  write("back.toml", R"(model = "axisymmetric"
+[film]
+thickness = "1 mm"
+prestretch = 2.0
+[film.material]
+shear_modulus = "40 kPa"
+relative_permittivity = 4.7
+breakdown_field = "21.1 MV/m"
+[annulus]
+inner_radius = "12.7 mm"
+outer_radius = "68.58 mm"
+[mesh]
+order = 1
+rings = 6
+[plate]
+mass = "100 g"
+[drive]
+voltage = "5 kV"
+[output]
+fields = false
+[[step]]
+kind = "weight"
+[[step]]
+kind = "voltage"
+[[step]]
+name = "back"
+kind = "voltage"
+to = "0 V"
+[[quantity]]
+name = "field"
+kind = "extreme"
+of = "electric_field"
+extreme = "maximum"
+[[quantity]]
+name = "peak"
+kind = "peak"
+of = "field"
+extreme = "maximum"
+)");
+  ASSERT_EQ(dielast({"run", "back.toml", "-o", "out", "-q"}).exit_code, 0);
+  const nlohmann::json summary = json_of("out/summary.json");
+  EXPECT_EQ(summary["events"], nlohmann::json::array());
+  const auto remark = of_kind(summary["event_remarks"], "breakdown");
+  ASSERT_TRUE(remark);
+  EXPECT_NE((*remark)["remark"].get<std::string>().find("not on this mesh, but"), std::string::npos);
+  const nlohmann::json& peak = summary["quantities"]["peak"];
+  constexpr double converged = 21.247e6; // rings = 16 and 128 of order 2, extrapolated
+  EXPECT_GT(peak["error_estimate"], converged - peak["value"].get<double>());
+}
+
 TEST_F(Events, NoStressAcrossARodIsNoTensionThatDependsOnTheMesh) {
   ASSERT_EQ(dielast({"run", source_folder / "cases/gallery/antagonistic_rolls/case.toml", "-o", "out",
                      "--set", "output.fields=false"})
