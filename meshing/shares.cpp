@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 
 namespace dielast::meshing {
@@ -255,9 +257,40 @@ class Sharing {
         if (outer[static_cast<std::size_t>(p)] == 0 && all_marked(there, pieces.cell(p)) &&
             !all_marked(covered, pieces.cell(p)))
           found.numbers.push_back(p);
+      if (is_triangle(film->type)) leave_out_chords(found, outer);
       if (!found.numbers.empty()) return found;
     }
     return std::nullopt;
+  }
+
+  /// Where a line within film turns by two sides of one element the third has both ends on it, too: the one
+  /// that would end where most others do, or the longest.
+  void leave_out_chords(Cells& sides, const std::vector<char>& outer) const {
+    const auto pair = [](int a, int b) { return std::array{std::min(a, b), std::max(a, b)}; };
+    std::map<std::array<int, 2>, int> inner;
+    std::map<int, int> ends;
+    for (const int p : sides.numbers) {
+      const auto own = sides.block->cell(p);
+      for (const int node : own.first(2)) ++ends[node];
+      if (outer[static_cast<std::size_t>(p)] == 0 && own.size() == 2) inner[pair(own[0], own[1])] = p;
+    }
+    const CellBlock& film = *mesh_.film();
+    std::set<int> chords;
+    for (int cell = 0; cell < film.size() && inner.size() > 2; ++cell) {
+      const auto own = film.cell(cell);
+      std::array<std::array<int, 2>, 3> of{pair(own[0], own[1]), pair(own[1], own[2]), pair(own[2], own[0])};
+      if (!std::ranges::all_of(of, [&](const auto& side) { return inner.contains(side); })) continue;
+      const auto length = [&](const std::array<int, 2>& side) {
+        return (mesh_.nodes[static_cast<std::size_t>(side[0])] -
+                mesh_.nodes[static_cast<std::size_t>(side[1])])
+            .norm();
+      };
+      const auto chord = std::ranges::max_element(of, {}, [&](const auto& side) {
+        return std::pair(ends.at(side[0]) + ends.at(side[1]), length(side));
+      });
+      chords.insert(inner.at(*chord));
+    }
+    std::erase_if(sides.numbers, [&](int p) { return chords.contains(p); });
   }
 
   const Mesh& mesh_;

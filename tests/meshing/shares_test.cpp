@@ -56,6 +56,28 @@ TEST(Shares, OfADiscAreThoseOfItsAreaInTheMeridianAndInThePlane) {
   EXPECT_NEAR(mean_over(disc_mesh(30, 20, 6, 2, true), false, "electrode", square), 200, 200 * 5e-4);
 }
 
+// A line within film that turns by two sides of one triangle: the third is none of it, wherever the line
+// ends.
+TEST(Shares, OfALineThatTurnsAreThoseOfItsSides) {
+  constexpr int n = 4;
+  Mesh mesh;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) mesh.nodes.emplace_back(0.25 * i, 0.25 * j, 0);
+  mesh.blocks = {{CellType::triangle3, {}}};
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i;
+      for (const int node : {a, a + 1, a + n + 2, a, a + n + 2, a + n + 1})
+        mesh.blocks[0].nodes.push_back(node);
+    }
+  const auto at = [](int i, int j) { return j * (n + 1) + i; };
+  mesh.node_sets["long"] = {at(1, 1), at(2, 1), at(3, 1), at(3, 2), at(3, 3)};
+  mesh.node_sets["short"] = {at(2, 1), at(3, 1), at(3, 2)};
+  const auto x = [](const Eigen::Vector3d& place) { return place.x(); };
+  EXPECT_NEAR(mean_over(mesh, false, "long", x), (0.5 * 0.5 + 0.5 * 0.75), 1e-12);
+  EXPECT_NEAR(mean_over(mesh, false, "short", x), (0.625 + 0.75) / 2, 1e-12);
+}
+
 // Places without cells of their own: sides of a slab, faces of a block; graded, so that counting nodes errs.
 TEST(Shares, OfSidesAndFacesAreThoseOfTheirLengthAndArea) {
   const auto square = [](const Eigen::Vector3d& x) { return x.x() * x.x(); };
