@@ -54,8 +54,12 @@ std::vector<char> Equilibrium::moved_by(bool film) const {
   const auto mark = [&](int equation) {
     if (dofs.is_free(equation)) moved[static_cast<std::size_t>(equation)] = 1;
   };
+  const State drawn = model_.initial_state();
   for (const auto& block : model_.blocks) {
-    if (block->may_be_slack() != film || dynamic_cast<const ContactBlock*>(block.get())) continue;
+    if (block->may_be_slack() != film) continue;
+    Samples samples; // of bars, shells and solids, not of chambers and contact
+    if (!film) block->sample(drawn, samples);
+    if (!film && samples.film.empty() && samples.walls.empty()) continue;
     std::vector<int> equations(static_cast<std::size_t>(block->dofs_per_element()));
     for (int e = 0; e < block->element_count(); ++e) {
       block->element_equations(e, dofs, equations);

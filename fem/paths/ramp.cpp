@@ -21,7 +21,7 @@ constexpr int jump_parts = 8;                   ///< of loads that jump
 constexpr double smallest_on_path = 1e-9;       ///< of the load factor, where other branches are found
 constexpr double first_moment = 1e-3;   ///< of an increment in time: its start, with dashpots that flow
 constexpr double enough_progress = 0.1; ///< of a step, within the most tries
-constexpr double most_faster = 1.5, faster_if_shortened = 1.25, faster_in_swing = 3; ///< see is_foreseen()
+constexpr double most_faster = 1.5, faster_if_shortened = 1.25, fastest = 3; ///< see is_foreseen()
 constexpr double farthest_slope = 100; ///< of an increment, over the model's extent
 
 /// One step under load control.
@@ -161,7 +161,7 @@ Eigen::VectorXd Ramp::slope_of_start(const LoadPath& increment) {
 bool Ramp::follows(const State& predicted, const State& trial, double s) const {
   return massless_.size() == 0 || is_still(equilibrium_, massless_, last(), trial) ||
          is_foreseen(equilibrium_.model().dofs, massless_, progress_.points, parameter(s), predicted, trial,
-                     faster_in_swing, true);
+                     fastest, true);
 }
 
 /// Whether a converged trial lies on the path through the last accepted states.
@@ -170,11 +170,13 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const Model& model = equilibrium_.model();
   if (is_turned_over(model.corners, model.drawn, last(), trial)) return false;
   if (options_.inertia) return follows(predicted, trial, s);
-  if (options_.newton.wrinkles && equilibrium_.is_slack(last()) && equilibrium_.film_moves_all())
+  const bool wrinkles_alone = options_.newton.wrinkles && equilibrium_.film_moves_all();
+  if (wrinkles_alone && equilibrium_.is_slack(last()))
     return equilibrium_.is_slack(trial) || leads_back_to_slack(equilibrium_, within(s), trial, options_);
   const double length = s - progress_.load_factor;
   // Increments become shorter before limit points, where what is foretold runs away.
-  const double faster = !timed() && length < largest_ - round_off ? faster_if_shortened : most_faster;
+  const bool shortened = !timed() && length < largest_ - round_off;
+  const double faster = wrinkles_alone ? fastest : shortened ? faster_if_shortened : most_faster;
   const auto& points = progress_.points;
   if (is_foreseen(model.dofs, equilibrium_.stiffness(), points, parameter(s), predicted, trial, faster))
     return true;
@@ -215,9 +217,8 @@ bool Ramp::detour(const LoadPath& path, State start, const RampOptions& options,
     return true;
   };
   const RampResult result = Ramp(equilibrium_, path, options, progress, watcher).run();
-  if (result.end == RampEnd::complete) return true;
-  newton_ = result.failure;
-  return false;
+  if (result.end != RampEnd::complete) newton_ = result.failure;
+  return result.end == RampEnd::complete;
 }
 
 /// Forgets the past, in which the loads went elsewhere, and lets loads that jump here act at once, in parts.
@@ -275,7 +276,8 @@ bool Ramp::pass_break() {
 /// equilibrium, or to one that the observer does not want.
 std::optional<RampResult> Ramp::flow() {
   State state = last();
-  if (timed() || options_.instantaneous || !state.history || state.scheme.is_relaxed()) return {};
+  const bool begins = progress_.load_factor == 0 && !timed();
+  if (!begins || options_.instantaneous || !state.history || state.scheme.is_relaxed()) return {};
   state.scheme = scheme(0);
   equilibrium_.conduct(state);
   const auto fades = [&](State from) {
@@ -329,8 +331,7 @@ bool Ramp::notify(bool lands, double length, Then then, bool jumped) {
 
 RampResult Ramp::run() {
   progress_.points.back().parameter = parameter(progress_.load_factor);
-  if (progress_.load_factor == 0)
-    if (const auto end = flow()) return *end;
+  if (const auto end = flow()) return *end;
   const double from = progress_.load_factor;
   for (double tries = 0; progress_.load_factor < 1; ++tries) {
     if (tries >= options_.most_tries * std::max(1.0, (progress_.load_factor - from) / enough_progress))
@@ -341,8 +342,7 @@ RampResult Ramp::run() {
         progress_.points.back().state.motion = motion_behind_jump(equilibrium_, last());
       if (jumped_ && !notify(true, last_part_, Then::turns, true)) return {RampEnd::stopped};
     }
-    const double s = next_load_factor();
-    const double tried = s - progress_.load_factor;
+    const double s = next_load_factor(), tried = s - progress_.load_factor;
     if (observer_.on_try) observer_.on_try(s);
     State predicted = predict(progress_.points, parameter(s));
     equilibrium_.model().dofs.carry(predicted);
