@@ -88,7 +88,7 @@ bool is_reached_continuously(Equilibrium& equilibrium, const State& from, const 
     if (joined) {
       Eigen::VectorXd next = slope_at(equilibrium, path, trial, faded + part, -part);
       joined = is_joined(equilibrium, path, {state, faded, slope}, {trial, faded + part, next},
-                         Steadiness::of_length(part));
+                         Steadiness::resolved(0));
       if (joined) slope = std::move(next);
     }
     if (!joined) {

@@ -36,7 +36,7 @@ struct Steadiness {
   double slowest;           ///< slope at the end over that at the beginning
   double steady;            ///< where the chord is as near as this to the mean slope it tells all
   bool beside_film = false; ///< whether only the energy is asked of what film alone moves
-  static constexpr Steadiness resolved() { return {0.1, 0.1, 0.25, 1.0 / 3, 0}; }
+  static constexpr Steadiness resolved(double slowest = 1.0 / 3) { return {0.1, 0.1, 0.25, slowest, 0}; }
   /// For increments so short that they may hold a kink of the path, where wrinkles begin, but no other
   /// branch.
   static constexpr Steadiness kinked() { return {0.5, 0.5, 0.5, 0, 0.05}; }
