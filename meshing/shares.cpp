@@ -275,7 +275,7 @@ class Sharing {
       if (outer[static_cast<std::size_t>(p)] == 0 && own.size() == 2) inner[pair(own[0], own[1])] = p;
     }
     const CellBlock& film = *mesh_.film();
-    std::set<int> chords;
+    std::set<int> chords, seen;
     for (int cell = 0; cell < film.size() && inner.size() > 2; ++cell) {
       const auto own = film.cell(cell);
       std::array<std::array<int, 2>, 3> of{pair(own[0], own[1]), pair(own[1], own[2]), pair(own[2], own[0])};
@@ -289,6 +289,8 @@ class Sharing {
         return std::pair(ends.at(side[0]) + ends.at(side[1]), length(side));
       });
       chords.insert(inner.at(*chord));
+      for (const auto& side : of)
+        if (!seen.insert(inner.at(side)).second) return; // elements side by side: an area, not a line
     }
     std::erase_if(sides.numbers, [&](int p) { return chords.contains(p); });
   }

@@ -96,7 +96,9 @@ fem::MembraneSample turned(fem::MembraneSample sample, const Eigen::Matrix3d& tu
 void look_under_electrodes(std::vector<FilmReading>& readings, const Probing& probing) {
   const auto fields = post::film_fields();
   const auto field = std::ranges::find(fields, probing.quantity.of, &post::FilmField::name);
-  if (field == fields.end() || !field->of_electrodes) return;
+  if (field == fields.end() || !field->of_electrodes ||
+      probing.device.mesh.film()->type != meshing::CellType::rod2)
+    return;
   for (FilmReading& reading : readings) {
     const auto is_covered = [&](int p) {
       return probing.drawn.film[static_cast<std::size_t>(p)].electrode >= 0;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dielast::cases {
 
@@ -45,7 +46,7 @@ void Measurement::begin_peaks() { peaks.assign(case_.quantities.size(), {no_valu
 
 void Measurement::begin(const Quantity& course, double time) {
   course.kind->begin(references, course, time);
-  references.erase(course.name + " rises");
+  for (const char* sum : {" rises", " rises known"}) references.erase(course.name + sum);
 }
 
 void Measurement::prepare() {
@@ -97,10 +98,8 @@ std::vector<double> Measurement::all(const Measured& measured) {
     const Quantity& quantity = case_.quantities[q];
     if (quantity.kind->so_far) {
       const double now = values[subject(quantity)], time = measured.state.time;
-      const auto last = references.find(quantity.name + " last time");
-      const double dt = last == references.end() ? 0 : time - last->second;
       values[q] = quantity.kind->so_far(references, quantity, now, time);
-      note_rise_of_course(quantity, now, values[q], dt, measured);
+      note_rise_of_course(quantity, now, values[q], measured);
     } else if (quantity.kind->extreme && quantity.at.empty() && !std::isnan(values[q])) {
       note_farthest(quantity, values[q], measured);
     }
@@ -134,14 +133,14 @@ void Measurement::note_farthest(const Quantity& quantity, double now, const Meas
 }
 
 /// How steep the subject of a course was: of a peak where it had it, of a mean over time the mean.
-void Measurement::note_rise_of_course(const Quantity& quantity, double now, double value, double dt,
+void Measurement::note_rise_of_course(const Quantity& quantity, double now, double value,
                                       const Measured& measured) {
   const Quantity& extreme = case_.quantities[subject(quantity)];
   if (!extreme.kind->extreme || std::isnan(now) || std::isnan(value)) return;
   if (const auto known = references.find(quantity.name + " known"); known != references.end()) {
     const double rise = rise_of(extreme, measured);
-    double& sum = references[quantity.name + " rises"];
-    sum += dt * rise;
+    double &sum = references[quantity.name + " rises"], &before = references[quantity.name + " rises known"];
+    sum += (known->second - std::exchange(before, known->second)) * rise;
     references[quantity.name + " rise"] = known->second > 0 ? sum / known->second : rise;
   } else if (now == value) {
     references[quantity.name + " rise"] = rise_of(extreme, measured);

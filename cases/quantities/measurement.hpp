@@ -57,8 +57,7 @@ class Measurement {
   void begin_peaks();
   void begin(const Quantity& course, double time);
   void note_farthest(const Quantity& quantity, double now, const Measured& measured);
-  void note_rise_of_course(const Quantity& quantity, double now, double value, double dt,
-                           const Measured& measured);
+  void note_rise_of_course(const Quantity& quantity, double now, double value, const Measured& measured);
   double rise_of(const Quantity& quantity, const Measured& measured) const;
   /// The number of the quantity whose course one follows.
   std::size_t subject(const Quantity& quantity) const;

@@ -205,7 +205,10 @@ void find_unknowns(SectionReader& reader, const Node& section, Node base, const 
       reader.report(source, "identify.unknowns",
                     fmt::format("found {}: {}", toml_string(asked.keys[i]), message));
     };
-    if (std::ranges::count(asked.keys, asked.keys[i]) > 1) return report("given twice");
+    const std::string own = numbered_key(base, asked.keys[i]);
+    if (std::ranges::count_if(asked.keys, [&](const auto& key) { return numbered_key(base, key) == own; }) >
+        1)
+      return report("given twice");
     try {
       const auto value = written_measure(text_of(value_at(base, asked.keys[i])));
       if (!value)

@@ -143,6 +143,13 @@ bool is_angular(const std::string& value) {
   return written && written->unit == "rad/s";
 }
 
+/// Whether what is derived may be divided by 2 pi already.
+bool has_pi(const DerivedKey& derived) {
+  return std::ranges::any_of(derived.expressions, [](const std::string& expression) {
+    return std::ranges::count(names_in(expression), "pi") > 0;
+  });
+}
+
 /// Hz and rad/s stand for one another by 2 pi: columns and plots of an axis have one of them.
 void require_one_kind(SectionReader& reader, const StudyAxis& axis, const Source& source) {
   std::optional<BasePowers> first;
@@ -304,8 +311,8 @@ void try_axes(SectionReader& reader, const Node& base, const Study& study,
         const std::vector<std::string> derived = derived_values(study, values);
         for (std::size_t d = 0; d < derived.size(); ++d) {
           const std::string& key = study.derived[d].key;
-          if (const Key* known = key_at(key);
-              known && known->unit == "Hz" && is_angular(derived[d]) && told.insert(key).second)
+          if (const Key* known = key_at(key); known && known->unit == "Hz" && is_angular(derived[d]) &&
+                                              has_pi(study.derived[d]) && told.insert(key).second)
             reader.report(written[a].sources[v], fmt::format("study.derive.\"{}\"", key),
                           fmt::format("is {}, an angle per time, which would be divided by 2 pi once more; "
                                       "divide what is in rad/s by 2*pi*rad",

@@ -104,7 +104,7 @@ void check_targets(SectionReader& reader, const Node& section, const Study& stud
     if (const Node* name = item.find("quantity"); name && name->is(Node::Kind::text))
       require_one_of(reader, item.source, path + ".quantity", name->text, quantities);
     if (!knows_axes) continue;
-    if (study.axes.size() != 1 || study.axes[0].values.size() < 2 ||
+    if (study.axes.size() != 1 || study.axes[0].values.size() < 2 || !study.axes[0].is_measure ||
         !std::ranges::all_of(study.axes[0].values,
                              [](const auto& v) { return written_measure(v).has_value(); }))
       reader.report(item.source, path, "a target needs a study of one key with two or more numbers");

@@ -223,12 +223,22 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
       return "singular where a held side ends: no converged value";
     return "";
   };
-  const auto estimated = [&](const Quantity& quantity, const auto& sample) {
+  const auto estimated = [&](std::size_t q, const Quantity& quantity, const auto& sample) {
     std::vector<Sampled> sampled;
     for (const Solution& other : others) sampled.push_back(sample(other));
-    return estimate_error(sample(own), sampled, orders_of(*quantity.kind, one, smooth, bonded),
-                          direction_of(quantity),
+    OrderRange orders = orders_of(*quantity.kind, one, smooth, bonded);
+    const OrderRange of_course = orders_of(*one.quantities[q].kind, one, smooth, bonded);
+    orders.least = std::min(orders.least, of_course.least);
+    orders.most = std::min(orders.most, of_course.most);
+    return estimate_error(sample(own), sampled, orders, direction_of(quantity),
                           unit_of(quantity, one.quantities) == "Pa" ? smallest_stress(one) : 0);
+  };
+  /// What the discretisations have in common, and do not tell.
+  const auto raise_all = [&](std::size_t q, ErrorEstimate& estimate, double value) {
+    if (takes_time(one)) // the steps were chosen to be no better than that
+      raise(estimate, std::max({one.solver.time_tolerance, spring, of_steps}) * std::abs(value));
+    raise(estimate, of_bending[q]);
+    if (estimate.error) *estimate.error += of_barrier.of_quantities[q];
   };
   for (std::size_t q = 0; q < one.quantities.size(); ++q) {
     const Quantity& quantity = measured(one.quantities[q], one.quantities);
@@ -240,17 +250,14 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
       estimate.singular = true;
       estimate.remark = remark_on_place;
     } else {
-      estimate = estimated(quantity, [&](const Solution& s) {
+      estimate = estimated(q, quantity, [&](const Solution& s) {
         return Sampled{s.size, on_its_side(s.values[q], own, own.values[q]), s.rises[q]};
       });
       if (quantity.kind->of_balance && quantity.kind->of_balance(quantity))
         raise(estimate, own_run.energy().error() + unknown_release);
       if (quantity.kind->of_run) raise(estimate, margin_accuracy * std::abs(own.values[q]));
       raise(estimate, own_run.error_of_course(one.quantities[q])); // all stop at the same corners of waves
-      if (takes_time(one)) // the steps were chosen to be no better than that
-        raise(estimate, std::max({one.solver.time_tolerance, spring, of_steps}) * std::abs(own.values[q]));
-      raise(estimate, of_bending[q]);
-      if (estimate.error) *estimate.error += of_barrier.of_quantities[q];
+      raise_all(q, estimate, own.values[q]);
     }
   }
   for (const Margin& margin : margins) {
@@ -275,11 +282,11 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
     const Quantity& quantity = one.quantities[q];
     ErrorEstimate& estimate = of_farthest.emplace_back();
     if (!quantity.kind->extreme) continue;
-    estimate = estimated(quantity, [&](const Solution& s) {
+    estimate = estimated(q, quantity, [&](const Solution& s) {
       return Sampled{s.size, s.farthest[q].value, s.farthest[q].rise};
     });
     if (*singular(quantity) != '\0') estimate = {.singular = true};
-    if (takes_time(one)) raise(estimate, one.solver.time_tolerance * std::abs(own.farthest[q].value));
+    raise_all(q, estimate, own.farthest[q].value);
   }
   estimates.events = event_remarks(one, own_run.device(), own, others, of_farthest);
   return estimates;

@@ -239,7 +239,10 @@ bool Simulation::sample(const Step& step, double load_factor, Measured& measured
 /// Looks for events and peaks in every accepted state, whatever is recorded.
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
-  if (!admits(step, increment.load_factor, state)) return false;
+  if (!admits(step, increment.load_factor, state)) {
+    unrecorded_.reset(); // the state is not one of the run
+    return false;
+  }
   account(state, increment, reached);
   unrecorded_ = increment;
   if (increment.lands && (step.duration || increment.load_factor >= 1) && pins_bear(state)) return false;

@@ -55,7 +55,7 @@ Outcome StepRun::failure(const Trouble& trouble) const {
         ". Moments about axes that stay act on what turns about several axes: what is judged here leaves "
         "out a part of their stiffness, so the path may well go on, as on_instability = \"follow\" or "
         "another order of loads shows";
-  if (fem::has_friction(model()))
+  if (fem::has_friction(model()) && fem::contact_force(model(), last()) > equilibrium_.round_off())
     outcome.message += ". Where friction takes hold of much at once, more increments may lead on";
   return outcome;
 }

@@ -204,12 +204,6 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
       }
     }
   }
-  for (std::size_t c = 0; c < names.size(); ++c)
-    if (!names[c].empty() && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(c),
-                                       names[c]) != names.begin() + static_cast<std::ptrdiff_t>(c))
-      wrong.push_back({{table.file, table.header_line, 1},
-                       names[c],
-                       "two columns have this name; rename one, or take it out"});
   const bool any_numbers = !std::ranges::all_of(columns, &Column::text);
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string& word = columns[c].first_text;
@@ -218,7 +212,8 @@ CsvTable read_csv(const std::filesystem::path& path, int least_rows, std::vector
       continue; // nothing at all: each line ends with a separator
     }
     std::ranges::move(columns[c].wrong, std::back_inserter(wrong));
-    table.names.push_back(names[c]);
+    const bool is_alone = std::ranges::count(names, names[c]) == 1; // otherwise which of them is asked for?
+    table.names.push_back(is_alone ? names[c] : fmt::format("column {}: {}", c + 1, names[c]));
     table.columns.push_back(std::move(columns[c].numbers));
   }
   std::ranges::stable_sort(wrong, {}, [](const Diagnostic& one) { return one.source.line; });

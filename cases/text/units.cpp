@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <clocale>
 #include <cmath>
@@ -131,7 +132,7 @@ double shifted(double number, int places) {
   return fits ? value : number * std::pow(10.0, places);
 }
 
-/// A decimal factor is 1000 or 1/1000 up to round-off, others may be whole numbers.
+/// Factors are powers of ten or whole numbers up to round-off.
 double scaled(double number, double factor) {
   const double places = std::round(std::log10(factor));
   if (number != 0 && std::abs(factor / std::pow(10.0, places) - 1.0) < 1e-14)
@@ -186,6 +187,25 @@ const Dimension& dimension(std::string_view unit) {
   throw std::logic_error(fmt::format("no dimension has the SI unit \"{}\"", unit));
 }
 
+namespace {
+
+/// udunits would take "1 2 mm" for 1 x (2 mm), "1 1/2 mm" for 1 x 1/2 mm, and "1 mm 2" for 2 mm: digits in a
+/// unit are exponents, but for the 1 of "1/s".
+void require_one_number(const std::string& unit) {
+  constexpr std::string_view digits = "0123456789", before = "0123456789^+-";
+  const bool is_reciprocal =
+      unit.starts_with("1/") && unit.size() > 2 && digits.find(unit[2]) == std::string::npos;
+  if (!unit.empty() && !is_reciprocal &&
+      std::string_view("0123456789.+-*/^(),").find(unit[0]) != std::string_view::npos)
+    throw UnitError(fmt::format("with \"{}\" after the number", unit));
+  for (std::size_t i = 1; i < unit.size(); ++i)
+    if (digits.find(unit[i]) != std::string::npos && before.find(unit[i - 1]) == std::string::npos &&
+        std::isalpha(static_cast<unsigned char>(unit[i - 1])) == 0)
+      throw UnitError(fmt::format("with a second number in \"{}\"", unit));
+}
+
+} // namespace
+
 WrittenMeasure split_measure(std::string_view text) {
   std::string_view rest = trimmed(text);
   if (rest.starts_with('+')) rest.remove_prefix(1);
@@ -195,21 +215,12 @@ WrittenMeasure split_measure(std::string_view text) {
   if (problem != std::errc{}) throw UnitError("which does not start with a number");
   if (!std::isfinite(written.number)) throw UnitError("which is not finite");
   written.unit = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
+  require_one_number(written.unit);
   return written;
 }
 
 Measure parse_measure(std::string_view text, std::string_view si_unit) {
   const auto [number, unit] = split_measure(text);
-  // udunits would take "1 2 mm" for 1 x (2 mm), "1 1/2 mm" for 1 x 1/2 mm, and "1 mm 2" for 2 mm
-  constexpr std::string_view digits = "0123456789";
-  const bool is_reciprocal =
-      unit.starts_with("1/") && unit.size() > 2 && digits.find(unit[2]) == std::string::npos;
-  if (!unit.empty() && !is_reciprocal &&
-      std::string_view("0123456789.+-*/^(),").find(unit[0]) != std::string_view::npos)
-    throw UnitError(fmt::format("with \"{}\" after the number", unit));
-  for (std::size_t i = unit.find_first_of(" \t"); i < unit.size(); i = unit.find_first_of(" \t", i + 1))
-    if (i + 1 < unit.size() && digits.find(unit[i + 1]) != std::string::npos)
-      throw UnitError(fmt::format("with a second number in \"{}\"", unit));
   const double value = scaled(number, factor_to_si(unit, si_unit));
   if (!std::isfinite(value)) throw UnitError("which is too large or too small to store");
   return {value, unit};

@@ -97,8 +97,7 @@ materials::TimeScheme Ramp::scheme(double dt) const {
 
 /// From a state, or from the last accepted one, whose tangent does not tell whether the end is stable.
 State Ramp::solve(State state, double s, bool from_last) {
-  const bool ends_at_break = std::abs(s - next_break()) < round_off && s < 1;
-  const bool before = ends_at_break || (timed() && s >= 1);
+  const bool before = s < 1 ? std::abs(s - next_break()) < round_off : timed(); // of a jump of loads there
   const bool is_free = apply_freely(equilibrium_.model(), state, [&](State& loaded) {
     before ? path_.before(loaded, s) : path_.apply(loaded, s);
   });
@@ -189,8 +188,9 @@ bool Ramp::goes_on(const State& predicted, const State& trial, double s) {
   const PathEnd to{trial, 1, end, equilibrium_.solved()};
   const Eigen::VectorXd start = progress_.slope ? length * *progress_.slope : slope_of_start(increment);
   if (!is_joined(equilibrium_, increment, {last(), setting_out(), start}, to, steadiness)) {
-    // Friction gives a path a corner wherever a node starts or stops to slide.
-    if (has_friction(model) && is_beside_corner(model, predicted, trial)) return true;
+    // Friction gives a path a corner wherever a node starts or stops to slide, film where it wrinkles.
+    if ((steadiness.beside_film || has_friction(model)) && is_beside_corner(model, predicted, trial))
+      return true;
     progress_.slope = start / length;
     return false;
   }

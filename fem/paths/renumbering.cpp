@@ -58,7 +58,7 @@ State Renumbering::operator()(State state) const {
                                 &motion.acceleration_now}) {
     *part = (*this)(*part);
     if (part == &motion.position) continue;
-    for (int e = to_.free_count(); e < to_.count(); ++e) // what goes on being held moves as it did
+    for (int e = to_.free_count(); e < to_.free_count() + to_.held_count(); ++e) // what was held moves on
       if (!was_held_[static_cast<std::size_t>(e)]) (*part)[e] = 0;
   }
   if (const std::vector<char> bodies = caught(); std::ranges::count(bodies, 1) > 0) {

@@ -123,7 +123,7 @@ SphereSteps steps_through(double inner_radius, double outer_radius, int across) 
   if (ratio <= thick)
     return {graded_line({inner_radius, outer_radius}, {}, size, size),
             slenderness * size / ((outer_radius + inner_radius) / 2)};
-  SphereSteps steps{{inner_radius}, slenderness * std::log(ratio) / across};
+  SphereSteps steps{{inner_radius}, std::min(slenderness * std::log(ratio) / across, std::numbers::pi / 4)};
   for (int k = 1; k < across; ++k)
     steps.radii.push_back(inner_radius * std::pow(ratio, static_cast<double>(k) / across));
   steps.radii.push_back(outer_radius);

@@ -118,6 +118,32 @@ TEST_F(Bystanders, ASupportThatChangesElsewhereStopsNothing) {
   EXPECT_NEAR(released[1], released[0], 1e-9 * std::abs(released[0]));
 }
 
+// What is tied to a body moves on with it.
+TEST_F(Bystanders, ASupportThatChangesElsewhereLeavesBodiesTheirSpeed) {
+  std::vector<double> moved, kinetic;
+  for (const char* another : {"", "[[support]]\nplace = \"left\"\nfix = [\"y\"]\nuntil = \"a\"\n"}) {
+    const Ran ran = run(fmt::format(
+        "[film]\nthickness = \"1 mm\"\nprestretch = 1.2\n[film.material]\nshear_modulus = \"40 kPa\"\n"
+        "permittivity = \"4e-11 F/m\"\n[rectangle]\nlength = \"40 mm\"\nwidth = \"20 mm\"\n[mesh]\nacross = "
+        "2\n[[body]]\nname = \"hub\"\nplaces = [\"right\"]\nmass = \"10 g\"\ninertia = \"4 g.cm^2\"\ncentre "
+        "= "
+        "[\"20 mm\", \"4 mm\", 0]\n[[support]]\nplace = \"left\"\nfix = [\"x\", \"y\"]\n{}[drive]\nvoltage = "
+        "{{ wave = \"sine\", amplitude = \"4 kV\", frequency = \"10 Hz\" }}\n[[step]]\nkind = \"release\"\n"
+        "[[step]]\nname = \"a\"\nkind = \"transient\"\nduration = \"40 ms\"\ninertia = true\n[[step]]\nkind "
+        "= "
+        "\"transient\"\nduration = \"20 ms\"\ninertia = true\n[[quantity]]\nname = \"moved\"\nkind = "
+        "\"displacement\"\nof = \"right\"\nalong = \"x\"\n[[quantity]]\nname = \"kinetic\"\nkind = "
+        "\"energy\"\nof = \"kinetic\"\n[output]\nerror_estimate = false\n",
+        another));
+    EXPECT_EQ(ran.events.count("caught"), 0u) << another;
+    moved.push_back(ran.last("moved"));
+    kinetic.push_back(ran.last("kinetic"));
+  }
+  EXPECT_GT(kinetic[0], 0);
+  EXPECT_NEAR(moved[1], moved[0], 1e-6 * std::abs(moved[0]));
+  EXPECT_NEAR(kinetic[1], kinetic[0], 1e-6 * kinetic[0]);
+}
+
 // The water stays in the balloon while its dashpots let go: it does no work, and what the film loses is heat.
 TEST_F(Bystanders, AClosedChamberTakesNothingOfTheHeatOfDashpots) {
   const Ran ran =

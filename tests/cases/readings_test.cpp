@@ -71,7 +71,6 @@ TEST_F(Readings, FilmThatIsRolledHasNoStretchAlongARadius) {
   }
 }
 
-// Covers of a strip are layers that [[film.layer]] does not know.
 // Film under the electrode of a rod and beside it is in one element: the field is that under it.
 TEST_F(Readings, TheFieldOfARodIsThatUnderItsElectrode) {
   const Ran ran = run(
@@ -89,6 +88,7 @@ TEST_F(Readings, TheFieldOfARodIsThatUnderItsElectrode) {
   EXPECT_NEAR(ran.last("field"), ran.last("most"), 1e-9 * ran.last("most"));
 }
 
+// Covers of a strip are layers that [[film.layer]] does not know.
 TEST_F(Readings, AStripWithCoversEndsAtItsLimitPoint) {
   const Outcome outcome = outcome_of(
       "model = \"3d\"\n[film]\nsection = \"shell\"\nthickness = \"1 mm\"\nprestretch = 1\n" + material +
