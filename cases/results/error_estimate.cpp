@@ -282,10 +282,11 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
     const Quantity& quantity = one.quantities[q];
     ErrorEstimate& estimate = of_farthest.emplace_back();
     if (!quantity.kind->extreme) continue;
+    estimate.singular = *singular(quantity) != '\0';
+    if (estimate.singular) continue;
     estimate = estimated(q, quantity, [&](const Solution& s) {
       return Sampled{s.size, s.farthest[q].value, s.farthest[q].rise};
     });
-    if (*singular(quantity) != '\0') estimate = {.singular = true};
     raise_all(q, estimate, own.farthest[q].value);
   }
   estimates.events = event_remarks(one, own_run.device(), own, others, of_farthest);

@@ -54,7 +54,7 @@ std::vector<char> Equilibrium::moved_by(bool film) const {
   const auto mark = [&](int equation) {
     if (dofs.is_free(equation)) moved[static_cast<std::size_t>(equation)] = 1;
   };
-  const State drawn = model_.initial_state();
+  const State drawn = film ? State() : model_.initial_state();
   for (const auto& block : model_.blocks) {
     if (block->may_be_slack() != film) continue;
     Samples samples; // of bars, shells and solids, not of chambers and contact
