@@ -17,7 +17,8 @@ constexpr double least_damping = 1e-12, most_damping = 1e8;
 constexpr double less = 1.0 / 5, more = 6;  ///< factors of the damping
 constexpr double well = 0.75, badly = 0.25; ///< decrease of the energy over the one that was foretold
 constexpr double rounded = 1e-12;           ///< of the energy: smaller changes are not told
-constexpr int most_steps = 400;
+constexpr int most_steps = 400;             ///< with wrinkles
+constexpr int most_times = 2;               ///< with friction alone: times the iterations of Newton's method
 
 constexpr double next_to_nothing = 1e-9; ///< of the film's stiffness: tension that is none
 /// Part of a film's unknowns, the stiffest last, up to which none but it resists: the others may be held by
@@ -108,8 +109,8 @@ bool Equilibrium::is_neutral(const State& state, int unstable_modes, const Newto
 }
 
 /// Levenberg-Marquardt: (K + c D) du = -R, D = stiffness(), with as much c as it takes for the energy to fall
-/// as it was foretold. Where wrinkles come and go the energy is smooth by parts only, and in slack film it
-/// has hardly any stiffness: Newton's steps are much too long there.
+/// as it was foretold. Where wrinkles come and go, or what is pressed sticks and slides, the energy is smooth
+/// by parts only, and slack film has hardly any stiffness: Newton's steps are much too long there.
 NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
                                   const std::function<void(const Iteration&)>& log) {
   const Eigen::Index free = model_.dofs.free_count();
@@ -120,7 +121,8 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
   Eigen::VectorXd step;
   balance(state, current, Pressure::is_unknown);
   const auto chamber = model_.ports.closed_chamber(state);
-  for (; result.iterations < most_steps && damping < most_damping; ++result.iterations) {
+  const int most = options.wrinkles ? most_steps : most_times * options.max_iterations;
+  for (; result.iterations < most && damping < most_damping; ++result.iterations) {
     if (!current.feasible) return result;
     result.residual = current.scale > 0 ? current.norm / current.scale : 0;
     if (log) log({result.iterations, result.residual, length, result.negative_pivots});

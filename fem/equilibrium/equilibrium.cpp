@@ -286,7 +286,7 @@ bool Equilibrium::fill(State& state) {
 NewtonResult Equilibrium::balance_forces(State& state, const NewtonOptions& options,
                                          const std::function<void(const Iteration&)>& log) {
   NewtonResult result = newton(state, options, log);
-  if (result.outcome == Outcome::converged || !options.wrinkles) return result;
+  if (result.outcome == Outcome::converged || !(options.wrinkles || has_friction(model_))) return result;
   const int iterations = result.iterations;
   result = descend(state, options, log);
   result.iterations += iterations;

@@ -22,7 +22,8 @@ struct NewtonOptions {
   double tolerance = 1e-9; ///< on |R_free| over the largest norm of a block's nodal forces (of the reactions,
                            ///< where one block is held), and on the correction over the extent
   int max_iterations = 25;
-  bool wrinkles = false; ///< film carries no compression: where Newton's method fails damped steps go on
+  bool wrinkles = false; ///< film carries no compression: where Newton's method fails damped steps go on, as
+                         ///< with friction
 };
 
 enum class Outcome {

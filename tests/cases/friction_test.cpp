@@ -160,5 +160,25 @@ TEST_F(Friction, between_surfaces_holds_in_the_increment_in_which_they_meet) {
   EXPECT_GT(std::abs(at_once), 1.2 * std::abs(held(1, 0)));
 }
 
+/// A block that is pressed and moved along at once from where it only touches, in however many increments (in
+/// one, two, four and eight Newton's steps went to and fro between sticking and sliding, however short).
+TEST_F(Friction, begins_in_any_number_of_increments) {
+  const auto moved = [&](int increments) {
+    return values(fmt::format(
+                      "[film]\nthickness = \"50 um\"\nwidth = \"13 mm\"\n[film.material]\n"
+                      "shear_modulus = \"400 kPa\"\npermittivity = \"4e-11 F/m\"\n[slab]\n"
+                      "length = \"2 mm\"\nheight = \"2 mm\"\n[mesh]\nacross = 2\n[table]\n"
+                      "at = \"bottom\"\nfriction = 0.05\n[contact]\nthickness = \"2 um\"\n"
+                      "[[support]]\nplace = \"top\"\ndisplacement = {{ x = \"0.1 mm\", y = \"-0.15 mm\" }}\n"
+                      "[[step]]\nkind = \"move\"\nincrements = {}\n[output]\nerror_estimate = false\n"
+                      "[[quantity]]\nname = \"heat\"\nkind = \"energy\"\nof = \"dissipated\"\n",
+                      increments))
+        .at("heat");
+  };
+  const double slowly = moved(10);
+  for (const int increments : {1, 2, 4, 8})
+    EXPECT_NEAR(moved(increments), slowly, 5e-3 * slowly) << increments;
+}
+
 } // namespace
 } // namespace dielast::cases::friction_test
