@@ -35,14 +35,15 @@ std::string unit_of_field(const Quantity& quantity, const std::vector<Quantity>&
 }
 
 std::vector<Key> value_keys() {
-  return {word("of", fields(true), to(&Quantity::of), "the field"),
-          text("place", to(&Quantity::place),
-               "the place: a part of the film (mean by volume), or nodes (mean of what the elements continue "
-               "to them)")
-              .refers_to(Reference::place),
-          measure("point", "m", to(&Quantity::point), "the point of the film, as drawn")
-              .values(3, 3)
-              .replacing("place")};
+  return {
+      word("of", fields(true), to(&Quantity::of), "the field"),
+      text("place", to(&Quantity::place),
+           "the place: a part of the film (mean by volume), or nodes (mean, by their shares in it, of what "
+           "the elements continue to them)")
+          .refers_to(Reference::place),
+      measure("point", "m", to(&Quantity::point), "the point of the film, as drawn")
+          .values(3, 3)
+          .replacing("place")};
 }
 
 std::string value_words(const Quantity& q) {
@@ -73,6 +74,7 @@ std::vector<FilmReading> readings_of(const Probing& probing) {
     readings = readings_in(quantity.place, device.mesh, probing.drawn);
     if (!readings.empty()) return readings;
     readings = readings_at(quantity.place, device.mesh, probing.drawn);
+    weigh_by_shares(readings, quantity.place, device);
   }
   if (readings.empty())
     probing.refuse(key, no_element_text(probing.one, quantity.point ? Eigen::Vector3d(quantity.point->data())
@@ -141,6 +143,7 @@ Probe radial_stretch(const Probing& probing) {
   std::set<std::array<double, 3>> edge;
   for (const meshing::OuterSide& side : meshing::outer_sides(*mesh.film()))
     for (const int node : side.nodes()) edge.insert(coordinates(mesh.nodes[static_cast<std::size_t>(node)]));
+  weigh_by_shares(readings, probing.quantity.of, device);
   std::map<std::array<double, 3>, std::pair<int, int>> films;
   for (const FilmReading& at : readings) {
     const auto film = film_of(probing, at);
@@ -192,6 +195,7 @@ std::vector<QuantityKind> field_kinds() {
              return fmt::format("stretch along the radius at {}{}", q.of, at_words(q));
            },
        .probe = radial_stretch,
+       .shares = true,
        .fields = true,
        .of_shells = false,
        .of_solids = false,
@@ -202,6 +206,7 @@ std::vector<QuantityKind> field_kinds() {
        .in_words = value_words,
        .probe = value,
        .unit_by = unit_of_field,
+       .shares = true,
        .fields = true,
        .of_shells = false,
        .orders = next_to_a_place},

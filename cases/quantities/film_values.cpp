@@ -150,7 +150,7 @@ std::vector<FilmReading> readings_at(const std::string& place, const meshing::Me
       if (weights.size() == 0 || film.type == CellType::rod2)
         weights = weights_at(film.type, points, samples, local_nodes(film.type));
       readings.push_back({cell, points, mesh.nodes[static_cast<std::size_t>(own[a])],
-                          weights.row(static_cast<Eigen::Index>(a)).transpose()});
+                          weights.row(static_cast<Eigen::Index>(a)).transpose(), own[a]});
     }
   }
   return readings;
@@ -216,6 +216,17 @@ std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing
         {at.cell, points, point, weights_at(film.type, points, samples, at.local.transpose()).transpose()});
   }
   return readings;
+}
+
+void weigh_by_shares(std::vector<FilmReading>& readings, const std::string& place, const Device& device) {
+  const auto& nodes = device.mesh.node_sets.at(place);
+  const std::vector<double>& shares = device.shares.at(place).of_nodes;
+  std::map<int, double> times;
+  for (const FilmReading& reading : readings) ++times[reading.node];
+  for (FilmReading& reading : readings)
+    reading.weight *=
+        shares[static_cast<std::size_t>(std::ranges::lower_bound(nodes, reading.node) - nodes.begin())] /
+        times[reading.node];
 }
 
 std::vector<FilmReading> readings_in(const std::string& place, const meshing::Mesh& mesh,

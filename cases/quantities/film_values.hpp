@@ -17,6 +17,7 @@ struct FilmReading {
   std::vector<int> points; ///< numbers of the element's integration points among the samples
   Eigen::Vector3d drawn;   ///< the point, m; of a part of the film a node of the element
   Eigen::VectorXd weight;
+  int node = -1; ///< the node where it is; -1: none
 };
 
 /// At the nodes of a place, in every element that has them. `samples`: of any state.
@@ -45,6 +46,9 @@ Eigen::Matrix3d turn_to(const Eigen::Vector3d& point, const meshing::Mesh& mesh)
 /// may be at any angle about the z axis. None beside the film.
 std::vector<FilmReading> readings_at(const Eigen::Vector3d& point, const meshing::Mesh& mesh,
                                      const fem::Samples& samples);
+
+/// Makes nodes of a place count by their shares in it, in how many elements whatsoever they are read.
+void weigh_by_shares(std::vector<FilmReading>& readings, const std::string& place, const Device& device);
 
 /// In all elements of a part of the film; none where the place is no part of it.
 std::vector<FilmReading> readings_in(const std::string& place, const meshing::Mesh& mesh,

@@ -260,7 +260,7 @@ std::string free_ring(const std::string& part, const std::string& at) {
   text += fmt::format(
       "[{0}film]\nthickness = \"1 mm\"\nprestretch = 3\n[{0}film.material]\nshear_modulus = \"45 "
       "kPa\"\nrelative_permittivity = 4.5\n[{0}annulus]\ninner_radius = \"10 mm\"\nouter_radius = "
-      "\"40 mm\"\n[{0}mesh]\nrings = 6\n[[support]]\nplace = \"{1}outer\"\nfix = [\"x\", \"y\"]\n"
+      "\"40 mm\"\n[{0}mesh]\nrings = 12\n[[support]]\nplace = \"{1}outer\"\nfix = [\"x\", \"y\"]\n"
       "[[step]]\nkind = \"release\"\n",
       head, place);
   for (const char* edge : {"inner", "outer"})

@@ -152,5 +152,21 @@ TEST_F(Readings, ContactIsBetweenTheWallsOfEveryLattice) {
   EXPECT_NEAR(length(false), top, 1e-6 * top);
 }
 
+// Nodes are close together where the electrode ends and strains are small: the mean was 11 % off.
+TEST_F(Readings, AMeanOverNodesIsThatAlongTheEdge) {
+  const Ran ran = run(
+      "model = \"planar\"\n[film]\nthickness = \"50 um\"\nwidth = \"13 mm\"\n[film.material]\nshear_modulus "
+      "= "
+      "\"0.4 MPa\"\nrelative_permittivity = 2.8\n[slab]\nlength = \"24 mm\"\nheight = \"0.6 mm\"\nelectrode "
+      "= "
+      "[\"4 mm\", \"14 mm\"]\ncover_thickness = \"50 um\"\n[mesh]\nacross = 2\n[[support]]\nplace = "
+      "\"top\"\nfix = [\"y\"]\n[[support]]\nplace = \"left\"\nfix = [\"x\"]\n[drive]\nvoltage = \"1 kV\"\n"
+      "[output]\nerror_estimate = false\n[[quantity]]\nname = \"strain\"\nkind = \"value\"\nof = "
+      "\"log_strain.xx\"\nplace = \"bottom\"\n[[quantity]]\nname = \"longer\"\nkind = \"displacement\"\nof = "
+      "\"right\"\nalong = \"x\"\n");
+  const double longer = ran.last("longer") / 0.024;
+  EXPECT_NEAR(ran.last("strain"), longer, 5e-3 * longer);
+}
+
 } // namespace
 } // namespace dielast::cases::readings_test
