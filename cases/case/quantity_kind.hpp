@@ -25,8 +25,8 @@ using Probe = std::function<double(const Measured&)>;
 /// One that the shape alone tells.
 using Shape = std::function<double(const fem::State&)>;
 
-/// Numbers that a measurement keeps between states, by names that begin with a quantity's.
-using References = std::map<std::string, double>;
+/// Numbers that a measurement keeps of a quantity between states.
+using KeptNumbers = std::map<std::string, double>;
 
 /// All that is known of a kind of quantity, once: what a case file may say of it, what it is in words, its
 /// value. Of `shape`, `probe` and `so_far` each kind has one; what few have is null by default.
@@ -40,14 +40,14 @@ struct QuantityKind {
   Shape (*shape)(const Probing& probing) = nullptr;
   Probe (*probe)(const Probing& probing) = nullptr;
   /// Of another quantity's course, which has the value `now`; `time`: s.
-  double (*so_far)(References& references, const Quantity& quantity, double now, double time) = nullptr;
+  double (*so_far)(KeptNumbers& kept, const Quantity& quantity, double now, double time) = nullptr;
 
   /// Its unit where what it is of tells; `all`: the quantities of the case.
   std::string (*unit_by)(const Quantity& quantity, const std::vector<Quantity>& all) = nullptr;
   /// Its value by that of its shape now and at the end of the step since which it counts, or as drawn.
   double (*since)(double now, double then) = nullptr;
   /// What begins at the end of the step since which it counts, of a course; `time`: s.
-  void (*begin)(References& references, const Quantity& quantity, double time) = nullptr;
+  void (*begin)(KeptNumbers& kept, double time) = nullptr;
   /// A shape's derivative, over all equations.
   Eigen::VectorXd (*gradient)(const Probing& probing, const fem::State& state) = nullptr;
   /// What is wrong with it in a case; what leaves it without a value there, or with one to be warned of.

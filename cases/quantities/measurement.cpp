@@ -31,9 +31,7 @@ bool is_magnitude_since(const Quantity& quantity) {
   return quantity.kind->directed && !quantity.along && !quantity.since.empty();
 }
 
-std::string name_of_component(const Quantity& quantity, std::size_t axis) {
-  return quantity.name + " along " + "xyz"[axis];
-}
+std::string name_of_component(std::size_t axis) { return std::string("along ") + "xyz"[axis]; }
 
 } // namespace
 
@@ -45,8 +43,9 @@ Measurement::Measurement(const Case& one, const Device& device) : case_(one), de
 void Measurement::begin_peaks() { peaks.assign(case_.quantities.size(), {no_value, 0}); }
 
 void Measurement::begin(const Quantity& course, double time) {
-  course.kind->begin(references, course, time);
-  for (const char* sum : {" rises", " rises known"}) references.erase(course.name + sum);
+  KeptNumbers& own = kept[course.name];
+  course.kind->begin(own, time);
+  for (const char* sum : {"rises", "rises known"}) own.erase(sum);
 }
 
 void Measurement::prepare() {
@@ -80,15 +79,13 @@ double Measurement::value(std::size_t number, const Measured& measured) const {
   if (quantity.since.empty()) return quantity.kind->since(now, drawn_[number]);
   if (const auto components = magnitudes_.find(number); components != magnitudes_.end()) {
     Eigen::Vector3d moved;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto then = references.find(name_of_component(quantity, c));
-      if (then == references.end()) return no_value;
-      moved[static_cast<Eigen::Index>(c)] = components->second.shapes[c](measured.state) - then->second;
-    }
+    for (std::size_t c = 0; c < 3; ++c)
+      moved[static_cast<Eigen::Index>(c)] = components->second.shapes[c](measured.state) -
+                                            kept_of(quantity, name_of_component(c)).value_or(no_value);
     return moved.norm();
   }
-  const auto then = references.find(quantity.name);
-  return then == references.end() ? no_value : quantity.kind->since(now, then->second);
+  const auto then = kept_of(quantity, "value");
+  return then ? quantity.kind->since(now, *then) : no_value;
 }
 
 std::vector<double> Measurement::all(const Measured& measured) {
@@ -98,7 +95,7 @@ std::vector<double> Measurement::all(const Measured& measured) {
     const Quantity& quantity = case_.quantities[q];
     if (quantity.kind->so_far) {
       const double now = values[subject(quantity)], time = measured.state.time;
-      values[q] = quantity.kind->so_far(references, quantity, now, time);
+      values[q] = quantity.kind->so_far(kept[quantity.name], quantity, now, time);
       note_rise_of_course(quantity, now, values[q], measured);
     } else if (quantity.kind->extreme && quantity.at.empty() && !std::isnan(values[q])) {
       note_farthest(quantity, values[q], measured);
@@ -118,6 +115,13 @@ std::vector<std::string> Measurement::scalars() const {
   return names;
 }
 
+std::optional<double> Measurement::kept_of(const Quantity& quantity, const std::string& name) const {
+  const auto all = kept.find(quantity.name);
+  if (all == kept.end()) return {};
+  const auto found = all->second.find(name);
+  return found == all->second.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::size_t Measurement::subject(const Quantity& quantity) const {
   const auto found = std::ranges::find(case_.quantities, quantity.of, &Quantity::name);
   return static_cast<std::size_t>(found - case_.quantities.begin());
@@ -125,11 +129,12 @@ std::size_t Measurement::subject(const Quantity& quantity) const {
 
 /// An extreme of a field where it was farthest, and how steep it was there.
 void Measurement::note_farthest(const Quantity& quantity, double now, const Measured& measured) {
-  const auto [farthest, is_first] = references.try_emplace(quantity.name + " farthest", now);
+  KeptNumbers& own = kept[quantity.name];
+  const auto [farthest, is_first] = own.try_emplace("farthest", now);
   const double before = farthest->second;
   if (!is_first && !(quantity.extreme == post::Extreme::maximum ? now > before : now < before)) return;
   farthest->second = now;
-  references[quantity.name + " rise"] = rise_of(quantity, measured);
+  own["rise"] = rise_of(quantity, measured);
 }
 
 /// How steep the subject of a course was: of a peak where it had it, of a mean over time the mean.
@@ -137,13 +142,14 @@ void Measurement::note_rise_of_course(const Quantity& quantity, double now, doub
                                       const Measured& measured) {
   const Quantity& extreme = case_.quantities[subject(quantity)];
   if (!extreme.kind->extreme || std::isnan(now) || std::isnan(value)) return;
-  if (const auto known = references.find(quantity.name + " known"); known != references.end()) {
+  KeptNumbers& own = kept[quantity.name];
+  if (const auto known = own.find("known"); known != own.end()) {
     const double rise = rise_of(extreme, measured);
-    double &sum = references[quantity.name + " rises"], &before = references[quantity.name + " rises known"];
+    double &sum = own["rises"], &before = own["rises known"];
     sum += (known->second - std::exchange(before, known->second)) * rise;
-    references[quantity.name + " rise"] = known->second > 0 ? sum / known->second : rise;
+    own["rise"] = known->second > 0 ? sum / known->second : rise;
   } else if (now == value) {
-    references[quantity.name + " rise"] = rise_of(extreme, measured);
+    own["rise"] = rise_of(extreme, measured);
   }
 }
 
@@ -156,17 +162,14 @@ double Measurement::rise_of(const Quantity& quantity, const Measured& measured) 
 double Measurement::rise(std::size_t number, const Measured& measured) const {
   const Quantity& each = case_.quantities[number];
   if (!each.kind->so_far) return each.kind->extreme ? rise_of(each, measured) : 0;
-  const auto kept = references.find(each.name + " rise");
-  return kept == references.end() ? 0 : kept->second;
+  return kept_of(each, "rise").value_or(0);
 }
 
 std::vector<Farthest> Measurement::farthest() const {
   std::vector<Farthest> all;
   for (const Quantity& quantity : case_.quantities) {
-    const auto value = references.find(quantity.name + " farthest");
-    all.push_back(value == references.end()
-                      ? Farthest{}
-                      : Farthest{value->second, references.at(quantity.name + " rise")});
+    const auto value = kept_of(quantity, "farthest");
+    all.push_back(value ? Farthest{*value, kept_of(quantity, "rise").value()} : Farthest{});
   }
   return all;
 }
@@ -184,10 +187,10 @@ void Measurement::step_ended(const std::string& step, const Measured& measured) 
     if (quantity.kind->begin)
       begin(quantity, measured.state.time);
     else
-      references[quantity.name] = shapes_[q](measured.state);
+      kept[quantity.name]["value"] = shapes_[q](measured.state);
     if (const auto components = magnitudes_.find(q); components != magnitudes_.end())
       for (std::size_t c = 0; c < 3; ++c)
-        references[name_of_component(quantity, c)] = components->second.shapes[c](measured.state);
+        kept[quantity.name][name_of_component(c)] = components->second.shapes[c](measured.state);
   }
 }
 

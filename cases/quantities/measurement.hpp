@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,11 +45,14 @@ class Measurement {
   /// Of every extreme that is not read at one step's end; of other quantities nothing.
   std::vector<Farthest> farthest() const;
 
+  /// Of a mean over time, how far it may be off for what lies between the states; of other quantities 0.
+  double error_of_course(const Quantity& quantity) const { return kept_of(quantity, "error").value_or(0); }
+
   /// Says that a step ended in this state: elongations and displacements since it start here.
   void step_ended(const std::string& step, const Measured& measured);
 
   /// Lengths and displacements that quantities are relative to, and courses so far; stored with a checkpoint.
-  References references;
+  std::map<std::string, KeptNumbers> kept; ///< by the quantity's name
   /// Of every quantity, from where the first of the case's own steps sets out; NaN where it has had no value.
   /// Stored with a checkpoint.
   std::vector<post::Peak> peaks;
@@ -59,6 +63,7 @@ class Measurement {
   void note_farthest(const Quantity& quantity, double now, const Measured& measured);
   void note_rise_of_course(const Quantity& quantity, double now, double value, const Measured& measured);
   double rise_of(const Quantity& quantity, const Measured& measured) const;
+  std::optional<double> kept_of(const Quantity& quantity, const std::string& name) const;
   /// The number of the quantity whose course one follows.
   std::size_t subject(const Quantity& quantity) const;
 

@@ -75,57 +75,57 @@ Probe energy(const Probing& probing) {
 // --- courses: a mean over time is that of straight lines between the states where the subject has a value at
 // both, and the value itself where they take no time
 
-void begin_mean(References& references, const Quantity& quantity, double time) {
-  for (const char* sum : {"", " known", " bulge", " error"}) references[quantity.name + sum] = 0;
-  for (const char* of_last : {" last", " slope", " dt"}) references.erase(quantity.name + of_last);
-  references[quantity.name + " last time"] = time;
+void begin_mean(KeptNumbers& kept, double time) {
+  for (const char* sum : {"value", "known", "bulge", "error"}) kept[sum] = 0;
+  for (const char* of_last : {"last", "slope", "dt"}) kept.erase(of_last);
+  kept["last time"] = time;
 }
 
 /// Integral of what may lie between the straight lines and the course. Of a parabola it is f'' dt^3/12 in
 /// every interval, a sixth of the rise times dt where it sets out level. Taken here is at most a quarter of
 /// the rise times dt, and three times what the lines turn by at the state before tells of f'': beside a
 /// corner half is seen. `known`: the time of all intervals before, s.
-double bulge(References& references, const std::string& name, double known, double slope, double dt) {
+double bulge(KeptNumbers& kept, double known, double slope, double dt) {
   const auto most = [](double any_slope, double any_dt) { return std::abs(any_slope) * any_dt * any_dt / 4; };
-  double& sum = references[name + " bulge"];
-  const auto last = references.find(name + " slope");
-  if (last == references.end()) {
+  double& sum = kept["bulge"];
+  const auto last = kept.find("slope");
+  if (last == kept.end()) {
     sum = most(slope, dt);
   } else {
-    const double last_slope = last->second, last_dt = references.at(name + " dt");
+    const double last_slope = last->second, last_dt = kept.at("dt");
     const double turn = std::abs(slope - last_slope) / (last_dt + dt) / 2;
     if (known == last_dt) // the first, of which nothing else was known
       sum = std::min(sum, turn * last_dt * last_dt * last_dt);
     sum += std::min(turn * dt * dt * dt, most(slope, dt));
   }
-  references[name + " slope"] = slope;
-  references[name + " dt"] = dt;
+  kept["slope"] = slope;
+  kept["dt"] = dt;
   return sum;
 }
 
-double peak(References& references, const Quantity& quantity, double now, double) {
-  double& peak = references.try_emplace(quantity.name, now).first->second;
+double peak(KeptNumbers& kept, const Quantity& quantity, double now, double) {
+  double& peak = kept.try_emplace("value", now).first->second;
   const bool beyond = quantity.extreme == post::Extreme::minimum ? now < peak : now > peak;
   if (beyond || std::isnan(peak)) peak = now;
   return peak;
 }
 
-void begin_peak(References& references, const Quantity& quantity, double) { references.erase(quantity.name); }
+void begin_peak(KeptNumbers& kept, double) { kept.erase("value"); }
 
-double mean(References& references, const Quantity& quantity, double now, double time) {
-  if (!references.contains(quantity.name)) {
+double mean(KeptNumbers& kept, const Quantity& quantity, double now, double time) {
+  if (!kept.contains("value")) {
     if (!quantity.since.empty()) return std::numeric_limits<double>::quiet_NaN();
-    begin_mean(references, quantity, time);
+    begin_mean(kept, time);
   }
-  double& integral = references.at(quantity.name);
-  double& last = references.try_emplace(quantity.name + " last", now).first->second;
-  double& last_time = references.at(quantity.name + " last time");
-  double& known = references.at(quantity.name + " known"); // s
+  double& integral = kept.at("value");
+  double& last = kept.try_emplace("last", now).first->second;
+  double& last_time = kept.at("last time");
+  double& known = kept.at("known"); // s
   if (const double dt = time - last_time; dt > 0 && !std::isnan(last) && !std::isnan(now)) {
-    const double off = bulge(references, quantity.name, known, (now - last) / dt, dt);
+    const double off = bulge(kept, known, (now - last) / dt, dt);
     integral += (last + now) / 2 * dt;
     known += dt;
-    references[quantity.name + " error"] = off / known;
+    kept["error"] = off / known;
   }
   last = now;
   last_time = time;

@@ -69,7 +69,7 @@ json archive(const SimulationProgress& progress) {
           {"followed", followed ? post::archive(*followed) : json(nullptr)},
           {"jumps", progress.in_step.jumps},
           {"energy", post::archive(progress.energy)},
-          {"references", progress.references},
+          {"kept", progress.kept},
           {"active_events", progress.active_events},
           {"time_steps", {progress.time_steps.count, progress.time_steps.error}},
           {"let_go", pack(progress.let_go)},
@@ -93,7 +93,7 @@ SimulationProgress restore_progress(const json& archived, const post::StateSizes
   if (const json& followed = archived.at("followed"); !followed.is_null())
     progress.in_step.followed = post::restore_continuation(followed, sizes);
   progress.energy = post::restore_energy(archived.at("energy"), sizes);
-  progress.references = archived.at("references");
+  progress.kept = archived.at("kept");
   progress.active_events = archived.at("active_events");
   progress.time_steps = {archived.at("time_steps").at(0), archived.at("time_steps").at(1)};
   progress.let_go = unpack(archived.at("let_go"), sizes);
@@ -126,8 +126,8 @@ fem::FactorMemory restore_factor(const json& archived) {
 
 SimulationProgress Simulation::progress() const {
   SimulationProgress progress{
-      step_,       records_,       in_step_, energy_.record(), measurement_.references, watch_.active,
-      time_steps_, loads_->let_go, {},       unseen_,          measurement_.peaks,      news_,
+      step_,       records_,       in_step_, energy_.record(), measurement_.kept,  watch_.active,
+      time_steps_, loads_->let_go, {},       unseen_,          measurement_.peaks, news_,
       taken_,      unrecorded_};
   for (const auto& [load, signal] : signals_) progress.signals.push_back(signal->memory());
   return progress;
@@ -139,7 +139,7 @@ void Simulation::resume(const SimulationProgress& progress) {
   in_step_ = progress.in_step;
   energy_ = fem::EnergyBalance(progress.energy);
   come_to(state());
-  measurement_.references = progress.references;
+  measurement_.kept = progress.kept;
   watch_.active = progress.active_events;
   time_steps_ = progress.time_steps;
   unseen_ = progress.unseen;

@@ -23,13 +23,6 @@ namespace dielast::cases {
 
 namespace {
 
-/// What on_instability may be other than "stop", in words.
-std::string ways_on(const Case& one, const Step& step) {
-  const bool jump = may_jump(one);
-  if (!may_follow(one, step)) return jump ? "\"jump\"" : "";
-  return jump ? "\"follow\" or \"jump\"" : "\"follow\"";
-}
-
 /// Forces below this fraction of the film's own leave the drawn state in equilibrium.
 constexpr double balanced = 1e-9, balanced_shells = 1e-2;
 
@@ -107,8 +100,7 @@ Simulation::Simulation(const Case& one, int threads)
 }
 
 double Simulation::error_of_course(const Quantity& quantity) const {
-  const auto error = measurement_.references.find(quantity.name + " error");
-  return error == measurement_.references.end() ? 0 : error->second;
+  return measurement_.error_of_course(quantity);
 }
 
 /// What has moved comes to rest at the beginning of a step without inertia: the step goes on from there.
@@ -381,8 +373,9 @@ Outcome Simulation::run(const SimulationObserver& observer) {
           return accept(observer, step, state, increment, reached);
         },
         observer.goes_on};
-    const Outcome outcome =
-        StepRun(*equilibrium_, step, path, options, in_step_, watcher, ways_on(case_, step)).run();
+    const Outcome outcome = StepRun(*equilibrium_, step, path, options, in_step_, watcher,
+                                    {.follow = may_follow(case_, step), .jump = may_jump(case_)})
+                                .run();
     if ((outcome.ending == Ending::gave_up || refusal_) && unrecorded_) {
       Measured measured(device_, *equilibrium_, state(), energy_, scalars_, &held_);
       record(observer, step, measured, *unrecorded_);

@@ -31,7 +31,7 @@ struct SimulationProgress {
   int records = 0; ///< recorded states so far, the drawn one included
   StepProgress in_step;
   fem::EnergyBalance::Record energy;
-  std::map<std::string, double> references;
+  std::map<std::string, KeptNumbers> kept; ///< see Measurement
   std::set<std::string> active_events;
   TimeSteps time_steps{};
   Eigen::VectorXd let_go{};                   ///< see StepLoads
