@@ -281,8 +281,6 @@ Device build_device(const Case& one) {
   const bool of_solid = one.any_film([](const Film& f) { return f.is_solid(); });
   if (meshing::is_triangle(film->type) && !of_solid) check_film_in_space(one, mesh, parts, model.extent);
   const auto elements = static_cast<double>(film->size());
-  for (const Part& part : one.parts)
-    if (part.film) model.wrinkled = std::max(model.wrinkled, part.film->wrinkled);
   model.length_scale = model.extent / (meshing::is_meridian(film->type)      ? elements
                                        : meshing::is_tetrahedron(film->type) ? std::cbrt(elements)
                                                                              : std::sqrt(elements));

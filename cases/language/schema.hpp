@@ -305,6 +305,14 @@ Key flag(std::string name, Binding binding, std::string meaning);
 Key word(std::string name, std::vector<Choice> choices, Binding binding, std::string meaning);
 Key text(std::string name, Binding binding, std::string meaning);
 
+/// x, y and z: 0, 1 and 2.
+inline std::vector<Choice> axes() { return {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}; }
+
+/// The path of a key in the section of a path; empty: at the top.
+inline std::string joined(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
 // --- the parts of the table, one file each
 // -------------------------------------------------------------------------
 

@@ -14,10 +14,6 @@ namespace {
 /// The selector's value cannot be told, so neither which keys exist.
 const std::string undecided = "?";
 
-std::string joined(const std::string& path, const std::string& key) {
-  return path.empty() ? key : path + "." + key;
-}
-
 /// The value of the section's selector; `started` says that a named thing has filled the object.
 std::string selected_by(const Section& section, const Node& table, const void* object, bool started) {
   const Key& key = *section.find_key(section.selector, "");

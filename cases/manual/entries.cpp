@@ -130,8 +130,7 @@ std::string section_text(const Section& section, const std::string& path) {
                         fmt::join(key.only_for, ", ")) +
             key_text(key, section);
   }
-  for (const Section& inner : section.sections)
-    text += section_text(inner, path.empty() ? inner.name : path + "." + inner.name);
+  for (const Section& inner : section.sections) text += section_text(inner, joined(path, inner.name));
   return text;
 }
 

@@ -42,16 +42,15 @@ void add_section(std::vector<Entry>& entries, const Section& section, const std:
       case_schema().find_section(path.substr(part.size(), path.find('.', part.size()) - part.size()));
   if (!path.empty())
     entries.push_back({path, [&section, path] { return section_text(section, path).substr(1); }, again});
-  const auto below = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
   for (const Key& key : section.keys) {
     entries.push_back(
-        {below(key.name), [&section, &key, path] { return key_entry(section, key, path); }, again});
+        {joined(path, key.name), [&section, &key, path] { return key_entry(section, key, path); }, again});
     for (const Choice& choice : key.choices)
       entries.push_back({choice.word,
                          [&section, &key, &choice, path] { return word_entry(section, key, choice, path); },
                          again});
   }
-  for (const Section& inner : section.sections) add_section(entries, inner, below(inner.name));
+  for (const Section& inner : section.sections) add_section(entries, inner, joined(path, inner.name));
 }
 
 void add_device(std::vector<Entry>& entries, const Template& device) {

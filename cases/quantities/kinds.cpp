@@ -25,6 +25,16 @@ void Probing::refuse(const std::string& key, const std::string& message) const {
 
 std::size_t Probing::electrode() const { return device.model.ports.electrode(quantity.of); }
 
+Eigen::Vector3d Probing::axis() const {
+  return quantity.along == along_gravity ? one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along);
+}
+
+std::vector<Choice> axes_and_gravity() {
+  std::vector<Choice> all = axes();
+  all.emplace_back("gravity", "as it pulls", along_gravity);
+  return all;
+}
+
 Key of_key(std::string meaning) { return text("of", to(&Quantity::of), std::move(meaning)); }
 
 Key place_key() { return of_key("the place").refers_to(Reference::place); }
@@ -37,9 +47,7 @@ Key electrode_key() { return of_key("the electrode").refers_to(Reference::electr
 
 Key body_key() { return of_key("the body").refers_to(Reference::body); }
 
-Key about_key() {
-  return word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along), "the axis");
-}
+Key about_key() { return word("along", axes(), to(&Quantity::along), "the axis"); }
 
 std::string turns_not(const Case& one, const Quantity&) {
   return one.dimension == fem::Dimension::axisymmetric
@@ -48,15 +56,13 @@ std::string turns_not(const Case& one, const Quantity&) {
 }
 
 Key component_key() {
-  return word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along),
-              "component; without it the magnitude")
+  return word("along", axes(), to(&Quantity::along), "component; without it the magnitude")
       .optional()
       .only_with(when::moves_along_it());
 }
 
 Key axis_key() {
-  return word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Quantity::along), "direction")
-      .only_with(when::moves_along_it());
+  return word("along", axes(), to(&Quantity::along), "direction").only_with(when::moves_along_it());
 }
 
 Key plane_key() {

@@ -52,6 +52,7 @@ struct Probing {
 
   [[noreturn]] void refuse(const std::string& key, const std::string& message) const;
   std::size_t electrode() const; ///< the number of the one it is of
+  Eigen::Vector3d axis() const;  ///< of what is along an axis, or as gravity pulls
 };
 
 inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
@@ -68,6 +69,7 @@ inline double change(double now, double then) { return now / then - 1; }
 
 // --- keys that several kinds have, and what all say of them
 
+std::vector<Choice> axes_and_gravity();
 Key of_key(std::string meaning);
 Key place_key();
 Key between_key();

@@ -238,8 +238,7 @@ Eigen::VectorXd displacement_gradient(const Probing& probing, const fem::State&)
   const Quantity& quantity = probing.quantity;
   const meshing::Mesh& mesh = probing.device.mesh;
   Row row(probing);
-  Eigen::Vector3d along =
-      quantity.along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(*quantity.along);
+  Eigen::Vector3d along = probing.axis();
   if (quantity.point) {
     along = turn_to(Eigen::Vector3d(quantity.point->data()), mesh).transpose() * along;
     const ElementPoint at = element_at_point(probing);
@@ -256,8 +255,7 @@ std::vector<Key> displacement_keys() {
           measure("point", "m", to(&Quantity::point), "instead of a place: the point of the film, as drawn")
               .values(3, 3)
               .replacing("of"),
-          word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}, {"gravity", "as it pulls", along_gravity}},
-               to(&Quantity::along), "component; without it the magnitude")
+          word("along", axes_and_gravity(), to(&Quantity::along), "component; without it the magnitude")
               .optional()
               .only_with(when::moves_along_it()),
           since_key()};

@@ -84,9 +84,7 @@ Give give_of_held(fem::Equilibrium& equilibrium, const fem::State& state, const 
 Give give_of(const Probing& probing, const std::string& place, const Measured& measured,
              const fem::State& state) {
   if (probing.device.free_body) return {}; // it goes along
-  const int along = *probing.quantity.along;
-  const Eigen::Vector3d axis =
-      along == along_gravity ? probing.one.gravity.down() : Eigen::Vector3d::Unit(along);
+  const Eigen::Vector3d axis = probing.axis();
   const fem::DofMap& dofs = probing.device.model.dofs;
   const auto& nodes = probing.device.mesh.node_sets.at(place);
   const std::vector<double>& shares = probing.device.shares.at(place).of_nodes;
@@ -144,13 +142,12 @@ double modal_stiffness(const Probing& probing, const Measured& measured) {
 }
 
 std::vector<Key> coupling_keys() {
-  return {electrode_key(),
-          text("place", to(&Quantity::place), "the place that would be held").refers_to(Reference::place),
-          measure("length", "m", to(&Quantity::length), "length of the electrode along the axis, as drawn")
-              .above(0),
-          word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}, {"gravity", "as it pulls", along_gravity}},
-               to(&Quantity::along), "direction")
-              .only_with(when::moves_along_it())};
+  return {
+      electrode_key(),
+      text("place", to(&Quantity::place), "the place that would be held").refers_to(Reference::place),
+      measure("length", "m", to(&Quantity::length), "length of the electrode along the axis, as drawn")
+          .above(0),
+      word("along", axes_and_gravity(), to(&Quantity::along), "direction").only_with(when::moves_along_it())};
 }
 
 std::vector<Key> mode_keys() {

@@ -36,9 +36,6 @@ class IdleKeys {
   std::vector<Diagnostic> take() { return std::move(found_); }
 
  private:
-  static std::string joined(const std::string& path, const std::string& key) {
-    return path.empty() ? key : path + "." + key;
-  }
   bool is_idle(const Condition& acts, const void* object) const {
     return acts.met && !acts.met(case_, object);
   }

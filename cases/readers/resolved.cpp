@@ -38,8 +38,8 @@ void write_section(const Section& section, const void* object, const std::string
   for (const Section& inner : section.sections) {
     if (inner.presence == Section::Presence::separate) continue;
     for (const Access::Entry& entry : inner.access.entries(object)) {
-      const std::string inner_path =
-          (path.empty() ? "" : path + ".") + inner.name + (entry.name.empty() ? "" : "." + entry.name);
+      std::string inner_path = joined(path, inner.name);
+      if (!entry.name.empty()) inner_path = joined(inner_path, entry.name);
       fmt::print(out, "\n{}\n", inner.heading(inner_path));
       write_section(inner, entry.object, inner_path, out);
     }

@@ -202,8 +202,7 @@ Estimates estimate_errors(const Case& one, const Simulation& own_run, const Outc
   const bool smooth = is_smooth(one, own_run);
   const bool viscous =
       std::ranges::any_of(one.film_materials(), [](const auto* material) { return material->viscosity > 0; });
-  const bool jumps =
-      std::ranges::any_of(own.way, [](const std::string& what) { return what.starts_with("jump"); });
+  const bool jumps = own.passes("jump");
   const double unknown_release = jumps ? from_where * std::abs(own_run.energy().work().released) : 0;
   const double of_steps = divides_time_alike(own, others.front()) ? own_run.time_steps().error : 0;
   const double spring = viscous ? 1 / materials::stiffness_before_viscosity : 0;

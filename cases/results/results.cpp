@@ -54,20 +54,6 @@ std::vector<post::Highlight> highlights(const Case& one, const Results& results,
   return shown;
 }
 
-/// Events with whether they depend on the mesh; of critical points that at which the run ends.
-std::vector<post::StepRecord> with_remarks(std::vector<post::StepRecord> records, const Results& results) {
-  for (const auto& [kind, remark] : results.event_remarks) {
-    bool told = false;
-    for (auto record = records.rbegin(); record != records.rend(); ++record)
-      for (auto event = record->events.rbegin(); event != record->events.rend(); ++event) {
-        if (event->kind != kind || (told && is_critical(kind))) continue;
-        event->message += fmt::format("; this {}", remark);
-        told = true;
-      }
-  }
-  return records;
-}
-
 /// What is known of the errors of margins, added to them.
 std::vector<Margin> with_estimates(std::vector<Margin> margins, const std::vector<ErrorEstimate>& estimates) {
   for (std::size_t m = 0; m < std::min(margins.size(), estimates.size()); ++m) {
@@ -116,6 +102,19 @@ double drift_of_fixed_turn(const Case& one, const Body& body, const Device& devi
 }
 
 } // namespace
+
+Journal with_remarks(Journal journal, const std::vector<EventRemark>& remarks) {
+  for (const auto& [kind, remark] : remarks) {
+    bool told = false;
+    for (auto record = journal.records.rbegin(); record != journal.records.rend(); ++record)
+      for (auto event = record->events.rbegin(); event != record->events.rend(); ++event) {
+        if (event->kind != kind || (told && is_critical(kind))) continue;
+        event->message += fmt::format("; this {}", remark);
+        told = true;
+      }
+  }
+  return journal;
+}
 
 bool Results::checks_passed() const {
   return std::all_of(checks.begin(), checks.end(), [](const post::CheckRow& check) { return check.passed; });
@@ -241,7 +240,7 @@ json summary_json(const Case& one, const Device& device, const Results& results,
   summary["margins"] = margins;
   if (results.time_error > 0) summary["time_error"] = results.time_error;
   json events = json::array();
-  for (const auto& record : with_remarks(journal.records, results))
+  for (const auto& record : journal.records)
     for (const auto& event : record.events)
       events.push_back({{"kind", event.kind},
                         {"step", record.step},
@@ -334,7 +333,7 @@ post::Report run_report(const Case& one, const Device& device, const Results& re
       {"Quantities", {post::quantity_table(results.quantities), post::Paragraph{error_paragraph(results)}}});
   report.sections.push_back(margin_section(results.margins));
   if (!results.checks.empty()) report.sections.push_back({"Checks", {post::check_table(results.checks)}});
-  if (post::Table events = post::event_table(with_remarks(journal.records, results)); !events.rows.empty())
+  if (post::Table events = post::event_table(journal.records); !events.rows.empty())
     report.sections.push_back({"Events", {std::move(events)}});
   if (!results.event_remarks.empty()) {
     post::Section section{"Events that depend on the mesh", {}};

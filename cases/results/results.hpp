@@ -33,6 +33,9 @@ Results collect_results(const Case& one, const Simulation& simulation, const Out
 std::vector<std::optional<ProfileTable>> profiles_of(const Case& one, const Device& device,
                                                      const Outcome& outcome, const Journal& journal);
 
+/// Events with whether they depend on the mesh; of critical points that at which the run ends.
+Journal with_remarks(Journal journal, const std::vector<EventRemark>& remarks);
+
 /// summary.json: status, quantities.<name>.{value, unit, error_estimate, error_remark, peak}, checks, events,
 /// warnings, mesh.
 /// Nothing in it depends on the machine or the time.

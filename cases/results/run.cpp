@@ -232,7 +232,8 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
                         : outcome.ending == Ending::gave_up ? ExitCode::not_converged
                         : results.checks_passed()           ? ExitCode::ok
                                                             : ExitCode::check_failed;
-  post::Report report = run_report(one, device, results, recorder.journal(), read_text(folder / "run.log"));
+  const Journal told = with_remarks(recorder.journal(), results.event_remarks);
+  post::Report report = run_report(one, device, results, told, read_text(folder / "run.log"));
   report.part_of = settings.part_of;
   if (one.all_states)
     post::write_report(folder, report);
@@ -241,7 +242,7 @@ ExitCode run_case(const Case& one, const RunSettings& settings) {
   for (std::size_t p = 0; p < one.profiles.size(); ++p)
     if (results.profiles[p])
       folder.write(profile_name(one.profiles[p]) + ".csv", results.profiles[p]->csv(one.profiles[p]));
-  folder.write("summary.json", summary_json(one, device, results, recorder.journal()).dump(2) + "\n");
+  folder.write("summary.json", summary_json(one, device, results, told).dump(2) + "\n");
   if (!left_out) {
     folder.set_complete(static_cast<int>(code));
     std::filesystem::remove(folder / checkpoint_name);

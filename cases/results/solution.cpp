@@ -25,7 +25,7 @@ Solution told_by(std::span<const post::StepRecord> records) {
   for (const post::StepRecord& record : records)
     for (const post::Event& event : record.events)
       if (std::ranges::find(of_the_way, event.kind) != of_the_way.end())
-        solution.way.push_back(fmt::format("{} in step \"{}\"", event.kind, record.step));
+        solution.way.push_back({event.kind, record.step});
       else
         solution.events.insert(event.kind);
   if (!records.empty()) solution.last = records.back();
@@ -33,7 +33,10 @@ Solution told_by(std::span<const post::StepRecord> records) {
 }
 
 std::string way_text(const Solution& solution) {
-  return solution.way.empty() ? "without critical point" : fmt::format("{}", fmt::join(solution.way, ", "));
+  std::vector<std::string> words;
+  for (const Turn& turn : solution.way)
+    words.push_back(fmt::format("{} in step \"{}\"", turn.kind, turn.step));
+  return words.empty() ? "without critical point" : fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::string end_text(const post::StepRecord& record) {
@@ -87,9 +90,7 @@ Solution solve(const Discretisation& discretisation, bool with_margins, int thre
 
 double on_its_side(double value, const Solution& own, double own_value) {
   constexpr double mirrored = 0.25;
-  const bool leaves = std::ranges::any_of(own.way, [](const std::string& what) {
-    return what.starts_with("jump") || what.starts_with("bifurcation");
-  });
+  const bool leaves = own.passes("jump") || own.passes("bifurcation");
   return leaves && std::abs(value + own_value) < mirrored * std::abs(own_value) ? -value : value;
 }
 

@@ -5,12 +5,20 @@
 #include "cases/results/margins.hpp"
 #include "cases/runs/simulation.hpp"
 
+#include <algorithm>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dielast::cases {
+
+/// A critical point or a jump.
+struct Turn {
+  std::string kind, step;
+  bool operator==(const Turn&) const = default;
+};
 
 /// What has become of the case on one discretisation.
 struct Solution {
@@ -18,11 +26,14 @@ struct Solution {
   std::vector<double> values;
   std::vector<double> rises;      ///< see Simulation::rises()
   std::vector<Farthest> farthest; ///< see Measurement
-  std::vector<std::string> way;   ///< what happened to the equilibrium, in order
+  std::vector<Turn> way;          ///< what happened to the equilibrium, in order
   std::set<std::string> events;   ///< kinds of whatever else happened
   post::StepRecord last;          ///< the record of the last accepted state
   std::vector<Margin> margins;
   int time_steps = 0;
+  bool passes(std::string_view kind) const { ///< a turn of that kind
+    return std::ranges::find(way, kind, &Turn::kind) != way.end();
+  }
   std::string trouble; ///< why it did not reach its end (Outcome::kind, or what was thrown); empty otherwise
 };
 

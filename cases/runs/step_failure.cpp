@@ -60,8 +60,12 @@ Outcome StepRun::failure(const Trouble& trouble) const {
   return outcome;
 }
 
-/// `ways_on`: what the step may do instead; empty: nothing.
-Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const {
+std::string WaysOn::words() const {
+  return fmt::format("{}{}{}", follow ? "\"follow\"" : "", follow && jump ? " or " : "",
+                     jump ? "\"jump\"" : "");
+}
+
+Outcome StepRun::cause(const Trouble& trouble, WaysOn ways_on) const {
   const double reached = progress_.ramp.load_factor;
   const auto singular = [&] {
     return Outcome{Ending::gave_up, "singular tangent",
@@ -90,7 +94,8 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
                             ? "Stretch it a little"
                             : "Let it wrinkle (wrinkling = \"tension field\") or stretch it a little, or let "
                               "solver.smallest_increment be smaller")};
-  const auto go_on = ways_on.empty() ? "" : "; or let the step go on with on_instability = " + ways_on;
+  const auto go_on =
+      ways_on.words().empty() ? "" : "; or let the step go on with on_instability = " + ways_on.words();
   const std::string more =
       " Lower what drives it, or stiffen the device or stretch the film more, to stay below it" + go_on;
   const char* of_edges =
@@ -101,8 +106,8 @@ Outcome StepRun::cause(const Trouble& trouble, const std::string& ways_on) const
             "other, as in symmetric devices, move one part along by 1e-3 of an element, or model one half";
   if (trouble.critical) {
     const bool branches_off = trouble.critical->kind == fem::Instability::bifurcation;
-    const bool may_switch = branches_off && step_.on_bifurcation != OnBifurcation::switch_branch &&
-                            ways_on.find("\"follow\"") != std::string::npos;
+    const bool may_switch =
+        branches_off && step_.on_bifurcation != OnBifurcation::switch_branch && ways_on.follow;
     if (timed())
       return {
           Ending::gave_up, "limit point",

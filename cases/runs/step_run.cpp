@@ -233,7 +233,7 @@ std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
     return failure(trouble);
   }
   const double s = progress_.ramp.load_factor;
-  progress_.followed = fem::begin_continuation(equilibrium_, path_, loaded(last(), s), s, 1, arcs());
+  progress_.followed = fem::begin_continuation(equilibrium_, path_, loaded(last(), s), s, arcs());
   if (!progress_.followed) return failure(trouble);
   return std::nullopt;
 }
@@ -342,8 +342,7 @@ std::optional<Outcome> StepRun::jump(const Trouble& trouble) {
   }
   if (result.end == fem::JumpEnd::interrupted) return Outcome{Ending::interrupted, between_states};
   if (result.end != fem::JumpEnd::landed) {
-    const char* follow = "\"follow\"";
-    Outcome outcome = cause(trouble, ways_on_.starts_with(follow) ? follow : "");
+    Outcome outcome = cause(trouble, {.follow = ways_on_.follow});
     outcome.message += fmt::format(". No stable state was found to jump to: the device {}",
                                    result.end == fem::JumpEnd::ran_away ? "runs away" : "is stuck");
     return outcome;

@@ -59,15 +59,22 @@ struct Outcome {
 /// rounding.
 Outcome end_at_rest(fem::Equilibrium& equilibrium, const fem::State& last);
 
+/// What on_instability of a step that stops may be instead.
+struct WaysOn {
+  bool follow = false, jump = false;
+  /// Empty: nothing.
+  std::string words() const;
+};
+
 /// Takes a device through one step: under load control and, where that ends, along the path by arclength or
 /// to the next stable state, as the step wants it.
 class StepRun {
  public:
   StepRun(fem::Equilibrium& equilibrium, const Step& step, const fem::LoadPath& path,
           const fem::RampOptions& options, StepProgress& progress, const StepObserver& observer,
-          std::string ways_on)
+          WaysOn ways_on)
       : equilibrium_(equilibrium), step_(step), path_(path), options_(options), progress_(progress),
-        observer_(observer), ways_on_(std::move(ways_on)), accepted_{progress.ramp.load_factor, last()} {}
+        observer_(observer), ways_on_(ways_on), accepted_{progress.ramp.load_factor, last()} {}
 
   Outcome run();
 
@@ -113,7 +120,7 @@ class StepRun {
   /// Whether all that moves is slack film, or what carries it.
   bool is_slack() const { return equilibrium_.is_slack(last()) && equilibrium_.film_moves_all(); }
   Outcome failure(const Trouble& trouble) const;
-  Outcome cause(const Trouble& trouble, const std::string& ways_on) const;
+  Outcome cause(const Trouble& trouble, WaysOn ways_on) const;
 
   fem::Equilibrium& equilibrium_;
   const Step& step_;
@@ -121,7 +128,7 @@ class StepRun {
   const fem::RampOptions& options_;
   StepProgress& progress_;
   const StepObserver& observer_;
-  const std::string ways_on_;      ///< what a step that stops may do instead, for messages; empty: nothing
+  const WaysOn ways_on_;           ///< for messages
   fem::PathPoint accepted_;        ///< the last accepted state and its load factor
   std::optional<Trouble> leaving_; ///< the step leaves its path
   bool interrupted_ = false;       ///< between states, see StepObserver::goes_on

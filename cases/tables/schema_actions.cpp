@@ -11,7 +11,7 @@ namespace {
 
 constexpr double smallest_resistance = 1e-3; ///< Ohm: below, charging is quicker than any step of time
 
-const std::vector<Choice> axes{
+const std::vector<Choice> described_axes{
     {"x", "along x", 0}, {"y", "along y", 1}, {"z", "along z, normal to flat film", 2}};
 
 Section electrode_section() {
@@ -68,16 +68,16 @@ Section displacement_section() {
     return static_cast<const Support*>(parent)->moves() ? std::vector<Access::Entry>{{"", parent}}
                                                         : std::vector<Access::Entry>{};
   };
-  for (std::size_t i = 0; i < axes.size(); ++i) {
+  for (std::size_t i = 0; i < described_axes.size(); ++i) {
     Binding motion = to_part<Support>([i](auto& support) -> auto& { return support.motion[i]; });
     motion.set = [i](void* object, const Value& value) {
       auto& support = *static_cast<Support*>(object);
       assign(support.motion[i], value);
       support.fixed[i] = true; // what is moved is held
     };
-    section.keys.push_back(
-        wave(axes[i].word, "m", motion, "displacement " + axes[i].meaning + ", from the film as drawn")
-            .optional());
+    section.keys.push_back(wave(described_axes[i].word, "m", motion,
+                                "displacement " + described_axes[i].meaning + ", from the film as drawn")
+                               .optional());
   }
   return section;
 }
@@ -142,7 +142,7 @@ std::vector<Key> distance_keys() {
   return {text("between", to(&T::between), "the two places (their centroids)")
               .values(2, 2)
               .refers_to(Reference::place),
-          word("along", axes, to(&T::along), "axis along which the distance is taken")};
+          word("along", described_axes, to(&T::along), "axis along which the distance is taken")};
 }
 
 Section spring_section() {

@@ -74,8 +74,7 @@ Section fin_section() {
           .above(0)
           .at_most(10)
           .only_with(when::masses_matter()),
-      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Fin::along),
-           "the axis across it, as drawn, along which the fluid resists"),
+      word("along", axes(), to(&Fin::along), "the axis across it, as drawn, along which the fluid resists"),
       measure("fluid_density", "kg/m^3", to(&Fin::fluid_density), "of the fluid")
           .above(0)
           .at_most(1e5)

@@ -77,8 +77,7 @@ Section controller_section() {
       text("place", of_load(&DrivenLoad::of), "the place that is held")
           .refers_to(Reference::supported_place)
           .only({"displacement"}),
-      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, of_load(&DrivenLoad::along),
-           "component of the force or displacement")
+      word("along", axes(), of_load(&DrivenLoad::along), "component of the force or displacement")
           .only({"force", "displacement"}),
       text("quantity", to(&Controller::quantity), "name of the quantity that is measured")
           .refers_to(Reference::quantity),

@@ -285,7 +285,7 @@ Section film_section() {
           to(&Film::potential), "where the field of a solid comes from")
           .otherwise("layers")
           .only_with(when::solid()),
-      word("stacked_along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Film::stacked_along),
+      word("stacked_along", axes(), to(&Film::stacked_along),
            "direction in which the layers of a solid are stacked, as it is drawn (they turn with a part that "
            "is `turned`); without it along the height: y in plane strain and in a [slab], z otherwise")
           .optional()

@@ -59,9 +59,7 @@ Section profile_section() {
            to(&Profile::kind), "what is shown")
           .otherwise("displacement"),
       text("of", to(&Profile::of), "the place, such as a side or a surface").refers_to(Reference::place),
-      word("along", {{"x", "", 0}, {"y", "", 1}, {"z", "", 2}}, to(&Profile::along),
-           "component of the displacement")
-          .only({"displacement"}),
+      word("along", axes(), to(&Profile::along), "component of the displacement").only({"displacement"}),
       text("since", to(&Profile::since), "step at whose end it is zero; without it the mesh as drawn")
           .optional()
           .only({"displacement"})

@@ -33,6 +33,11 @@ Eigen::MatrixXcd solve_dense(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& 
   return A.partialPivLu().solve(b);
 }
 
+void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
+  matrix.conservativeResize(Eigen::NoChange, matrix.cols() + columns.cols());
+  matrix.rightCols(columns.cols()) = columns;
+}
+
 Eigen::MatrixXd random_vectors(Eigen::Index rows, Eigen::Index count) {
   std::mt19937 random(1);
   Eigen::MatrixXd vectors(rows, count);

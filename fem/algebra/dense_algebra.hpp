@@ -38,6 +38,8 @@ Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& A);
 /// The x with the least |A x - b|, by columns.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
+void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns);
+
 /// `count` columns of entries between -1/2 and 1/2, the same ones in every run.
 Eigen::MatrixXd random_vectors(Eigen::Index rows, Eigen::Index count);
 

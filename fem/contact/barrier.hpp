@@ -19,6 +19,9 @@ struct Barrier {
   double stiffness = 0; ///< of lengths Pa, of areas Pa/m
   double foot = 0;
 
+  /// Of a gap, on any way that is tried.
+  static constexpr double kept = 0.1;
+
   /// The largest gap at which it acts: surfaces that are drawn on one another touch, in spite of rounding.
   double reach() const { return thickness * (1 + 1e-9); }
   bool touches(double gap) const { return gap <= reach(); }

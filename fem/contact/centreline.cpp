@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/contact/centreline.hpp"
 
+#include "fem/contact/barrier.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -94,13 +96,13 @@ materials::Dual<Centreline::size> Centreline::distance_with_derivatives(const Po
 
 double Centreline::free_way(const PointAndLine& from, const PointAndLine& to, double touching,
                             double most) const {
-  constexpr double kept = 0.1, near = 1.2;
+  constexpr double near = 1.2;
   const Vector2d moved = to[0] - from[0];
   const double speed = std::max({(to[1] - from[1] - moved).norm(), (to[2] - from[2] - moved).norm(),
                                  (control(to) - control(from) - moved).norm()});
   if (least_distance(from) - touching > most * speed) return most;
   double gap = distance(from) - touching;
-  const double least = kept * gap;
+  const double least = Barrier::kept * gap;
   for (double part = 0;;) {
     if (gap - least >= (most - part) * speed) return most;
     if (gap <= near * least) return part;

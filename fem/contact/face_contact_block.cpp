@@ -26,7 +26,6 @@ using Box = Eigen::AlignedBox3d;
 
 constexpr int dofs = 36;       ///< of a face's nodes, then of the other surface's face
 constexpr double margin = 0.3; ///< of the finer faces' size, up to which pairs are elements
-constexpr double kept = 0.1;   ///< of a gap on any way
 constexpr double closest =
     1e-3;                      ///< of the barrier's thickness: nearer faces are not told from ones that cross
 constexpr double nearly = 0.1; ///< of it: how near edges are that meet
@@ -156,13 +155,13 @@ class FaceContactBlock final : public TwoSurfaces<FaceContact, 6, FaceNodes> {
       if (pair.surface == 1) continue; // both at once
       const MovingFace one = moving(before.of(pair, 0), after.of(pair, 0)),
                        other = moving(before.of(pair, 1), after.of(pair, 1));
-      if (way_apart(one, other, kept * thickness, part, few_tests) == part) continue;
-      part = way_of_points(before.of(pair, 0), after.of(pair, 0), before.of(pair, 1), after.of(pair, 1), kept,
-                           part);
-      part = way_of_points(before.of(pair, 1), after.of(pair, 1), before.of(pair, 0), after.of(pair, 0), kept,
-                           part);
+      if (way_apart(one, other, Barrier::kept * thickness, part, few_tests) == part) continue;
+      part = way_of_points(before.of(pair, 0), after.of(pair, 0), before.of(pair, 1), after.of(pair, 1),
+                           Barrier::kept, part);
+      part = way_of_points(before.of(pair, 1), after.of(pair, 1), before.of(pair, 0), after.of(pair, 0),
+                           Barrier::kept, part);
       if (const double apart = way_apart(one, other, closest * thickness, part); apart < part)
-        part = (1 - kept) * apart;
+        part = (1 - Barrier::kept) * apart;
     }
     return part;
   }

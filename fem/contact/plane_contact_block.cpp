@@ -69,11 +69,11 @@ class PlaneContactBlock final : public ContactBlock {
     return result;
   }
   double free_way(const State& from, const State& to) const override {
-    constexpr double kept = 0.1; // of the gap
     double part = 1;
     for (int e = 0; e < element_count(); ++e) {
       const double before = gap(from, e), after = gap(to, e);
-      if (after < kept * before) part = std::min(part, (1 - kept) * before / (before - after));
+      if (after < Barrier::kept * before)
+        part = std::min(part, (1 - Barrier::kept) * before / (before - after));
     }
     return part;
   }

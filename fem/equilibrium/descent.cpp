@@ -100,10 +100,12 @@ bool Equilibrium::is_neutral(const State& state, int unstable_modes, const Newto
       options.wrinkles && std::ranges::count(film, materials::Tension::slack, &MembraneSample::tension) > 0;
   if (!wrinkles && !is_slack(state)) return false;
   const std::vector<char> moved = moved_by_film();
+  double left = 0;
+  for (const auto& block : model_.blocks) left = std::max(left, block->left_where_wrinkled());
   Eigen::VectorXd added = Eigen::VectorXd::Zero(stiffness_.size()); // what film does not move is what it is
   for (Eigen::Index e = 0; e < added.size(); ++e)
     if (moved[static_cast<std::size_t>(e)])
-      added[e] = (wrinkles ? several * model_.wrinkled : rounding) *
+      added[e] = (wrinkles ? several * left : rounding) *
                  std::min(stiffness_[e], film_stiffness_ / (weight_[e] * weight_[e]));
   return factor(state, nullptr, &added) && tangent_.unstable_modes() <= unstable_modes;
 }

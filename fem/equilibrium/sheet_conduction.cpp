@@ -21,15 +21,7 @@ SheetConduction::SheetConduction(const Model& model) : model_(model) {
   }
   const SheetMatrices matrices = model.sheet_matrices(model.initial_state());
   require_connections(matrices);
-  Eigen::SparseMatrix<double> pattern(inner_count_, inner_count_);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& entry : matrices.conductance) {
-    const int row = inner_[static_cast<std::size_t>(entry.row())];
-    const int column = inner_[static_cast<std::size_t>(entry.col())];
-    if (row >= 0 && column >= 0) entries.emplace_back(row, column, 1.0);
-  }
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  solver_.analyzePattern(pattern);
+  solver_.analyzePattern(inner(matrices, materials::TimeScheme::relaxed()));
 }
 
 /// Walks along the sheets from their terminals.
@@ -60,7 +52,8 @@ void SheetConduction::require_connections(const SheetMatrices& matrices) const {
 }
 
 /// C + s (g + L) away from the terminals; g + L in steady flow.
-void SheetConduction::factor(const SheetMatrices& matrices, const materials::TimeScheme& scheme) {
+Eigen::SparseMatrix<double> SheetConduction::inner(const SheetMatrices& matrices,
+                                                   const materials::TimeScheme& scheme) const {
   const double share = scheme.is_relaxed() ? 1 : scheme.dt / scheme.a0;
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& entry : matrices.conductance) {
@@ -75,7 +68,7 @@ void SheetConduction::factor(const SheetMatrices& matrices, const materials::Tim
   }
   Eigen::SparseMatrix<double> matrix(inner_count_, inner_count_);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  solver_.factorize(matrix);
+  return matrix;
 }
 
 /// Solution for sources at all points, those at terminals left out; 0 there.
@@ -135,7 +128,7 @@ double SheetConduction::solve(State& state) {
     state.sheet_drop.setZero();
   } else {
     const SheetMatrices matrices = model_.sheet_matrices(state);
-    factor(matrices, state.scheme);
+    solver_.factorize(inner(matrices, state.scheme));
     if (solver_.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
     Eigen::VectorXd sources = relaxed ? Eigen::VectorXd::Zero(points) : matrices.capacitance;
     const double share = relaxed ? 1 : state.scheme.dt / state.scheme.a0;

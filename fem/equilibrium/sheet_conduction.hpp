@@ -30,7 +30,7 @@ class SheetConduction {
 
  private:
   void require_connections(const SheetMatrices& matrices) const;
-  void factor(const SheetMatrices& matrices, const materials::TimeScheme& scheme);
+  Eigen::SparseMatrix<double> inner(const SheetMatrices& matrices, const materials::TimeScheme& scheme) const;
   Eigen::VectorXd spread(const Eigen::VectorXd& sources) const;
   /// d = per_volt Phi - past
   struct Drops {

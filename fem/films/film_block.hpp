@@ -27,6 +27,7 @@ class FilmBlock : public ElementBlock {
   int dofs_per_element() const override { return dofs; }
   int granularity() const override { return lanes; }
   bool may_be_slack() const override { return true; }
+  double left_where_wrinkled() const override { return section_.wrinkled; }
   void claim_dofs(DofMap& dof_map, Dimension dimension) override;
   void element_equations(int element, const DofMap& dofs, std::span<int> equations) const override;
   void sample(const State& state, Samples& samples) const override;

@@ -18,7 +18,7 @@ constexpr double same_rate = 1e-6;     ///< relative
 constexpr int most_nodes = 32;         ///< between which rates that vary are interpolated
 constexpr double interpolation_error = 1e-15;
 
-State relaxed(State state) {
+State without_schemes(State state) {
   state.scheme = materials::TimeScheme::relaxed();
   state.motion_scheme = {};
   return state;
@@ -31,7 +31,7 @@ std::vector<double> or_zeros(const std::vector<double>& values, std::size_t size
 } // namespace
 
 Linearisation::Linearisation(Equilibrium& equilibrium, const State& state, bool drifts)
-    : equilibrium_(equilibrium), state_(relaxed(state)) {
+    : equilibrium_(equilibrium), state_(without_schemes(state)) {
   Assembler& assembler = equilibrium.assembler();
   assembler.tangent(state_);
   stiffness_ = assembler.matrix();

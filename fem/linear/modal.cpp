@@ -3,6 +3,7 @@
 
 #include "fem/algebra/dense_algebra.hpp"
 #include "fem/algebra/orientation.hpp"
+#include "fem/linear/rest.hpp"
 #include "fem/linear/rigid_motions.hpp"
 
 #include <algorithm>
@@ -20,21 +21,6 @@ constexpr double tolerance = 1e-6;         ///< of modes; that of omega^2 is its
 constexpr double farther = 10;             ///< shifts one after another
 constexpr double omega_round_off = 1e-13;  ///< of omega^2, over that of the stiffest unknowns
 
-/// As the state is, but for what moves with a vibration.
-State vibrating(const State& state, bool instantaneous) {
-  State at = state;
-  at.scheme = instantaneous ? materials::TimeScheme::frozen() : materials::TimeScheme::relaxed();
-  at.motion_scheme = {};
-  std::ranges::replace(at.supply, Supply::circuit, Supply::voltage);
-  std::ranges::replace(at.supply, Supply::leak, Supply::charge);
-  return at;
-}
-
-void append(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
-  matrix.conservativeResize(Eigen::NoChange, matrix.cols() + columns.cols());
-  matrix.rightCols(columns.cols()) = columns;
-}
-
 } // namespace
 
 GeneralisedAlpha mass_times(double shift) { return {.dt = 1 / std::sqrt(shift), .beta = 1}; }
@@ -49,7 +35,8 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   const FreeMass mass = free_mass(equilibrium, state);
   const Eigen::SparseMatrix<double>& M = mass.M;
   const Eigen::Index massive = (M.diagonal().array() > 0).count();
-  State at = vibrating(state, options.instantaneous);
+  State at = relaxed(state);
+  at.motion_scheme = {};
   RigidMotions rigid;
   if (options.drifts) rigid = rigid_motions(equilibrium, at, mass);
   const Eigen::Index elastic = massive - rigid.motions.cols();
@@ -65,7 +52,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
   };
   const auto is_unstable = [&] { return equilibrium.tangent().unstable_modes() > 0; };
   if (options.drifts || !equilibrium.factor(at) || is_unstable()) {
-    double below = singular_shift * mass.fastest;
+    double below = least_shift * mass.fastest;
     if (!factor(below)) return std::nullopt;
     if (is_unstable()) { // what is nearest to zero need not be the lowest: just beyond all that is unstable
       double beyond = below;
@@ -95,9 +82,9 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
     for (int power = 0; power < powers; ++power) {
       X = orthonormal_to(V, M, std::move(X));
       if (X.cols() == 0) break;
-      append(V, X);
+      append_columns(V, X);
       X = respond(X);
-      append(W, X);
+      append_columns(W, X);
     }
     if (V.cols() == 0) return std::nullopt; // the tangent's numbers are beyond double precision
     const Eigen::MatrixXd inverse = V.transpose() * (M * W);

@@ -9,9 +9,8 @@
 namespace dielast::fem {
 
 struct ModalOptions {
-  int count = 6;              ///< of modes wanted; there are as many as unknowns with a mass
-  bool instantaneous = false; ///< dashpots stay as they are; otherwise they let go (slow vibration)
-  bool drifts = false;        ///< nothing holds the model: rigid motions are left out, see rigid_motions()
+  int count = 6;       ///< of modes wanted; there are as many as unknowns with a mass
+  bool drifts = false; ///< nothing holds the model: rigid motions are left out, see rigid_motions()
 };
 
 /// Small free vibration u = shape cos(omega t) about an equilibrium: K shape = omega^2 M shape, with K the
@@ -27,9 +26,9 @@ struct VibrationMode {
 /// The modes of the least omega^2, ascending, about an equilibrium under any load: prestretched,
 /// charged, with its dead forces. Electrodes whose charge is given (chambers whose volume is) keep it, so
 /// that K is bordered (see BorderedTangent); all others, those on circuits too, keep their voltage. Unknowns
-/// without mass follow statically. Motion without stiffness is allowed where it has mass. Nothing where K is
-/// singular otherwise or the iteration does not converge. Shapes are oriented (see orient(); rotations count
-/// times the model's length scale).
+/// without mass follow statically, and dashpots let go (slow vibration). Motion without stiffness is allowed
+/// where it has mass. Nothing where K is singular otherwise or the iteration does not converge. Shapes are
+/// oriented (see orient(); rotations count times the model's length scale).
 ///
 /// Rayleigh and Ritz in the span of a few vectors X and T X, T^2 X, T^3 X with T = K^-1 M, restarted from the
 /// lowest Ritz vectors until they converge (block Krylov; subspace iteration of Bathe, Finite Element
@@ -40,7 +39,7 @@ std::optional<std::vector<VibrationMode>> vibration_modes(Equilibrium& equilibri
                                                           const ModalOptions& options);
 
 /// Shift with which the mass holds what nothing else does, over the squared frequency of single unknowns.
-constexpr double singular_shift = 1e-9;
+constexpr double least_shift = 1e-9;
 
 /// A scheme that adds shift M to the tangent, shift in 1/s^2, and nothing of the dampers.
 GeneralisedAlpha mass_times(double shift);

@@ -23,11 +23,6 @@ Eigen::Index widest_of(Eigen::Index equations, std::size_t terms) {
   return static_cast<Eigen::Index>(std::min(most, bytes / std::max(per_column, 1.0)));
 }
 
-void widen(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
-  matrix.conservativeResize(Eigen::NoChange, matrix.cols() + columns.cols());
-  matrix.rightCols(columns.cols()) = columns;
-}
-
 /// Per equation the root of its stiffness; of a multiplier, whose diagonal is not positive, as far as it is
 /// that of what it acts on.
 Eigen::VectorXd scale_of(const SparseSymmetric& K) {
@@ -88,19 +83,19 @@ void ResponseBasis::add(const Eigen::MatrixXcd& X) {
     const double whole = x.norm();
     for (int twice = 0; twice < 2; ++twice) x -= scaled_ * (scaled_.transpose() * x); // once loses digits
     const double left = x.norm();
-    if (left > part_spanned * whole) widen(scaled_, x / left);
+    if (left > part_spanned * whole) append_columns(scaled_, x / left);
   }
   const Eigen::Index now = scaled_.cols(), more = now - before;
   if (more == 0) return;
   const Eigen::MatrixXd fresh = scale_.cwiseInverse().asDiagonal() * scaled_.rightCols(more);
-  widen(V_, fresh);
+  append_columns(V_, fresh);
   const SparseSymmetric& K = at_.stiffness();
   const auto terms = at_.terms();
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const Eigen::Map<const Eigen::SparseMatrix<double>> lower(
         K.size, K.size, static_cast<Eigen::Index>(terms[k]->size()), K.column_start.data(), K.rows.data(),
         terms[k]->data());
-    widen(TV_[k], lower.selfadjointView<Eigen::Lower>() * fresh);
+    append_columns(TV_[k], lower.selfadjointView<Eigen::Lower>() * fresh);
     P_[k].conservativeResize(now, now);
     P_[k].rightCols(more) = V_.transpose() * TV_[k].rightCols(more);
     P_[k].bottomLeftCorner(more, before) = P_[k].topRightCorner(before, more).transpose();

@@ -144,7 +144,7 @@ bool moves_on(Equilibrium& equilibrium, const State& state) {
   momentum.conservativeResize(free);
   if (!equilibrium.factor(at)) { // what nothing holds drifts on, if it does, for as long as this takes
     if (momentum.isZero(0)) return false;
-    at.motion_scheme = mass_times(singular_shift * free_mass(equilibrium, at).fastest);
+    at.motion_scheme = mass_times(least_shift * free_mass(equilibrium, at).fastest);
     if (!equilibrium.factor(at)) return true;
   }
   Eigen::VectorXd step, swing;

@@ -58,12 +58,8 @@ Basis basis_of(Equilibrium& equilibrium, State state, const Linearisation& linea
   if (!found->empty() && found->front().stiffness <= 0)
     throw std::domain_error("the operating point is not stable");
   Eigen::MatrixXd modes(linear.stiffness().size, 0), responses = modes;
-  const auto append = [](Eigen::MatrixXd& matrix, const Eigen::VectorXd& column) {
-    matrix.conservativeResize(Eigen::NoChange, matrix.cols() + 1);
-    matrix.rightCols<1>() = column;
-  };
   for (const VibrationMode& mode : *found)
-    if (mode.frequency() <= options.highest_frequency) append(modes, mode.shape);
+    if (mode.frequency() <= options.highest_frequency) append_columns(modes, mode.shape);
   std::ranges::fill(state.supply, Supply::voltage);
   // What drifts has no static response; with a little of its mass as stiffness it has, but for the modes'
   // part.
@@ -77,15 +73,14 @@ Basis basis_of(Equilibrium& equilibrium, State state, const Linearisation& linea
     for (const auto& port : linear.ports()) {
       if (port.coupling.isZero(0)) continue;
       equilibrium.tangent().solve(port.coupling, response);
-      append(responses, response);
+      append_columns(responses, response);
     }
   }
   Basis basis{modes.cols(), modes};
   if (responses.cols() == 0) return basis;
   const Eigen::MatrixXd residual =
       residual_responses(linear, modes, responses, equilibrium.weight().head(modes.rows()).cwiseInverse());
-  basis.V.conservativeResize(Eigen::NoChange, modes.cols() + residual.cols());
-  basis.V.rightCols(residual.cols()) = residual;
+  append_columns(basis.V, residual);
   return basis;
 }
 

@@ -109,6 +109,8 @@ class ElementBlock {
   virtual NodeOrder node_order() const { return {}; }
   /// Whether it is film that across itself resists nothing but by its tension, and slack nothing at all.
   virtual bool may_be_slack() const { return false; }
+  /// See MembraneSection::wrinkled; 0: it bears compression.
+  virtual double left_where_wrinkled() const { return 0; }
   /// Elements are evaluated in multiples of this many.
   virtual int granularity() const { return 1; }
   /// Adds this block's scalars and remembers their places; to be called before the unknowns are numbered.

@@ -22,7 +22,6 @@ struct Model {
   std::vector<Eigen::Vector3d>
       drawn; ///< m, nodes of the mesh; needed for `corners` and where a film starts without tension
   std::vector<ElementCorners> corners; ///< of the elements that no increment may turn over; may be empty
-  double wrinkled = 1e-5;              ///< the most that film has of MembraneSection::wrinkled
   mutable std::optional<Inertia> known_inertia{}; ///< see inertia()
 
   /// Of the blocks and unknowns as they are when it is first asked for: most models never move in time.

@@ -84,11 +84,11 @@ Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, 
 }
 
 std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium, const LoadPath& path,
-                                                       const State& state, double s, double heading,
+                                                       const State& state, double s,
                                                        const ContinuationOptions& options) {
   ContinuationProgress progress{.state = state, .load_factor = s, .arc = options.first_arc};
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(equilibrium.model().dofs.free_count());
-  if (!factor_along(equilibrium, path, progress, still, heading) || !turn(equilibrium, progress))
+  if (!factor_along(equilibrium, path, progress, still, 1) || !turn(equilibrium, progress))
     return std::nullopt;
   return progress;
 }

@@ -41,10 +41,10 @@ struct ContinuationObserver {
 
 enum class ContinuationEnd { reached_load, took_all_steps, gave_up, stopped };
 
-/// Starts a path at a converged `state` with load factor s; the load grows at first where `heading` is 1 and
-/// falls where it is -1. Nothing at a singular point.
+/// Starts a path at a converged `state` with load factor s, where the load grows at first. Nothing at a
+/// singular point.
 std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium, const LoadPath& path,
-                                                       const State& state, double s, double heading,
+                                                       const State& state, double s,
                                                        const ContinuationOptions& options);
 
 /// One step of length `arc`: along the tangent, then Newton's method in the plane normal to it. Nothing where

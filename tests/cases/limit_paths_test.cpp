@@ -163,7 +163,7 @@ class LimitPaths : public test::ScratchTest {
     state.scheme = one.steps.back().response == Response::instantaneous ? materials::TimeScheme::frozen()
                                                                         : materials::TimeScheme::relaxed();
     const fem::ContinuationOptions arcs{.first_arc = 1e-3, .largest_arc = 1e-2, .most_steps = 5000};
-    auto progress = fem::begin_continuation(equilibrium, path, state, 0, 1, arcs);
+    auto progress = fem::begin_continuation(equilibrium, path, state, 0, arcs);
     if (!progress) return std::nullopt;
     fem::ContinuationProgress former = *progress;
     std::optional<fem::CriticalPoint> critical;

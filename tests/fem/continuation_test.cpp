@@ -29,7 +29,7 @@ TEST(Continuation, follows_a_gent_film_through_both_limit_points) {
   const auto model = test::material_point(100);
   Equilibrium equilibrium(*model, 1);
   const LoadPath path = path_to(*model, 1, 0);
-  auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, 1, {});
+  auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, {});
   ASSERT_TRUE(progress);
   double highest = 0, lowest = 1, largest = 0;
   ContinuationObserver observer;
@@ -59,7 +59,7 @@ TEST(Continuation, under_charge_control_sees_no_limit_point) {
   const LoadPath path = path_to(*model, 0, charge);
   State state = model->initial_state();
   state.supply[0] = Supply::charge;
-  auto progress = begin_continuation(equilibrium, path, state, 0, 1, {});
+  auto progress = begin_continuation(equilibrium, path, state, 0, {});
   ASSERT_TRUE(progress);
   int falling_voltage = 0;
   ContinuationObserver observer;
@@ -81,7 +81,7 @@ TEST(Continuation, returns_to_no_load_on_the_way_it_came) {
   Equilibrium equilibrium(*model, 1);
   const LoadPath path = path_to(*model, 1, 0);
   ContinuationOptions options{.most_steps = 40};
-  auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, 1, options);
+  auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, options);
   ASSERT_TRUE(progress);
   ASSERT_EQ(continuation(equilibrium, path, options, *progress, {}), ContinuationEnd::took_all_steps);
   EXPECT_GT(progress->state.displacement[0].x(), 0.5);
@@ -97,7 +97,7 @@ TEST(Continuation, stopped_and_resumed_it_ends_in_the_same_bits) {
   const auto model = test::material_point(100);
   Equilibrium equilibrium(*model, 1);
   const LoadPath path = path_to(*model, 1, 0);
-  const auto start = begin_continuation(equilibrium, path, model->initial_state(), 0, 1, {});
+  const auto start = begin_continuation(equilibrium, path, model->initial_state(), 0, {});
   ContinuationProgress through = *start, resumed = *start;
   continuation(equilibrium, path, {}, through, {});
   ContinuationObserver observer;
@@ -116,7 +116,7 @@ TEST(Continuation, follows_a_free_film_past_pull_in) {
   const auto model = test::square_film(mesh, side, test::Held::at_corners);
   Equilibrium equilibrium(*model, 1);
   const LoadPath path = path_to(*model, 30e3, 0);
-  auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, 1, {});
+  auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, {});
   ASSERT_TRUE(progress);
   const double volt = 1e-3 * std::sqrt(45e3 / 4e-11);
   double highest = 0, stretch = 1;

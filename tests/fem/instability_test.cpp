@@ -24,7 +24,7 @@ LoadPath voltage_path(const Model& model, double volts) {
 std::vector<CriticalPoint> critical_points(Equilibrium& equilibrium, const LoadPath& path, int most,
                                            const ContinuationOptions& options = {}) {
   std::vector<CriticalPoint> found;
-  auto progress = begin_continuation(equilibrium, path, equilibrium.model().initial_state(), 0, 1, options);
+  auto progress = begin_continuation(equilibrium, path, equilibrium.model().initial_state(), 0, options);
   if (!progress) return found;
   ContinuationProgress before = *progress;
   ContinuationObserver observer;

@@ -125,7 +125,7 @@ TEST(HingedRoof, snaps_through_its_limit_points_as_published) {
                                     .first_arc = 0.002,
                                     .largest_arc = 0.006,
                                     .wanted_iterations = 8};
-  auto progress = begin_continuation(equilibrium, path, roof.state(), 0, 1, options);
+  auto progress = begin_continuation(equilibrium, path, roof.state(), 0, options);
   ASSERT_TRUE(progress);
   std::vector<std::pair<double, double>> found{{0, 0}}; // deflection, load
   const auto end =
