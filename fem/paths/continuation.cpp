@@ -12,6 +12,10 @@ namespace dielast::fem {
 
 namespace {
 
+constexpr double slowest = 1.0 / 3;      ///< of a step: length of the direction over that before
+constexpr double least_cosine = 0.7;     ///< of a step: between the directions of its ends
+constexpr double straight = 0.3;         ///< of a step: how far off the mean direction of its ends
+constexpr double smallest_corner = 2e-5; ///< length of a step that any corner of a path may be in
 constexpr double difference = 1e-4; ///< of load factors; central differences are exact for quadratic loads
 
 /// D du / E: the row that makes . du an inner product.
@@ -49,6 +53,19 @@ bool went_back(const Equilibrium& equilibrium, const Eigen::VectorXd& direction,
                const Eigen::VectorXd& moved) {
   const Eigen::VectorXd row = dual(equilibrium, direction);
   return arc * row.dot(moved) < 0 && dual(equilibrium, moved).dot(moved) > arc * arc * row.dot(direction);
+}
+
+/// Whether a step `arc` that `moved` the unknowns is one along a path with these directions at its ends.
+/// Where the load factor is nearly all of an arc's length, a step past a limit point may end on another
+/// branch, or on the same one with the direction that leads back. In the smallest steps a path may have
+/// corners.
+bool goes_straight(const Equilibrium& equilibrium, const ContinuationProgress& from,
+                   const ContinuationProgress& to, double arc, const Eigen::VectorXd& moved) {
+  const auto length = [&](const Eigen::VectorXd& du) { return std::sqrt(dual(equilibrium, du).dot(du)); };
+  const double most = std::max(length(from.direction), length(to.direction));
+  if (std::max(std::abs(arc), length(moved)) <= smallest_corner) return true;
+  return length(to.direction) >= slowest * length(from.direction) &&
+         length(moved / arc - (from.direction + to.direction) / 2) <= straight * most;
 }
 
 /// The point where the path crosses the load factor s between `progress` and a point close by.
@@ -95,7 +112,7 @@ std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium,
 
 std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const LoadPath& path,
                                              const ContinuationProgress& from, double arc,
-                                             const NewtonOptions& options, double least_cosine) {
+                                             const NewtonOptions& options, bool leaves) {
   const DofMap& dofs = equilibrium.model().dofs;
   ContinuationProgress to = from;
   to.load_factor += arc * from.load_direction;
@@ -133,7 +150,10 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
   if (went_back(equilibrium, from.direction, arc, moved)) return std::nullopt;
   to.newton.outcome = Outcome::converged;
   const auto cosine = turn(equilibrium, to);
-  if (!cosine || *cosine < least_cosine) return std::nullopt;
+  if (!cosine || (!leaves && (*cosine < least_cosine || !goes_straight(equilibrium, from, to, arc, moved))))
+    return std::nullopt;
+  if (is_turned_over(equilibrium.model().corners, equilibrium.model().drawn, from.state, to.state))
+    return std::nullopt;
   to.state.history = equilibrium.model().advanced_history(to.state);
   return to;
 }

@@ -48,10 +48,11 @@ std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium,
                                                        const ContinuationOptions& options);
 
 /// One step of length `arc`: along the tangent, then Newton's method in the plane normal to it. Nothing where
-/// it does not converge or where the path has turned by more than an angle, of which the cosine is given.
+/// it does not converge or its end is not one of the path's next: of another branch, or where the path has
+/// turned by 45 degrees, by which it may turn where it `leaves` another one.
 std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const LoadPath& path,
                                              const ContinuationProgress& from, double arc,
-                                             const NewtonOptions& options, double least_cosine = 0.7);
+                                             const NewtonOptions& options, bool leaves = false);
 
 /// Change of the unbalanced forces per load factor at fixed displacements of the free unknowns, N.
 Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s);

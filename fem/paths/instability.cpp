@@ -311,7 +311,7 @@ std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, cons
                               .arc = options.first_arc};
   // The load of a branch may rise so steeply that its tangent is soon next to normal to the mode; how far the
   // branch has gone along it tells.
-  auto branch = arc_step(equilibrium, path, across, std::abs(amplitude) * length, options.newton, 0);
+  auto branch = arc_step(equilibrium, path, across, std::abs(amplitude) * length, options.newton, true);
   if (!branch) return branch;
   const auto product = [&D = equilibrium.stiffness()](const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
     return u.dot(D.cwiseProduct(v));

@@ -120,6 +120,20 @@ TEST_F(Bystanders, ALimitPointIsNotJumpedOverByChance) {
   }
 }
 
+// Where displacements are next to nothing beside the load factor in the length of a path, steps along it
+// ended on its snapped branch without a word (in 480 increments), or at a "bifurcation" (the slender one).
+TEST_F(Bystanders, APathThatIsFollowedIsNotJumpedAlong) {
+  for (const auto& [width, force, increments] :
+       {std::tuple(2.0, 1000, 480), {0.5, 200, 1}, {0.5, 200, 100}}) {
+    std::string text = arch(width, force, sheet("1.2"), increments);
+    const std::string kind = "kind = \"force\"\n";
+    text.insert(text.find(kind), "on_instability = \"follow\"\n");
+    const Ran ran = run(text);
+    EXPECT_EQ(ran.outcome.ending, Ending::complete) << ran.outcome.message;
+    EXPECT_EQ(ran.events.count("limit point"), 2u) << width << " mm, " << increments;
+  }
+}
+
 // One that holds what is held already changes nothing, while its other end goes on moving.
 TEST_F(Bystanders, ASupportThatChangesElsewhereStopsNothing) {
   expect_alike("[[point_mass]]\nplace = \"left\"\nmass = \"10 g\"\n[[support]]\nplace = \"right\"\nfix = "
