@@ -235,8 +235,10 @@ Condition film_flows() {
 }
 
 Condition branches_flow() {
-  return on<materials::Branch>(flow, [](const Case& one, const materials::Branch& branch) {
-    return flows(one) || !(branch.directions[0] && branch.directions[1]);
+  const std::string text =
+      std::string(flow) + ", or with dashpot = \"nominal\": its spring resists shear for ever";
+  return on<materials::Branch>(text, [](const Case& one, const materials::Branch& branch) {
+    return flows(one) || branch.dashpot == materials::Dashpot::nominal;
   });
 }
 

@@ -86,6 +86,16 @@ void add_rods(const Case& one, const meshing::Mesh& mesh, std::span<const PartFi
   }
 }
 
+void check_membrane(const WrittenPart& written) {
+  const Film& film = *written.part.film;
+  const auto moves = [](const Step& step) {
+    return step.duration || (!step.is_analysis() && step.response == Response::instantaneous);
+  };
+  if (film.tension_field && film.material.viscosity > 0 && std::ranges::any_of(written.one.steps, moves))
+    written.report_film("wrinkling", "a viscosity resists being compressed, as wrinkles do not; "
+                                     "let the film have branches instead");
+}
+
 void check_rod(const WrittenPart& written) {
   const Part& part = written.part;
   if (!part.rolled()) return;
@@ -107,6 +117,7 @@ PartKind membrane_kind() {
           .meaning = "it does not resist bending",
           .section = FilmSection::membrane,
           .is = is_film_of<FilmSection::membrane>,
+          .check = check_membrane,
           .add = add_membranes,
           .resists_along = true};
 }

@@ -86,6 +86,12 @@ bool has_axes(const Part& part) {
   return in(*part.film) || std::ranges::any_of(part.film->further_layers, in);
 }
 
+bool knows_x_from_y(const Part& part) {
+  const auto unlike = [](const auto& film) { return film.prestretch[0] != film.prestretch[1]; };
+  return part.film &&
+         (unlike(*part.film) || std::ranges::any_of(part.film->further_layers, unlike) || has_axes(part));
+}
+
 double cover_of(const Part& part) {
   const auto* strip = std::get_if<Strip>(&part.geometry);
   return strip ? strip->cover_thickness : 0;

@@ -159,11 +159,9 @@ void check_resistive_electrodes(SectionReader& reader, const Node& tree, const C
 }
 
 /// A film that is alike in all directions of its plane may be turned as one likes.
-bool knows_x_from_y(const Part& part) {
+bool may_turn_by_halves_alone(const Part& part) {
   if (std::holds_alternative<Line>(part.geometry)) return false; // it knows its own way
-  if (!part.film || std::holds_alternative<Patch>(part.geometry)) return true;
-  const auto unlike = [](const auto& film) { return film.prestretch[0] != film.prestretch[1]; };
-  return unlike(*part.film) || std::ranges::any_of(part.film->further_layers, unlike) || has_axes(part);
+  return !part.film || std::holds_alternative<Patch>(part.geometry) || knows_x_from_y(part);
 }
 
 /// The nodes of a body's places move with it already; its own place has no others.
@@ -228,7 +226,7 @@ void check_parts(SectionReader& reader, const Node& tree, const Case& one) {
     if (!geometries.empty() && (one.plate || one.chamber))
       report("", "[plate] and [chamber] are for a case without geometries in parts; use [[body]]");
     const double half_turns = part.turned / std::numbers::pi;
-    if (knows_x_from_y(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
+    if (may_turn_by_halves_alone(part) && std::abs(half_turns - std::round(half_turns)) > 1e-9)
       report("turned", "a patch, or a film that is not alike along x and y, can be turned by 180 deg only");
   }
   check_ties(reader, tree, one);
