@@ -243,48 +243,6 @@ void check_bodies(SectionReader& reader, const Node& tree, const Case& one) {
   }
 }
 
-void check_supports(SectionReader& reader, const Node& tree, const Case& one) {
-  const Node* list = tree.find("support");
-  for (std::size_t i = 0; list && i < list->items.size(); ++i) {
-    const Support& support = one.supports[i];
-    bool holds = false;
-    for (int c = 0; c < fem::DofMap::components; ++c)
-      holds = holds || (support.fixed[static_cast<std::size_t>(c)] && fem::moves(one.dimension, c));
-    if (const Node* fixed = list->items[i].find("fix"); !holds && fixed && fixed->source.is_written())
-      reader.report(fixed->source, fmt::format("support[{}].fix", i + 1),
-                    fmt::format("found {}, which holds nothing: {}", text_of(*fixed),
-                                one.dimension == fem::Dimension::planar
-                                    ? "a planar model moves along x and y, and turns about z"
-                                    : "an axisymmetric model moves along x, the radius, and z"));
-    const auto from = std::ranges::find(one.steps, support.from, &Step::name),
-               until = std::ranges::find(one.steps, support.until, &Step::name);
-    for (const auto& [key, step] : {std::pair{"from", from}, {"until", until}})
-      if (step != one.steps.end() && step->is_analysis())
-        reader.report(list->items[i].find(key)->source, fmt::format("support[{}].{}", i + 1, key),
-                      fmt::format("found \"{}\": in a step of this kind no support changes; name the step "
-                                  "before it",
-                                  step->name));
-    if (!support.from.empty() && !support.until.empty() && until < from)
-      reader.report(list->items[i].find("until")->source, fmt::format("support[{}].until", i + 1),
-                    fmt::format("found \"{}\", which is before \"{}\", the first step in which it holds",
-                                support.until, support.from));
-  }
-}
-
-/// A device that nothing holds bears no weight: it would fall.
-void check_held(SectionReader& reader, const Node& tree, const Case& one) {
-  bool weighs = false;
-  for (std::size_t s = 0; s < one.steps.size(); ++s) {
-    weighs = weighs || one.steps[s].kind == StepKind::weight;
-    if (!weighs || !is_free(one, holding_in(one, one.steps, static_cast<int>(s)).supports)) continue;
-    const StepPlace at = place_of_step(tree, s);
-    return reader.report(
-        at.source, at.key,
-        "nothing holds the device: the nodes that keep it from drifting bear here its weight; "
-        "hold it with [[support]]");
-  }
-}
-
 void check_chamber(SectionReader& reader, const Node& tree, const Case& one) {
   const auto need = [&](StepKind kind, const char* word, bool given) {
     for (std::size_t s = 0; s < one.steps.size(); ++s)
@@ -353,9 +311,9 @@ void check_dimension(SectionReader& reader, const Node& tree, const Case& one) {
   if (of_revolution && !round && !balloon && !roll && !sphere && !one.any_geometry<Slab>())
     report_at(reader, tree, "model",
               "\"axisymmetric\" is for [disc], [annulus], [balloon], [roll], [slab] and [hollow_sphere]");
-  if (of_revolution && !roll &&
-      one.any_film([](const Film& film) { return film.prestretch[0] != film.prestretch[1]; }))
-    report_at(reader, tree, "film", "a film of revolution has one prestretch in all directions");
+  if (of_revolution && !roll && std::ranges::any_of(one.parts, knows_x_from_y))
+    report_at(reader, tree, "film",
+              "a film of revolution is alike in all directions: one prestretch, dashpot = \"log\"");
   if (one.dimension == fem::Dimension::planar)
     for (const char* section : {"plate", "chamber"})
       if (tree.find(section))
@@ -383,7 +341,6 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one) {
   check_leaks(reader, tree, one);
   check_bodies(reader, tree, one);
   check_supports(reader, tree, one);
-  check_held(reader, tree, one);
   check_chamber(reader, tree, one);
   check_contact(reader, tree, one);
   check_sheets(reader, tree, one);

@@ -20,6 +20,9 @@ void check_rules(SectionReader& reader, const Node& tree, const Case& one);
 /// is. Of the rules above, too.
 void check_waves(SectionReader& reader, const Node& tree, const Case& one);
 
+/// What supports hold, and when. Of the rules above, too.
+void check_supports(SectionReader& reader, const Node& tree, const Case& one);
+
 /// What a part must have, and what goes with what in it. Of the rules above, too.
 void check_parts(SectionReader& reader, const Node& tree, const Case& one);
 

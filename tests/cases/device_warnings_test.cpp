@@ -49,6 +49,22 @@ TEST_F(DeviceWarnings, AWallThatIsNotAsThickAsItsFilm) {
   EXPECT_FALSE(warns(sphere("2 mm"), "film.thickness"));
 }
 
+TEST_F(DeviceWarnings, SupportsThatLetGoInNoStep) {
+  const auto tells = [&](const char* between) {
+    const Case one =
+        read(film("thickness = \"1 mm\"\nprestretch = 1.2") +
+             "[rectangle]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[[support]]\nplace = "
+             "\"left\"\nfix = [\"x\", \"y\"]\n[[support]]\nplace = \"right\"\ndisplacement = { x "
+             "= \"5 mm\" }\nuntil = \"move\"\n[[step]]\nkind = \"move\"\n" +
+             std::string(between) + "[[step]]\nkind = \"modes\"\n");
+    return std::ranges::any_of(one.warnings, [](const auto& warning) {
+      return warning.text().find("support[2].until: has no effect here") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(tells(""));
+  EXPECT_FALSE(tells("[[step]]\nkind = \"relax\"\n"));
+}
+
 TEST_F(DeviceWarnings, VolumesWithoutTheirUnit) {
   const auto disc = [&](const char* volume) {
     return "model = \"axisymmetric\"\n" + film("thickness = \"1 mm\"\nprestretch = 3") +
