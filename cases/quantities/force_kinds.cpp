@@ -83,6 +83,16 @@ void refuse_across(const Probing& probing, const std::vector<char>& near, int al
   }
 }
 
+/// Force over undeformed section along an axis, Pa: the axis turns with the film, by the smallest turn that
+/// takes z to its normal. Film of revolution and rods have axes of their own, `own_axes`, whichever way those
+/// were drawn.
+double nominal_stress_of(const fem::MembraneSample& film, int axis, bool own_axes) {
+  if (own_axes) return film.F.col(axis).norm() * film.S(axis, axis);
+  const Eigen::Vector3d normal = film.F.col(0).cross(film.F.col(1));
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal);
+  return (turn * Eigen::Vector3d::Unit(axis)).dot(film.F * film.S.col(axis));
+}
+
 /// Of all film that lies there side by side and one on another, with a voltage or without.
 Probe nominal_stress(const Probing& probing) {
   const Device& device = probing.device;
@@ -95,7 +105,6 @@ Probe nominal_stress(const Probing& probing) {
   const bool of_rods = device.mesh.film()->type == meshing::CellType::rod2;
   if (of_rods) refuse_across(probing, near, along);
   const std::vector<FilmElements> counted = films_of(probing.quantity.of, probing.one, device);
-  // Film of revolution and rods turn their own axis with them, whichever way that was drawn.
   const bool own_axes = of_rods || probing.one.dimension == fem::Dimension::axisymmetric;
   const int axis = of_rods ? 0 : along;
   return [&device, near, counted, own_axes, axis](const Measured& measured) {
@@ -104,8 +113,7 @@ Probe nominal_stress(const Probing& probing) {
       if (counted[b].elements.empty()) continue;
       for (const fem::MembraneSample& s : points_of(*device.model.blocks[b], measured.state).film) {
         if (!near[static_cast<std::size_t>(s.cell)]) continue;
-        sum +=
-            s.volume * (own_axes ? s.F.col(axis).norm() * s.S(axis, axis) : s.F.row(axis).dot(s.S.col(axis)));
+        sum += s.volume * nominal_stress_of(s, axis, own_axes);
         volume += s.volume;
       }
     }
@@ -194,7 +202,7 @@ std::vector<QuantityKind> force_kinds() {
       {.word = "nominal stress",
        .meaning =
            "force over undeformed section, mean over the film at a place, with what of it no electrode "
-           "covers; "
+           "covers; x and y turn with the film, "
            "in a model of revolution x is along the meridian, y around the axis; of a rod along itself (Pa)",
        .unit = "Pa",
        .keys =

@@ -168,5 +168,26 @@ TEST_F(Readings, AMeanOverNodesIsThatAlongTheEdge) {
   EXPECT_NEAR(ran.last("strain"), longer, 5e-3 * longer);
 }
 
+// Film that a lift of its edge turns by 45 degrees has the stress of flat film that is stretched as much
+// (along an axis in space it had 0.71 of it).
+TEST_F(Readings, NominalStressesTurnWithTheFilm) {
+  const auto stretched = [&](const char* along) {
+    return run("model = \"3d\"\n[film]\nthickness = \"1 mm\"\nprestretch = 2\n" + material +
+               "[rectangle]\nlength = \"20 mm\"\nwidth = \"10 mm\"\n[mesh]\nacross = 3\n[[support]]\nplace = "
+               "\"left\"\nfix = [\"x\", \"y\", \"z\"]\n[[support]]\nplace = \"right\"\nfix = [\"x\", \"y\", "
+               "\"z\"]\n"
+               "displacement = { " +
+               along +
+               " }\n[[support]]\nplace = \"bottom\"\nfix = [\"y\"]\n[[support]]\nplace = \"top\"\nfix = "
+               "[\"y\"]\n"
+               "[[step]]\nkind = \"move\"\n[output]\nerror_estimate = false\n[[quantity]]\nname = "
+               "\"stress\"\nkind "
+               "= \"nominal stress\"\nof = \"film\"\nalong = \"x\"\n")
+        .last("stress");
+  };
+  const double flat = stretched("x = \"8.28427124746190 mm\"");
+  EXPECT_NEAR(stretched("z = \"20 mm\""), flat, 1e-6 * flat);
+}
+
 } // namespace
 } // namespace dielast::cases::readings_test
