@@ -120,7 +120,7 @@ std::span<const GeometryKind> geometry_kinds() {
         grading_key("element at the outer edge over that at the inner edge; 1 is uniform", "4"),
         quadrature_key("3")},
        annulus_templates()},
-      {balloon_section(), {order_key(), rings_key(), quadrature_key("6")}, balloon_templates()},
+      {balloon_section(), {order_key(), rings_key()}, balloon_templates()},
       {patch_section(), {}, patch_templates()},
       {strip_section(),
        {order_key(), across_key("elements from side to side of a strip", 1000, "16"), quadrature_key("3")},

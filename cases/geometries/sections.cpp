@@ -249,7 +249,7 @@ Section slab_section() {
       return Conflict{"electrode", "must lead from the left to the right, within the slab's length"};
     if (2 * slab.cover_thickness >= slab.height)
       return Conflict{"cover_thickness", "must be below half of the height"};
-    if (slab.electrode_width && slab.electrode_width > slab.width)
+    if (slab.width && slab.electrode_width > slab.width)
       return Conflict{"electrode_width", "must be at most the slab's width"};
     return std::nullopt;
   };

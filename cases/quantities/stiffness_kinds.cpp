@@ -200,8 +200,9 @@ std::vector<QuantityKind> stiffness_kinds() {
        .idle = without_support,
        .shares = true},
       {.word = "coupling",
-       .meaning = "force on a held place per squared voltage, over the capacitance per length, as drawn, of "
-                  "what the electrode covers, branches relaxed; none where the state is not at rest (-)",
+       .meaning =
+           "force on a held place per squared voltage, over the capacitance per length of what the "
+           "electrode covers, both as drawn, branches relaxed; none where the state is not at rest (-)",
        .unit = "1",
        .keys = coupling_keys,
        .in_words =

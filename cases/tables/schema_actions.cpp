@@ -315,7 +315,7 @@ Section contact_section() {
   section.name = "contact";
   section.meaning =
       "what touches is kept apart by a barrier (Li et al. 2020): walls of a planar [honeycomb], without "
-      "friction, surfaces of solids, and a solid on a [table]";
+      "friction, surfaces of solids, a solid on a [table], and a [roll] on its one-sided core";
   section.presence = Section::Presence::optional;
   section.access = present(&Case::contact);
   section.keys = {

@@ -113,7 +113,8 @@ Section step_section() {
           .replacing("duration")
           .only(ramps),
       measure("record", "s", to(&Step::record),
-              "time between rows of the history; without it one for each increment. Events and peaks are "
+              "of a step with a duration: time between rows of the history; without it one for each "
+              "increment. Events and peaks are "
               "those of "
               "all time steps")
           .above(0)

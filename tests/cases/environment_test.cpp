@@ -109,7 +109,9 @@ TEST_F(Environment, SolidsTakeKernelsOfTheProcessor) {
   };
   EXPECT_EQ(kernels("Prescott"), "Prescott"); // as asked
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "the oldest kernels are those of this processor";
-  EXPECT_NE(kernels(nullptr), "Prescott");
+  const std::string own = kernels(nullptr);
+  EXPECT_NE(own, "");
+  EXPECT_NE(own, "Prescott");
 }
 #endif
 
