@@ -84,8 +84,19 @@ struct Widened {
   MembranePotential<double> psi;
 };
 
-constexpr double widest = 1e8;  ///< of tr C: beyond, nothing takes the compression up
-constexpr double exact = 1e-13; ///< stress that counts as none, of the stiffness
+constexpr double widest = 1e8;     ///< of tr C: beyond, nothing takes the compression up
+constexpr double exact = 1e-13;    ///< stress that counts as none, of the stiffness
+constexpr double rounding = 1e-13; ///< of the energy, over the stiffness
+/// What dashpots take up in a short time has more rounding than the film's energy. Where a step promises no
+/// more than this, forces that fall by half tell.
+constexpr double much_rounding = 1e-5;
+
+/// Whether a step leads on that changes the energy by `change` and was to change it by `foretold`; `whole`:
+/// that of a strain of one.
+inline bool falls(double change, double foretold, double whole, double force, double force_before) {
+  if (change <= rounding * whole) return true;
+  return std::max(change, -foretold) <= much_rounding * whole && force <= force_before / 2;
+}
 
 /// C + b v v^T with next to no stress along the unit vector v; in compression at `taut`.
 template<class Potential>
@@ -128,11 +139,13 @@ Widened settled_wrinkle(const Potential& psi, const InPlaneC<double>& C, Widened
     M << 2 * a[0], 0, 0, 2 * a[1], a[1], a[0];
     Eigen::Vector2d step = downhill<2>(M.transpose() * D * M + S, gradient);
     const bool last = step.norm() <= 1e-8 * a.norm();
-    const double noise = 1e-13 * D.norm() * size * size; // of the energy
+    const double whole = D.norm() * size * size;
     for (int halving = 0; halving < 40; ++halving, step /= 2) {
       const InPlaneC<double> there = plus(C, a + step);
       const MembranePotential<double> trial = psi(there);
-      if (!(last || trial.value <= from.psi.value + noise)) continue;
+      if (!(last || falls(trial.value - from.psi.value, gradient.dot(step), whole,
+                          (stress(trial) * (a + step)).norm(), gradient.norm())))
+        continue;
       a += step;
       from = {true, there, trial};
       break;
@@ -153,12 +166,13 @@ Widened natural_state(const Potential& psi, Widened from) {
     if (g.norm() <= exact * D.norm() * size) return from;
     Vector3 step = downhill<3>(D, g);
     const bool last = step.norm() <= 1e-8 * from.C.trace();
-    const double noise = 1e-13 * D.norm() * size * size; // of the energy
+    const double whole = D.norm() * size * size;
     for (int halving = 0; halving < 40; ++halving, step /= 2) {
       const InPlaneC<double> there{from.C.C11 + step[0], from.C.C22 + step[1], from.C.C12 + step[2]};
       if (!(there.C11 > 0 && there.det() > 0)) continue;
       const MembranePotential<double> trial = psi(there);
-      if (!(last || trial.value <= from.psi.value + noise)) continue;
+      if (!(last || falls(trial.value - from.psi.value, g.dot(step), whole, first(trial).norm(), g.norm())))
+        continue;
       from = {true, there, trial};
       break;
     }
