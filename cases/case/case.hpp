@@ -196,6 +196,8 @@ struct Step {
   std::vector<std::string> driven{}; ///< of harmonic: electrodes whose sources swing; empty: see driven_ports
 
   bool is_analysis() const { return kind == StepKind::modes || kind == StepKind::harmonic; }
+  /// Whether it finds dashpots that have not let go.
+  bool moves_dashpots() const { return duration || (!is_analysis() && response == Response::instantaneous); }
 };
 
 /// Where gravity pulls, as a direction of a quantity.

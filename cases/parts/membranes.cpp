@@ -88,10 +88,8 @@ void add_rods(const Case& one, const meshing::Mesh& mesh, std::span<const PartFi
 
 void check_membrane(const WrittenPart& written) {
   const Film& film = *written.part.film;
-  const auto moves = [](const Step& step) {
-    return step.duration || (!step.is_analysis() && step.response == Response::instantaneous);
-  };
-  if (film.tension_field && film.material.viscosity > 0 && std::ranges::any_of(written.one.steps, moves))
+  if (film.tension_field && film.material.viscosity > 0 &&
+      std::ranges::any_of(written.one.steps, &Step::moves_dashpots))
     written.report_film("wrinkling", "a viscosity resists being compressed, as wrinkles do not; "
                                      "let the film have branches instead");
 }

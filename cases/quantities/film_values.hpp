@@ -10,8 +10,9 @@
 namespace dielast::cases {
 
 /// Where a field of the film is read, and with which weights the integration points of the element there
-/// count. At a point of an element they add up to 1: values are continued by a linear function (least
-/// squares). In a part of the film they are the undeformed volumes, m^3.
+/// count. At a point of an element they add up to 1, at the nodes of a place to their shares in it: values
+/// are continued by a linear function (least squares). In a part of the film they are the undeformed volumes,
+/// m^3.
 struct FilmReading {
   int cell = 0;
   std::vector<int> points; ///< numbers of the element's integration points among the samples

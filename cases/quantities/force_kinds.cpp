@@ -202,7 +202,7 @@ std::vector<QuantityKind> force_kinds() {
       {.word = "nominal stress",
        .meaning =
            "force over undeformed section, mean over the film at a place, with what of it no electrode "
-           "covers; x and y turn with the film, "
+           "covers; x and y turn with film in space, by the smallest turn that takes z to its normal; "
            "in a model of revolution x is along the meridian, y around the axis; of a rod along itself (Pa)",
        .unit = "Pa",
        .keys =

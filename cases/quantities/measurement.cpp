@@ -169,7 +169,7 @@ std::vector<Farthest> Measurement::farthest() const {
   std::vector<Farthest> all;
   for (const Quantity& quantity : case_.quantities) {
     const auto value = kept_of(quantity, "farthest");
-    all.push_back(value ? Farthest{*value, kept_of(quantity, "rise").value()} : Farthest{});
+    all.push_back(value ? Farthest{*value, kept_of(quantity, "rise").value_or(0)} : Farthest{});
   }
   return all;
 }

@@ -36,10 +36,8 @@ void check_stressed_patch(const WrittenPart& written) {
   if (const auto& steps = one.steps; !steps.empty() && steps.front().kind == StepKind::force &&
                                      !steps.front().duration && steps.front().response == Response::relaxed)
     return;
-  const auto flows = [](const Step& step) {
-    return step.duration || (!step.is_analysis() && step.response == Response::instantaneous);
-  };
-  if (std::ranges::none_of(one.steps, flows) || one.steps.back().kind == StepKind::relax) return;
+  if (std::ranges::none_of(one.steps, &Step::moves_dashpots) || one.steps.back().kind == StepKind::relax)
+    return;
   const std::array stresses{&patch->stress_x, &patch->stress_y};
   for (std::size_t i = 0; i < stresses.size(); ++i) {
     const std::string key = i == 0 ? "stress_x" : "stress_y";

@@ -112,7 +112,8 @@ bool Equilibrium::is_neutral(const State& state, int unstable_modes, const Newto
 
 /// Levenberg-Marquardt: (K + c D) du = -R, D = stiffness(), with as much c as it takes for the energy to fall
 /// as it was foretold. Where wrinkles come and go, or what is pressed sticks and slides, the energy is smooth
-/// by parts only, and slack film has hardly any stiffness: Newton's steps are much too long there.
+/// by parts only, and slack film has hardly any stiffness: Newton's steps are much too long there. With
+/// scalars an equilibrium is a saddle of the energy: these are not damped, and the forces are to fall.
 NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
                                   const std::function<void(const Iteration&)>& log) {
   const Eigen::Index free = model_.dofs.free_count();
@@ -140,7 +141,9 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
         return result;
       }
     }
-    const Eigen::VectorXd added = damping * stiffness_;
+    Eigen::VectorXd added = damping * stiffness_;
+    for (int s = 0; s < model_.dofs.scalar_count(); ++s)
+      if (const int e = model_.dofs.scalar_equation(s); model_.dofs.is_free(e)) added[e] = 0;
     if (!factor(state, nullptr, &added) || tangent_.unstable_modes() > 0) {
       damping *= more;
       continue;
@@ -159,7 +162,7 @@ NewtonResult Equilibrium::descend(State& state, const NewtonOptions& options,
     if (feasible) balance(trial, there, Pressure::is_unknown);
     const double change = there.energy - current.energy - dead_work;
     const double noise = rounded * (std::abs(there.energy) + std::abs(current.energy) + std::abs(dead_work));
-    const bool tells = -foretold > noise;
+    const bool tells = model_.dofs.scalar_count() == 0 && -foretold > noise;
     const bool falls = tells ? change < 0 : there.norm < current.norm;
     if (!feasible || !there.feasible || !falls) {
       damping *= more;

@@ -109,7 +109,7 @@ class ElementBlock {
   virtual NodeOrder node_order() const { return {}; }
   /// Whether it is film that across itself resists nothing but by its tension, and slack nothing at all.
   virtual bool may_be_slack() const { return false; }
-  /// See MembraneSection::wrinkled; 0: it bears compression.
+  /// See MembraneSection::wrinkled, of film; 0: it is none.
   virtual double left_where_wrinkled() const { return 0; }
   /// Elements are evaluated in multiples of this many.
   virtual int granularity() const { return 1; }

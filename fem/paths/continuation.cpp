@@ -12,10 +12,10 @@ namespace dielast::fem {
 
 namespace {
 
-constexpr double slowest = 1.0 / 3;      ///< of a step: length of the direction over that before
-constexpr double least_cosine = 0.7;     ///< of a step: between the directions of its ends
-constexpr double straight = 0.3;         ///< of a step: how far off the mean direction of its ends
-constexpr double smallest_corner = 2e-5; ///< length of a step that any corner of a path may be in
+constexpr double slowest = 1.0 / 3;     ///< of a step: length of the direction over that before
+constexpr double least_cosine = 0.7;    ///< of a step: between the directions of its ends
+constexpr double straight = 0.3;        ///< of a step: how far off the mean direction of its ends
+constexpr double largest_corner = 2e-5; ///< length of a step in which a path may have a corner
 constexpr double difference = 1e-4; ///< of load factors; central differences are exact for quadratic loads
 
 /// D du / E: the row that makes . du an inner product.
@@ -63,15 +63,24 @@ bool goes_straight(const Equilibrium& equilibrium, const ContinuationProgress& f
                    const ContinuationProgress& to, double arc, const Eigen::VectorXd& moved) {
   const auto length = [&](const Eigen::VectorXd& du) { return std::sqrt(dual(equilibrium, du).dot(du)); };
   const double most = std::max(length(from.direction), length(to.direction));
-  if (std::max(std::abs(arc), length(moved)) <= smallest_corner) return true;
+  if (std::max(std::abs(arc), length(moved)) <= largest_corner && length(moved) <= 2 * std::abs(arc) * most)
+    return true;
   return length(to.direction) >= slowest * length(from.direction) &&
          length(moved / arc - (from.direction + to.direction) / 2) <= straight * most;
 }
 
-/// The point where the path crosses the load factor s between `progress` and a point close by.
+/// Whether a point that `moved` the unknowns from the one before is not the path's next.
+bool leads_astray(const Equilibrium& equilibrium, const ContinuationProgress& from,
+                  const ContinuationProgress& to, double cosine, const Eigen::VectorXd& moved) {
+  const Model& model = equilibrium.model();
+  return cosine < least_cosine || !goes_straight(equilibrium, from, to, to.last_arc, moved) ||
+         is_turned_over(model.corners, model.drawn, from.state, to.state);
+}
+
+/// The point where the path crosses the load factor s between two points close by.
 std::optional<ContinuationProgress> land(Equilibrium& equilibrium, const LoadPath& path,
-                                         const NewtonOptions& options, ContinuationProgress beyond,
-                                         double s) {
+                                         const NewtonOptions& options, const ContinuationProgress& from,
+                                         ContinuationProgress beyond, double s) {
   const Eigen::VectorXd direction = beyond.direction;
   const double load_direction = beyond.load_direction;
   if (load_direction == 0) return std::nullopt;
@@ -82,8 +91,11 @@ std::optional<ContinuationProgress> land(Equilibrium& equilibrium, const LoadPat
   path.apply(beyond.state, s);
   beyond.newton = equilibrium.solve(beyond.state, options);
   if (beyond.newton.outcome != Outcome::converged ||
-      !factor_along(equilibrium, path, beyond, direction, load_direction) || !turn(equilibrium, beyond))
+      !factor_along(equilibrium, path, beyond, direction, load_direction))
     return std::nullopt;
+  const auto cosine = turn(equilibrium, beyond);
+  const Eigen::VectorXd moved = equilibrium.model().dofs.increment(from.state, beyond.state);
+  if (!cosine || leads_astray(equilibrium, from, beyond, *cosine, moved)) return std::nullopt;
   return beyond;
 }
 
@@ -150,9 +162,7 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
   if (went_back(equilibrium, from.direction, arc, moved)) return std::nullopt;
   to.newton.outcome = Outcome::converged;
   const auto cosine = turn(equilibrium, to);
-  if (!cosine || (!leaves && (*cosine < least_cosine || !goes_straight(equilibrium, from, to, arc, moved))))
-    return std::nullopt;
-  if (is_turned_over(equilibrium.model().corners, equilibrium.model().drawn, from.state, to.state))
+  if (!cosine || (leaves ? *cosine < 0 : leads_astray(equilibrium, from, to, *cosine, moved)))
     return std::nullopt;
   to.state.history = equilibrium.model().advanced_history(to.state);
   return to;
@@ -169,7 +179,9 @@ ContinuationEnd continuation(Equilibrium& equilibrium, const LoadPath& path,
     auto next = arc_step(equilibrium, path, progress, arc, options.newton);
     const bool above = next && next->load_factor >= options.highest;
     const bool ends = above || (next && next->load_factor < options.lowest);
-    if (ends) next = land(equilibrium, path, options.newton, *next, above ? options.highest : options.lowest);
+    if (ends)
+      next =
+          land(equilibrium, path, options.newton, progress, *next, above ? options.highest : options.lowest);
     if (!next) {
       if (observer.on_cutback) observer.on_cutback(arc);
       progress.arc = arc / 2;

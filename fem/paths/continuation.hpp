@@ -48,8 +48,9 @@ std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium,
                                                        const ContinuationOptions& options);
 
 /// One step of length `arc`: along the tangent, then Newton's method in the plane normal to it. Nothing where
-/// it does not converge or its end is not one of the path's next: of another branch, or where the path has
-/// turned by 45 degrees, by which it may turn where it `leaves` another one.
+/// it does not converge or its end is none of the path's next: of another branch, or where the path has
+/// turned by more than 45 degrees. `leaves`: the first step of a branch, which may turn by as much as 90
+/// degrees.
 std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const LoadPath& path,
                                              const ContinuationProgress& from, double arc,
                                              const NewtonOptions& options, bool leaves = false);
