@@ -98,9 +98,7 @@ namespace {
 constexpr const char* flow =
     "a step with a duration, of kind \"harmonic\", or with response = \"instantaneous\"";
 bool flows(const Case& one) {
-  return takes_time(one) || is_linearised(one) || any_step(one, [](const Step& step) {
-           return !step.duration && !step.is_analysis() && step.response == Response::instantaneous;
-         });
+  return is_linearised(one) || std::ranges::any_of(one.steps, &Step::moves_dashpots);
 }
 
 /// Whether a step of a kind, `pressure` or `inflate`, reaches what [chamber] gives, or a transient follows

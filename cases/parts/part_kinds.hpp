@@ -32,6 +32,7 @@ bool has_axes(const Part& part);
 
 /// Whether a part has film that does, by that or by its prestretches.
 bool knows_x_from_y(const Part& part);
+
 template<FilmSection section>
 bool is_film_of(const Part& part) {
   return part.film && part.film->section == section;

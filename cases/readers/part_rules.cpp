@@ -156,7 +156,7 @@ void check_resistive_electrodes(SectionReader& reader, const Node& tree, const C
           fmt::format("the electrodes of {} do not resist; give their circuit a resistance", other->plural));
 }
 
-/// A film that is alike in all directions of its plane may be turned as one likes.
+/// What is alike in all directions of its plane may be turned as one likes.
 bool may_turn_by_halves_alone(const Part& part) {
   if (std::holds_alternative<Line>(part.geometry)) return false; // it knows its own way
   return !part.film || std::holds_alternative<Patch>(part.geometry) || knows_x_from_y(part);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cases/readers/rules.hpp"
 
-#include "cases/case/holding.hpp"
 #include "cases/case/quantities.hpp"
 #include "cases/language/conditions.hpp"
 

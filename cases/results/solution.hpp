@@ -31,10 +31,10 @@ struct Solution {
   post::StepRecord last;          ///< the record of the last accepted state
   std::vector<Margin> margins;
   int time_steps = 0;
-  bool passes(std::string_view kind) const { ///< a turn of that kind
-    return std::ranges::find(way, kind, &Turn::kind) != way.end();
-  }
   std::string trouble; ///< why it did not reach its end (Outcome::kind, or what was thrown); empty otherwise
+
+  /// Whether there was a turn of that kind.
+  bool passes(std::string_view kind) const { return std::ranges::find(way, kind, &Turn::kind) != way.end(); }
 };
 
 /// That of a run.

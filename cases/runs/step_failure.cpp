@@ -94,8 +94,8 @@ Outcome StepRun::cause(const Trouble& trouble, WaysOn ways_on) const {
                             ? "Stretch it a little"
                             : "Let it wrinkle (wrinkling = \"tension field\") or stretch it a little, or let "
                               "solver.smallest_increment be smaller")};
-  const auto go_on =
-      ways_on.words().empty() ? "" : "; or let the step go on with on_instability = " + ways_on.words();
+  const std::string ways = ways_on.words();
+  const std::string go_on = ways.empty() ? "" : "; or let the step go on with on_instability = " + ways;
   const std::string more =
       " Lower what drives it, or stiffen the device or stretch the film more, to stay below it" + go_on;
   const char* of_edges =

@@ -114,9 +114,7 @@ Section step_section() {
           .only(ramps),
       measure("record", "s", to(&Step::record),
               "of a step with a duration: time between rows of the history; without it one for each "
-              "increment. Events and peaks are "
-              "those of "
-              "all time steps")
+              "increment. Events and peaks are those of all time steps")
           .above(0)
           .optional()
           .only(moving),

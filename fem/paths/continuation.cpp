@@ -55,12 +55,13 @@ bool went_back(const Equilibrium& equilibrium, const Eigen::VectorXd& direction,
   return arc * row.dot(moved) < 0 && dual(equilibrium, moved).dot(moved) > arc * arc * row.dot(direction);
 }
 
-/// Whether a step `arc` that `moved` the unknowns is one along a path with these directions at its ends.
+/// Whether a step that `moved` the unknowns is one along a path with these directions at its ends.
 /// Where the load factor is nearly all of an arc's length, a step past a limit point may end on another
 /// branch, or on the same one with the direction that leads back. In the smallest steps a path may have
 /// corners.
 bool goes_straight(const Equilibrium& equilibrium, const ContinuationProgress& from,
-                   const ContinuationProgress& to, double arc, const Eigen::VectorXd& moved) {
+                   const ContinuationProgress& to, const Eigen::VectorXd& moved) {
+  const double arc = to.last_arc;
   const auto length = [&](const Eigen::VectorXd& du) { return std::sqrt(dual(equilibrium, du).dot(du)); };
   const double most = std::max(length(from.direction), length(to.direction));
   if (std::max(std::abs(arc), length(moved)) <= largest_corner && length(moved) <= 2 * std::abs(arc) * most)
@@ -73,7 +74,7 @@ bool goes_straight(const Equilibrium& equilibrium, const ContinuationProgress& f
 bool leads_astray(const Equilibrium& equilibrium, const ContinuationProgress& from,
                   const ContinuationProgress& to, double cosine, const Eigen::VectorXd& moved) {
   const Model& model = equilibrium.model();
-  return cosine < least_cosine || !goes_straight(equilibrium, from, to, to.last_arc, moved) ||
+  return cosine < least_cosine || !goes_straight(equilibrium, from, to, moved) ||
          is_turned_over(model.corners, model.drawn, from.state, to.state);
 }
 
