@@ -66,6 +66,11 @@ void check_quantities(SectionReader& reader, const Node& tree, const Case& one) 
       reader.report(source, key, wrong);
     if (const std::string idle = kind.idle ? kind.idle(one, quantity) : ""; !idle.empty())
       reader.warn(source, key, idle);
+    const auto course = std::ranges::find(one.quantities, quantity.of, &Quantity::name);
+    if (kind.so_far && course != one.quantities.end() && course->kind->so_far)
+      reader.report(source, key + ".of",
+                    fmt::format("found \"{}\", a {}: a {} is of a quantity that each state has by itself",
+                                quantity.of, course->kind->word, kind.word));
     check_step_with_end(reader, one, list->items[q].find("at"), key + ".at", quantity.at);
     check_step_with_end(reader, one, list->items[q].find("since"), key + ".since", quantity.since);
     const auto at = std::ranges::find(one.steps, quantity.at, &Step::name),

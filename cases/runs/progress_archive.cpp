@@ -67,6 +67,7 @@ json archive(const SimulationProgress& progress) {
           {"records", progress.records},
           {"ramp", post::archive(progress.in_step.ramp)},
           {"followed", followed ? post::archive(*followed) : json(nullptr)},
+          {"folds", post::archive(progress.in_step.folds)},
           {"jumps", progress.in_step.jumps},
           {"energy", post::archive(progress.energy)},
           {"kept", progress.kept},
@@ -89,7 +90,10 @@ SimulationProgress restore_progress(const json& archived, const post::StateSizes
   SimulationProgress progress;
   progress.step = archived.at("step");
   progress.records = archived.at("records");
-  progress.in_step = {post::restore_ramp(archived.at("ramp"), sizes), {}, archived.at("jumps")};
+  progress.in_step = {post::restore_ramp(archived.at("ramp"), sizes),
+                      {},
+                      post::restore_points(archived.at("folds"), sizes),
+                      archived.at("jumps")};
   if (const json& followed = archived.at("followed"); !followed.is_null())
     progress.in_step.followed = post::restore_continuation(followed, sizes);
   progress.energy = post::restore_energy(archived.at("energy"), sizes);

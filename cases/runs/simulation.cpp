@@ -347,6 +347,7 @@ Outcome Simulation::run(const SimulationObserver& observer) {
         energy_.reconnect(fem::energy_point(*equilibrium_, state, 0, held_));
       unseen_ = {};
       in_step_.jumps = 0;
+      in_step_.folds.clear();
       ramp = fem::RampProgress::begin(state, device_.model.dofs, loads_->options(step_));
       if (step.kind == StepKind::release) energy_.cut(loads_->cut(step_, ramp.start, state));
       for (const auto& [load, signal] : signals_) signal->begin(step.duration.value_or(0));

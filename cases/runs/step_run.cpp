@@ -28,6 +28,10 @@ constexpr std::array further{1e-2, 1e-1};
 /// Displacements along a mode at which another branch is looked for, over the model's extent: those of thin
 /// films are less than their thickness.
 constexpr std::array branch_amplitudes{1e-3, 1e-4, 1e-5};
+/// Length along a path within which it may have kinks, and critical points that are one.
+constexpr double indistinct = 2e-5;
+/// Load factors and lengths along a path between what is located twice as one limit point.
+constexpr double same_load = 1e-8, same_place = 1e-4;
 /// Eigenvalue of the lowest mode, over the stiffness as drawn, below which a timed step has come to a limit.
 constexpr double critical_in_time = 1e-3;
 
@@ -89,9 +93,10 @@ bool StepRun::accept(const fem::State& state, const fem::Increment& increment, R
   return !observer_.on_accept || observer_.on_accept(state, increment, reached);
 }
 
-/// Whether the path is followed by arclength where load control ends: that finds its critical points, too.
-bool StepRun::follows() const {
-  return step_.on_instability == OnInstability::follow && step_.on_bifurcation == OnBifurcation::follow;
+/// Whether the path is followed by arclength from such a point on: that finds its critical points, too.
+bool StepRun::finds_by_arclength(fem::Instability kind) const {
+  return step_.on_instability == OnInstability::follow &&
+         (kind == fem::Instability::limit_point || step_.on_bifurcation == OnBifurcation::follow);
 }
 
 /// The critical point between the last accepted state and the load factor s, where Newton's method has found
@@ -181,8 +186,8 @@ Outcome StepRun::run() {
     } else if (trouble.ramp.failure.outcome != fem::Outcome::singular && !is_slack()) {
       const bool another = progress_.ramp.beside || trouble.ramp.failure.outcome == fem::Outcome::converged;
       trouble.critical = locate(trouble.ramp.failed_at, another);
-      if (follows() && trouble.critical && !trouble.critical->beyond)
-        trouble.critical.reset(); // arclength tells
+      if (trouble.critical && !trouble.critical->beyond && finds_by_arclength(trouble.critical->kind))
+        trouble.critical.reset();
     }
     if (interrupted_) return {Ending::interrupted, between_states};
     if (trouble.critical && trouble.critical->beyond) {
@@ -245,29 +250,55 @@ fem::ContinuationOptions StepRun::arcs() const {
   return {.newton = options_.newton, .lowest = of_field ? 0.0 : -1.0};
 }
 
+/// Whether the followed path has passed this critical point before, as a path passes each limit point once
+/// only unless it is a closed loop.
+bool StepRun::comes_back(const fem::CriticalPoint& critical, double unit) {
+  if (critical.kind != fem::Instability::limit_point) return false;
+  const bool known = std::ranges::any_of(progress_.folds, [&](const fem::PathPoint& fold) {
+    return std::abs(fold.parameter - critical.load_factor) <= same_load &&
+           fem::distance(equilibrium_, unit, fold.state, critical.state) <= same_place;
+  });
+  if (!known) progress_.folds.push_back({critical.load_factor, critical.state});
+  return known;
+}
+
 std::optional<Outcome> StepRun::follow() {
-  fem::ContinuationProgress before = *progress_.followed;
-  bool interrupted = false;
+  bool interrupted = false, loops = false;
   fem::ContinuationObserver watcher;
+  std::optional<fem::CriticalPoint> critical;
+  // Where a mode or the load turns the path has passed a critical point; a step without one led to another.
+  watcher.admits = [&](const fem::ContinuationProgress& from, const fem::ContinuationProgress& to) {
+    critical.reset();
+    const bool changes = from.newton.unstable_modes != to.newton.unstable_modes;
+    if (changes) critical = fem::locate(equilibrium_, path_, from, to, options_.newton);
+    const bool turns = from.load_direction * to.load_direction < 0;
+    return critical || (!changes && !turns) || std::abs(to.last_arc) <= indistinct;
+  };
   watcher.on_accept = [&](const fem::ContinuationProgress& now) {
-    if (now.newton.unstable_modes != before.newton.unstable_modes)
-      if (const auto critical = fem::locate(equilibrium_, path_, before, now, options_.newton))
-        announce(*critical, false);
-    before = now;
+    if (critical) {
+      announce(*critical, false);
+      loops = comes_back(*critical, now.unit);
+    }
     fem::State state = model().settled(now.state);
     progress_.followed = now;
     progress_.ramp.points = {{0, state}};
     progress_.ramp.load_factor = std::min(now.load_factor, std::nextafter(1.0, 0.0)); // until the end
     interrupted = !accept(state, {now.load_factor, now.newton, true, now.last_arc}, Reached::along_path);
-    return !interrupted;
+    return !interrupted && !loops;
   };
   watcher.on_cutback = [this](double) {
     if (observer_.on_cutback) observer_.on_cutback(progress_.followed->load_factor, {});
   };
-  fem::ContinuationProgress progress = before;
+  fem::ContinuationProgress progress = *progress_.followed;
   const fem::ContinuationEnd end = fem::continuation(equilibrium_, path_, arcs(), progress, watcher);
   if (interrupted) return Outcome{Ending::interrupted};
   const double s = progress.load_factor;
+  if (loops)
+    return Outcome{
+        Ending::gave_up, "no equilibrium",
+        fmt::format("step \"{}\": the path is a closed loop: after {} states, at {}, it is where it was "
+                    "before; it does not lead to the loads at the step's end",
+                    step_.name, progress.steps, load_text(s))};
   progress_.followed.reset();
   if (end == fem::ContinuationEnd::reached_load && s >= 1) {
     progress_.ramp.load_factor = 1;

@@ -11,6 +11,7 @@ namespace dielast::cases {
 struct StepProgress {
   fem::RampProgress ramp;
   std::optional<fem::ContinuationProgress> followed; ///< a path past a critical point, while it is followed
+  std::vector<fem::PathPoint> folds;                 ///< limit points of paths that were followed
   int jumps = 0;
 };
 
@@ -95,7 +96,8 @@ class StepRun {
   bool accept(const fem::State& state, const fem::Increment& increment, Reached reached);
   bool on_ramp(const fem::RampProgress& now, const fem::Increment& increment);
   bool stops() const { return step_.on_instability == OnInstability::stop && !options_.inertia; }
-  bool follows() const;
+  bool finds_by_arclength(fem::Instability kind) const;
+  bool comes_back(const fem::CriticalPoint& critical, double unit);
   std::optional<fem::CriticalPoint> locate(double s, bool another);
   std::optional<fem::CriticalPoint> limit_in_time() const;
   void announce(const fem::CriticalPoint& critical, bool ends);

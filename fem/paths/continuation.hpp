@@ -8,12 +8,13 @@
 
 namespace dielast::fem {
 
-/// Lengths along an equilibrium path: da^2 = du . D du / E + ds^2 with D = Equilibrium::stiffness() and E =
-/// energy_scale(): about the mean displacement over the model's extent, and the load factor.
+/// Lengths along an equilibrium path: da^2 = du . D du / E + ds^2 with D = Equilibrium::stiffness(). E is
+/// energy_scale() at first, which makes it about the mean displacement over the model's extent, and the load
+/// factor; where the way of the displacements is short beside that of the load factor it is smaller.
 struct ContinuationOptions {
   NewtonOptions newton{.max_iterations = 10};
   double first_arc = 0.02;
-  double smallest_arc = 1e-6; ///< a path that needs less is given up
+  double smallest_arc = 1e-8; ///< a path that needs less is given up
   double largest_arc = 0.1;
   int wanted_iterations = 4; ///< steps grow below and shrink above
   int most_steps = 500;
@@ -28,12 +29,18 @@ struct ContinuationProgress {
   double load_direction = 0; ///< ds/da here; its sign tells whether the load grows
   double arc = 0;            ///< length of the next step
   double last_arc = 0;       ///< length of the step that led here
+  double unit = 0;           ///< E, J
+  double way = 0;            ///< length of all displacements so far, by energy_scale()
+  double load_way = 0;       ///< by how much the load factor has changed so far, up and down
   int steps = 0;             ///< accepted so far
   NewtonResult newton;       ///< of this point
 };
 
 /// Watches a continuation. Every method may be left out.
 struct ContinuationObserver {
+  /// Whether the path may lead from the one to the other; a step to one that may not is halved like one that
+  /// fails.
+  std::function<bool(const ContinuationProgress& from, const ContinuationProgress& to)> admits;
   /// Returns false to stop here.
   std::function<bool(const ContinuationProgress&)> on_accept;
   std::function<void(double arc)> on_cutback;
@@ -54,6 +61,9 @@ std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium,
 std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const LoadPath& path,
                                              const ContinuationProgress& from, double arc,
                                              const NewtonOptions& options, bool leaves = false);
+
+/// sqrt(du . D du / E) with du between two states and E = unit, J.
+double distance(const Equilibrium& equilibrium, double unit, const State& from, const State& to);
 
 /// Change of the unbalanced forces per load factor at fixed displacements of the free unknowns, N.
 Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s);

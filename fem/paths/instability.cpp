@@ -16,6 +16,7 @@ namespace {
 constexpr double negligible = 1e-7;       ///< eigenvalue, over the largest seen on the way
 constexpr double zero = 1e-3;             ///< likewise, of a bracket that has closed
 constexpr double smallest_bracket = 1e-9; ///< over the first
+constexpr double small_bracket = 1e-5;    ///< likewise, of one that cannot be made smaller
 constexpr double least_reach = 1e-3;      ///< part of the way to a trial
 constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcation
 constexpr int most_trials = 80;
@@ -68,6 +69,8 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
   std::optional<ContinuationProgress> nearer;
   std::optional<CriticalPoint> best;
   double largest = 0, reach = 1;
+  int fewest = std::numeric_limits<int>::max(); ///< modes by which a state beyond differs
+  int best_gained = 0;
   bool closed = false;
   for (int trial = 0; trial < most_trials && reach > least_reach && !closed; ++trial) {
     const double width = high.arc - low.arc;
@@ -85,12 +88,20 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
     reach = 1;
     closed = width <= smallest_bracket * after.last_arc;
     std::optional<double> eigenvalue;
+    // Beyond several critical points the mode that is nearest to vanishing may be that of a later one.
+    const int gained = std::abs(at->newton.unstable_modes - modes);
+    if (gained > 0 && gained < fewest) {
+      if (best_gained > gained) best.reset();
+      fewest = gained;
+    }
     if (auto mode = lowest_mode(equilibrium, at->state)) {
       eigenvalue = mode->eigenvalue;
       largest = std::max(largest, std::abs(*eigenvalue));
-      closed = closed || std::abs(*eigenvalue) <= negligible * largest;
-      if (!best || std::abs(*eigenvalue) < std::abs(best->mode.eigenvalue))
+      closed = closed || (gained <= fewest && std::abs(*eigenvalue) <= negligible * largest);
+      if (gained <= fewest && (!best || std::abs(*eigenvalue) < std::abs(best->mode.eigenvalue))) {
         best = CriticalPoint{{}, at->load_factor, at->state, *std::move(mode)};
+        best_gained = gained;
+      }
     }
     if (at->newton.unstable_modes == modes) {
       low = {arc, eigenvalue};
@@ -99,6 +110,8 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
       high = {arc, eigenvalue};
     }
   }
+  // Where several modes vanish at once the path may not be followed through the last of the way.
+  closed = closed || high.arc - low.arc <= small_bracket * after.last_arc;
   // A bracket that closes on no zero holds points of two paths.
   if (!closed || !best || std::abs(best->mode.eigenvalue) > zero * largest) return std::nullopt;
   // Whether the load turns tells what it is: modes that vanish close by make the one that is found a mixture.
@@ -308,7 +321,8 @@ std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, cons
   ContinuationProgress across{.state = critical.state,
                               .load_factor = critical.load_factor,
                               .direction = std::copysign(1 / length, amplitude) * mode,
-                              .arc = options.first_arc};
+                              .arc = options.first_arc,
+                              .unit = equilibrium.energy_scale()};
   // The load of a branch may rise so steeply that its tangent is soon next to normal to the mode; how far the
   // branch has gone along it tells.
   auto branch = arc_step(equilibrium, path, across, std::abs(amplitude) * length, options.newton, true);

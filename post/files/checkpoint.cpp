@@ -198,10 +198,21 @@ StateSizes StateSizes::of(const fem::Model& model) {
           drawn.scalar.size()};
 }
 
+json archive(const std::vector<fem::PathPoint>& points) {
+  json all = json::array();
+  for (const auto& [parameter, state] : points)
+    all.push_back({{"parameter", parameter}, {"state", archive(state)}});
+  return all;
+}
+
+std::vector<fem::PathPoint> restore_points(const json& archived, const StateSizes& sizes) {
+  std::vector<fem::PathPoint> points;
+  for (const json& point : archived)
+    points.push_back({point.at("parameter"), restore_state(point.at("state"), sizes)});
+  return points;
+}
+
 json archive(const fem::RampProgress& progress) {
-  json points = json::array();
-  for (const auto& point : progress.points)
-    points.push_back({{"parameter", point.parameter}, {"state", archive(point.state)}});
   return {{"start",
            {post::pack(progress.start.voltage), post::pack(progress.start.charge),
             post::pack(progress.start.source), pack(progress.start.dead_force), pack(progress.start.held)}},
@@ -212,7 +223,7 @@ json archive(const fem::RampProgress& progress) {
           {"beside", progress.beside},
           {"unstable_modes", progress.unstable_modes},
           {"slope", progress.slope ? pack(*progress.slope) : json(nullptr)},
-          {"points", std::move(points)}};
+          {"points", archive(progress.points)}};
 }
 
 fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
@@ -232,8 +243,7 @@ fem::RampProgress restore_ramp(const json& archived, const StateSizes& sizes) {
     progress.unstable_modes = archived.at("unstable_modes");
     if (const json& slope = archived.at("slope"); !slope.is_null())
       progress.slope = optional_vector(slope, sizes.free);
-    for (const json& point : archived.at("points"))
-      progress.points.push_back({point.at("parameter"), restore_state(point.at("state"), sizes)});
+    progress.points = restore_points(archived.at("points"), sizes);
     if (progress.points.empty()) mismatch();
     return progress;
   } catch (const json::exception&) {
@@ -245,7 +255,8 @@ json archive(const fem::ContinuationProgress& progress) {
   return {{"state", archive(progress.state)},
           {"direction", pack(progress.direction)},
           {"numbers", post::pack(std::array{progress.load_factor, progress.load_direction, progress.arc,
-                                            progress.last_arc, progress.newton.residual})},
+                                            progress.last_arc, progress.unit, progress.way, progress.load_way,
+                                            progress.newton.residual})},
           {"counts",
            {progress.steps, progress.newton.iterations, progress.newton.negative_pivots,
             progress.newton.unstable_modes}}};
@@ -253,7 +264,7 @@ json archive(const fem::ContinuationProgress& progress) {
 
 fem::ContinuationProgress restore_continuation(const json& archived, const StateSizes& sizes) {
   try {
-    const std::vector<double> numbers = unpack(archived.at("numbers"), 5);
+    const std::vector<double> numbers = unpack(archived.at("numbers"), 8);
     const json& counts = archived.at("counts");
     fem::ContinuationProgress progress{restore_state(archived.at("state"), sizes),
                                        numbers[0],
@@ -261,9 +272,12 @@ fem::ContinuationProgress restore_continuation(const json& archived, const State
                                        numbers[1],
                                        numbers[2],
                                        numbers[3],
+                                       numbers[4],
+                                       numbers[5],
+                                       numbers[6],
                                        counts.at(0),
                                        {}};
-    progress.newton.residual = numbers[4];
+    progress.newton.residual = numbers[7];
     progress.newton.iterations = counts.at(1);
     progress.newton.negative_pivots = counts.at(2);
     progress.newton.unstable_modes = counts.at(3);

@@ -22,6 +22,7 @@ struct StateSizes {
 /// States and progress as JSON whose numbers are kept bit for bit (arrays of doubles as binary): written as
 /// CBOR it is the state part of a checkpoint.
 nlohmann::json archive(const fem::State& state);
+nlohmann::json archive(const std::vector<fem::PathPoint>& points);
 nlohmann::json archive(const fem::RampProgress& progress);
 nlohmann::json archive(const fem::ContinuationProgress& progress);
 nlohmann::json archive(const fem::EnergyBalance::Record& record);
@@ -29,6 +30,7 @@ nlohmann::json archive(const fem::EnergyBalance::Record& record);
 /// What was archived. Throws CheckpointError when it is something else, or does not fit a model whose states
 /// have these sizes.
 fem::State restore_state(const nlohmann::json& archived, const StateSizes& sizes);
+std::vector<fem::PathPoint> restore_points(const nlohmann::json& archived, const StateSizes& sizes);
 fem::RampProgress restore_ramp(const nlohmann::json& archived, const StateSizes& sizes);
 fem::ContinuationProgress restore_continuation(const nlohmann::json& archived, const StateSizes& sizes);
 fem::EnergyBalance::Record restore_energy(const nlohmann::json& archived, const StateSizes& sizes);

@@ -11,7 +11,7 @@
 namespace dielast::post {
 
 /// Number of the checkpoints' format: whoever changes what a checkpoint holds adds one.
-constexpr int checkpoint_format = 10;
+constexpr int checkpoint_format = 11;
 
 /// A checkpoint that cannot be resumed from; the message says why, without the file's name.
 struct CheckpointError : std::runtime_error {

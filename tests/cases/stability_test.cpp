@@ -216,32 +216,47 @@ TEST_F(Stability, ABranchThatComesBackGoesOn) {
   EXPECT_NEAR(margins.at("breakdown").factor.value_or(0), 2778 / 1800.0, 1e-3);
 }
 
-// Two modes of a sheared sheet lose their stability next to one another; the branch of the first is unstable.
-TEST_F(Stability, ABranchThatIsUnstableAtItsEndIsNoResult) {
-  const auto sheared = [this](const std::string& on_instability) {
+/// Two modes of a sheared sheet lose their stability next to one another.
+class ShearedSheet : public Stability {
+ protected:
+  Run sheared(int across, const std::string& on_instability) {
     return run(
         "model = \"3d\"\n[film]\nthickness = \"0.4 mm\"\nprestretch = [1.02, 1.05]\nsection = \"shell\"\n"
         "[film.material]\nshear_modulus = \"45 kPa\"\nrelative_permittivity = 4.7\n[strip]\n"
-        "length = \"40 mm\"\nwidth = \"80 mm\"\n[mesh]\nacross = 6\n[[body]]\nname = \"bar\"\n"
-        "places = [\"lower_end\"]\nfix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n"
-        "[[support]]\nplace = \"upper_end\"\nfix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", "
-        "\"turn_z\"]\n"
-        "displacement = { x = \"6 mm\" }\n[[step]]\nkind = \"move\"\nincrements = 6\n"
-        "on_bifurcation = \"switch\"\non_instability = \"" +
+        "length = \"40 mm\"\nwidth = \"80 mm\"\n[mesh]\nacross = " +
+            std::to_string(across) +
+            "\n[[body]]\nname = \"bar\"\n"
+            "places = [\"lower_end\"]\nfix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\"]\n"
+            "[[support]]\nplace = \"upper_end\"\nfix = [\"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", "
+            "\"turn_z\"]\n"
+            "displacement = { x = \"6 mm\" }\n[[step]]\nkind = \"move\"\nincrements = 6\n"
+            "on_bifurcation = \"switch\"\non_instability = \"" +
             on_instability +
             "\"\n[[quantity]]\n"
             "name = \"lowest\"\nkind = \"modal stiffness\"\n[output]\nerror_estimate = false\nfields = "
             "false\n",
         "lowest");
-  };
-  const Run stopped = sheared("stop");
+  }
+};
+
+TEST_F(ShearedSheet, BranchThatIsUnstableAtItsEndIsNoResult) {
+  const Run stopped = sheared(8, "stop");
   EXPECT_EQ(stopped.outcome.ending, Ending::gave_up);
   EXPECT_EQ(stopped.outcome.kind, "instability");
   EXPECT_LT(stopped.rows.back().value, 0);
-  const Run jumped = sheared("jump");
+  const Run jumped = sheared(8, "jump");
   EXPECT_EQ(jumped.outcome.ending, Ending::complete) << jumped.outcome.message;
   EXPECT_GT(jumped.rows.back().value, 0);
   EXPECT_EQ(jumped.rows.back().load_factor, 1);
+}
+
+// This mesh is not symmetric and leaves a gap where the branch of the first mode would lose its stability to
+// the second: the path turns a sharp corner there and stays stable. A step across the gap led to the part
+// beyond, which is unstable, and from which the sheet jumped to where the path ends.
+TEST_F(ShearedSheet, BranchIsFollowedRoundACorner) {
+  const Run followed = sheared(6, "stop");
+  EXPECT_EQ(followed.outcome.ending, Ending::complete) << followed.outcome.message;
+  EXPECT_NEAR(followed.rows.back().value, 30924, 10); // of the jump's end
 }
 
 // Where a buckled beam is pushed through, the branch along which it turns is unstable from its beginning: a

@@ -29,7 +29,8 @@ TEST(Continuation, follows_a_gent_film_through_both_limit_points) {
   const auto model = test::material_point(100);
   Equilibrium equilibrium(*model, 1);
   const LoadPath path = path_to(*model, 1, 0);
-  auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, {});
+  const ContinuationOptions options{.largest_arc = 0.05};
+  auto progress = begin_continuation(equilibrium, path, model->initial_state(), 0, options);
   ASSERT_TRUE(progress);
   double highest = 0, lowest = 1, largest = 0;
   ContinuationObserver observer;
@@ -45,7 +46,7 @@ TEST(Continuation, follows_a_gent_film_through_both_limit_points) {
     if (l > 3) lowest = std::min(lowest, phi);
     return true;
   };
-  EXPECT_EQ(continuation(equilibrium, path, {}, *progress, observer), ContinuationEnd::reached_load);
+  EXPECT_EQ(continuation(equilibrium, path, options, *progress, observer), ContinuationEnd::reached_load);
   EXPECT_EQ(progress->load_factor, 1);
   EXPECT_NEAR(highest, 0.68936322, 3e-3);
   EXPECT_NEAR(lowest, 0.27460055, 3e-3);
