@@ -5,11 +5,12 @@
 
 namespace dielast::fem {
 
-/// Strains of a shell at a point, w.r.t. its unstretched film: the metric a of the drawn surface, or of the
-/// layers' face beside it (FaceStrain), and the change of curvature b_ij = sym(x,i . d,j) less that of the
-/// drawing, 1/m; components 11, 22, 12. The layers keep their volume, so that what was at Z is at a height z
-/// along the director with dz/dZ = 1/sqrt(det C), C = a + 2 z b + z^2 b a^-1 b. With l = 1/sqrt(det a), H =
-/// tr(a^-1 b)/2, K = det b/det a and, as b a^-1 b = 2 H b - K a,
+/// Strains of a shell at a point, w.r.t. its unstretched film: the metric a of the surface that lies as far
+/// from the drawn one as the middle of the layers does as drawn, along directors that keep their length, and
+/// the change of curvature b_ij = sym(x,i . d,j) less that of the drawing, 1/m; components 11, 22, 12. The
+/// layers keep their volume, so that what was at Z is at a height z along the director with dz/dZ =
+/// 1/sqrt(det C), C = a + 2 z b + z^2 b a^-1 b. With l = 1/sqrt(det a), H = tr(a^-1 b)/2, K = det b/det a
+/// and, as b a^-1 b = 2 H b - K a,
 ///   z(Z) = l Z - H (l Z)^2,   C(Z) = a + 2 l Z b - (l Z)^2 K a,
 /// terms of (Z b)^3 left out: in the same shell drawn at another height bending is as stiff.
 struct ShellStrain {

@@ -78,9 +78,8 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
     shear_.add_layer(layer.material, H, section.extra_stretch(layer));
     height_ += H;
   });
-  const double bottom = section.offset - height_ / 2, top = section.offset + height_ / 2;
-  face_ = bottom > 0 ? bottom : top < 0 ? top : 0;
-  gap_ = face_ / (prestretch_[0] * prestretch_[1]);
+  middle_ = section.offset;
+  lever_ = middle_ / (prestretch_[0] * prestretch_[1]);
   geometry_.assign(static_cast<std::size_t>(packs * points), ShellPoint{});
   areas_.assign(static_cast<std::size_t>(packs), Lanes{});
   for (int e = 0; e < packs * lanes; ++e) place_element(e);
@@ -88,14 +87,13 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
 
 void ShellBlock::place_element(int element) {
   const int pack = element / lanes, lane = element % lanes;
-  const Matrix36 X = drawn(element);
+  const Matrix36 X = drawn(element), D = directors(X), at = X + lever_ * D; // of the strains
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument("triangle " + std::to_string(numbers_[static_cast<std::size_t>(element)]) +
                                 what);
   };
-  const Matrix36 D = directors(X);
-  const Eigen::Vector3d middle = X.col(0);
-  const double slenderness = std::sqrt((X.col(1) - middle).cross(X.col(2) - middle).norm()) / height_,
+  const Eigen::Vector3d corner = at.col(0);
+  const double slenderness = std::sqrt((X.col(1) - X.col(0)).cross(X.col(2) - X.col(0)).norm()) / height_,
                stiffness = std::min(1.0, std::pow(slenderest / slenderness, 2)); // see make_shell_block()
   for (int p = 0; p < points; ++p) {
     const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
@@ -114,17 +112,17 @@ void ShellBlock::place_element(int element) {
         G(0, 1) * G(0, 1), G(1, 1) * G(1, 1), 2 * G(0, 1) * G(1, 1),    //
         G(0, 0) * G(0, 1), G(1, 0) * G(1, 1), G(0, 0) * G(1, 1) + G(1, 0) * G(0, 1);
     Eigen::Vector3d metric, curvature;
-    const Matrix32 d = D * matrix(table.gradient);
+    const Matrix32 d = D * matrix(table.gradient), along = at * matrix(table.gradient);
     for (std::size_t c = 0; c < 3; ++c) {
       double sum = 0;
       for (int a = 0; a < Nodes; ++a)
         for (int b = 0; b < Nodes; ++b)
           sum += table.metric[c][static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] *
-                 (X.col(a) - middle).dot(X.col(b) - middle);
+                 (at.col(a) - corner).dot(at.col(b) - corner);
       metric[static_cast<Eigen::Index>(c)] = sum;
     }
-    curvature << t.col(0).dot(d.col(0)), t.col(1).dot(d.col(1)),
-        (t.col(0).dot(d.col(1)) + t.col(1).dot(d.col(0))) / 2;
+    curvature << along.col(0).dot(d.col(0)), along.col(1).dot(d.col(1)),
+        (along.col(0).dot(d.col(1)) + along.col(1).dot(d.col(0))) / 2;
     const Eigen::Vector3d unity(prestretch_[0] * prestretch_[0], prestretch_[1] * prestretch_[1], 0),
         a0 = unity - map * metric, b0 = -map * curvature;
     for (int i = 0; i < 3; ++i) {
@@ -139,7 +137,7 @@ void ShellBlock::place_element(int element) {
       for (int a = 0; a < Nodes; ++a)
         for (int b = 0; b < Nodes; ++b)
           sum += table.shear[c][static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] *
-                 (X.col(a) - middle).dot(D.col(b));
+                 (at.col(a) - corner).dot(D.col(b));
       place.gamma[c][lane] = sum;
     }
     place.area[lane] = element < count_ ? table.weight * det / (prestretch_[0] * prestretch_[1]) : 0.0;
@@ -202,6 +200,9 @@ ShellNodes ShellBlock::gather(const State& state, int pack) const {
     for (int c = 0; c < 3; ++c) nodes.axis[a][2][c] = Lanes{};
     if (!nodes.tilt) turn(pack, a, R, nodes);
   }
+  nodes.lever = lever_;
+  for (int a = Nodes - 1; a >= 0; --a)
+    for (int c = 0; c < 3; ++c) nodes.x[a][c] += lever_ * (nodes.d[a][c] - nodes.d[0][c]);
   multiply_nodes(nodes);
   return nodes;
 }
@@ -210,14 +211,19 @@ ShellNodes ShellBlock::gather(const State& state, int pack) const {
 void ShellBlock::turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes) const {
   const auto& gradient = shell_tables().node[static_cast<std::size_t>(a)];
   Lanes drawn[2][3], normal[3];
-  for (int l = 0; l < lanes; ++l) {
-    const Matrix32 t = this->drawn(pack * lanes + l) * matrix(gradient);
-    for (int c = 0; c < 3; ++c)
-      for (int i = 0; i < 2; ++i) drawn[i][c][l] = t(c, i);
-  }
-  for (int i = 0; i < 2; ++i) times(R, drawn[i], nodes.along[i][a]);
-  cross(nodes.along[0][a], nodes.along[1][a], normal);
-  const Lanes per_area = 1.0 / materials::sqrt(dot(normal, normal));
+  const auto turn_tangents = [&](double lever) {
+    for (int l = 0; l < lanes; ++l) {
+      Matrix36 X = this->drawn(pack * lanes + l);
+      if (lever != 0) X += lever * directors(X);
+      const Matrix32 t = X * matrix(gradient);
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 2; ++i) drawn[i][c][l] = t(c, i);
+    }
+    for (int i = 0; i < 2; ++i) times(R, drawn[i], nodes.along[i][a]);
+    cross(nodes.along[0][a], nodes.along[1][a], normal);
+    return Lanes(1.0 / materials::sqrt(dot(normal, normal)));
+  };
+  const Lanes per_area = turn_tangents(0);
   for (int l = 0; l < lanes; ++l) {
     const bool tilts = !(*tilt_axes_)[static_cast<std::size_t>(node(pack * lanes + l, a))].isZero(0);
     nodes.per_area[a][l] = tilts ? 0 : per_area[l];
@@ -225,6 +231,11 @@ void ShellBlock::turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes
       nodes.d[a][c][l] = normal[c][l] * per_area[l];
       for (int k = 0; k < 3; ++k) nodes.axis[a][k][c][l] = k == c ? 1 : 0;
     }
+  }
+  if (lever_ != 0) {
+    const Lanes at_lever = turn_tangents(lever_);
+    for (int l = 0; l < lanes; ++l)
+      if (nodes.per_area[a][l] != 0) nodes.per_area[a][l] = at_lever[l];
   }
 }
 
@@ -248,13 +259,13 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
     const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
     const ShellPoint& here = point(pack, p);
     const ShellDeformation f = deformation(table, nodes);
-    const FaceStrain face = face_strain(pack, p, f);
-    const Lanes det = face.strain().a.det();
-    SectionPotential section(face.strain());
+    const ShellStrain strain = fem::strain(point(pack, p), f);
+    const Lanes det = strain.a.det();
+    SectionPotential section(strain);
     for (const Layer& layer : layers_) {
       const bool couples = with_tangent && layer.charged;
-      SectionPotential elastance(face.strain()); // int 1/r dZ, see across()
-      across(state, layer, pack, p, face.strain(), [&](const Place& place) {
+      SectionPotential elastance(strain); // int 1/r dZ, see across()
+      across(state, layer, pack, p, strain, [&](const Place& place) {
         const Lanes within = place.C.det();
         for (int l = 0; l < lanes; ++l)
           if (!(within[l] > 0)) feasible = false;
@@ -273,8 +284,7 @@ bool ShellBlock::evaluate_pack(const State& state, int pack, const ShellNodes& n
     }
     for (int l = 0; l < lanes; ++l)
       if (!(f.normal[l] > 0 && det[l] > 0)) feasible = false;
-    ShellStress stress =
-        ShellStress::of<with_tangent>(here, face.by_drawn<with_tangent>(section.derivatives<with_tangent>()));
+    ShellStress stress = ShellStress::of<with_tangent>(here, section.derivatives<with_tangent>());
     energy += here.area * section.value() +
               shear_.evaluate(state, surface_points(pack, p), lanes_of(pack), here, f, stress);
     sum.add(table, f, stress);

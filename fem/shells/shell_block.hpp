@@ -17,13 +17,14 @@ namespace dielast::fem {
 /// shear gamma_i = x,i . d of each in its own unstretched film, k_s = 5/6, and what branches add to it, see
 /// ShellShear. The director d_a = R_a D_a of a node turns with it; D_a is normal to this element as drawn, so
 /// that folds and junctions are rigid corners. Strains are interpolated as ShellTables says: neither thin nor
-/// curved elements lock. Three Gauss points across each layer. Nodes tilt, where DofMap::add_director() lets
-/// them; where they have three spins, those about the directors are held to the film's own rotation by a
-/// stiffness of 1e-3 k_s mu H times the area. In elements that are more than 30 thicknesses long (h, the root
-/// of twice the drawn area) the shear is resisted by (30 H/h)^2 of that only: still a thousand times stiffer
-/// than the shortest waves that they can bend in, while thinner ones would let directors buckle against each
-/// other where the film turns. As drawn, the shell is free of stress, but for its prestretch. It has no mass:
-/// see make_shell_mass_block().
+/// curved elements lock. All are those of the layers' middle, whose nodes lie `offset` along the directors,
+/// as drawn: how this distance follows the thickness is left out. Three Gauss points across each layer. Nodes
+/// tilt, where DofMap::add_director() lets them; where they have three spins, those about the directors are
+/// held to the film's own rotation by a stiffness of 1e-3 k_s mu H times the area. In elements that are more
+/// than 30 thicknesses long (h, the root of twice the drawn area) the shear is resisted by (30 H/h)^2 of that
+/// only: still a thousand times stiffer than the shortest waves that they can bend in, while thinner ones
+/// would let directors buckle against each other where the film turns. As drawn, the shell is free of stress,
+/// but for its prestretch. It has no mass: see make_shell_mass_block().
 ///
 /// `electrodes`: for each layer, the electrode over each element, or `passive`. `numbers`: of the elements in
 /// the mesh's own block, for samples and messages; empty: in their order here. Throws std::invalid_argument

@@ -3,11 +3,10 @@
 
 #include "fem/films/membrane_block.hpp"
 #include "fem/model/node_places.hpp"
-#include "fem/shells/face_strain.hpp"
 #include "fem/shells/film_layer.hpp"
 #include "fem/shells/shell_block.hpp"
-#include "fem/shells/shell_kinematics.hpp"
 #include "fem/shells/shell_shear.hpp"
+#include "fem/shells/shell_sum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -99,8 +98,8 @@ class ShellBlock final : public ElementBlock {
   /// One point across the thickness at an integration point of a pack.
   struct Place {
     const Layer& layer;
-    double Z, weight;             ///< above the face, before the prestretch, m
-    Lanes height;                 ///< above the drawn surface, along the director, m
+    double Z, weight;             ///< above the middle, before the prestretch, m
+    Lanes height;                 ///< above the surface of the strains, along the director, m
     std::array<int, lanes> point; ///< numbers in the layer
     materials::InPlaneC<Lanes> C; ///< of the layer
     Lanes field;                  ///< nominal, over Phi/H
@@ -156,15 +155,10 @@ class ShellBlock final : public ElementBlock {
     return drilling_ * shear_.stiffness() / Nodes * areas_[static_cast<std::size_t>(pack)];
   }
 
-  FaceStrain face_strain(int pack, int p, const ShellDeformation& f) const {
-    return {strain(point(pack, p), f), gap_};
-  }
-
   std::vector<Layer> layers_;
   std::array<double, 2> prestretch_;
-  double face_ = 0; ///< where the layers begin above (or end below) the drawn surface, before the prestretch,
-                    ///< m; 0: that is one of theirs
-  double gap_ = 0;  ///< as drawn, m: see FaceStrain
+  double middle_ = 0; ///< of the layers above the drawn surface, before the prestretch, m
+  double lever_ = 0;  ///< as drawn, m: strains are those of the surface at this distance
   double height_ = 0; ///< of the layers before the prestretch, m
   ShellShear shear_;
   double drilling_; ///< see ShellSection
@@ -189,7 +183,7 @@ void ShellBlock::across(const State& state, const Layer& layer, int pack, int p,
   std::array<Lanes, depths> field, height;
   Lanes mean_field{};
   for (std::size_t q = 0; q < depths; ++q) {
-    Z[q] = layer.middle + depth_rule[q].place * layer.depth / 2 - face_;
+    Z[q] = layer.middle + depth_rule[q].place * layer.depth / 2 - middle_;
     height[q] = Z[q] * thinning;
     C[q] = layer.own(strain.at(height[q], gaussian));
     field[q] = Lanes{} + 1.0;
@@ -201,7 +195,7 @@ void ShellBlock::across(const State& state, const Layer& layer, int pack, int p,
     for (int l = 0; l < lanes; ++l)
       numbers[static_cast<std::size_t>(l)] = ((pack * lanes + l) * points + p) * depths + static_cast<int>(q);
     if (layer.charged) field[q] /= mean_field;
-    visit(Place{layer, Z[q], depth_rule[q].weight * layer.depth, gap_ + height[q] * (1.0 - mean * height[q]),
+    visit(Place{layer, Z[q], depth_rule[q].weight * layer.depth, height[q] * (1.0 - mean * height[q]),
                 numbers, C[q], field[q], k * field[q] * field[q]});
   }
 }
@@ -212,9 +206,9 @@ void ShellBlock::for_each_point(const State& state, const Visitor& visit) const 
     const ShellNodes nodes = gather(state, pack);
     for (int p = 0; p < points; ++p) {
       const ShellDeformation f = deformation(shell_tables().point[static_cast<std::size_t>(p)], nodes);
-      const FaceStrain face = face_strain(pack, p, f);
+      const ShellStrain strain = fem::strain(point(pack, p), f);
       for (const Layer& layer : layers_)
-        across(state, layer, pack, p, face.strain(), [&](const Place& place) {
+        across(state, layer, pack, p, strain, [&](const Place& place) {
           for (int l = 0; l < lanes_of(pack); ++l)
             visit(Visit{place, l, pack * lanes + l, p, point(pack, p).area[l] * place.weight, f});
         });

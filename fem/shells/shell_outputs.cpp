@@ -17,7 +17,7 @@ void ShellBlock::sample(const State& state, Samples& samples) const {
     const Eigen::Matrix<double, 6, 2> gradient =
         matrix(shell_tables().point[static_cast<std::size_t>(at.p)].gradient);
     const Matrix36 X = drawn(at.element);
-    const Matrix32 surface = X * gradient, t = surface + (gap_ + at.place.Z) * directors(X) * gradient;
+    const Matrix32 surface = X * gradient, t = surface + (lever_ + at.place.Z) * directors(X) * gradient;
     Matrix32 moved;
     for (int i = 0; i < 2; ++i)
       for (int c = 0; c < 3; ++c)
@@ -49,14 +49,14 @@ void ShellBlock::add_charges(const State& state, const DofMap* dof_map, Charges&
         const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
         const ShellPoint& here = point(pack, p);
         const ShellDeformation f = deformation(table, nodes);
-        const FaceStrain face = face_strain(pack, p, f);
-        SectionPotential section(face.strain());
-        across(state, layer, pack, p, face.strain(), [&](const Place& place) {
+        const ShellStrain strain = fem::strain(point(pack, p), f);
+        SectionPotential section(strain);
+        across(state, layer, pack, p, strain, [&](const Place& place) {
           section.add(place.Z, place.weight * place.field * place.field,
                       layer.in_section(layer.film.capacitance_ratio(place.C)));
         });
         density += here.area * section.value();
-        sum.add(table, f, ShellStress::of<false>(here, face.by_drawn<false>(section.derivatives<false>())));
+        sum.add(table, f, ShellStress::of<false>(here, section.derivatives<false>()));
       }
       sum.finish();
       for (int l = 0; l < lanes_of(pack); ++l) {
@@ -106,10 +106,10 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
       const ShellTables::Point& table = shell_tables().point[static_cast<std::size_t>(p)];
       const ShellPoint& here = point(pack, p);
       const ShellDeformation f = deformation(table, nodes);
-      const FaceStrain face = face_strain(pack, p, f);
-      SectionPotential section(face.strain());
+      const ShellStrain strain = fem::strain(point(pack, p), f);
+      SectionPotential section(strain);
       for (const Layer& layer : layers_)
-        across(state, layer, pack, p, face.strain(), [&](const Place& place) {
+        across(state, layer, pack, p, strain, [&](const Place& place) {
           materials::MembranePotential<Lanes> psi{};
           for (int l = 0; l < lanes_of(pack); ++l)
             set_lane(psi, l,
@@ -117,7 +117,7 @@ void ShellBlock::add_relaxation(const State& state, const RateWeight& weight, co
                                            lane_of(place.C, l), place.k[l], weight));
           section.add(place.Z, Lanes{} + place.weight, layer.in_section(psi));
         });
-      ShellStress stress = ShellStress::of<true>(here, face.by_drawn<true>(section.derivatives<true>()));
+      ShellStress stress = ShellStress::of<true>(here, section.derivatives<true>());
       shear_.add_relaxation(weight, here, stress);
       sum.add(table, f, stress);
     }
