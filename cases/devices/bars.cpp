@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace dielast::cases {
@@ -89,7 +91,35 @@ fem::Tie pinned(const std::string& ribbon, meshing::Mesh& mesh) {
   return {own, on_tip, Eigen::Vector3d::Zero(), false};
 }
 
+/// Part of the load under which a ribbon between pins buckles that is none yet.
+constexpr double next_to_nothing = 1e-3;
+
 } // namespace
+
+std::string pushed_ribbon(const Case& one, const Device& device, const fem::State& state) {
+  const auto part = std::ranges::find_if(one.parts, are_links);
+  if (part == one.parts.end()) return "";
+  const Leaf& leaf = *part->ribbon;
+  const double EI = materials::rectangular_section(leaf.beam.material, leaf.beam.width, leaf.beam.height).EI3,
+               buckles = EI * std::pow(std::numbers::pi / leaf.length, 2);
+  const fem::Samples samples = device.model.sample(state);
+  for (const std::string ribbon : ribbons) {
+    const std::vector<int>* lines = device.mesh.cells_of(ribbon, device.mesh.walls());
+    double tension = 0, length = 0;
+    for (const fem::BeamSample& at : samples.walls)
+      if (lines && std::ranges::count(*lines, at.cell) > 0) {
+        tension += at.force.x() * at.length;
+        length += at.length;
+      }
+    if (tension < -next_to_nothing * buckles * length)
+      return fmt::format(
+          "the {}, which turns freely at its ends, would be pushed by {:.3g} N and is slack: what "
+          "hangs on it is not held any more. Keep it taut by more prestretch or less voltage, or "
+          "let the ribbons bend: ribbons = \"beams\"",
+          ribbon == ribbons[0] ? "upper ribbon" : "lower ribbon", -tension / length);
+  }
+  return "";
+}
 
 std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh) {
   std::vector<fem::Tie> links;

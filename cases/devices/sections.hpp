@@ -30,6 +30,9 @@ std::vector<fem::Tie> set_off_bars(const Case& one, meshing::Mesh& mesh);
 /// the first end keeps a pinned ribbon from turning about itself.
 void link_bars(const std::vector<fem::Tie>& links, fem::Dimension dimension, fem::DofMap& dofs);
 
+/// Says which ribbon that turns freely at its ends is pushed in this state, as none can be; empty: no one.
+std::string pushed_ribbon(const Case& one, const Device& device, const fem::State& state);
+
 /// Adds the bars: walls of lattices, and parts along lines of the mesh. Throws CaseError for a place without
 /// lines.
 void add_bars(const Case& one, const meshing::Mesh& mesh, fem::Model& model);

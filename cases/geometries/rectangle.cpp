@@ -11,7 +11,8 @@ GeometryKind rectangle_geometry() {
   };
   Section section;
   section.name = "rectangle";
-  section.meaning = "film held in a rectangular frame, with a rectangular electrode in the middle";
+  section.meaning =
+      "film held in a rectangular frame about the origin, with a rectangular electrode in the middle";
   section.presence = Section::Presence::geometry;
   section.access = geometry_of_type<Rectangle>();
   section.keys = {

@@ -193,6 +193,7 @@ std::vector<Template> disc_templates() {
            "\"axisymmetric\" takes a small part of the time",
            {{"film", "the film"},
             {"electrode", "the film under the electrode"},
+            {"passive", "the film beside it, if there is any"},
             {"electrode_edge", "the electrode's edge"},
             {"rim", "the clamped edge"},
             {"centre", "the node in the middle"}},

@@ -94,7 +94,8 @@ std::string manual_page() {
           "unless the case has its own.\n\n";
   for (const Template& device : templates()) text += device_of(device);
   text += "## Waves\n\nFor every quantity that may change with time, here of a voltage: `voltage = { wave = "
-          "\"sine\", amplitude = \"4 kV\", frequency = \"0.5 Hz\" }`. More in `dielast info waves`.\n\n" +
+          "\"sine\", amplitude = \"4 kV\", frequency = \"0.5 Hz\" }`. Its time counts from the start of each "
+          "step. More in `dielast info waves`.\n\n" +
           keys_of(wave_section("V")) + "## Fields\n\n| field | unit | meaning |\n|---|---|---|\n";
   for (const post::Scalar& field : post::scalars())
     text += fmt::format("| `{}` | {} | {} |\n", field.name, field.unit, cell(field.meaning));

@@ -59,7 +59,10 @@ void check_regions(SectionReader& reader, const Node& tree, const Case& one) {
     return report(written.front(), "regions are drawn in a [disc] or an [annulus]; a [honeycomb] has an "
                                    "electrode_gap, and a mesh of your own has its physical names");
   if (one.dimension == fem::Dimension::axisymmetric)
-    return report(written.front(), "a film of revolution has no regions; use model = \"planar\" or \"3d\"");
+    return report(
+        written.front(),
+        "a film of revolution has no regions; the film beside the electrode of a [disc] is its place "
+        "\"passive\", others need model = \"planar\" or \"3d\"");
   if (const auto* disc = one.geometry<Disc>(); disc && disc->electrode_radius)
     return reader.report(tree.find("disc")->find("electrode_radius")->source, "disc.electrode_radius",
                          "given twice: the regions say where the electrodes are");

@@ -3,6 +3,7 @@
 
 #include "cases/case/sudden_motion.hpp"
 #include "cases/devices/pins.hpp"
+#include "cases/devices/sections.hpp"
 #include "cases/language/conditions.hpp"
 #include "cases/quantities/film_values.hpp"
 #include "cases/runs/phases.hpp"
@@ -193,12 +194,14 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
   }
 }
 
-/// Whether film can be in that state, wherever it comes from; otherwise refusal_ says why not.
+/// Whether film and links can be in that state, wherever it comes from; otherwise refusal_ says why not.
 bool Simulation::admits(const Step& step, double load_factor, const fem::State& state) {
   refusal_.reset();
-  const std::string limit = permittivity_limit(case_, device_, state);
+  const char* kind = "loss of permittivity";
+  std::string limit = permittivity_limit(case_, device_, state);
+  if (limit.empty() && !step.inertia) limit = pushed_ribbon(case_, device_, state), kind = "slack ribbon";
   if (limit.empty()) return true;
-  refusal_ = {Ending::gave_up, "loss of permittivity",
+  refusal_ = {Ending::gave_up, kind,
               fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name, load_factor, limit)};
   return false;
 }

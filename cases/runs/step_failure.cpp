@@ -65,12 +65,14 @@ std::string WaysOn::words() const {
                      jump ? "\"jump\"" : "");
 }
 
+Outcome StepRun::singular() const {
+  return {Ending::gave_up, "singular tangent",
+          fmt::format("step \"{}\" stopped at {}: {}", step_.name, load_text(progress_.ramp.load_factor),
+                      can_move)};
+}
+
 Outcome StepRun::cause(const Trouble& trouble, WaysOn ways_on) const {
   const double reached = progress_.ramp.load_factor;
-  const auto singular = [&] {
-    return Outcome{Ending::gave_up, "singular tangent",
-                   fmt::format("step \"{}\" stopped at {}: {}", step_.name, load_text(reached), can_move)};
-  };
   if (trouble.ramp.failure.outcome == fem::Outcome::singular) return singular();
   if (fem::edges_meet(model(), last()))
     return {Ending::gave_up, "edges meet",

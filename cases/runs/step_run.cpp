@@ -216,6 +216,10 @@ bool StepRun::pass(fem::CriticalPoint critical) {
 
 /// Load control has ended; nothing where the step goes on.
 std::optional<Outcome> StepRun::leave(const Trouble& trouble) {
+  // What meets no stiffness before either loses its stability by rounding.
+  if (trouble.critical && !timed() &&
+      fem::moves_freely(equilibrium_, loaded(last(), progress_.ramp.load_factor)))
+    return singular();
   const bool branches_off = trouble.critical && trouble.critical->kind == fem::Instability::bifurcation;
   const bool switches = branches_off && step_.on_bifurcation == OnBifurcation::switch_branch;
   const bool jumps = step_.on_instability == OnInstability::jump || step_.kind == StepKind::release;

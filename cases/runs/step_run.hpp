@@ -122,6 +122,7 @@ class StepRun {
   /// Whether all that moves is slack film, or what carries it.
   bool is_slack() const { return equilibrium_.is_slack(last()) && equilibrium_.film_moves_all(); }
   Outcome failure(const Trouble& trouble) const;
+  Outcome singular() const;
   Outcome cause(const Trouble& trouble, WaysOn ways_on) const;
 
   fem::Equilibrium& equilibrium_;

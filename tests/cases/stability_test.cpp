@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace dielast::cases::stability_test {
 namespace {
 
@@ -296,6 +298,64 @@ TEST_F(Stability, ABranchThatIsUnstableFromItsBeginningIsJumpedFrom) {
   const double y = end("switch");
   EXPECT_NEAR(y, -4.24692e-3, 1e-6); // by a chain of 80 hinged bars with springs between them
   EXPECT_NEAR(y, end("follow"), 1e-9);
+}
+
+// Thickness that changes as film bends tilted the middle of film that was drawn at a face: elements of its
+// thickness buckled under tension, and a disc that is clamped bent without a word.
+TEST_F(Stability, FilmIsTheSameWhereverItIsDrawn) {
+  for (const double prestretch : {1.2, 3.0}) {
+    const auto frequency = [&](const char* section) {
+      const Run ran = run(fmt::format("model = \"3d\"\n[film]\nsection = \"shell\"\nprestretch = {}\n{}"
+                                      "[film.material]\nshear_modulus = \"50 kPa\"\n"
+                                      "relative_permittivity = 4\n[rectangle]\nlength = \"20 mm\"\n"
+                                      "width = \"10 mm\"\n[mesh]\nacross = 4\n[[step]]\n"
+                                      "kind = \"voltage\"\nto = \"1 V\"\nincrements = 1\n[[quantity]]\n"
+                                      "name = \"w\"\nkind = \"natural frequency\"\n"
+                                      "[output]\nerror_estimate = false\nfields = false\n",
+                                      prestretch, section),
+                          "w");
+      EXPECT_EQ(ran.outcome.ending, Ending::complete) << ran.outcome.message;
+      return ran.rows.back().value;
+    };
+    const double at_middle = frequency("thickness = \"1 mm\"\n");
+    EXPECT_NEAR(frequency("thickness = \"1 mm\"\noffset = \"0.5 mm\"\n"), at_middle, 1e-8 * at_middle);
+    const std::string layered =
+        fmt::format("thickness = \"0.1 mm\"\nlayer = [{{ thickness = \"0.9 mm\", prestretch = {}, "
+                    "material = {{ shear_modulus = \"50 kPa\" }} }}]\n",
+                    prestretch);
+    EXPECT_NEAR(frequency(layered.c_str()), at_middle, 1e-6 * at_middle);
+  }
+  const auto bifurcation = [&](const char* offset) {
+    const Run ran = run(
+        fmt::format("model = \"3d\"\n[film]\nsection = \"shell\"\nthickness = \"0.5 mm\"\noffset = \"{}\"\n"
+                    "[film.material]\nshear_modulus = \"40 kPa\"\nrelative_permittivity = 4.7\n[disc]\n"
+                    "radius = \"50 mm\"\n[mesh]\nrings = 4\n[drive]\nvoltage = \"450 V\"\n[[step]]\n"
+                    "kind = \"voltage\"\nincrements = 4\non_bifurcation = \"switch\"\n[[quantity]]\n"
+                    "name = \"dz\"\nkind = \"displacement\"\nof = \"centre\"\nalong = \"z\"\n"
+                    "[output]\nerror_estimate = false\nfields = false\n",
+                    offset),
+        "dz");
+    EXPECT_EQ(ran.outcome.ending, Ending::complete) << ran.outcome.message;
+    const auto event = std::ranges::find(ran.events, "bifurcation", &post::Event::kind);
+    return event == ran.events.end() ? std::string("none") : event->message;
+  };
+  EXPECT_EQ(bifurcation("0.25 mm"), bifurcation("0 mm"));
+  EXPECT_NE(bifurcation("0.25 mm"), "none");
+}
+
+// Ribbons that turn freely at their ends pull only: they pushed the tip to twice its angle, with exit code 0.
+TEST_F(Stability, RibbonsThatWouldBePushedAreTold) {
+  for (const char* way : {"stop", "follow"})
+    for (const int elements : {1, 8}) {
+      const Case one = read_case(
+          std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/antagonistic_rolls/case.toml",
+          {"check=", "output.error_estimate=false", "output.fields=false", "drive.upper.voltage=4 kV",
+           "mesh.order=1", fmt::format("mesh.wall_elements={}", elements),
+           fmt::format("step.voltage.on_instability={}", way)});
+      const Outcome outcome = Simulation(one, 1).run({});
+      EXPECT_EQ(outcome.kind, "slack ribbon") << way << " " << elements << ": " << outcome.message;
+      EXPECT_NE(outcome.message.find("the upper ribbon"), std::string::npos) << outcome.message;
+    }
 }
 
 } // namespace
