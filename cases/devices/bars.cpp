@@ -113,9 +113,10 @@ std::string pushed_ribbon(const Case& one, const Device& device, const fem::Stat
       }
     if (tension < -next_to_nothing * buckles * length)
       return fmt::format(
-          "the {}, which turns freely at its ends, would be pushed by {:.3g} N and is slack: what "
-          "hangs on it is not held any more. Keep it taut by more prestretch or less voltage, or "
-          "let the ribbons bend: ribbons = \"beams\"",
+          "the {}, which turns freely at its ends, would be pushed by {:.3g} N. Keep it taut by more "
+          "prestretch "
+          "or less voltage, let it go slack by on_instability = \"jump\" and several elements along it "
+          "(mesh.wall_elements), or let the ribbons bend (ribbons = \"beams\")",
           ribbon == ribbons[0] ? "upper ribbon" : "lower ribbon", -tension / length);
   }
   return "";

@@ -194,14 +194,12 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
   }
 }
 
-/// Whether film and links can be in that state, wherever it comes from; otherwise refusal_ says why not.
+/// Whether film can be in that state, wherever it comes from; otherwise refusal_ says why not.
 bool Simulation::admits(const Step& step, double load_factor, const fem::State& state) {
   refusal_.reset();
-  const char* kind = "loss of permittivity";
-  std::string limit = permittivity_limit(case_, device_, state);
-  if (limit.empty() && !step.inertia) limit = pushed_ribbon(case_, device_, state), kind = "slack ribbon";
+  const std::string limit = permittivity_limit(case_, device_, state);
   if (limit.empty()) return true;
-  refusal_ = {Ending::gave_up, kind,
+  refusal_ = {Ending::gave_up, "loss of permittivity",
               fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name, load_factor, limit)};
   return false;
 }
@@ -234,7 +232,13 @@ bool Simulation::sample(const Step& step, double load_factor, Measured& measured
 /// Looks for events and peaks in every accepted state, whatever is recorded.
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
-  if (!admits(step, increment.load_factor, state)) {
+  if (admits(step, increment.load_factor, state) && !step.inertia) {
+    if (const std::string pushed = pushed_ribbon(case_, device_, state); !pushed.empty())
+      refusal_ = {Ending::gave_up, "slack ribbon",
+                  fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name,
+                              increment.load_factor, pushed)};
+  }
+  if (refusal_) {
     unrecorded_.reset(); // the state is not one of the run
     return false;
   }

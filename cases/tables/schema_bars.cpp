@@ -159,8 +159,7 @@ Section rolls_section() {
   section.keys.push_back(
       word("ribbons",
            {{"links",
-             "turn freely at their ends; a run without inertia ends where one would be pushed; what bends "
-             "them, E "
+             "turn freely at their ends, and go slack where they would be pushed; what bends them, E "
              "I/length each, is taken with the hinge",
              RibbonBending::with_hinge},
             {"beams", "are clamped to the tip and bend under the rolls' pull", RibbonBending::own}},

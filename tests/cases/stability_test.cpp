@@ -345,17 +345,16 @@ TEST_F(Stability, FilmIsTheSameWhereverItIsDrawn) {
 
 // Ribbons that turn freely at their ends pull only: they pushed the tip to twice its angle, with exit code 0.
 TEST_F(Stability, RibbonsThatWouldBePushedAreTold) {
-  for (const char* way : {"stop", "follow"})
-    for (const int elements : {1, 8}) {
-      const Case one = read_case(
-          std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/antagonistic_rolls/case.toml",
-          {"check=", "output.error_estimate=false", "output.fields=false", "drive.upper.voltage=4 kV",
-           "mesh.order=1", fmt::format("mesh.wall_elements={}", elements),
-           fmt::format("step.voltage.on_instability={}", way)});
-      const Outcome outcome = Simulation(one, 1).run({});
-      EXPECT_EQ(outcome.kind, "slack ribbon") << way << " " << elements << ": " << outcome.message;
-      EXPECT_NE(outcome.message.find("the upper ribbon"), std::string::npos) << outcome.message;
-    }
+  for (const auto& [way, elements] : {std::pair{"stop", 1}, {"follow", 1}, {"follow", 8}}) {
+    const Case one =
+        read_case(std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/antagonistic_rolls/case.toml",
+                  {"check=", "output.error_estimate=false", "output.fields=false", "drive.upper.voltage=4 kV",
+                   "mesh.order=1", fmt::format("mesh.wall_elements={}", elements),
+                   fmt::format("step.voltage.on_instability={}", way)});
+    const Outcome outcome = Simulation(one, 1).run({});
+    EXPECT_EQ(outcome.kind, "slack ribbon") << way << " " << elements << ": " << outcome.message;
+    EXPECT_NE(outcome.message.find("the upper ribbon"), std::string::npos) << outcome.message;
+  }
 }
 
 } // namespace
