@@ -28,8 +28,6 @@ constexpr std::array further{1e-2, 1e-1};
 /// Displacements along a mode at which another branch is looked for, over the model's extent: those of thin
 /// films are less than their thickness.
 constexpr std::array branch_amplitudes{1e-3, 1e-4, 1e-5};
-/// Length along a path within which it may have kinks, and critical points that are one.
-constexpr double indistinct = 2e-5;
 /// Load factors and lengths along a path between what is located twice as one limit point.
 constexpr double same_load = 1e-8, same_place = 1e-4;
 /// Eigenvalue of the lowest mode, over the stiffness as drawn, below which a timed step has come to a limit.
@@ -256,11 +254,11 @@ fem::ContinuationOptions StepRun::arcs() const {
 
 /// Whether the followed path has passed this critical point before, as a path passes each limit point once
 /// only unless it is a closed loop.
-bool StepRun::comes_back(const fem::CriticalPoint& critical, double unit) {
+bool StepRun::comes_back(const fem::ContinuationProgress& now, const fem::CriticalPoint& critical) {
   if (critical.kind != fem::Instability::limit_point) return false;
   const bool known = std::ranges::any_of(progress_.folds, [&](const fem::PathPoint& fold) {
     return std::abs(fold.parameter - critical.load_factor) <= same_load &&
-           fem::distance(equilibrium_, unit, fold.state, critical.state) <= same_place;
+           fem::distance(equilibrium_, now, fold.state, critical.state) <= same_place;
   });
   if (!known) progress_.folds.push_back({critical.load_factor, critical.state});
   return known;
@@ -276,12 +274,13 @@ std::optional<Outcome> StepRun::follow() {
     const bool changes = from.newton.unstable_modes != to.newton.unstable_modes;
     if (changes) critical = fem::locate(equilibrium_, path_, from, to, options_.newton);
     const bool turns = from.load_direction * to.load_direction < 0;
-    return critical || (!changes && !turns) || std::abs(to.last_arc) <= indistinct;
+    return critical || (!changes && !turns) ||
+           std::abs(to.last_arc) <= fem::ContinuationOptions::largest_corner;
   };
   watcher.on_accept = [&](const fem::ContinuationProgress& now) {
     if (critical) {
       announce(*critical, false);
-      loops = comes_back(*critical, now.unit);
+      loops = comes_back(now, *critical);
     }
     fem::State state = model().settled(now.state);
     progress_.followed = now;

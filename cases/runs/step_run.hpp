@@ -97,7 +97,7 @@ class StepRun {
   bool on_ramp(const fem::RampProgress& now, const fem::Increment& increment);
   bool stops() const { return step_.on_instability == OnInstability::stop && !options_.inertia; }
   bool finds_by_arclength(fem::Instability kind) const;
-  bool comes_back(const fem::CriticalPoint& critical, double unit);
+  bool comes_back(const fem::ContinuationProgress& now, const fem::CriticalPoint& critical);
   std::optional<fem::CriticalPoint> locate(double s, bool another);
   std::optional<fem::CriticalPoint> limit_in_time() const;
   void announce(const fem::CriticalPoint& critical, bool ends);

@@ -12,23 +12,39 @@ namespace dielast::fem {
 
 namespace {
 
-constexpr double least_share = 0.1; ///< of displacements in the way of a path, see weigh()
+constexpr double least_share = 0.1; ///< of displacements in the way of a path, see unit()
 constexpr double least_unit =
     1e-7; ///< length of displacements as large as the model where they are next to none
-constexpr double slowest = 1.0 / 3;     ///< of a step: length of the direction over that before
-constexpr double least_cosine = 0.7;    ///< of a step: between the directions of its ends
-constexpr double straight = 0.3;        ///< of a step: how far off the mean direction of its ends
-constexpr double largest_corner = 2e-5; ///< length of a step in which a path may have a corner
-constexpr double difference = 1e-4; ///< of load factors; central differences are exact for quadratic loads
+constexpr double slowest = 1.0 / 3;  ///< of a step: length of the direction over that before
+constexpr double least_cosine = 0.7; ///< of a step: between the directions of its ends
+constexpr double straight = 0.3;     ///< of a step: how far off the mean direction of its ends
+constexpr double difference = 1e-4;  ///< of load factors; central differences are exact for quadratic loads
+
+/// E, so small that displacements are at least this share of the way so far: what is soft beside stiff parts
+/// would turn within a step that is too short to be taken.
+double unit(const Equilibrium& equilibrium, const ContinuationProgress& at) {
+  if (at.load_way == 0) return equilibrium.energy_scale();
+  const double short_of = at.way / (least_share * at.load_way);
+  return equilibrium.energy_scale() * std::pow(std::clamp(short_of, least_unit, 1.0), 2);
+}
 
 /// D du / E: the row that makes . du an inner product.
-Eigen::VectorXd dual(const Equilibrium& equilibrium, double unit, const Eigen::VectorXd& du) {
-  return equilibrium.stiffness().cwiseProduct(du) / unit;
+Eigen::VectorXd dual(const Equilibrium& equilibrium, const ContinuationProgress& at,
+                     const Eigen::VectorXd& du) {
+  return equilibrium.stiffness().cwiseProduct(du) / unit(equilibrium, at);
 }
 
 /// sqrt(du^T D du / E): the length of displacements.
-double length_of(const Equilibrium& equilibrium, double unit, const Eigen::VectorXd& du) {
-  return std::sqrt(dual(equilibrium, unit, du).dot(du));
+double length_of(const Equilibrium& equilibrium, const ContinuationProgress& at, const Eigen::VectorXd& du) {
+  return std::sqrt(dual(equilibrium, at, du).dot(du));
+}
+
+/// Makes the direction one of length 1; the length that it had is returned.
+double normalise(const Equilibrium& equilibrium, ContinuationProgress& at) {
+  const double length = std::hypot(length_of(equilibrium, at, at.direction), at.load_direction);
+  at.direction /= length;
+  at.load_direction /= length;
+  return length;
 }
 
 /// Factors the tangent at a point, bordered by the path through it in this direction; false at a singular
@@ -36,7 +52,7 @@ double length_of(const Equilibrium& equilibrium, double unit, const Eigen::Vecto
 bool factor_along(Equilibrium& equilibrium, const LoadPath& path, const ContinuationProgress& at,
                   const Eigen::VectorXd& direction, double load_direction) {
   const PathBorder border{load_derivative(equilibrium, path, at.state, at.load_factor),
-                          dual(equilibrium, at.unit, direction), load_direction};
+                          dual(equilibrium, at, direction), load_direction};
   return equilibrium.factor(at.state, &border);
 }
 
@@ -47,33 +63,25 @@ std::optional<double> turn(Equilibrium& equilibrium, ContinuationProgress& at) {
   at.newton.unstable_modes = equilibrium.tangent().unstable_modes();
   const Eigen::Index free = equilibrium.model().dofs.free_count();
   at.load_direction = equilibrium.tangent().solve(Eigen::VectorXd::Zero(free), at.direction, 1);
-  const double length = std::hypot(length_of(equilibrium, at.unit, at.direction), at.load_direction);
+  const double length = normalise(equilibrium, at);
   if (!std::isfinite(length)) return std::nullopt;
-  at.direction /= length;
-  at.load_direction /= length;
   return 1 / length; // their product is 1 before this one is normalised
 }
 
-/// Makes the unit, at the end of a step, so small that displacements are at least this share of the way so
-/// far: what is soft beside stiff parts would turn within a step that is too short to be taken.
-void weigh(const Equilibrium& equilibrium, const ContinuationProgress& from, ContinuationProgress& to) {
-  to.way += distance(equilibrium, equilibrium.energy_scale(), from.state, to.state);
+/// Counts the way of a step, at whose end lengths are as unit() is then.
+void count_way(const Equilibrium& equilibrium, const ContinuationProgress& from, ContinuationProgress& to) {
+  const Eigen::VectorXd du = equilibrium.model().dofs.increment(from.state, to.state);
+  to.way += std::sqrt(equilibrium.stiffness().cwiseProduct(du).dot(du) / equilibrium.energy_scale());
   to.load_way += std::abs(to.load_factor - from.load_factor);
-  const double short_of = to.way / (least_share * to.load_way);
-  to.unit = equilibrium.energy_scale() * std::pow(std::clamp(short_of, least_unit, 1.0), 2);
-  const double length = std::hypot(length_of(equilibrium, to.unit, to.direction), to.load_direction);
-  to.direction /= length;
-  to.load_direction /= length;
-  to.arc *= length;
+  to.arc *= normalise(equilibrium, to);
 }
 
 /// Whether the unknowns went back by more than the prediction `arc` x direction was to take them on: where
 /// that is nearly all of the load factor's, Newton's method may end on another path at that load factor.
 bool went_back(const Equilibrium& equilibrium, const ContinuationProgress& from, double arc,
                const Eigen::VectorXd& moved) {
-  return arc * dual(equilibrium, from.unit, from.direction).dot(moved) < 0 &&
-         length_of(equilibrium, from.unit, moved) >
-             std::abs(arc) * length_of(equilibrium, from.unit, from.direction);
+  return arc * dual(equilibrium, from, from.direction).dot(moved) < 0 &&
+         length_of(equilibrium, from, moved) > std::abs(arc) * length_of(equilibrium, from, from.direction);
 }
 
 /// Whether a step that `moved` the unknowns is one along a path with these directions at its ends.
@@ -83,9 +91,10 @@ bool went_back(const Equilibrium& equilibrium, const ContinuationProgress& from,
 bool goes_straight(const Equilibrium& equilibrium, const ContinuationProgress& from,
                    const ContinuationProgress& to, const Eigen::VectorXd& moved) {
   const double arc = to.last_arc;
-  const auto length = [&](const Eigen::VectorXd& du) { return length_of(equilibrium, from.unit, du); };
+  const auto length = [&](const Eigen::VectorXd& du) { return length_of(equilibrium, from, du); };
   const double most = std::max(length(from.direction), length(to.direction));
-  if (std::max(std::abs(arc), length(moved)) <= largest_corner && length(moved) <= 2 * std::abs(arc) * most)
+  if (std::max(std::abs(arc), length(moved)) <= ContinuationOptions::largest_corner &&
+      length(moved) <= 2 * std::abs(arc) * most)
     return true;
   return length(to.direction) >= slowest * length(from.direction) &&
          length(moved / arc - (from.direction + to.direction) / 2) <= straight * most;
@@ -134,15 +143,15 @@ Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, 
   return (more.force - less.force).head(equilibrium.model().dofs.free_count()) / (2 * difference);
 }
 
-double distance(const Equilibrium& equilibrium, double unit, const State& from, const State& to) {
-  return length_of(equilibrium, unit, equilibrium.model().dofs.increment(from, to));
+double distance(const Equilibrium& equilibrium, const ContinuationProgress& at, const State& from,
+                const State& to) {
+  return length_of(equilibrium, at, equilibrium.model().dofs.increment(from, to));
 }
 
 std::optional<ContinuationProgress> begin_continuation(Equilibrium& equilibrium, const LoadPath& path,
                                                        const State& state, double s,
                                                        const ContinuationOptions& options) {
-  ContinuationProgress progress{
-      .state = state, .load_factor = s, .arc = options.first_arc, .unit = equilibrium.energy_scale()};
+  ContinuationProgress progress{.state = state, .load_factor = s, .arc = options.first_arc};
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(equilibrium.model().dofs.free_count());
   if (!factor_along(equilibrium, path, progress, still, 1) || !turn(equilibrium, progress))
     return std::nullopt;
@@ -219,7 +228,7 @@ ContinuationEnd continuation(Equilibrium& equilibrium, const LoadPath& path,
     const double growth =
         std::sqrt(static_cast<double>(options.wanted_iterations) / std::max(1, next->newton.iterations));
     next->arc = std::min(options.largest_arc, arc * std::clamp(growth, 0.5, 2.0));
-    weigh(equilibrium, progress, *next);
+    count_way(equilibrium, progress, *next);
     progress = std::move(*next);
     if (observer.on_accept && !observer.on_accept(progress)) return ContinuationEnd::stopped;
     if (ends) return ContinuationEnd::reached_load;

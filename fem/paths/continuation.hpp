@@ -12,6 +12,8 @@ namespace dielast::fem {
 /// energy_scale() at first, which makes it about the mean displacement over the model's extent, and the load
 /// factor; where the way of the displacements is short beside that of the load factor it is smaller.
 struct ContinuationOptions {
+  /// Of steps within which a path may have kinks, and critical points that are one.
+  static constexpr double largest_corner = 2e-5;
   NewtonOptions newton{.max_iterations = 10};
   double first_arc = 0.02;
   double smallest_arc = 1e-8; ///< a path that needs less is given up
@@ -29,7 +31,6 @@ struct ContinuationProgress {
   double load_direction = 0; ///< ds/da here; its sign tells whether the load grows
   double arc = 0;            ///< length of the next step
   double last_arc = 0;       ///< length of the step that led here
-  double unit = 0;           ///< E, J
   double way = 0;            ///< length of all displacements so far, by energy_scale()
   double load_way = 0;       ///< by how much the load factor has changed so far, up and down
   int steps = 0;             ///< accepted so far
@@ -62,8 +63,9 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
                                              const ContinuationProgress& from, double arc,
                                              const NewtonOptions& options, bool leaves = false);
 
-/// sqrt(du . D du / E) with du between two states and E = unit, J.
-double distance(const Equilibrium& equilibrium, double unit, const State& from, const State& to);
+/// Length of the displacements between two states, as at this point of a path.
+double distance(const Equilibrium& equilibrium, const ContinuationProgress& at, const State& from,
+                const State& to);
 
 /// Change of the unbalanced forces per load factor at fixed displacements of the free unknowns, N.
 Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s);

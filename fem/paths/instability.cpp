@@ -321,8 +321,7 @@ std::optional<ContinuationProgress> switch_branch(Equilibrium& equilibrium, cons
   ContinuationProgress across{.state = critical.state,
                               .load_factor = critical.load_factor,
                               .direction = std::copysign(1 / length, amplitude) * mode,
-                              .arc = options.first_arc,
-                              .unit = equilibrium.energy_scale()};
+                              .arc = options.first_arc};
   // The load of a branch may rise so steeply that its tangent is soon next to normal to the mode; how far the
   // branch has gone along it tells.
   auto branch = arc_step(equilibrium, path, across, std::abs(amplitude) * length, options.newton, true);

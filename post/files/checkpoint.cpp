@@ -255,7 +255,7 @@ json archive(const fem::ContinuationProgress& progress) {
   return {{"state", archive(progress.state)},
           {"direction", pack(progress.direction)},
           {"numbers", post::pack(std::array{progress.load_factor, progress.load_direction, progress.arc,
-                                            progress.last_arc, progress.unit, progress.way, progress.load_way,
+                                            progress.last_arc, progress.way, progress.load_way,
                                             progress.newton.residual})},
           {"counts",
            {progress.steps, progress.newton.iterations, progress.newton.negative_pivots,
@@ -264,7 +264,7 @@ json archive(const fem::ContinuationProgress& progress) {
 
 fem::ContinuationProgress restore_continuation(const json& archived, const StateSizes& sizes) {
   try {
-    const std::vector<double> numbers = unpack(archived.at("numbers"), 8);
+    const std::vector<double> numbers = unpack(archived.at("numbers"), 7);
     const json& counts = archived.at("counts");
     fem::ContinuationProgress progress{restore_state(archived.at("state"), sizes),
                                        numbers[0],
@@ -274,10 +274,9 @@ fem::ContinuationProgress restore_continuation(const json& archived, const State
                                        numbers[3],
                                        numbers[4],
                                        numbers[5],
-                                       numbers[6],
                                        counts.at(0),
                                        {}};
-    progress.newton.residual = numbers[7];
+    progress.newton.residual = numbers[6];
     progress.newton.iterations = counts.at(1);
     progress.newton.negative_pivots = counts.at(2);
     progress.newton.unstable_modes = counts.at(3);
