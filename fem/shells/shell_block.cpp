@@ -73,13 +73,12 @@ ShellBlock::ShellBlock(const meshing::Mesh& mesh, const meshing::CellBlock& cell
     std::vector<int>& over = electrodes[layers_.size()];
     over.resize(static_cast<std::size_t>(packs * lanes), over.back());
     const bool charged = std::ranges::any_of(over, [](int electrode) { return electrode != passive; });
-    layers_.push_back({FilmLayer(layer), layer.thickness, H, middle, section.extra_stretch(layer),
-                       layer.number, std::move(over), charged});
+    layers_.push_back({FilmLayer(layer), layer.thickness, H, middle - section.offset,
+                       section.extra_stretch(layer), layer.number, std::move(over), charged});
     shear_.add_layer(layer.material, H, section.extra_stretch(layer));
     height_ += H;
   });
-  middle_ = section.offset;
-  lever_ = middle_ / (prestretch_[0] * prestretch_[1]);
+  lever_ = section.offset / (prestretch_[0] * prestretch_[1]);
   geometry_.assign(static_cast<std::size_t>(packs * points), ShellPoint{});
   areas_.assign(static_cast<std::size_t>(packs), Lanes{});
   for (int e = 0; e < packs * lanes; ++e) place_element(e);
@@ -186,6 +185,11 @@ ShellNodes ShellBlock::gather(const State& state, int pack) const {
       for (int c = 0; c < 3; ++c) nodes.x[a][c][l] = x[c];
     }
   }
+  std::array<Matrix36, lanes> middle; // as drawn, where nodes may have three spins
+  for (int l = 0; l < lanes && lever_ != 0 && !nodes.tilt; ++l) {
+    const Matrix36 X = drawn(pack * lanes + l);
+    middle[static_cast<std::size_t>(l)] = X + lever_ * directors(X);
+  }
   for (int a = 0; a < Nodes; ++a) {
     Lanes q[4], A[2][3], R[3][3];
     for (int l = 0; l < lanes; ++l) {
@@ -198,24 +202,23 @@ ShellNodes ShellBlock::gather(const State& state, int pack) const {
     for (int k = 0; k < 2; ++k) times(R, A[k], nodes.axis[a][k]);
     cross(nodes.axis[a][0], nodes.axis[a][1], nodes.d[a]);
     for (int c = 0; c < 3; ++c) nodes.axis[a][2][c] = Lanes{};
-    if (!nodes.tilt) turn(pack, a, R, nodes);
+    if (!nodes.tilt) turn(pack, a, R, middle, nodes);
   }
   nodes.lever = lever_;
-  for (int a = Nodes - 1; a >= 0; --a)
+  for (int a = Nodes - 1; lever_ != 0 && a >= 0; --a)
     for (int c = 0; c < 3; ++c) nodes.x[a][c] += lever_ * (nodes.d[a][c] - nodes.d[0][c]);
   multiply_nodes(nodes);
   return nodes;
 }
 
 /// What else there is of nodes that may have three spins.
-void ShellBlock::turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes) const {
+void ShellBlock::turn(int pack, int a, const Lanes (&R)[3][3], std::span<const Matrix36> middle,
+                      ShellNodes& nodes) const {
   const auto& gradient = shell_tables().node[static_cast<std::size_t>(a)];
   Lanes drawn[2][3], normal[3];
-  const auto turn_tangents = [&](double lever) {
+  const auto turn_tangents = [&](const auto& surface) {
     for (int l = 0; l < lanes; ++l) {
-      Matrix36 X = this->drawn(pack * lanes + l);
-      if (lever != 0) X += lever * directors(X);
-      const Matrix32 t = X * matrix(gradient);
+      const Matrix32 t = surface(l) * matrix(gradient);
       for (int c = 0; c < 3; ++c)
         for (int i = 0; i < 2; ++i) drawn[i][c][l] = t(c, i);
     }
@@ -223,7 +226,7 @@ void ShellBlock::turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes
     cross(nodes.along[0][a], nodes.along[1][a], normal);
     return Lanes(1.0 / materials::sqrt(dot(normal, normal)));
   };
-  const Lanes per_area = turn_tangents(0);
+  const Lanes per_area = turn_tangents([&](int l) { return this->drawn(pack * lanes + l); });
   for (int l = 0; l < lanes; ++l) {
     const bool tilts = !(*tilt_axes_)[static_cast<std::size_t>(node(pack * lanes + l, a))].isZero(0);
     nodes.per_area[a][l] = tilts ? 0 : per_area[l];
@@ -233,7 +236,7 @@ void ShellBlock::turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes
     }
   }
   if (lever_ != 0) {
-    const Lanes at_lever = turn_tangents(lever_);
+    const Lanes at_lever = turn_tangents([&](int l) { return middle[static_cast<std::size_t>(l)]; });
     for (int l = 0; l < lanes; ++l)
       if (nodes.per_area[a][l] != 0) nodes.per_area[a][l] = at_lever[l];
   }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace dielast::fem {
 
@@ -67,7 +68,7 @@ class ShellBlock final : public ElementBlock {
   struct Layer {
     FilmLayer film;
     double thickness;                    ///< H, m
-    double depth, middle;                ///< see ShellSection::depth_of(); above the drawn surface, m
+    double depth, middle;                ///< see ShellSection::depth_of(); above that of all, m
     std::array<double, 2> extra_stretch; ///< see ShellSection
     int number;
     std::vector<int> electrodes; ///< padded like nodes_
@@ -121,7 +122,8 @@ class ShellBlock final : public ElementBlock {
   }
   void place_element(int element);
   ShellNodes gather(const State& state, int pack) const;
-  void turn(int pack, int a, const Lanes (&R)[3][3], ShellNodes& nodes) const;
+  void turn(int pack, int a, const Lanes (&R)[3][3], std::span<const Matrix36> middle,
+            ShellNodes& nodes) const;
   Lanes electric_modulus(const State& state, const Layer& layer, int pack) const;
   template<class Visitor>
   void across(const State& state, const Layer& layer, int pack, int p, const ShellStrain& strain,
@@ -157,8 +159,7 @@ class ShellBlock final : public ElementBlock {
 
   std::vector<Layer> layers_;
   std::array<double, 2> prestretch_;
-  double middle_ = 0; ///< of the layers above the drawn surface, before the prestretch, m
-  double lever_ = 0;  ///< as drawn, m: strains are those of the surface at this distance
+  double lever_ = 0;  ///< of the layers' middle above the drawn surface, as drawn, m: strains are its own
   double height_ = 0; ///< of the layers before the prestretch, m
   ShellShear shear_;
   double drilling_; ///< see ShellSection
@@ -183,7 +184,7 @@ void ShellBlock::across(const State& state, const Layer& layer, int pack, int p,
   std::array<Lanes, depths> field, height;
   Lanes mean_field{};
   for (std::size_t q = 0; q < depths; ++q) {
-    Z[q] = layer.middle + depth_rule[q].place * layer.depth / 2 - middle_;
+    Z[q] = layer.middle + depth_rule[q].place * layer.depth / 2;
     height[q] = Z[q] * thinning;
     C[q] = layer.own(strain.at(height[q], gaussian));
     field[q] = Lanes{} + 1.0;
