@@ -24,13 +24,14 @@ bool are_links(const Part& part) {
   return rolls && rolls->ribbons == RibbonBending::with_hinge;
 }
 
+materials::BeamSection section_of(const Leaf& leaf) {
+  return materials::rectangular_section(leaf.beam.material, leaf.beam.width, leaf.beam.height);
+}
+
 /// Hinge and ribbons. Ribbons that turn freely at their ends keep a trace of their bending stiffness.
 std::array<materials::BeamSection, 2> leaves(const Part& part) {
   constexpr double trace = 1e-6;
-  const auto of = [](const Leaf& leaf) {
-    return materials::rectangular_section(leaf.beam.material, leaf.beam.width, leaf.beam.height);
-  };
-  materials::BeamSection hinge = of(*part.hinge), ribbon = of(*part.ribbon);
+  materials::BeamSection hinge = section_of(*part.hinge), ribbon = section_of(*part.ribbon);
   if (are_links(part)) {
     hinge.EI3 += 2 * ribbon.EI3 * part.hinge->length / part.ribbon->length;
     for (double* stiffness : {&ribbon.EI2, &ribbon.EI3, &ribbon.GJ}) *stiffness *= trace;
@@ -99,9 +100,7 @@ constexpr double next_to_nothing = 1e-3;
 std::string pushed_ribbon(const Case& one, const Device& device, const fem::State& state) {
   const auto part = std::ranges::find_if(one.parts, are_links);
   if (part == one.parts.end()) return "";
-  const Leaf& leaf = *part->ribbon;
-  const double EI = materials::rectangular_section(leaf.beam.material, leaf.beam.width, leaf.beam.height).EI3,
-               buckles = EI * std::pow(std::numbers::pi / leaf.length, 2);
+  const double buckles = section_of(*part->ribbon).EI3 * std::pow(std::numbers::pi / part->ribbon->length, 2);
   const fem::Samples samples = device.model.sample(state);
   for (const std::string ribbon : ribbons) {
     const std::vector<int>* lines = device.mesh.cells_of(ribbon, device.mesh.walls());
@@ -114,8 +113,8 @@ std::string pushed_ribbon(const Case& one, const Device& device, const fem::Stat
     if (tension < -next_to_nothing * buckles * length)
       return fmt::format(
           "the {}, which turns freely at its ends, would be pushed by {:.3g} N. Keep it taut by more "
-          "prestretch "
-          "or less voltage, let it go slack by on_instability = \"jump\" and several elements along it "
+          "prestretch or less voltage, let it go slack by on_instability = \"jump\" and several elements "
+          "along it "
           "(mesh.wall_elements), or let the ribbons bend (ribbons = \"beams\")",
           ribbon == ribbons[0] ? "upper ribbon" : "lower ribbon", -tension / length);
   }

@@ -194,24 +194,24 @@ void Simulation::account(const fem::State& state, const fem::Increment& incremen
   }
 }
 
+/// Whether there is a reason; refusal_ says so then.
+bool Simulation::refuses(const Step& step, double load_factor, const char* kind, const std::string& why) {
+  if (why.empty()) return false;
+  refusal_ = {Ending::gave_up, kind,
+              fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name, load_factor, why)};
+  return true;
+}
+
 /// Whether film can be in that state, wherever it comes from; otherwise refusal_ says why not.
 bool Simulation::admits(const Step& step, double load_factor, const fem::State& state) {
   refusal_.reset();
-  const std::string limit = permittivity_limit(case_, device_, state);
-  if (limit.empty()) return true;
-  refusal_ = {Ending::gave_up, "loss of permittivity",
-              fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name, load_factor, limit)};
-  return false;
+  return !refuses(step, load_factor, "loss of permittivity", permittivity_limit(case_, device_, state));
 }
 
 /// Whether an increment may lead there from the last accepted state; otherwise refusal_ says why not.
 bool Simulation::leads(const Step& step, double load_factor, const fem::State& state) {
-  if (!admits(step, load_factor, state)) return false;
-  const std::string snap = snap_of_wrinkles(device_, accounted_, state);
-  if (snap.empty()) return true;
-  refusal_ = {Ending::gave_up, "limit point",
-              fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name, load_factor, snap)};
-  return false;
+  return admits(step, load_factor, state) &&
+         !refuses(step, load_factor, "limit point", snap_of_wrinkles(device_, accounted_, state));
 }
 
 /// Shows the state to the signals that want to see it; otherwise refusal_ says which cannot go on.
@@ -232,13 +232,9 @@ bool Simulation::sample(const Step& step, double load_factor, Measured& measured
 /// Looks for events and peaks in every accepted state, whatever is recorded.
 bool Simulation::accept(const SimulationObserver& observer, const Step& step, const fem::State& state,
                         const fem::Increment& increment, Reached reached) {
-  if (admits(step, increment.load_factor, state) && !step.inertia) {
-    if (const std::string pushed = pushed_ribbon(case_, device_, state); !pushed.empty())
-      refusal_ = {Ending::gave_up, "slack ribbon",
-                  fmt::format("step \"{}\" stopped: at load factor {:.4g} {}", step.name,
-                              increment.load_factor, pushed)};
-  }
-  if (refusal_) {
+  const double s = increment.load_factor;
+  if (!admits(step, s, state) ||
+      (!step.inertia && refuses(step, s, "slack ribbon", pushed_ribbon(case_, device_, state)))) {
     unrecorded_.reset(); // the state is not one of the run
     return false;
   }

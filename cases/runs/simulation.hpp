@@ -120,6 +120,7 @@ class Simulation {
   void change_supports(fem::State& state);
   bool pins_bear(const fem::State& given);
   void catch_what_moves(const fem::State& state, fem::EnergyBalance::Record& record);
+  bool refuses(const Step& step, double load_factor, const char* kind, const std::string& why);
   bool admits(const Step& step, double load_factor, const fem::State& state);
   bool leads(const Step& step, double load_factor, const fem::State& state);
   void come_to(const fem::State& state);
