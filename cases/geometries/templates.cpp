@@ -90,8 +90,8 @@ electrode = [{ name = "film", place = "film" }]
 constexpr std::string_view rolls_defaults = R"(
 electrode = [{ name = "upper", place = "upper" }, { name = "lower", place = "lower" }]
 body = [{ name = "tip", places = ["tip_ends"] }]
-support = [{ place = "base", fix = ["x", "y", "turn_z"] }, { place = "roots", fix = ["x", "y"] },
-           { place = "joints", fix = ["y"] }]
+support = [{ place = "base", fix = ["x", "y", "z", "turn_x", "turn_y", "turn_z"] },
+           { place = "roots", fix = ["x", "y", "z"] }, { place = "joints", fix = ["y", "z"] }]
 step = [{ kind = "release" }, { kind = "voltage" }]
 )";
 

@@ -85,10 +85,14 @@ double Crossings::parameter_at(double load_factor) const {
   return passage_.timed ? load_factor : passage_.path.parameter(load_factor);
 }
 
+/// Whether states depend on the way to them: branches that have had all the time they need do not.
+bool Crossings::remembers() const { return passage_.timed && points_.back().state.history; }
+
 fem::State Crossings::state_at(const Course& course, double load_factor) const {
   const double parameter = parameter_at(load_factor);
   fem::State there = fem::extrapolate(course.points, parameter);
   passage_.path.apply(there, load_factor);
+  if (!passage_.timed && !passage_.options.instantaneous) there.scheme = materials::TimeScheme::relaxed();
   for (std::size_t p = 0; p < there.voltage.size(); ++p)
     if (there.supply[p] != fem::Supply::voltage)
       there.voltage[p] = value_at(parameter, course.points,
@@ -104,7 +108,7 @@ double Crossings::root_of(const Course& course) const {
   constexpr double accuracy = 1e-9; // of the step
   const auto beyond_at = [&](double at) {
     // of the shape there: what is largest may be elsewhere than in these states
-    return course.points.back().state.history
+    return remembers()
                ? value_at(parameter_at(at), course.points, [&](std::size_t i) { return course.beyond[i]; })
                : beyond_in(state_at(course, at), device_, course.threshold);
   };
@@ -128,13 +132,13 @@ std::optional<Crossings::Place> Crossings::find(const Threshold& threshold) {
   course.to = passage_.to;
   double found = root_of(course);
   const fem::State& last = points_.back().state;
-  const bool is_solved = !last.history && !last.motion && !fem::has_friction(device_.model) &&
+  const bool is_solved = !remembers() && !last.motion && !fem::has_friction(device_.model) &&
                          device_.model.dofs.free_count() <= most_unknowns;
   for (int solved = 0; is_solved && solved < most_solved; ++solved) {
     if (found - course.from <= same || course.to - found <= same) break;
     if (!equilibrium_) equilibrium_.emplace(device_.model, passage_.threads);
     fem::State there = state_at(course, found);
-    if (equilibrium_->solve(there, passage_.newton).outcome != fem::Outcome::converged) break;
+    if (equilibrium_->solve(there, passage_.options.newton).outcome != fem::Outcome::converged) break;
     const double how_far = beyond_in(there, device_, threshold);
     if (!(std::abs(how_far) > 0)) break; // 0, or not a number
     course.add({parameter_at(found), std::move(there)}, found, how_far);

@@ -4,6 +4,7 @@
 #include "cases/devices/device.hpp"
 #include "fem/equilibrium/equilibrium.hpp"
 #include "fem/paths/load_path.hpp"
+#include "fem/paths/ramp.hpp"
 #include "post/reductions.hpp"
 
 #include <array>
@@ -34,13 +35,13 @@ struct Passage {
   const fem::LoadPath& path;
   double to; ///< load factor of the last
   bool timed;
-  const fem::NewtonOptions& newton; ///< of states on the way that are solved for
+  const fem::RampOptions& options; ///< of states on the way that are solved for
   int threads;
 };
 
-/// Where a device passes thresholds on a passage: by states that are solved for there; with masses, friction
-/// and in large models on the polynomial through up to four states, or, where material remembers, through
-/// what these are beyond the threshold.
+/// Where a device passes thresholds on a passage: by states that are solved for there; in time, with friction
+/// and in large models on the polynomial through up to four states, or, where material remembers in time,
+/// through what these are beyond the threshold.
 class Crossings {
  public:
   Crossings(const Device& device, const Passage& passage);
@@ -54,6 +55,7 @@ class Crossings {
 
  private:
   struct Course;
+  bool remembers() const;
   double parameter_at(double load_factor) const;
   fem::State state_at(const Course& course, double load_factor) const;
   double root_of(const Course& course) const;

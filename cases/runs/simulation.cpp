@@ -266,9 +266,9 @@ std::vector<post::Event> Simulation::events(const Step& step, const Measured& me
       !in_step_.followed) {
     const fem::RampProgress& ramp = in_step_.ramp;
     const fem::LoadPath path = loads_->path(step_, ramp.start);
-    const fem::NewtonOptions newton = loads_->options(step_).newton;
+    const fem::RampOptions options = loads_->options(step_);
     watch_.locate(events,
-                  {ramp.points, path, increment.load_factor, step.duration.has_value(), newton, threads_});
+                  {ramp.points, path, increment.load_factor, step.duration.has_value(), options, threads_});
   }
   return events;
 }

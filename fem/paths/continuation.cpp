@@ -51,7 +51,8 @@ double normalise(const Equilibrium& equilibrium, ContinuationProgress& at) {
 /// one.
 bool factor_along(Equilibrium& equilibrium, const LoadPath& path, const ContinuationProgress& at,
                   const Eigen::VectorXd& direction, double load_direction) {
-  const PathBorder border{load_derivative(equilibrium, path, at.state, at.load_factor),
+  const Eigen::Index free = equilibrium.model().dofs.free_count();
+  const PathBorder border{load_derivative(equilibrium, path, at.state, at.load_factor).head(free),
                           dual(equilibrium, at, direction), load_direction};
   return equilibrium.factor(at.state, &border);
 }
@@ -140,7 +141,7 @@ Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, 
   equilibrium.balance(at, more);
   path.apply(at, s - difference);
   equilibrium.balance(at, less);
-  return (more.force - less.force).head(equilibrium.model().dofs.free_count()) / (2 * difference);
+  return (more.force - less.force) / (2 * difference);
 }
 
 double distance(const Equilibrium& equilibrium, const ContinuationProgress& at, const State& from,

@@ -67,7 +67,8 @@ std::optional<ContinuationProgress> arc_step(Equilibrium& equilibrium, const Loa
 double distance(const Equilibrium& equilibrium, const ContinuationProgress& at, const State& from,
                 const State& to);
 
-/// Change of the unbalanced forces per load factor at fixed displacements of the free unknowns, N.
+/// Change of the unbalanced forces per load factor at fixed displacements of the free unknowns, N per
+/// equation; of what is held its reactions'.
 Eigen::VectorXd load_derivative(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s);
 
 /// Pseudo-arclength continuation (Keller 1977): follows the equilibrium path from `progress` on, through

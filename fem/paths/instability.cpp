@@ -19,6 +19,7 @@ constexpr double smallest_bracket = 1e-9; ///< over the first
 constexpr double small_bracket = 1e-5;    ///< likewise, of one that cannot be made smaller
 constexpr double least_reach = 1e-3;      ///< part of the way to a trial
 constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcation
+constexpr double rounding = 1e-11;        ///< of that work, over mode and forces, reactions among them
 constexpr int most_trials = 80;
 /// Part of the step beyond a bracket that has closed, in which the eigenvalue must vanish. With friction it
 /// leaps wherever a node starts or stops to slide: it must vanish closer by, and have fallen to this part.
@@ -48,11 +49,16 @@ struct LoadPoint {
 Instability classify(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
                      const Mode& mode) {
   const Eigen::VectorXd& D = equilibrium.stiffness();
-  const Eigen::VectorXd load = load_derivative(equilibrium, path, state, s);
+  const Eigen::VectorXd& weight = equilibrium.weight();
+  const Eigen::VectorXd forces = load_derivative(equilibrium, path, state, s);
+  const Eigen::VectorXd load = forces.head(D.size());
+  const double work = std::abs(mode.direction.dot(load));
   const double sizes =
       std::sqrt(mode.direction.dot(D.cwiseProduct(mode.direction)) * load.dot(load.cwiseQuotient(D)));
-  return std::abs(mode.direction.dot(load)) > no_work * sizes ? Instability::limit_point
-                                                              : Instability::bifurcation;
+  // In film that is held all around the field does no work but on reactions: what else there is, is rounding.
+  const double least = rounding * mode.direction.cwiseQuotient(weight.head(D.size())).norm() *
+                       forces.cwiseProduct(weight).norm();
+  return work > std::max(no_work * sizes, least) ? Instability::limit_point : Instability::bifurcation;
 }
 
 std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& path,
@@ -178,7 +184,8 @@ std::optional<CriticalPoint> find_turn(Equilibrium& equilibrium, const LoadPath&
   if (!(product(mode, before) > one_way * std::sqrt(product(mode, mode) * product(before, before))))
     return std::nullopt;
   const auto eigenvalue = [&](const LoadPoint& at) {
-    return -mode.dot(load_derivative(equilibrium, path, at.state, at.s)) / product(mode, at.slope);
+    return -mode.dot(load_derivative(equilibrium, path, at.state, at.s).head(mode.size())) /
+           product(mode, at.slope);
   };
   const double now = eigenvalue(last[0]), former = eigenvalue(last[1]);
   const double left = now * now * (last[0].s - last[1].s) / (former * former - now * now);

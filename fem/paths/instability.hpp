@@ -24,7 +24,7 @@ struct CriticalPoint {
 };
 
 /// Limit point or bifurcation: whether the load works on the mode, |x . dR/ds| over |x| |dR/ds|, norms with D
-/// and its inverse.
+/// and its inverse; what is rounding beside all forces is no work.
 Instability classify(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
                      const Mode& mode);
 

@@ -141,6 +141,24 @@ TEST_F(Events, ThoseBetweenTwoRowsAreToldWithTheirOwnTime) {
   EXPECT_EQ(event["record"], 2);                       // behind the drawn state and the jump
 }
 
+// Branches that have had all the time they need carry nothing: film with them passes its breakdown field
+// where film without does.
+TEST_F(Events, ThoseOfRelaxedBranchesAreFoundInStatesOfTheirOwn) {
+  const auto voltage = [this](const char* branch) {
+    write("relaxed.toml",
+          std::string("[film]\nthickness = \"1 mm\"\n[film.material]\nshear_modulus = \"50 kPa\"\n"
+                      "permittivity = \"4e-11 F/m\"\nbreakdown_field = \"7.8 MV/m\"\n") +
+              branch +
+              "[patch]\nmode = \"equal-biaxial\"\n[drive]\nvoltage = \"8 kV\"\n[output]\nerror_estimate = "
+              "false\nfields = false\n[[step]]\nkind = \"voltage\"\nincrements = 2\n");
+    EXPECT_EQ(dielast({"run", "relaxed.toml", "-o", "out", "-q"}).exit_code, 0);
+    return json_of("out/summary.json")["events"].at(0)["voltages"].at(0).get<double>();
+  };
+  EXPECT_NEAR(voltage(""), 7673.46, 0.02);
+  EXPECT_NEAR(voltage("[[film.material.branch]]\nshear_modulus = \"30 kPa\"\nrelaxation_time = \"1 s\"\n"),
+              7673.46, 0.02);
+}
+
 // Film charged to 500 V and let go by its source is compressed by the root of 5 MV/m over 6 MV/m, which moves
 // its edges by 2 mm at a stretch of 0.8.
 TEST_F(Events, ThoseOfIsolatedFilmAreToldAtItsOwnVoltage) {

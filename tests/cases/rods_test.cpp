@@ -255,6 +255,23 @@ error_estimate = false
   EXPECT_NEAR(slack, tip_angle("1.8 kV", "on_bifurcation", "switch"), 1e-6);
 }
 
+// Its own supports hold it in space as in its plane.
+TEST_F(Rods, AntagonisticRollsTurnTheirTipInSpaceAsInThePlane) {
+  const auto tip_angle = [](const char* model) {
+    const Case one =
+        read_case(std::filesystem::path(DIELAST_SOURCE_DIR) / "cases/gallery/antagonistic_rolls/case.toml",
+                  {"check=", "output.error_estimate=false", "output.fields=false", model});
+    Simulation simulation(one, 1);
+    const Outcome outcome = simulation.run({});
+    EXPECT_EQ(outcome.ending, Ending::complete) << outcome.message;
+    const auto angle = std::ranges::find(one.quantities, "tip_angle", &Quantity::name);
+    return simulation.results()[static_cast<std::size_t>(angle - one.quantities.begin())];
+  };
+  const double in_its_plane = tip_angle("model=planar");
+  EXPECT_NEAR(in_its_plane, 0.073, 0.001);
+  EXPECT_NEAR(tip_angle("model=3d"), in_its_plane, 1e-9);
+}
+
 TEST_F(Rods, AnElectrodeLongerThanTheRodIsRefused) {
   write("case.toml", roll("[drive]\nvoltage = \"1 kV\"\n"));
   Case one = read_case(directory / "case.toml", {"rod.electrode_length=22 mm"});

@@ -313,5 +313,26 @@ TEST_F(Paths, a_curling_strip_jumps_to_where_it_is_twisted) {
   EXPECT_TRUE(std::ranges::any_of(cut.events, [](const post::Event& e) { return e.kind == "jump"; }));
 }
 
+// A layer that is charged below one that is not bends no plate that is clamped all around: it buckles where
+// eps V^2/H is 5.304 pi^2 D/b^2. The field does no work but on reactions, what it does on the mode is
+// rounding.
+TEST_F(Paths, a_clamped_square_with_a_layer_on_one_side_has_a_bifurcation) {
+  const std::string plate =
+      "model = \"3d\"\n[film]\nthickness = \"0.5 mm\"\nsection = \"shell\"\n[film.material]\n"
+      "shear_modulus = \"50 kPa\"\npermittivity = \"4e-11 F/m\"\n[[film.layer]]\nthickness = \"0.5 mm\"\n"
+      "[film.layer.material]\nshear_modulus = \"50 kPa\"\n[rectangle]\nlength = \"100 mm\"\n"
+      "width = \"100 mm\"\n[mesh]\nacross = 10\n[drive]\nvoltage = \"1.5 kV\"\n"
+      "[output]\nerror_estimate = false\nfields = false\n[[step]]\nkind = \"voltage\"\n";
+  const double D = 50e3 * 1e-9 / 3;
+  const double buckles = std::sqrt(5.304 * M_PI * M_PI * D / 1e-2 * 0.5e-3 / 4e-11);
+  const Run stopped = run(plate, "areal_strain");
+  EXPECT_EQ(stopped.outcome.ending, Ending::gave_up);
+  EXPECT_NE(stopped.outcome.message.find("(a bifurcation)"), std::string::npos) << stopped.outcome.message;
+  EXPECT_NEAR(stopped.rows.back().load_factor * 1500, buckles, 0.01 * buckles);
+  const Run on = run(plate + "on_bifurcation = \"switch\"\non_instability = \"follow\"\n", "areal_strain");
+  EXPECT_EQ(on.outcome.ending, Ending::complete) << on.outcome.message;
+  EXPECT_EQ(on.rows.back().unstable_modes, 0);
+}
+
 } // namespace
 } // namespace dielast::cases::shell_layers_test
