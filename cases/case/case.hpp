@@ -178,7 +178,7 @@ struct Step {
   StepKind kind{};
   std::string name;           ///< default: its kind
   std::optional<double> to{}; ///< where a ramp of voltage (V), charge (C), pressure (Pa) or volume (m^3)
-                              ///< leads, instead of to what [drive] or [chamber] say
+                              ///< leads, instead of to what [drive] or [chamber] say; see also part()
   std::string electrode{};    ///< the only one that a ramp of voltage or charge is about; empty: all
   int increments = 1;
   std::optional<double> duration{}; ///< s; absent: a ramp that takes no time
@@ -196,6 +196,8 @@ struct Step {
   std::vector<std::string> driven{}; ///< of harmonic: electrodes whose sources swing; empty: see driven_ports
 
   bool is_analysis() const { return kind == StepKind::modes || kind == StepKind::harmonic; }
+  /// Of what such a step, `force` or `move`, could ramp to.
+  double part(StepKind ramp) const { return kind == ramp ? to.value_or(1) : 1; }
   /// Whether it finds dashpots that have not let go.
   bool moves_dashpots() const { return duration || (!is_analysis() && response == Response::instantaneous); }
 };

@@ -34,7 +34,7 @@ std::optional<Start> start_of(const Support& support, std::span<const Step> step
     holds = holds || before.name == support.from;
     if (!holds || before.is_analysis()) continue;
     if (start) start->speed = 0;
-    if (before.kind == StepKind::move) start = {wave.before(0), 0};
+    if (before.kind == StepKind::move) start = {before.part(StepKind::move) * wave.before(0), 0};
     if (before.kind == StepKind::transient)
       start = {wave.before(*before.duration), before.inertia ? slope_before(wave, *before.duration, h) : 0};
   }

@@ -123,22 +123,21 @@ bool StepLoads::happened(int step, StepKind kind) const {
 }
 
 /// The frame's forces until a release, the loads from the first step that applies them.
-Eigen::VectorXd StepLoads::dead_force(int step, Instant t) const {
+Eigen::VectorXd StepLoads::dead_force(int number, Instant t) const {
+  const Step& step = steps_[static_cast<std::size_t>(number)];
   const fem::DofMap& dofs = device_.model.dofs;
   Eigen::VectorXd force = frame_force_;
-  if (happened(step, StepKind::release)) force.setZero();
-  if (happened(step, StepKind::weight)) force += device_.weight;
-  if (!happened(step, StepKind::force) && !happened(step, StepKind::transient)) return force;
+  if (happened(number, StepKind::release)) force.setZero();
+  if (happened(number, StepKind::weight)) force += device_.weight;
+  if (!happened(number, StepKind::force) && !happened(number, StepKind::transient)) return force;
   for (const Load& load : case_.loads) {
     const auto& nodes = device_.mesh.node_sets.at(load.place);
     const std::vector<double>& shares = device_.shares.at(load.place).of_nodes;
     for (int c = 0; c < fem::DofMap::components; ++c) {
       const Waveform* wave = load.component(c);
       if (!wave) continue;
-      const Signal* signal =
-          load.moment ? nullptr
-                      : signal_of(steps_[static_cast<std::size_t>(step)], {Driven::force, load.place, c});
-      const double whole = signal ? signal->at(t) : t.of(*wave);
+      const Signal* signal = load.moment ? nullptr : signal_of(step, {Driven::force, load.place, c});
+      const double whole = signal ? signal->at(t) : step.part(StepKind::force) * t.of(*wave);
       const auto acts = [&](int node) { return dofs.equation(node, c) != fem::DofMap::absent; };
       // Every node of a place moves, or none does; film among walls does not turn.
       double acting = 0;
@@ -160,7 +159,7 @@ void StepLoads::move(const Step& step, Eigen::VectorXd& held, Instant t) const {
                                  ? signal_of(step, {Driven::displacement, support.place, c})
                                  : nullptr;
       if (!motion && !signal) continue;
-      const double moved = signal ? signal->at(t) : t.of(*motion);
+      const double moved = signal ? signal->at(t) : step.part(StepKind::move) * t.of(*motion);
       for (const int node : device_.mesh.node_sets.at(support.place))
         if (const int e = dofs.equation(node, c); dofs.is_held(e)) held[e - dofs.free_count()] = moved;
     }

@@ -40,7 +40,7 @@ class StepLoads {
   const Drive* drive(std::size_t electrode) const;
   /// Kinds of the steps up to this one.
   bool happened(int step, StepKind kind) const;
-  Eigen::VectorXd dead_force(int step, Instant t) const;
+  Eigen::VectorXd dead_force(int number, Instant t) const;
   void move(const Step& step, Eigen::VectorXd& held, Instant t) const;
   fem::Loads at(int step, const fem::Loads& start, Instant t) const;
   /// Has electrodes stand still on the way of a ramp while as much leaks as their sources give.

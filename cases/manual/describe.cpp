@@ -67,6 +67,12 @@ std::string devices_text() {
   return text;
 }
 
+std::string actuators_text() {
+  std::string text = "Devices of the literature, and how a case says them\n";
+  for (const Actuator& actuator : actuators()) text += "  " + actuator_text(actuator);
+  return text;
+}
+
 std::string quantities_text() {
   std::string text =
       "Kinds of [[quantity]]\n" + choices_text(*case_schema().find_section("quantity")) + "\nfields\n";
@@ -126,6 +132,7 @@ constexpr std::array all_topics{
     Topic{"materials.md", materials_page},
     Topic{"laws", laws_text},
     Topic{"devices", devices_text},
+    Topic{"actuators", actuators_text},
     Topic{"quantities", quantities_text},
     Topic{"steps", steps_text},
     Topic{"waves", waves_text},

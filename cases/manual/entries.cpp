@@ -62,6 +62,11 @@ std::span<const Term> terms() {
   return all;
 }
 
+std::string actuator_text(const Actuator& actuator) {
+  return fmt::format("{}: {}{}\n", fmt::join(actuator.names, ", "), actuator.how,
+                     actuator.example.empty() ? "" : fmt::format("; gallery/{}", actuator.example));
+}
+
 namespace {
 
 /// Whether two keys may stand in one table.

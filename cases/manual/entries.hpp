@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/language/schema.hpp"
+#include "cases/manual/actuators.hpp"
 #include "cases/tables/templates.hpp"
 #include "materials/catalog.hpp"
 
@@ -32,6 +33,9 @@ struct Term {
   std::string_view name, meaning;
 };
 std::span<const Term> terms();
+
+/// How a case says a device of the literature, and where the gallery has one.
+std::string actuator_text(const Actuator& actuator);
 
 /// A line for each section that a device brings, as TOML.
 std::string defaults_text(const Node& defaults, std::string_view indent);

@@ -93,10 +93,17 @@ std::string manual_page() {
           "stand "
           "unless the case has its own.\n\n";
   for (const Template& device : templates()) text += device_of(device);
-  text += "## Waves\n\nFor every quantity that may change with time, here of a voltage: `voltage = { wave = "
-          "\"sine\", amplitude = \"4 kV\", frequency = \"0.5 Hz\" }`. Its time counts from the start of each "
-          "step. More in `dielast info waves`.\n\n" +
-          keys_of(wave_section("V")) + "## Fields\n\n| field | unit | meaning |\n|---|---|---|\n";
+  text += "## Actuators\n\nDevices of the literature, and how a case says them.\n\n| device | case | example "
+          "in the "
+          "gallery |\n|---|---|---|\n";
+  for (const Actuator& actuator : actuators())
+    text += fmt::format("| {} | {} | {} |\n", fmt::join(actuator.names, ", "), cell(actuator.how),
+                        actuator.example);
+  text +=
+      "\n## Waves\n\nFor every quantity that may change with time, here of a voltage: `voltage = { wave = "
+      "\"sine\", amplitude = \"4 kV\", frequency = \"0.5 Hz\" }`. Its time counts from the start of each "
+      "step. More in `dielast info waves`.\n\n" +
+      keys_of(wave_section("V")) + "## Fields\n\n| field | unit | meaning |\n|---|---|---|\n";
   for (const post::Scalar& field : post::scalars())
     text += fmt::format("| `{}` | {} | {} |\n", field.name, field.unit, cell(field.meaning));
   text += "\n## Units\n\n| quantity | usual units |\n|---|---|\n";

@@ -98,6 +98,9 @@ const std::vector<Entry>& all_entries() {
       made.push_back({std::string(field.name), [field] {
                         return fmt::format("field {}: {} ({})\n", field.name, field.meaning, field.unit);
                       }});
+    for (const Actuator& actuator : actuators())
+      for (const std::string_view name : actuator.names)
+        made.push_back({std::string(name), [&actuator] { return actuator_text(actuator); }});
     for (const Term& term : terms())
       made.push_back(
           {std::string(term.name), [term] { return fmt::format("{}: {}\n", term.name, term.meaning); }});

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -101,26 +102,51 @@ void check_jumps(SectionReader& reader, const Node& tree, const Case& one) {
       }
 }
 
-/// Voltages that are there already. A support may need the step, to let go in it.
-void check_repeated_voltages(SectionReader& reader, const Node& tree, const Case& one) {
+/// What a ramp leads.
+const char* ramped(StepKind kind) {
+  switch (kind) {
+  case StepKind::voltage:
+    return "voltage";
+  case StepKind::charge:
+    return "charge";
+  case StepKind::force:
+    return "forces";
+  case StepKind::move:
+    return "displacements";
+  case StepKind::weight:
+    return "weight";
+  case StepKind::pressure:
+    return "pressure";
+  default:
+    return "volume";
+  }
+}
+
+/// Ramps to loads that are there already. A support may need the step, to let go in it.
+void check_repeated_ramps(SectionReader& reader, const Node& tree, const Case& one) {
   if (std::ranges::any_of(one.supports, [](const Support& s) { return !s.from.empty() || !s.until.empty(); }))
     return;
-  const Step* before = nullptr; // that has led the voltages to where they are
+  std::map<StepKind, const Step*> last; // that has led the loads of a kind to where they are
   for (std::size_t s = 0; s < one.steps.size(); ++s) {
     const Step& step = one.steps[s];
-    const bool ramps = step.kind == StepKind::voltage;
-    if (ramps && !step.duration && before && step.to == before->to && step.electrode == before->electrode &&
-        step.response == before->response) {
+    using enum StepKind;
+    const bool ramps = step.kind >= voltage && step.kind <= inflate;
+    if (const auto before = last.find(step.kind);
+        ramps && !step.duration && before != last.end() && step.to == before->second->to &&
+        step.electrode == before->second->electrode && step.response == before->second->response) {
       const StepPlace at = place_of_step(tree, s);
       reader.warn(
           at.source, at.key,
-          fmt::format("has no effect here: step \"{}\" has led the voltage there already", before->name));
+          fmt::format("leads nowhere: step \"{}\" has led the {} there already{}", before->second->name,
+                      ramped(step.kind),
+                      step.kind == force || step.kind == move ? "; `to` says how far a step leads" : ""));
     }
-    if (ramps)
-      before = &step;
-    else if (step.control == Control::charge || step.kind == StepKind::charge ||
-             step.kind == StepKind::transient)
-      before = nullptr;
+    if (step.kind == transient) last.clear();
+    if (step.control == Control::charge || step.kind == charge) last.erase(voltage);
+    if (step.kind == voltage || step.duration) last.erase(charge); // which leaks
+    if (step.kind == pressure) last.erase(inflate);
+    if (step.kind == inflate) last.erase(pressure);
+    if (ramps) last[step.kind] = &step;
   }
 }
 
@@ -187,7 +213,7 @@ void check_waves(SectionReader& reader, const Node& tree, const Case& one) {
   check_motions_held(reader, tree, one);
   check_jumps(reader, tree, one);
   check_beginnings(reader, one);
-  check_repeated_voltages(reader, tree, one);
+  check_repeated_ramps(reader, tree, one);
   for (const WrittenWave& written : reader.waves()) {
     if (written.wave.kind != Waveform::Kind::file) continue;
     const auto& rows = written.wave.samples;

@@ -21,6 +21,9 @@ namespace {
 /// turned farther.
 constexpr std::array far_turns{0.2, 0.4, 0.8};
 
+/// Of film that wrinkles, over smallest_stress(): taut film would bear as much only at a third of its length.
+constexpr double pushed = 1e4;
+
 constexpr double largest_leak = 0.01; ///< that steady voltages leave out, relative
 
 /// Of a lattice, also of one that is a part with a name.
@@ -125,6 +128,13 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
          fmt::format(
              "the film is compressed here ({}): it would wrinkle, which this membrane does not resolve",
              post::engineering(stress->value, "Pa"))});
+  if (const auto stress = extremes.find("min_principal_stress", post::Extreme::minimum);
+      device_.tension_field && stress && begins(stress->value < -pushed * smallest_stress_, "pushed film"))
+    events.push_back(
+        {"pushed film", place_of_triangle(stress->cell),
+         fmt::format("film that wrinkles bears no push: {} are borne here by what is left of its stiffness "
+                     "for a regular tangent, and the shape is that of this rest",
+                     post::engineering(-stress->value, "Pa"))});
   if (const auto ratio = extremes.find("breakdown_ratio", post::Extreme::maximum);
       ratio && begins(ratio->value >= 1, "breakdown"))
     events.push_back({"breakdown", place_of_triangle(ratio->cell),
@@ -209,7 +219,9 @@ void Watch::tell(post::Event& event, const Passage& passage, const Crossings::Pl
 std::optional<post::Event> no_voltage(const Case& one, const Step& step) {
   const auto charged = [](const auto& drive) { return drive.second.voltage || drive.second.charge; };
   const auto controlled = [](const Controller& own) { return own.drives.what == Driven::voltage; };
-  const auto leads = [](const Step& other) { return other.to.has_value(); };
+  const auto leads = [](const Step& other) {
+    return other.to && (other.kind == StepKind::voltage || other.kind == StepKind::charge);
+  };
   if (step.kind != StepKind::voltage || one.electrodes.empty() ||
       std::ranges::any_of(one.controllers, controlled) || std::ranges::any_of(one.drives, charged) ||
       std::ranges::any_of(one.steps, leads))

@@ -19,9 +19,10 @@ namespace dielast::cases {
 /// Below this a stress is round-off, Pa: 1e-8 of the stiffest film's shear modulus, at least 1e-3.
 double smallest_stress(const Case& one);
 
-/// Watches accepted states for what a designer must know: loss of tension, breakdown, yielding walls, walls
-/// that touch, film that passes through itself, fins that turn far, leaks that steady voltages leave out,
-/// unstable equilibrium. An event is told when its condition begins, not again while it lasts.
+/// Watches accepted states for what a designer must know: loss of tension, wrinkled film that is pushed,
+/// breakdown, yielding walls, walls that touch, film that passes through itself, fins that turn far, leaks
+/// that steady voltages leave out, unstable equilibrium. An event is told when its condition begins, not
+/// again while it lasts.
 class Watch {
  public:
   /// Those of which extremes are needed.

@@ -91,6 +91,17 @@ Section step_section() {
           .at_least(0)
           .optional()
           .only({"inflate"}),
+      number("to", to(&Step::to), "part of its forces that every load ramps to, instead of all: 0 takes it off")
+          .at_least(-1000)
+          .at_most(1000)
+          .optional()
+          .only({"force"}),
+      number("to", to(&Step::to),
+             "part of its displacements that every moved support ramps to, instead of all: 0 leads it back")
+          .at_least(-1000)
+          .at_most(1000)
+          .optional()
+          .only({"move"}),
       text("electrode", to(&Step::electrode),
            "the only one that it is about: others that are isolated stay so, with their charges; without it "
            "all")

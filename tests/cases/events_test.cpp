@@ -141,6 +141,19 @@ TEST_F(Events, ThoseBetweenTwoRowsAreToldWithTheirOwnTime) {
   EXPECT_EQ(event["record"], 2);                       // behind the drawn state and the jump
 }
 
+// What wrinkles has a thousandth of a percent of its energy left, which a push would find.
+TEST_F(Events, FilmThatWrinklesBearsNoPush) {
+  for (const auto& [stress, is_told] : {std::pair{"-1 kPa", true}, {"1 kPa", false}}) {
+    write("pushed.toml",
+          std::string("[film]\nthickness = \"1 mm\"\nwrinkling = \"tension field\"\n"
+                      "[film.material]\nshear_modulus = \"50 kPa\"\npermittivity = \"4e-11 F/m\"\n"
+                      "[patch]\nstress_x = \"") +
+              stress + "\"\n[output]\nerror_estimate = false\nfields = false\n[[step]]\nkind = \"force\"\n");
+    EXPECT_EQ(dielast({"run", "pushed.toml", "-o", "out", "-q"}).exit_code, 0);
+    EXPECT_EQ(of_kind(json_of("out/summary.json")["events"], "pushed film").has_value(), is_told) << stress;
+  }
+}
+
 // Branches that have had all the time they need carry nothing: film with them passes its breakdown field
 // where film without does.
 TEST_F(Events, ThoseOfRelaxedBranchesAreFoundInStatesOfTheirOwn) {

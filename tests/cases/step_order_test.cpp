@@ -35,6 +35,52 @@ TEST_F(StepOrder, WithoutTimeALimitedSourceLeavesTheFilmWhereAsMuchLeaks) {
         << wanted;
 }
 
+/// `to` of a ramp of forces or displacements is a part of what the case gives.
+TEST_F(StepOrder, ARampLeadsToAPartOfTheForcesOrDisplacements) {
+  const auto patch = [](const char* pulled) {
+    return fmt::format(
+        "film = {{ thickness = \"1 mm\", material = {{ shear_modulus = \"40 kPa\", permittivity = "
+        "\"4e-11 F/m\" }} }}\npatch = {{ mode = \"equal-biaxial\", {} }}\n",
+        pulled);
+  };
+  const Ran pulled = run(patch("stress_x = \"40 kPa\"") +
+                         "step = [{ kind = \"force\", to = 0.5 }, { kind = \"force\", name = \"all\" }, "
+                         "{ kind = \"force\", name = \"off\", to = 0, increments = 1 }]\n");
+  const std::vector<double>& stress = pulled.values.at("stress_x");
+  EXPECT_NEAR(stress[10], 20e3, 1e-4);
+  EXPECT_NEAR(stress[20], 40e3, 1e-4);
+  EXPECT_NEAR(pulled.values.at("stretch_x").back(), 1, 1e-9);
+  const Ran moved = run(patch("stretch_x = 3") + "step = [{ kind = \"move\" }, { kind = \"move\", name = "
+                                                 "\"back\", to = 0.25, increments = 1 }]\n");
+  EXPECT_NEAR(moved.values.at("stretch_x")[10], 3, 1e-12);
+  EXPECT_NEAR(moved.values.at("stretch_x").back(), 1.5, 1e-12);
+}
+
+// A second step to where the first one has led is a slip: it says so.
+TEST_F(StepOrder, ARampToWhatIsThereAlreadyIsTold) {
+  const auto warnings = [&](const std::string& steps) {
+    write("film.toml",
+          "film = { thickness = \"1 mm\", material = { shear_modulus = \"40 kPa\", permittivity = "
+          "\"4e-11 F/m\" } }\npatch = { mode = \"equal-biaxial\", stretch_x = 3 }\n"
+          "drive = { voltage = \"1 kV\" }\n" +
+              steps);
+    std::string all;
+    for (const Diagnostic& warning : read_case(directory / "film.toml").warnings)
+      all += warning.message + "\n";
+    return all;
+  };
+  const std::string cycle = "step = [{ kind = \"move\" }, { kind = \"voltage\" }, { kind = \"move\", name = "
+                            "\"back\", control = \"charge\"";
+  EXPECT_NE(
+      warnings(cycle + " }]\n").find("leads nowhere: step \"move\" has led the displacements there already"),
+      std::string::npos);
+  EXPECT_EQ(warnings(cycle + ", to = 0.25 }, { kind = \"voltage\", name = \"again\" }]\n"), "");
+  EXPECT_NE(warnings("step = [{ kind = \"move\" }, { kind = \"voltage\" }, { kind = \"voltage\", name = "
+                     "\"again\" }]\n")
+                .find("has led the voltage there already"),
+            std::string::npos);
+}
+
 TEST_F(StepOrder, NoStepHasTheNameOfTheOneThatCutsTheFilmFree) {
   const auto named = [&](const char* name) {
     write(

@@ -29,6 +29,7 @@ TEST_F(Topics, InfoExplainsWhatACaseMaySay) {
       {"laws", "arruda-boyce"},     {"laws", "dashpot"},
       {"devices", "patch"},         {"steps", "transient"},
       {"waves", "unipolar sine"},   {"devices", "corner_top"},
+      {"actuators", "loudspeaker"}, {"lens", "[chamber]"},
       {"quantities", "elongation"}, {"steps", "release"},
       {"keys", "prestretch"},       {"units", "voltage"},
       {"terms", "arclength"}};
@@ -63,6 +64,21 @@ TEST_F(Topics, InfoExplainsAnyName) {
   const Ended wrong = dielast({"info", "film.thicknes"});
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_NE(wrong.err.find("did you mean \"film.thickness\"?"), std::string::npos) << wrong.err;
+}
+
+// What a case of the literature's devices is said to have is there.
+TEST_F(Topics, ActuatorsAreOfSectionsAndFilesThatThereAre) {
+  const std::string told = dielast({"info", "actuators"}).out;
+  const std::regex section(R"(\[\[?([a-z_.]+)\])"), file("gallery/([a-z_/]+[.]toml)");
+  const auto begin = [&](const std::regex& what) {
+    return std::sregex_iterator(told.begin(), told.end(), what);
+  };
+  EXPECT_GT(std::distance(begin(section), {}), 20);
+  for (auto found = begin(section); found != std::sregex_iterator(); ++found)
+    EXPECT_EQ(dielast({"info", (*found)[1].str()}).exit_code, 0) << (*found)[1];
+  EXPECT_GT(std::distance(begin(file), {}), 15);
+  for (auto found = begin(file); found != std::sregex_iterator(); ++found)
+    EXPECT_TRUE(std::filesystem::exists(source_folder / "cases/gallery" / (*found)[1].str())) << (*found)[1];
 }
 
 TEST_F(Topics, LongNamesStandApartFromWhatTheyMean) {
