@@ -233,7 +233,8 @@ std::vector<Margin> margins_of(const Case& one, const Simulation& simulation, co
     Margin lost = where([&](const Passed& p) { return -smallest - p.least_stress; });
     // Film leaves its plane where its tension ends: the path ends there, and no state of it is beyond.
     if (!lost.factor && lost.remark.empty() && stopped == Critical{true}.kind() &&
-        way.back().least_stress < 1e3 * smallest)
+        way.back().least_stress < no_tension * smallest &&
+        std::ranges::any_of(way, [&](const Passed& p) { return p.least_stress > no_tension * smallest; }))
       lost.factor = way.back().factor;
     return lost;
   });

@@ -261,7 +261,8 @@ bool Simulation::accept(const SimulationObserver& observer, const Step& step, co
 std::vector<post::Event> Simulation::events(const Step& step, const Measured& measured,
                                             const fem::Increment& increment, Reached reached, bool ends) {
   std::vector<post::Event> events =
-      watch_.check(measured.state, measured.extremes, increment.newton.unstable_modes, ends);
+      watch_.check(measured.state, measured.extremes, increment.newton.unstable_modes, ends,
+                   reached == Reached::to_its_end);
   if (!events.empty() && records_ > 0 && reached == Reached::along_path && !increment.jumped &&
       !in_step_.followed) {
     const fem::RampProgress& ramp = in_step_.ramp;

@@ -24,6 +24,8 @@ constexpr std::array far_turns{0.2, 0.4, 0.8};
 /// Of film that wrinkles, over smallest_stress(): taut film would bear as much only at a third of its length.
 constexpr double pushed = 1e4;
 
+constexpr const char* tension = "tension"; ///< no event: film has it
+
 constexpr double largest_leak = 0.01; ///< that steady voltages leave out, relative
 
 /// Of a lattice, also of one that is a part with a name.
@@ -108,7 +110,7 @@ std::string Watch::cell_of(int line, int other) const {
 }
 
 std::vector<post::Event> Watch::check(const fem::State& state, const post::Extremes& extremes,
-                                      int unstable_modes, bool ends) {
+                                      int unstable_modes, bool ends, bool gives_way) {
   std::vector<post::Event> events;
   const auto begins = [&](bool holds, const std::string& kind) {
     if (!holds) active.erase(kind);
@@ -121,13 +123,18 @@ std::vector<post::Event> Watch::check(const fem::State& state, const post::Extre
                                   wrinkles->value > 1 ? "slack" : "wrinkled",
                                   wrinkles->value > 1 ? "no direction" : "one direction only")});
   if (const auto stress = extremes.find("min_principal_stress", post::Extreme::minimum);
-      !device_.tension_field && !device_.bears_compression && stress &&
-      begins(stress->value < -smallest_stress_, "loss of tension"))
-    events.push_back(
-        {"loss of tension", place_of_triangle(stress->cell),
-         fmt::format(
-             "the film is compressed here ({}): it would wrinkle, which this membrane does not resolve",
-             post::engineering(stress->value, "Pa"))});
+      !device_.tension_field && !device_.bears_compression && stress) {
+    const bool had_tension = active.contains(tension);
+    begins(stress->value > no_tension * smallest_stress_, tension);
+    const bool ends_there = gives_way && had_tension && !active.contains(tension);
+    if (begins(ends_there || stress->value < -smallest_stress_, "loss of tension"))
+      events.push_back({"loss of tension", place_of_triangle(stress->cell),
+                        stress->value < -smallest_stress_
+                            ? fmt::format("the film is compressed here ({}): it would wrinkle, which this "
+                                          "membrane does not resolve",
+                                          post::engineering(stress->value, "Pa"))
+                            : "the film has no tension left here: it leaves its surface"});
+  }
   if (const auto stress = extremes.find("min_principal_stress", post::Extreme::minimum);
       device_.tension_field && stress && begins(stress->value < -pushed * smallest_stress_, "pushed film"))
     events.push_back(

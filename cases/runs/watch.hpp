@@ -18,6 +18,9 @@ namespace dielast::cases {
 
 /// Below this a stress is round-off, Pa: 1e-8 of the stiffest film's shear modulus, at least 1e-3.
 double smallest_stress(const Case& one);
+/// Film of which less than so many times that is left in a critical state, and more was before, is critical
+/// for want of tension.
+inline constexpr double no_tension = 1e3;
 
 /// Watches accepted states for what a designer must know: loss of tension, wrinkled film that is pushed,
 /// breakdown, yielding walls, walls that touch, film that passes through itself, fins that turn far, leaks
@@ -35,8 +38,9 @@ class Watch {
   void prepare();
 
   /// `ends`: the state is one that a step leads to; whether film passes through itself is asked of these.
+  /// `gives_way`: no path leads on from it, as where film leaves its surface that has no tension left.
   std::vector<post::Event> check(const fem::State& state, const post::Extremes& extremes, int unstable_modes,
-                                 bool ends = false);
+                                 bool ends, bool gives_way);
 
   /// Tells of those events that begin at a threshold where it was passed on the way to their state.
   void locate(std::vector<post::Event>& events, const Passage& passage) const;

@@ -141,6 +141,28 @@ TEST_F(Events, ThoseBetweenTwoRowsAreToldWithTheirOwnTime) {
   EXPECT_EQ(event["record"], 2);                       // behind the drawn state and the jump
 }
 
+// Of revolution, or in space, film leaves its surface where its tension ends; a patch that is free of stress
+// has none to lose.
+TEST_F(Events, APathThatEndsForWantOfTensionSaysSo) {
+  const std::string film = "[film]\nthickness = \"1 mm\"\nprestretch = 1.2\n[film.material]\nshear_modulus = "
+                           "\"50 kPa\"\npermittivity = \"4e-11 F/m\"\n";
+  const std::string rest = "[drive]\nvoltage = \"40 kV\"\n[output]\nerror_estimate = false\nfields = false\n"
+                           "[[step]]\nkind = \"voltage\"\nincrements = 20\n";
+  write("held.toml", "model = \"axisymmetric\"\n" + film +
+                         "[disc]\nradius = \"50 mm\"\nelectrode_radius = \"48 mm\"\n[mesh]\nrings = 10\n" +
+                         rest);
+  EXPECT_EQ(dielast({"run", "held.toml", "-o", "out", "-q"}).exit_code, 4);
+  const auto lost = of_kind(json_of("out/summary.json")["events"], "loss of tension");
+  ASSERT_TRUE(lost);
+  EXPECT_NE((*lost)["message"].get<std::string>().find("no tension left"), std::string::npos) << *lost;
+  EXPECT_NEAR((*lost)["voltages"].at(0), 24133, 10); // that of a planar disc is 24.133 kV
+  write("free.toml", film + "[patch]\nmode = \"equal-biaxial\"\n" + rest);
+  EXPECT_EQ(dielast({"run", "free.toml", "-o", "out", "-q"}).exit_code, 4);
+  const auto all = json_of("out/summary.json")["events"];
+  EXPECT_TRUE(of_kind(all, "limit point")) << all;
+  EXPECT_FALSE(of_kind(all, "loss of tension")) << all;
+}
+
 // What wrinkles has a thousandth of a percent of its energy left, which a push would find.
 TEST_F(Events, FilmThatWrinklesBearsNoPush) {
   for (const auto& [stress, is_told] : {std::pair{"-1 kPa", true}, {"1 kPa", false}}) {
