@@ -53,7 +53,8 @@ constexpr std::array energy_parts{
                "part of `elastic` that only keeps wrinkled film from being singular",
                [](Balance b) { return b.parts().regularised; }},
     EnergyPart{"error",
-               "estimate of the error of works and heat; beyond 1 % of them the run ends with exit code 5",
+               "estimate of the error of works and heat, without that of friction's heat, which only more "
+               "increments tell; beyond 1 % of them the run ends with exit code 5",
                [](Balance b) { return b.error(); }}};
 
 std::vector<Key> energy_keys() {

@@ -331,7 +331,8 @@ Section contact_section() {
           .values(2, 20)
           .optional()
           .refers_to(Reference::place),
-      number("friction", to(&Contact::friction), "Coulomb's coefficient between these surfaces")
+      number("friction", to(&Contact::friction),
+             "Coulomb's coefficient between these surfaces, in ramps that take no time")
           .at_least(0)
           .at_most(100)
           .otherwise("0")
@@ -347,11 +348,12 @@ Section table_section() {
                     "sinks in by less than contact.thickness, and may lift";
   section.presence = Section::Presence::optional;
   section.access = present(&Case::table);
-  section.keys = {text("at", to(&Table::place), "the surface that lies on it").refers_to(Reference::place),
-                  number("friction", to(&Table::friction), "Coulomb's coefficient")
-                      .at_least(0)
-                      .at_most(100)
-                      .otherwise("0")};
+  section.keys = {
+      text("at", to(&Table::place), "the surface that lies on it").refers_to(Reference::place),
+      number("friction", to(&Table::friction), "Coulomb's coefficient, in ramps that take no time")
+          .at_least(0)
+          .at_most(100)
+          .otherwise("0")};
   return section;
 }
 

@@ -91,7 +91,8 @@ Section step_section() {
           .at_least(0)
           .optional()
           .only({"inflate"}),
-      number("to", to(&Step::to), "part of its forces that every load ramps to, instead of all: 0 takes it off")
+      number("to", to(&Step::to),
+             "part of its forces that every load ramps to, instead of all: 0 takes it off")
           .at_least(-1000)
           .at_most(1000)
           .optional()
