@@ -134,6 +134,7 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
   Trouble trouble{{fem::RampEnd::gave_up, increment.load_factor, increment.newton}, {}, unstable};
   // back to the last stable state
   const fem::RampProgress beyond_it = progress_.ramp;
+  progress_.ramp.unstable_modes = increment.unstable_before;
   const bool in_place = increment.load_factor == accepted_.parameter;
   if (in_place)
     progress_.ramp.points = {{now.points.back().parameter, accepted_.state}};
@@ -144,7 +145,8 @@ bool StepRun::on_ramp(const fem::RampProgress& now, const fem::Increment& increm
     trouble.critical = limit_in_time();
   else if (lost && !in_place)
     trouble.critical = locate(increment.load_factor, true);
-  if (interrupted_ || (leaves && (trouble.critical || stops() || begins_unstable || in_place))) {
+  const bool passes = trouble.critical && trouble.critical->is_none;
+  if (interrupted_ || passes || (leaves && (trouble.critical || stops() || begins_unstable || in_place))) {
     leaving_ = std::move(trouble);
     return false;
   }
@@ -197,9 +199,9 @@ Outcome StepRun::run() {
   return {};
 }
 
-/// Goes on where a branch has come back to the path that it had left: nothing loses its stability there.
+/// Goes on where nothing loses its stability, as where a branch has come back to the path that it had left.
 bool StepRun::pass(fem::CriticalPoint critical) {
-  if (observer_.on_critical)
+  if (observer_.on_critical && !critical.is_none)
     observer_.on_critical(critical, {.kind = "branches meet",
                                      .message = fmt::format("the path goes on along the stable one, from {}",
                                                             load_text(critical.load_factor))});

@@ -21,6 +21,7 @@ constexpr double least_reach = 1e-3;      ///< part of the way to a trial
 constexpr double no_work = 1e-4;          ///< of the load on a mode: a bifurcation
 constexpr double rounding = 1e-11;        ///< of that work, over mode and forces, reactions among them
 constexpr int most_trials = 80;
+constexpr int most_refused = 6; ///< steps along a path that end beyond what may be a critical point
 /// Part of the step beyond a bracket that has closed, in which the eigenvalue must vanish. With friction it
 /// leaps wherever a node starts or stops to slide: it must vanish closer by, and have fallen to this part.
 constexpr double near = 1e-2, near_with_friction = 1e-5, fallen = 0.1;
@@ -44,10 +45,14 @@ struct LoadPoint {
   Eigen::VectorXd slope;    ///< of the path
 };
 
-} // namespace
+/// Of the load on a mode.
+struct WorkOnMode {
+  double share = 0; ///< |x . dR/ds| over |x| |dR/ds|, norms with D and its inverse
+  bool is_rounding = false;
+};
 
-Instability classify(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
-                     const Mode& mode) {
+WorkOnMode work_on(const Mode& mode, Equilibrium& equilibrium, const LoadPath& path, const State& state,
+                   double s) {
   const Eigen::VectorXd& D = equilibrium.stiffness();
   const Eigen::VectorXd& weight = equilibrium.weight();
   const Eigen::VectorXd forces = load_derivative(equilibrium, path, state, s);
@@ -58,7 +63,15 @@ Instability classify(Equilibrium& equilibrium, const LoadPath& path, const State
   // In film that is held all around the field does no work but on reactions: what else there is, is rounding.
   const double least = rounding * mode.direction.cwiseQuotient(weight.head(D.size())).norm() *
                        forces.cwiseProduct(weight).norm();
-  return work > std::max(no_work * sizes, least) ? Instability::limit_point : Instability::bifurcation;
+  return {sizes > 0 ? work / sizes : 0, work <= least};
+}
+
+} // namespace
+
+Instability classify(Equilibrium& equilibrium, const LoadPath& path, const State& state, double s,
+                     const Mode& mode) {
+  const WorkOnMode work = work_on(mode, equilibrium, path, state, s);
+  return work.share > no_work && !work.is_rounding ? Instability::limit_point : Instability::bifurcation;
 }
 
 std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& path,
@@ -163,6 +176,30 @@ std::optional<PathPoint> find_beyond(Equilibrium& equilibrium, const LoadPath& p
       return PathPoint{s, std::move(there)};
   }
   return std::nullopt;
+}
+
+/// The state at load factor `end` to which a path leads by arclength, if its load does not turn on the way
+/// and no more than so many modes are unstable.
+std::optional<PathPoint> reach(Equilibrium& equilibrium, const LoadPath& path, const LoadPoint& from,
+                               double end, int modes, const NewtonOptions& newton) {
+  if (end <= from.s) return std::nullopt;
+  const ContinuationOptions options{
+      .newton = newton, .most_steps = most_trials, .lowest = from.s, .highest = end};
+  auto progress = begin_continuation(equilibrium, path, from.state, from.s, options);
+  if (!progress) return std::nullopt;
+  int refused = 0;
+  const auto is_sound = [&](const ContinuationProgress& at) {
+    return at.load_direction > 0 && at.newton.unstable_modes <= modes;
+  };
+  ContinuationObserver watcher;
+  watcher.admits = [&](const ContinuationProgress&, const ContinuationProgress& to) {
+    return is_sound(to) || ++refused > most_refused;
+  };
+  watcher.on_accept = is_sound;
+  if (continuation(equilibrium, path, options, *progress, watcher) != ContinuationEnd::reached_load ||
+      progress->load_factor < end || !is_sound(*progress))
+    return std::nullopt;
+  return PathPoint{end, progress->state};
 }
 
 /// Near a limit point the slope v of the path grows along the critical mode, as one over the root of the load
@@ -301,6 +338,11 @@ std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, co
   const bool falls = last.mode && std::abs(last.mode->eigenvalue) < fallen * first;
   const bool slides = has_friction(equilibrium.model());
   if (last.mode) kind = classify(equilibrium, path, last.state, last.s, *last.mode);
+  // What rounding alone has moved along the mode is at a bifurcation; the first state tells, as it grows.
+  if (!slides && another && last.mode && !(falls && kind == Instability::limit_point) &&
+      !work_on(*last.mode, equilibrium, path, points.front().state, points.front().s).is_rounding)
+    if (auto there = reach(equilibrium, path, last, end, modes, options))
+      return CriticalPoint{{}, end, there->state, {}, std::move(there), true};
   if (!slides && !(falls && kind == Instability::limit_point))
     if (auto turn = find_turn(equilibrium, path, points)) {
       turn->beyond = find_beyond(equilibrium, path, points, turn->load_factor, modes, options);

@@ -21,6 +21,8 @@ struct CriticalPoint {
   /// By load control: a state a little beyond, by its load factor, where a branch has come back to the path
   /// that it had left. The load turns there as at a limit point, but equilibria are as near beyond as before.
   std::optional<PathPoint> beyond{};
+  /// Nothing is critical up to `beyond`: the path leads there, and what else was found there is beside it.
+  bool is_none = false;
 };
 
 /// Limit point or bifurcation: whether the load works on the mode, |x . dR/ds| over |x| |dR/ds|, norms with D
@@ -41,6 +43,9 @@ std::optional<CriticalPoint> locate(Equilibrium& equilibrium, const LoadPath& pa
 /// distance: extrapolated, that says where to go next. Ends when the critical load factor is known to 1e-7.
 /// Nothing, too, where Newton's method fails without another state and without the eigenvalue vanishing: it
 /// may have had too few iterations; nor where `goes_on`, asked before every trial, says false (interrupt).
+/// Where the path leads to s_beyond by arclength, as stable as before, nothing is critical (`is_none`):
+/// beside a bifurcation from which an imperfection keeps it Newton's method finds the other path from ever
+/// nearer by.
 std::optional<CriticalPoint> locate_by_load_control(Equilibrium& equilibrium, const LoadPath& path,
                                                     const State& state, double s_before, double s_beyond,
                                                     const NewtonOptions& options, bool another = false,
